@@ -1,0 +1,2 @@
+//! The command `congruent`.
+fn main() {}

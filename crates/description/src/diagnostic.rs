@@ -1,0 +1,155 @@
+//! What is wrong with an input, where, and what to do: one type for every file that is read.
+
+use std::{fmt, ops::Range, path::PathBuf, sync::Arc};
+
+use miette::{LabeledSpan, SourceCode};
+
+/// A file that was read, kept so that a diagnostic can show the line.
+#[derive(Debug, PartialEq, Eq)]
+pub struct SourceFile {
+    /// Where it was read from.
+    pub path: PathBuf,
+    /// Its text; empty where it is no text.
+    pub text: String,
+}
+
+/// Whether work can go on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Suspicious; the run goes on.
+    Warning,
+    /// Refused.
+    Error,
+}
+
+/// One finding about one input.
+///
+/// A parser knows the span, its caller the file: [`Diagnostic::in_file`] joins the two.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnostic {
+    /// Whether work can go on.
+    pub severity: Severity,
+    /// Stable name, `area::fault`, that tools may match on.
+    pub code: &'static str,
+    /// What is wrong: a lowercase fragment that names the thing and the value.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+    /// Byte range in the file, where there is one.
+    pub span: Option<Range<usize>>,
+    /// The file, once known.
+    pub source: Option<Arc<SourceFile>>,
+}
+
+impl Diagnostic {
+    /// A finding that stops the work.
+    pub fn error(code: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Error,
+            code,
+            message: message.into(),
+            help: None,
+            span: None,
+            source: None,
+        }
+    }
+
+    /// A finding that does not stop the work.
+    pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
+        Self { severity: Severity::Warning, ..Self::error(code, message) }
+    }
+
+    /// Says what to do.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Says where in the text.
+    #[must_use]
+    pub fn at(mut self, span: Range<usize>) -> Self {
+        self.span = Some(span);
+        self
+    }
+
+    /// Says in which file, unless that is known already.
+    #[must_use]
+    pub fn in_file(mut self, source: &Arc<SourceFile>) -> Self {
+        self.source.get_or_insert_with(|| Arc::clone(source));
+        self
+    }
+
+    /// Line and column, both from 1, columns in characters; `None` without a span or a file.
+    pub fn line_column(&self) -> Option<(usize, usize)> {
+        let (source, span) = (self.source.as_ref()?, self.span.as_ref()?);
+        Some(line_column(&source.text, span.start))
+    }
+}
+
+/// Line and column of a byte offset, both from 1, columns in characters.
+pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    let before = &text[..offset];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Diagnostic {}
+
+impl miette::Diagnostic for Diagnostic {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(self.code))
+    }
+
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.severity {
+            Severity::Warning => miette::Severity::Warning,
+            Severity::Error => miette::Severity::Error,
+        })
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_ref().map(|source| &source.text as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let span = self.span.clone()?;
+        Some(Box::new(std::iter::once(LabeledSpan::underline(span))))
+    }
+}
+
+/// The known name nearest to `name`, where one is near enough to be meant.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    known
+        .into_iter()
+        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
+        .filter(|(similarity, _)| *similarity > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate)
+}
+
+/// Help for an unknown name: the nearest known one, then all of them.
+pub fn known_names<'a>(name: &str, what: &str, known: impl IntoIterator<Item = &'a str> + Clone) -> String {
+    const MOST_LISTED: usize = 40;
+    let guess =
+        nearest(name, known.clone()).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
+    let all: Vec<&str> = known.into_iter().collect();
+    let listed = all[..all.len().min(MOST_LISTED)].join(", ");
+    let rest = all.len().saturating_sub(MOST_LISTED);
+    let more = if rest == 0 { String::new() } else { format!(" and {rest} more") };
+    format!("{guess}known {what}: {listed}{more}")
+}

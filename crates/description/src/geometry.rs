@@ -1,0 +1,51 @@
+//! Shapes of links. Units are metres; mesh files are read by `mesh/`.
+
+use std::{path::PathBuf, sync::Arc};
+
+use nalgebra::{Isometry3, Point3, Vector3};
+
+/// One visual or collision element of a link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// Pose of the shape's own frame in the link.
+    pub link_from_shape: Isometry3<f64>,
+    /// The shape in its own frame.
+    pub geometry: Geometry,
+    /// Colour, red, green, blue, alpha in 0 to 1, where the description gives one.
+    pub color_rgba: Option<[f32; 4]>,
+}
+
+/// A shape in its own frame, centred on its origin.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Geometry {
+    /// A box with edges along the axes.
+    Box {
+        /// Full edge lengths.
+        size_m: Vector3<f64>,
+    },
+    /// A cylinder along z.
+    Cylinder {
+        /// Radius.
+        radius_m: f64,
+        /// Full length along z.
+        length_m: f64,
+    },
+    /// A sphere.
+    Sphere {
+        /// Radius.
+        radius_m: f64,
+    },
+    /// A triangle mesh.
+    Mesh(Arc<Mesh>),
+}
+
+/// A triangle mesh in metres: file unit, up axis and the `scale` of the description are applied.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// The file it was read from.
+    pub path: PathBuf,
+    /// Vertices in the shape's frame.
+    pub vertices_m: Vec<Point3<f64>>,
+    /// Corners of the triangles, indices into `vertices_m`, each in range.
+    pub triangles: Vec<[u32; 3]>,
+}

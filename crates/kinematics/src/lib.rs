@@ -1,0 +1,1 @@
+//! Analytical kinematics: Denavit-Hartenberg tables, screws and URDF chains.

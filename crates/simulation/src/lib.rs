@@ -1,0 +1,1 @@
+//! The physics twin: a rapier multibody built from a robot description.

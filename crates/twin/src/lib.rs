@@ -1,0 +1,1 @@
+//! Runs model and physics side by side, compares, reports and records.
