@@ -166,7 +166,8 @@ fn find_loop(
         path.push(up(*path.last().expect("not empty")));
     }
     let first = path.iter().enumerate().min_by_key(|(_, link)| **link).map_or(0, |(at, _)| at);
-    path.rotate_left((first + 1) % path.len());
+    let cut = (first + 1) % path.len();
+    path.rotate_left(cut);
     let closing = above[*path.last().expect("not empty")].expect("a link of a loop has a parent");
     loop_error(&path, &joints[closing], links)
 }
