@@ -1,1 +1,28 @@
 //! Analytical kinematics: Denavit-Hartenberg tables, screws and URDF chains.
+//!
+//! Three forward kinematics of one robot, each by its own path, so that they can be held against
+//! each other: [`DhChain`] (a table), [`UrdfTree`] (joint after joint) and [`ScrewTree`] (products
+//! of exponentials). Nothing here reads a file, a clock or a random number, and calls that are
+//! made per sample allocate nothing.
+//!
+//! Units are metres and radians; `a_from_b` is the pose of frame b in frame a.
+
+mod dh;
+mod error;
+mod pose;
+mod rotation;
+mod screw_tree;
+mod twist;
+mod urdf_tree;
+
+#[cfg(test)]
+#[path = "../tests/support/mod.rs"]
+mod support;
+
+pub use dh::{DhChain, DhFrames, ModifiedDh, StandardDh};
+pub use error::KinematicsError;
+pub use pose::Pose;
+pub use rotation::{hat, rotation_exp, rotation_log, vee};
+pub use screw_tree::ScrewTree;
+pub use twist::{Screw, Twist};
+pub use urdf_tree::UrdfTree;

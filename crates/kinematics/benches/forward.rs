@@ -1,0 +1,5 @@
+//! What one forward kinematics costs, on arms of six joints.
+
+fn main() {
+    divan::main();
+}

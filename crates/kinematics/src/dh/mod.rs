@@ -1,0 +1,76 @@
+//! Denavit-Hartenberg: the two conventions, and chains of rows. There is no plain `Dh`: the same
+//! table under the other convention is another robot.
+
+mod chain;
+mod modified;
+mod standard;
+
+pub use chain::{DhChain, DhFrames};
+pub use modified::ModifiedDh;
+pub use standard::StandardDh;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::pose::Pose;
+
+/// Sine and cosine of one angle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SinCos {
+    pub(crate) sin: f64,
+    pub(crate) cos: f64,
+}
+
+impl SinCos {
+    #[inline]
+    pub(crate) fn of(angle_rad: f64) -> Self {
+        let (sin, cos) = angle_rad.sin_cos();
+        Self { sin, cos }
+    }
+}
+
+/// A pose under way along a chain, as axes and origin: a row turns two axes and shifts the origin,
+/// which is a third of the work of a matrix product.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Axes {
+    x: Vector3<f64>,
+    y: Vector3<f64>,
+    z: Vector3<f64>,
+    origin: Vector3<f64>,
+}
+
+impl Axes {
+    #[inline]
+    pub(crate) fn of(pose: &Pose) -> Self {
+        let column = |at: usize| pose.rotation.column(at).into_owned();
+        Self { x: column(0), y: column(1), z: column(2), origin: pose.translation }
+    }
+
+    #[inline]
+    pub(crate) fn pose(&self) -> Pose {
+        let Self { x, y, z, origin } = self;
+        let rotation = Matrix3::new(x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z);
+        Pose { rotation, translation: *origin }
+    }
+
+    /// Times `Rz(theta) Tz(d)`.
+    #[inline]
+    pub(crate) fn about_z(&self, theta: SinCos, d_m: f64) -> Self {
+        Self {
+            x: self.x * theta.cos + self.y * theta.sin,
+            y: self.y * theta.cos - self.x * theta.sin,
+            z: self.z,
+            origin: self.origin + self.z * d_m,
+        }
+    }
+
+    /// Times `Tx(a) Rx(alpha)`.
+    #[inline]
+    pub(crate) fn about_x(&self, alpha: SinCos, a_m: f64) -> Self {
+        Self {
+            x: self.x,
+            y: self.y * alpha.cos + self.z * alpha.sin,
+            z: self.z * alpha.cos - self.y * alpha.sin,
+            origin: self.origin + self.x * a_m,
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What a caller of the kinematics can get wrong. Wrong robots are refused where they are read.
+
+/// Why figures were refused.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum KinematicsError {
+    /// The configuration vector has another length than the robot has moving joints.
+    #[error("{found} joint positions for {expected} moving joints")]
+    JointCount {
+        /// The robot's degrees of freedom, mimic joints included.
+        expected: usize,
+        /// Length of the vector.
+        found: usize,
+    },
+    /// The buffer for poses has another length than there are poses to write.
+    #[error("room for {found} poses where {expected} are written")]
+    PoseCount {
+        /// Number of poses.
+        expected: usize,
+        /// Length of the buffer.
+        found: usize,
+    },
+    /// A table has no frame of this number.
+    #[error("no frame dh{index}: the table's last is dh{last}")]
+    FrameIndex {
+        /// The frame that was asked for.
+        index: usize,
+        /// The table's last frame.
+        last: usize,
+    },
+}
+
+impl KinematicsError {
+    /// Compares lengths once, so that the loops behind need no further care.
+    pub(crate) fn check_joints(expected: usize, q: &[f64]) -> Result<(), Self> {
+        if q.len() == expected { Ok(()) } else { Err(Self::JointCount { expected, found: q.len() }) }
+    }
+
+    /// Compares the length of a buffer for poses.
+    pub(crate) fn check_poses<T>(expected: usize, poses: &[T]) -> Result<(), Self> {
+        if poses.len() == expected { Ok(()) } else { Err(Self::PoseCount { expected, found: poses.len() }) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_hold_both_figures() {
+        assert_eq!(
+            KinematicsError::check_joints(6, &[0.0; 5]).unwrap_err().to_string(),
+            "5 joint positions for 6 moving joints"
+        );
+        assert_eq!(
+            KinematicsError::check_poses(7, &[0.0; 6]).unwrap_err().to_string(),
+            "room for 6 poses where 7 are written"
+        );
+        assert_eq!(
+            KinematicsError::FrameIndex { index: 9, last: 6 }.to_string(),
+            "no frame dh9: the table's last is dh6"
+        );
+    }
+}
