@@ -203,7 +203,7 @@ mod tests {
         let other = turned(0.2, 0.9, -0.4);
         let rotation = other.rotation * rotation_exp(&(about * rad));
         let found = other.angle_rad(&Pose { rotation, ..other });
-        assert!((found - rad).abs() < ROUNDING_RAD, "{found} for {rad}");
+        assert!(support::within((found - rad).abs(), ROUNDING_RAD), "{found} for {rad}");
     }
 
     #[test]
@@ -216,14 +216,14 @@ mod tests {
     #[test]
     fn a_mirror_has_determinant_minus_one_and_no_orthonormality_error() {
         let mirror = Pose::from_parts(Matrix3::from_diagonal(&Vector3::new(1., 1., -1.)), Vector3::zeros());
-        assert!((mirror.determinant() + 1.0).abs() < f64::EPSILON);
-        assert!(mirror.orthonormality_error() < f64::EPSILON);
+        assert!(support::within((mirror.determinant() + 1.0).abs(), f64::EPSILON));
+        assert!(support::within(mirror.orthonormality_error(), f64::EPSILON));
     }
 
     #[test]
     fn a_stretched_matrix_shows() {
         let stretched = Pose::from_parts(Matrix3::identity() * 2.0, Vector3::zeros());
-        assert!((stretched.orthonormality_error() - 27.0_f64.sqrt()).abs() < ROUNDING_RAD);
+        assert!(support::within((stretched.orthonormality_error() - 27.0_f64.sqrt()).abs(), ROUNDING_RAD));
     }
 
     #[test]
@@ -243,18 +243,18 @@ mod tests {
         fn a_pose_times_its_inverse_moves_nothing(pose in support::isometry()) {
             let pose = Pose::from(pose);
             for product in [pose * pose.inverse(), pose.inverse() * pose] {
-                prop_assert!(product.distance_m(&Pose::identity()) < ROUNDING_M);
-                prop_assert!(product.angle_rad(&Pose::identity()) < ROUNDING_RAD);
+                prop_assert!(support::within(product.distance_m(&Pose::identity()), ROUNDING_M));
+                prop_assert!(support::within(product.angle_rad(&Pose::identity()), ROUNDING_RAD));
             }
         }
 
         #[test]
         fn products_are_those_of_isometries(a in support::isometry(), b in support::isometry()) {
             let (by_matrix, by_quaternion) = (Pose::from(a) * Pose::from(b), Pose::from(a * b));
-            prop_assert!(by_matrix.distance_m(&by_quaternion) < ROUNDING_M);
-            prop_assert!(by_matrix.angle_rad(&by_quaternion) < ROUNDING_RAD);
+            prop_assert!(support::within(by_matrix.distance_m(&by_quaternion), ROUNDING_M));
+            prop_assert!(support::within(by_matrix.angle_rad(&by_quaternion), ROUNDING_RAD));
             let there_and_back = Pose::from(by_matrix.to_isometry());
-            prop_assert!(there_and_back.angle_rad(&by_matrix) < ROUNDING_RAD);
+            prop_assert!(support::within(there_and_back.angle_rad(&by_matrix), ROUNDING_RAD));
             prop_assert_eq!(there_and_back.translation, by_matrix.translation);
         }
     }

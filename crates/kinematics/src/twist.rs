@@ -220,8 +220,11 @@ mod tests {
     #[track_caller]
     fn assert_round_trip(twist: Twist) {
         let back = Twist::log(&twist.exp(1.0));
-        assert!((back.angular - twist.angular).norm() < ROUNDING_RAD, "{back:?} for {twist:?}");
-        assert!((back.linear - twist.linear).norm() < ROUNDING_M, "{back:?} for {twist:?}");
+        assert!(
+            support::within((back.angular - twist.angular).norm(), ROUNDING_RAD),
+            "{back:?} for {twist:?}"
+        );
+        assert!(support::within((back.linear - twist.linear).norm(), ROUNDING_M), "{back:?} for {twist:?}");
     }
 
     #[test]
@@ -241,8 +244,8 @@ mod tests {
         /// Rounding of the closed form just above the switch: eps / 0.25^2; worst seen 8.4e-16.
         const CANCELLATION: f64 = 4e-15;
         let (below, above) = (SERIES_BELOW_RAD.next_down(), SERIES_BELOW_RAD);
-        assert!((sine_lag_ratio(below) - sine_lag_ratio(above)).abs() < CANCELLATION);
-        assert!((log_ratio(below) - log_ratio(above)).abs() < CANCELLATION);
+        assert!(support::within((sine_lag_ratio(below) - sine_lag_ratio(above)).abs(), CANCELLATION));
+        assert!(support::within((log_ratio(below) - log_ratio(above)).abs(), CANCELLATION));
     }
 
     #[test]
@@ -251,8 +254,8 @@ mod tests {
         let by_series = twist.hat().exp();
         let pose = twist.exp(1.0);
         let difference = by_series.fixed_view::<3, 3>(0, 0) - pose.rotation;
-        assert!(difference.norm() < ROUNDING_RAD);
-        assert!((by_series.fixed_view::<3, 1>(0, 3) - pose.translation).norm() < ROUNDING_M);
+        assert!(support::within(difference.norm(), ROUNDING_RAD));
+        assert!(support::within((by_series.fixed_view::<3, 1>(0, 3) - pose.translation).norm(), ROUNDING_M));
     }
 
     #[test]
@@ -270,34 +273,34 @@ mod tests {
         fn log_undoes_exp(axis in support::unit_vector(), linear in support::vector(), angle in 0.0..PI) {
             let twist = Twist { angular: axis.into_inner() * angle, linear };
             let back = Twist::log(&twist.exp(1.0));
-            prop_assert!((back.angular - twist.angular).norm() < ROUNDING_RAD);
-            prop_assert!((back.linear - linear).norm() < ROUNDING_M, "{:e}", (back.linear - linear).norm());
+            prop_assert!(support::within((back.angular - twist.angular).norm(), ROUNDING_RAD));
+            prop_assert!(support::within((back.linear - linear).norm(), ROUNDING_M));
         }
 
         #[test]
-        fn exp_undoes_log_near_pi(motion in support::isometry(), exponent in -16.0..-1.0) {
+        fn exp_undoes_log_near_pi(motion in support::isometry(), exponent in -14.0..-1.0) {
             let axis = motion.rotation * Vector3::x();
             let near_pi = crate::rotation::rotation_exp(&(axis * (PI - 10_f64.powf(exponent))));
             let pose = Pose::from_parts(near_pi, motion.translation.vector);
             let back = Twist::log(&pose).exp(1.0);
-            prop_assert!(back.angle_rad(&pose) < ROUNDING_RAD);
-            prop_assert!(back.distance_m(&pose) < ROUNDING_M, "{:e}", back.distance_m(&pose));
+            prop_assert!(support::within(back.angle_rad(&pose), ROUNDING_RAD));
+            prop_assert!(support::within(back.distance_m(&pose), ROUNDING_M));
         }
 
         #[test]
         fn log_undoes_exp_near_zero(axis in support::unit_vector(), linear in support::vector(), exponent in -30.0..0.0) {
             let twist = Twist { angular: axis.into_inner() * 10_f64.powf(exponent), linear };
             let back = Twist::log(&twist.exp(1.0));
-            prop_assert!((back.angular - twist.angular).norm() < ROUNDING_RAD * twist.angular.norm());
-            prop_assert!((back.linear - linear).norm() < ROUNDING_M);
+            prop_assert!(support::within((back.angular - twist.angular).norm(), ROUNDING_RAD * twist.angular.norm()));
+            prop_assert!(support::within((back.linear - linear).norm(), ROUNDING_M));
         }
 
         #[test]
         fn a_screw_is_its_twist(axis in support::unit_vector(), point in support::vector(), q in -PI..PI) {
             for screw in [Screw::revolute(axis, &Point3::from(point)), Screw::prismatic(axis)] {
                 let (exact, general) = (screw.exp(q), screw.twist().exp(q));
-                prop_assert!(exact.angle_rad(&general) < ROUNDING_RAD);
-                prop_assert!(exact.distance_m(&general) < ROUNDING_M);
+                prop_assert!(support::within(exact.angle_rad(&general), ROUNDING_RAD));
+                prop_assert!(support::within(exact.distance_m(&general), ROUNDING_M));
             }
         }
     }

@@ -79,14 +79,14 @@ mod tests {
             let printed = ModifiedDh { a_m, alpha_rad, d_m, theta_rad }.transform();
             let product = support::screw_x(alpha_rad, a_m) * support::screw_z(theta_rad, d_m);
             let product = Pose::from(product);
-            prop_assert!((printed.rotation - product.rotation).norm() < ROUNDING);
-            prop_assert!(printed.distance_m(&product) < ROUNDING);
+            prop_assert!(support::within((printed.rotation - product.rotation).norm(), ROUNDING));
+            prop_assert!(support::within(printed.distance_m(&product), ROUNDING));
             let stepped = Axes::of(&Pose::identity())
                 .about_x(SinCos::of(alpha_rad), a_m)
                 .about_z(SinCos::of(theta_rad), d_m)
                 .pose();
-            prop_assert!((printed.rotation - stepped.rotation).norm() < ROUNDING);
-            prop_assert!(printed.distance_m(&stepped) < ROUNDING);
+            prop_assert!(support::within((printed.rotation - stepped.rotation).norm(), ROUNDING));
+            prop_assert!(support::within(printed.distance_m(&stepped), ROUNDING));
         }
     }
 }

@@ -78,14 +78,14 @@ mod tests {
             let printed = StandardDh { a_m, alpha_rad, d_m, theta_rad }.transform();
             let product = support::screw_z(theta_rad, d_m) * support::screw_x(alpha_rad, a_m);
             let product = Pose::from(product);
-            prop_assert!((printed.rotation - product.rotation).norm() < ROUNDING);
-            prop_assert!(printed.distance_m(&product) < ROUNDING);
+            prop_assert!(support::within((printed.rotation - product.rotation).norm(), ROUNDING));
+            prop_assert!(support::within(printed.distance_m(&product), ROUNDING));
             let stepped = Axes::of(&Pose::identity())
                 .about_z(SinCos::of(theta_rad), d_m)
                 .about_x(SinCos::of(alpha_rad), a_m)
                 .pose();
-            prop_assert!((printed.rotation - stepped.rotation).norm() < ROUNDING);
-            prop_assert!(printed.distance_m(&stepped) < ROUNDING);
+            prop_assert!(support::within((printed.rotation - stepped.rotation).norm(), ROUNDING));
+            prop_assert!(support::within(printed.distance_m(&stepped), ROUNDING));
         }
     }
 }

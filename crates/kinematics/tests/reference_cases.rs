@@ -1,0 +1,238 @@
+//! The reference cases that forward kinematics alone can answer, each under its own number.
+
+#[path = "support/mod.rs"]
+mod support;
+
+use congruent_description::{DhConvention, DhRowKind, Robot};
+use congruent_kinematics::{DhChain, DhFrames, ModifiedDh, Pose, ScrewTree, StandardDh, UrdfTree};
+use nalgebra::{Isometry3, Matrix3, Point3, UnitQuaternion, Vector3};
+use support::{RowFigures, TableFigures, within};
+
+/// Golden digits: the cases print twelve decimals, so half a unit of the last, and rounding; worst
+/// seen 5.0e-13.
+const PRINTED: f64 = 5.01e-13;
+/// Rounding of up to nine products within 2 m, eps each, once by each path; worst seen 4.5e-16.
+const ROUNDING: f64 = 1e-14;
+
+#[track_caller]
+fn assert_position(found: &Pose, printed: [f64; 3]) {
+    for (at, printed) in printed.into_iter().enumerate() {
+        let found = found.translation[at];
+        assert!(within((found - printed).abs(), PRINTED), "entry {at}: {found} for {printed}");
+    }
+}
+
+#[track_caller]
+fn assert_rotation(found: &Pose, printed_rows: [f64; 9]) {
+    let difference = found.rotation - Matrix3::from_row_slice(&printed_rows);
+    assert!(within(difference.amax(), PRINTED), "{}", found.rotation);
+}
+
+#[track_caller]
+fn assert_equal(found: &Pose, expected: &Pose) {
+    assert!(within(found.distance_m(expected), ROUNDING), "{found:?} for {expected:?}");
+    assert!(within(found.angle_rad(expected), ROUNDING), "{found:?} for {expected:?}");
+}
+
+fn degrees<const N: usize>(figures: [f64; N]) -> [f64; N] {
+    figures.map(f64::to_radians)
+}
+
+fn standard(rows: &[RowFigures]) -> (Robot, DhChain) {
+    let figures = TableFigures::new(DhConvention::Standard, rows);
+    let robot = figures.robot();
+    let chain = DhChain::new(&figures.table(&robot), &robot);
+    (robot, chain)
+}
+
+fn spatial_3r() -> [RowFigures; 3] {
+    [
+        RowFigures::revolute(0.30, 90.0, 0.20),
+        RowFigures::revolute(0.40, 0.0, 0.0),
+        RowFigures::revolute(0.20, 0.0, 0.0),
+    ]
+}
+
+/// Base and tip turned and shifted, an offset and a sign in the rows: nothing commutes, nothing is zero.
+fn crooked_6r(convention: DhConvention) -> TableFigures {
+    let alphas_deg = [90.0, -20.0, 30.0, -90.0, 75.0, 10.0];
+    let row = |(at, alpha_deg): (usize, f64)| {
+        let step = 0.05 * f64::from(u8::try_from(at).expect("six rows"));
+        let plain = RowFigures::revolute(0.3 - step, alpha_deg, 0.1 + step);
+        RowFigures { theta_rad: 0.4 - step, sign: if at % 2 == 0 { 1.0 } else { -1.0 }, ..plain }
+    };
+    TableFigures {
+        base_from_dh0: Isometry3::new(Vector3::new(0.1, -0.2, 0.3), Vector3::new(0.5, 0.2, -0.9)),
+        dhn_from_tip: Isometry3::new(Vector3::new(-0.05, 0.02, 0.1), Vector3::new(-0.3, 1.2, 0.4)),
+        ..TableFigures::new(convention, &alphas_deg.into_iter().enumerate().map(row).collect::<Vec<_>>())
+    }
+}
+
+const CROOKED_Q: [f64; 6] = [0.3, -1.1, 0.7, 2.0, -0.4, 1.6];
+
+#[test]
+fn case_01_planar_2r() {
+    let (_, chain) = standard(&[RowFigures::revolute(0.6, 0.0, 0.0), RowFigures::revolute(0.4, 0.0, 0.0)]);
+    let tip = chain.base_from_tip(&degrees([30.0, -45.0])).unwrap();
+    // By hand: y = 0.6 sin 30 + 0.4 sin(-15) = 0.3 - 0.4 * 0.258819045103 = 0.196472381959. The list of
+    // cases prints 0.196472382459, which is 5e-10 off.
+    assert_position(&tip, [0.905_985_572_786, 0.196_472_381_959, 0.0]);
+}
+
+#[test]
+fn case_02_one_dh_matrix() {
+    let [alpha_rad, theta_rad] = degrees([90.0, 30.0]);
+    let row = StandardDh { a_m: 0.25, alpha_rad, d_m: 0.10, theta_rad }.transform();
+    assert_rotation(&row, [0.866_025_403_784, 0., 0.5, 0.5, 0., -0.866_025_403_784, 0., 1., 0.]);
+    assert_position(&row, [0.216_506_350_946, 0.125, 0.1]);
+}
+
+#[test]
+fn case_03_spatial_3r() {
+    let (_, chain) = standard(&spatial_3r());
+    let q = degrees([20.0, -30.0, 40.0]);
+    let tip = chain.base_from_tip(&q).unwrap();
+    assert_position(&tip, [0.792_510_174_455, 0.288_450_113_855, 0.034_729_635_533]);
+    #[rustfmt::skip]
+    assert_rotation(&tip, [
+        0.925_416_578_398, -0.163_175_911_167, 0.342_020_143_326,
+        0.336_824_088_833, -0.059_391_174_614, -0.939_692_620_786,
+        0.173_648_177_667, 0.984_807_753_012, 0.0,
+    ]);
+    assert!(within(tip.orthonormality_error(), ROUNDING));
+    assert!(within((tip.determinant() - 1.0).abs(), ROUNDING));
+    let tool = Pose::from_parts(Matrix3::identity(), Vector3::new(0.1, 0.0, 0.0));
+    let tcp = chain.base_from_tcp(&q, &tool).unwrap();
+    assert_position(&tcp, [0.885_051_832_295, 0.322_132_522_738, 0.052_094_453_300]);
+}
+
+#[test]
+fn case_08_dh_against_poe() {
+    let q_3r = degrees([20.0, -30.0, 40.0]);
+    let figures_3r = TableFigures::new(DhConvention::Standard, &spatial_3r());
+    for (figures, q) in [
+        (figures_3r, &q_3r[..]),
+        (crooked_6r(DhConvention::Standard), &CROOKED_Q[..]),
+        (crooked_6r(DhConvention::Modified), &CROOKED_Q[..]),
+    ] {
+        let robot = figures.robot();
+        let by_table = DhChain::new(&figures.table(&robot), &robot).base_from_tip(q).unwrap();
+        let tip = robot.find_link("tip").unwrap();
+        assert_equal(&ScrewTree::new(&robot).root_from_link(q, tip).unwrap(), &by_table);
+        assert_equal(&UrdfTree::new(&robot).root_from_link(q, tip).unwrap(), &by_table);
+    }
+}
+
+#[test]
+fn case_09_one_table_under_both_conventions_is_two_robots() {
+    let q = degrees([20.0, -30.0, 40.0]);
+    let tip = |convention| {
+        let figures = TableFigures::new(convention, &spatial_3r());
+        let robot = figures.robot();
+        DhChain::new(&figures.table(&robot), &robot).base_from_tip(&q).unwrap()
+    };
+    let (standard, modified) = (tip(DhConvention::Standard), tip(DhConvention::Modified));
+    let by_rows = |row: &dyn Fn(RowFigures, f64) -> Pose| {
+        spatial_3r().into_iter().zip(q).fold(Pose::identity(), |above, (figures, q)| above * row(figures, q))
+    };
+    assert_equal(
+        &standard,
+        &by_rows(&|RowFigures { a_m, alpha_rad, d_m, .. }, theta_rad| {
+            StandardDh { a_m, alpha_rad, d_m, theta_rad }.transform()
+        }),
+    );
+    assert_equal(
+        &modified,
+        &by_rows(&|RowFigures { a_m, alpha_rad, d_m, .. }, theta_rad| {
+            ModifiedDh { a_m, alpha_rad, d_m, theta_rad }.transform()
+        }),
+    );
+    /// By hand: standard puts the shoulder 0.2 m up, modified shifts it along the turned axis by as much.
+    const APART_M: f64 = 0.2;
+    assert!(standard.distance_m(&modified) > APART_M);
+}
+
+#[test]
+fn case_11_the_tool_is_separate_from_the_chain() {
+    let figures = crooked_6r(DhConvention::Standard);
+    let robot = figures.robot();
+    let chain = DhChain::new(&figures.table(&robot), &robot);
+    let tool = Pose::from(Isometry3::new(Vector3::new(0.02, -0.01, 0.15), Vector3::new(0.1, 0.7, -0.2)));
+    for q in [[0.0; 6], CROOKED_Q] {
+        let tip = chain.base_from_tip(&q).unwrap();
+        let tcp = chain.base_from_tcp(&q, &tool).unwrap();
+        assert_equal(&(tip.inverse() * tcp), &tool);
+        assert_eq!(chain.base_from_tcp(&q, &Pose::identity()).unwrap(), tip);
+    }
+}
+
+#[test]
+fn case_14_elementary_transforms() {
+    let shift = |x, y| Pose::from_parts(Matrix3::identity(), Vector3::new(x, y, 0.0));
+    let about_z = |degrees: f64| {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), degrees.to_radians());
+        Pose::from(Isometry3::from_parts(Vector3::zeros().into(), turn))
+    };
+    let (along_y, along_x, turn) = (shift(0.0, 1.0), shift(3.0, 0.0), about_z(90.0));
+    let composed = along_y * along_x * turn;
+    assert_rotation(&composed, [0., -1., 0., 1., 0., 0., 0., 0., 1.]);
+    assert_position(&composed, [3.0, 1.0, 0.0]);
+    let inverse = composed.inverse();
+    assert_rotation(&inverse, [0., 1., 0., -1., 0., 0., 0., 0., 1.]);
+    assert_position(&inverse, [-1.0, 3.0, 0.0]);
+    assert_equal(&(composed * inverse), &Pose::identity());
+    // About the current frame on the right, about the fixed frame on the left.
+    assert_position(&(turn * along_x), [0.0, 3.0, 0.0]);
+    assert_position(&(along_x * turn), [3.0, 0.0, 0.0]);
+    let point = composed * Point3::new(1.0, 0.0, 0.0);
+    assert!(within((point - Point3::new(3.0, 2.0, 0.0)).norm(), ROUNDING));
+}
+
+#[test]
+fn case_16_between_any_two_frames() {
+    for convention in [DhConvention::Standard, DhConvention::Modified] {
+        let figures = crooked_6r(convention);
+        let robot = figures.robot();
+        let chain = DhChain::new(&figures.table(&robot), &robot);
+        let mut frames = [Pose::identity(); 7];
+        chain.dh_frames_into(&CROOKED_Q, &mut frames).unwrap();
+        for (seen_from, of) in (0..7).flat_map(|i| (0..7).map(move |j| (i, j))) {
+            let between = chain.dhi_from_dhj(&CROOKED_Q, DhFrames { seen_from, of }).unwrap();
+            assert_equal(&between, &(frames[seen_from].inverse() * frames[of]));
+            if seen_from == of {
+                assert_eq!(between, Pose::identity());
+            }
+        }
+    }
+}
+
+#[test]
+fn case_20_cylindrical_arm() {
+    let first = RowFigures::revolute(0.0, 0.0, 0.5);
+    let (_, chain) = standard(&[first, RowFigures::prismatic(-90.0), RowFigures::prismatic(0.0)]);
+    let tip = chain.base_from_tip(&[30_f64.to_radians(), 0.2, 0.3]).unwrap();
+    assert_position(&tip, [-0.15, 0.259_807_621_135, 0.7]);
+}
+
+#[test]
+fn case_20_spherical_wrist() {
+    let d6 = RowFigures::revolute(0.0, 0.0, 0.1);
+    let (_, chain) =
+        standard(&[RowFigures::revolute(0.0, -90.0, 0.0), RowFigures::revolute(0.0, 90.0, 0.0), d6]);
+    let tip = chain.base_from_tip(&degrees([10.0, 20.0, 30.0])).unwrap();
+    assert_position(&tip, [0.033_682_408_883, 0.005_939_117_461, 0.093_969_262_079]);
+    #[rustfmt::skip]
+    assert_rotation(&tip, [
+        0.714_610_177_143, -0.613_092_022_380, 0.336_824_088_833,
+        0.633_718_360_862, 0.771_280_576_369, 0.059_391_174_614,
+        -0.296_198_132_726, 0.171_010_071_663, 0.939_692_620_786,
+    ]);
+}
+
+#[test]
+fn a_prismatic_row_ignores_what_it_does_not_drive() {
+    let prismatic = RowFigures { theta_rad: 0.3, ..RowFigures::prismatic(20.0) };
+    let turned = RowFigures { kind: DhRowKind::Revolute, ..prismatic };
+    let tip = |row, q| standard(&[row]).1.base_from_tip(&[q]).unwrap();
+    assert_eq!(tip(prismatic, 0.0), tip(turned, 0.0));
+}
