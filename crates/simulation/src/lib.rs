@@ -1,1 +1,22 @@
 //! The physics twin: a rapier multibody built from a robot description.
+//!
+//! Everything at the border is nalgebra and the description's types; rapier stays inside. The twin
+//! is a witness of its own: it takes poses, mass matrix and gravity torque from rapier and shares
+//! no formula with the analytical model.
+
+mod actuation;
+mod adapter;
+mod build;
+mod contact;
+mod engine;
+mod error;
+mod lumping;
+mod settings;
+mod world;
+
+pub use actuation::{
+    Commands, Controller, Gains, JointsView, Motor, Reference, controller, controller_names,
+};
+pub use error::SimulationError;
+pub use settings::{Obstacle, WorldSettings};
+pub use world::{Snapshot, World};

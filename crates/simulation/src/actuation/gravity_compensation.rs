@@ -1,0 +1,22 @@
+//! The torque that holds the robot against gravity, at every joint, mimic joints included; with
+//! gains, servos on top.
+
+use super::{Commands, Controller, Gains, JointsView, Reference, commands::drive_all};
+
+pub(super) const NAME: &str = "gravity_compensation";
+
+/// Gravity torque of the present configuration, and servos where the gains are not zero.
+pub(super) struct GravityCompensation {
+    pub(super) gains: Gains,
+}
+
+impl Controller for GravityCompensation {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn command(&mut self, joints: &JointsView<'_>, reference: &Reference<'_>, commands: &mut Commands) {
+        joints.add_gravity_torque(commands.torque_mut());
+        drive_all(self.gains, joints, reference, commands);
+    }
+}

@@ -1,0 +1,16 @@
+//! No actuation: the robot swings.
+
+use super::{Commands, Controller, JointsView, Reference};
+
+pub(super) const NAME: &str = "passive";
+
+/// Exerts nothing.
+pub(super) struct Passive;
+
+impl Controller for Passive {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn command(&mut self, _: &JointsView<'_>, _: &Reference<'_>, _: &mut Commands) {}
+}

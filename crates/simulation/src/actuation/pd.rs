@@ -1,0 +1,21 @@
+//! A servo at every joint: stiffness on the position error, damping on the velocity error.
+//! Without gravity compensation, so it sags by gravity torque / stiffness.
+
+use super::{Commands, Controller, Gains, JointsView, Reference, commands::drive_all};
+
+pub(super) const NAME: &str = "pd";
+
+/// Servos; mimic joints follow their masters through the coupling.
+pub(super) struct Pd {
+    pub(super) gains: Gains,
+}
+
+impl Controller for Pd {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn command(&mut self, joints: &JointsView<'_>, reference: &Reference<'_>, commands: &mut Commands) {
+        drive_all(self.gains, joints, reference, commands);
+    }
+}

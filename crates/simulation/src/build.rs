@@ -1,0 +1,156 @@
+//! From a robot to a rapier multibody: one rapier body for each lumped body, one multibody joint
+//! for each movable joint, inserted in the order of `Robot::movable_joints`.
+//!
+//! Insertion order is row order, so body `i + 1`, multibody link `i + 1` and coordinate `i` are
+//! one and the same joint throughout the crate.
+
+use congruent_description::{Joint, JointIndex, Robot};
+use rapier3d_f64::{
+    dynamics::MultibodyDofCoupling,
+    prelude::{
+        GenericJoint, JointAxesMask, JointAxis, MultibodyIndex, Pose, RigidBodyBuilder, RigidBodyHandle,
+    },
+};
+
+use crate::{
+    adapter, contact,
+    engine::{Sets, Slot},
+    error::SimulationError,
+    lumping::{Bodies, BodyInertia},
+    settings::WorldSettings,
+};
+
+/// A robot in rapier's sets.
+pub(crate) struct Built {
+    pub sets: Sets,
+    pub handles: Vec<RigidBodyHandle>,
+    pub slots: Vec<Slot>,
+    /// `None` for a robot without a movable joint, for which rapier makes no multibody.
+    pub multibody: Option<MultibodyIndex>,
+}
+
+pub(crate) fn build(
+    robot: &Robot,
+    bodies: &Bodies,
+    settings: &WorldSettings,
+) -> Result<Built, SimulationError> {
+    let mut sets = Sets::default();
+    let handles: Vec<RigidBodyHandle> = bodies
+        .inertias
+        .iter()
+        .enumerate()
+        .map(|(body, inertia)| sets.bodies.insert(rigid_body(body, inertia)))
+        .collect();
+    if settings.contacts && !settings.obstacles.is_empty() {
+        add_colliders(&mut sets, &handles, (robot, bodies, settings))?;
+    }
+    let slots =
+        robot.movable_joints().iter().map(|&joint| slot(robot, joint)).collect::<Result<Vec<_>, _>>()?;
+    for (slot, &index) in slots.iter().zip(robot.movable_joints()) {
+        let joint = robot.joint(index);
+        let (parent, child) = (bodies.links[joint.parent.get()].body, bodies.links[joint.child.get()].body);
+        let data = generic_joint(joint, bodies, slot);
+        let inserted = sets.multibody_joints.insert(handles[parent], handles[child], data, true);
+        assert!(inserted.is_some(), "a tree has no second way to a body");
+    }
+    // Masses are zero until this is called.
+    for &handle in &handles {
+        let body = sets.bodies.get_mut(handle).expect("the body was inserted above");
+        body.recompute_mass_properties_from_colliders(&sets.colliders);
+    }
+    let multibody = sets.multibody_joints.rigid_body_link(handles[0]).map(|link| link.multibody);
+    if let Some(index) = multibody {
+        finish_multibody(&mut sets, index, robot, &slots);
+    }
+    Ok(Built { sets, handles, slots, multibody })
+}
+
+fn rigid_body(body: usize, inertia: &BodyInertia) -> RigidBodyBuilder {
+    if body == 0 {
+        return RigidBodyBuilder::fixed();
+    }
+    let mass_properties = adapter::mass_properties(inertia);
+    RigidBodyBuilder::dynamic().additional_mass_properties(mass_properties).can_sleep(false)
+}
+
+fn add_colliders(
+    sets: &mut Sets,
+    handles: &[RigidBodyHandle],
+    (robot, bodies, settings): (&Robot, &Bodies, &WorldSettings),
+) -> Result<(), SimulationError> {
+    for (body, collider) in contact::of_links(robot, bodies)? {
+        sets.colliders.insert_with_parent(collider, handles[body], &mut sets.bodies);
+    }
+    for obstacle in &settings.obstacles {
+        if let Some(collider) = contact::of_obstacle(obstacle)? {
+            sets.colliders.insert(collider);
+        }
+    }
+    Ok(())
+}
+
+fn slot(robot: &Robot, index: JointIndex) -> Result<Slot, SimulationError> {
+    let joint = robot.joint(index);
+    let (lower, upper) = joint.position_range().unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+    let ordered = lower <= upper;
+    if !ordered {
+        let (joint_name, unit) = (joint.name.clone(), joint.kind.unit());
+        return Err(SimulationError::Limits { joint: joint_name, lower, upper, unit });
+    }
+    let effort = joint.limit.map_or(0.0, |limit| limit.effort);
+    Ok(Slot {
+        axis: if joint.kind.is_angular() { JointAxis::AngX } else { JointAxis::LinX },
+        lower,
+        upper,
+        // Zero is what descriptions write for unknown.
+        effort: if effort > 0.0 { effort.min(f64::MAX) } else { f64::MAX },
+        is_mimic: joint.mimic.is_some(),
+    })
+}
+
+/// Joint frames whose x axis is the axis of motion, at the origin of the child link.
+fn generic_joint(joint: &Joint, bodies: &Bodies, slot: &Slot) -> GenericJoint {
+    let locked = match slot.axis {
+        JointAxis::AngX => JointAxesMask::LOCKED_REVOLUTE_AXES,
+        _ => JointAxesMask::LOCKED_PRISMATIC_AXES,
+    };
+    let x_onto_axis = nalgebra::Isometry3::from_parts(
+        nalgebra::Translation3::identity(),
+        adapter::x_onto(&joint.axis_in_joint),
+    );
+    let parent = bodies.links[joint.parent.get()];
+    let body_from_joint = adapter::pose(&parent.body_from_link) * adapter::pose(&joint.parent_from_joint);
+    let turn: Pose = adapter::pose(&x_onto_axis);
+    let mut data = GenericJoint::new(locked);
+    data.set_local_frame1(body_from_joint * turn).set_local_frame2(turn).set_contacts_enabled(false);
+    data
+}
+
+/// Damping, friction and couplings, and the first forward kinematics, which also turns the root
+/// from free to fixed and so gives the rows their final numbers.
+fn finish_multibody(sets: &mut Sets, index: MultibodyIndex, robot: &Robot, slots: &[Slot]) {
+    let multibody = sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
+    multibody.set_self_contacts_enabled(false);
+    multibody.forward_kinematics(&sets.bodies, true);
+    multibody.update_rigid_bodies(&mut sets.bodies, true);
+    assert_eq!(multibody.ndofs(), slots.len(), "one degree of freedom for each movable joint");
+    for (row, &joint) in robot.movable_joints().iter().enumerate() {
+        let joint = robot.joint(joint);
+        // rapier starts every angular joint with a damping of 0.1 N m s/rad: always overwrite.
+        multibody.damping_mut()[row] = joint.damping;
+        multibody.frictions_mut()[row] = joint.friction;
+        if let Some(mimic) = joint.mimic {
+            let master = robot.coordinate(mimic.master).expect("a mimicked joint moves");
+            multibody.add_dof_coupling(MultibodyDofCoupling {
+                link1: master + 1,
+                dof1: 0,
+                axis1: slots[master].axis as usize,
+                link2: row + 1,
+                dof2: 0,
+                axis2: slots[row].axis as usize,
+                coeff: mimic.multiplier,
+                offset: mimic.offset,
+            });
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! What touches: links against obstacles, never links against links. Shapes weigh nothing; mass
+//! comes from the description's inertias only.
+
+use congruent_description::{Geometry, Robot};
+use rapier3d_f64::prelude::{
+    Collider, ColliderBuilder, Group, InteractionGroups, InteractionTestMode, Pose, Rotation, SharedShape,
+};
+
+use crate::{
+    adapter,
+    error::SimulationError,
+    lumping::{Bodies, LinkOnBody},
+    settings::Obstacle,
+};
+
+/// Group of the robot's links.
+const LINKS: Group = Group::GROUP_1;
+/// Group of the obstacles.
+const OBSTACLES: Group = Group::GROUP_2;
+
+/// Colliders of all moving links, each with the number of its body.
+pub(crate) fn of_links(robot: &Robot, bodies: &Bodies) -> Result<Vec<(usize, Collider)>, SimulationError> {
+    let mut colliders = Vec::new();
+    for (place, link) in bodies.links.iter().zip(robot.links()) {
+        let LinkOnBody { body, body_from_link, .. } = place;
+        // The root body stands still, as obstacles do: the two never meet.
+        let shapes = if *body == 0 { &[][..] } else { &link.collisions };
+        for shape in shapes {
+            let owner = || format!("link \"{}\"", link.name);
+            let body_from_shape = adapter::pose(&(body_from_link * shape.link_from_shape));
+            if let Some(builder) = shaped(&shape.geometry, body_from_shape, owner)? {
+                colliders.push((*body, builder.collision_groups(groups(LINKS, OBSTACLES)).build()));
+            }
+        }
+    }
+    Ok(colliders)
+}
+
+/// The collider of an obstacle; `None` for a mesh without a vertex.
+pub(crate) fn of_obstacle(obstacle: &Obstacle) -> Result<Option<Collider>, SimulationError> {
+    let owner = || format!("obstacle \"{}\"", obstacle.name);
+    let pose = adapter::pose(&obstacle.world_from_obstacle);
+    let builder = shaped(&obstacle.geometry, pose, owner)?;
+    Ok(builder.map(|builder| builder.collision_groups(groups(OBSTACLES, LINKS)).build()))
+}
+
+fn groups(member: Group, meets: Group) -> InteractionGroups {
+    InteractionGroups::new(member, meets, InteractionTestMode::And)
+}
+
+/// A collider of the shape, or `None` where a mesh is empty, which touches nothing.
+fn shaped(
+    geometry: &Geometry,
+    pose: Pose,
+    owner: impl Fn() -> String,
+) -> Result<Option<ColliderBuilder>, SimulationError> {
+    let (shape, pose) = match geometry {
+        Geometry::Box { size_m } => {
+            let half = size_m * 0.5;
+            (SharedShape::cuboid(half.x, half.y, half.z), pose)
+        }
+        Geometry::Sphere { radius_m } => (SharedShape::ball(*radius_m), pose),
+        Geometry::Cylinder { radius_m, length_m } => {
+            // Along z in a description, along y in rapier.
+            let y_onto_z = Pose::from_rotation(Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2));
+            (SharedShape::cylinder(length_m * 0.5, *radius_m), pose * y_onto_z)
+        }
+        Geometry::Mesh(mesh) if mesh.vertices_m.is_empty() => return Ok(None),
+        Geometry::Mesh(mesh) => {
+            let hull = SharedShape::convex_hull(&adapter::points(&mesh.vertices_m));
+            (hull.ok_or_else(|| SimulationError::Shape { owner: owner() })?, pose)
+        }
+    };
+    Ok(Some(ColliderBuilder::new(shape).position(pose).density(0.0)))
+}

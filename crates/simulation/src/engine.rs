@@ -1,0 +1,305 @@
+//! rapier behind one door: state in, forces in, one step, state out. Knows no names of links or
+//! joints, only coordinates; `world.rs` knows them.
+
+use nalgebra::{DMatrix, Isometry3, Vector3};
+use rapier3d_f64::prelude::{
+    BroadPhaseBvh, CCDSolver, ColliderSet, ImpulseJointSet, IntegrationParameters, IslandManager, JointAxis,
+    MotorModel, Multibody, MultibodyIndex, MultibodyJoint, MultibodyJointSet, MultibodyLink, NarrowPhase,
+    PhysicsPipeline, RigidBodyHandle, RigidBodySet, SoftBodySet, Vector,
+};
+
+use crate::{
+    actuation::{Commands, Motor},
+    adapter,
+    build::Built,
+    settings::WorldSettings,
+};
+
+/// Sweeps of the constraint solver in a step: with 20, servos, couplings and friction settle to
+/// 1e-12; with one, dry friction creeps by 1e-2 rad in 5 s.
+const SWEEPS: usize = 20;
+
+/// Everything that a step changes; a clone is a snapshot.
+#[derive(Clone, Default)]
+pub(crate) struct Sets {
+    pub bodies: RigidBodySet,
+    pub colliders: ColliderSet,
+    pub multibody_joints: MultibodyJointSet,
+    impulse_joints: ImpulseJointSet,
+    soft_bodies: SoftBodySet,
+    islands: IslandManager,
+    broad_phase: BroadPhaseBvh,
+    narrow_phase: NarrowPhase,
+    ccd: CCDSolver,
+}
+
+/// What one movable joint can do; unit of the coordinate, N m or N.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Slot {
+    pub axis: JointAxis,
+    pub lower: f64,
+    pub upper: f64,
+    /// Largest force or torque; `f64::MAX` where there is no limit.
+    pub effort: f64,
+    pub is_mimic: bool,
+}
+
+/// The robot in rapier, and how it is stepped.
+pub(crate) struct Engine {
+    sets: Sets,
+    handles: Vec<RigidBodyHandle>,
+    slots: Vec<Slot>,
+    multibody: Option<MultibodyIndex>,
+    pipeline: PhysicsPipeline,
+    parameters: IntegrationParameters,
+    gravity: Vector,
+    /// Whether some body carries a force of the step before: rapier's forces persist.
+    is_forced: bool,
+}
+
+impl Engine {
+    pub(crate) fn new(built: Built, settings: &WorldSettings) -> Self {
+        let parameters = IntegrationParameters {
+            dt: settings.step_s,
+            num_solver_iterations: 1,
+            num_internal_pgs_iterations: SWEEPS,
+            max_ccd_substeps: 0,
+            normalized_max_linear_velocity: f64::MAX,
+            ..IntegrationParameters::default()
+        };
+        let Built { sets, handles, slots, multibody } = built;
+        let gravity = adapter::vector(&settings.gravity_in_world);
+        let pipeline = new_pipeline();
+        Self { sets, handles, slots, multibody, pipeline, parameters, gravity, is_forced: false }
+    }
+
+    pub(crate) fn step_s(&self) -> f64 {
+        self.parameters.dt
+    }
+
+    pub(crate) fn gravity_in_world(&self) -> Vector3<f64> {
+        adapter::vector3(self.gravity)
+    }
+
+    pub(crate) fn is_mimic(&self, coordinate: usize) -> bool {
+        self.slots[coordinate].is_mimic
+    }
+
+    fn multibody(&self) -> Option<&Multibody> {
+        self.sets.multibody_joints.get_multibody(self.multibody?)
+    }
+
+    /// Copies positions and velocities out.
+    pub(crate) fn read(&self, q: &mut [f64], qd: &mut [f64]) {
+        let Some(multibody) = self.multibody() else { return };
+        qd.copy_from_slice(multibody.generalized_velocity().as_slice());
+        for ((q, link), slot) in q.iter_mut().zip(multibody.links().skip(1)).zip(&self.slots) {
+            *q = link.joint().coords()[slot.axis as usize];
+        }
+    }
+
+    /// Pose of a body in the world, from rapier's forward kinematics.
+    pub(crate) fn world_from_body(&self, body: usize) -> Isometry3<f64> {
+        let link = self.multibody().and_then(|multibody| multibody.link(body));
+        link.map_or_else(Isometry3::identity, |link| adapter::isometry(link.local_to_world()))
+    }
+
+    /// Puts the joints where they shall be, and all bodies with them.
+    pub(crate) fn place(&mut self, q: &[f64], qd: &[f64]) {
+        self.clear_forces();
+        let Some(index) = self.multibody else { return };
+        let sets = &mut self.sets;
+        let multibody = sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
+        for link in multibody.links_mut().skip(1) {
+            // A new joint stands at zero, whatever the old one was; 0 + q is q to the last bit.
+            link.joint = MultibodyJoint::new(link.joint.data, false);
+        }
+        multibody.apply_displacements(q);
+        multibody.generalized_velocity_mut().as_mut_slice().copy_from_slice(qd);
+        multibody.forward_kinematics(&sets.bodies, true);
+        multibody.update_rigid_bodies(&mut sets.bodies, true);
+        if sets.colliders.is_empty() {
+            return;
+        }
+        for link in multibody.links().skip(1) {
+            let body = sets.bodies.get_mut(link.rigid_body_handle()).expect("the body exists");
+            for &collider in body.colliders() {
+                let collider = sets.colliders.get_mut(collider).expect("the collider exists");
+                if let Some(&body_from_shape) = collider.position_wrt_parent() {
+                    collider.set_position(*link.local_to_world() * body_from_shape);
+                }
+            }
+        }
+    }
+
+    /// One step under the commands, which hold finite numbers.
+    pub(crate) fn step(&mut self, commands: &Commands) {
+        self.clear_forces();
+        self.apply_torques(commands);
+        self.set_motors_and_limits(commands);
+        let sets = &mut self.sets;
+        self.pipeline.step(
+            self.gravity,
+            &self.parameters,
+            &mut sets.islands,
+            &mut sets.broad_phase,
+            &mut sets.narrow_phase,
+            &mut sets.bodies,
+            &mut sets.colliders,
+            &mut sets.impulse_joints,
+            &mut sets.multibody_joints,
+            &mut sets.soft_bodies,
+            &mut sets.ccd,
+            &(),
+            &(),
+        );
+    }
+
+    fn clear_forces(&mut self) {
+        if !std::mem::take(&mut self.is_forced) {
+            return;
+        }
+        for &handle in &self.handles {
+            let body = self.sets.bodies.get_mut(handle).expect("the body exists");
+            body.reset_forces(false);
+            body.reset_torques(false);
+        }
+    }
+
+    /// Each torque acts on the child and, the other way, on the parent.
+    fn apply_torques(&mut self, commands: &Commands) {
+        let Some(index) = self.multibody else { return };
+        let multibody = self.sets.multibody_joints.get_multibody(index).expect("the multibody exists");
+        for (coordinate, slot) in self.slots.iter().enumerate() {
+            let torque = commands.torque[coordinate].clamp(-slot.effort, slot.effort);
+            if torque == 0.0 {
+                continue;
+            }
+            self.is_forced = true;
+            let (parent, child) = parent_and_child(multibody, coordinate);
+            let force = axis_in_world(parent, child) * torque;
+            let point = child.local_to_world().translation;
+            for (link, force) in [(child, force), (parent, -force)] {
+                let body = self.sets.bodies.get_mut(link.rigid_body_handle()).expect("the body exists");
+                match slot.axis {
+                    JointAxis::AngX => body.add_torque(force, false),
+                    _ => body.add_force_at_point(force, point, false),
+                }
+            }
+        }
+    }
+
+    fn set_motors_and_limits(&mut self, commands: &Commands) {
+        let Some(index) = self.multibody else { return };
+        let step_s = self.parameters.dt;
+        let multibody = self.sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
+        for (coordinate, (link, slot)) in multibody.links_mut().skip(1).zip(&self.slots).enumerate() {
+            let q = link.joint.coords()[slot.axis as usize];
+            let data = &mut link.joint.data;
+            // A limit does nothing before it is passed, but costs a solve: it is set from then on.
+            if (slot.lower..=slot.upper).contains(&q) {
+                data.limit_axes.remove(slot.axis.into());
+            } else {
+                data.set_limits(slot.axis, [slot.lower, slot.upper]);
+            }
+            let Some(motor) = commands.motors[coordinate] else {
+                data.motor_axes.remove(slot.axis.into());
+                continue;
+            };
+            // rapier moves the target along for the step; ours is the target at its end.
+            let target = motor.q - step_s * motor.qd;
+            data.set_motor(slot.axis, target, motor.qd, motor.gains.stiffness, motor.gains.damping);
+            data.set_motor_model(slot.axis, MotorModel::ForceBased);
+            data.set_motor_max_force(slot.axis, slot.servo_effort(commands.torque[coordinate]));
+        }
+    }
+
+    /// The first coordinate for which this step had no honest solution: rapier gives its mass
+    /// matrix no pivot, or set a body aside whose pose was no number.
+    pub(crate) fn first_unsolved(&self) -> Option<usize> {
+        let quarantine = self.pipeline.quarantine().bodies();
+        if !quarantine.is_empty() {
+            let bad = |handle: &RigidBodyHandle| quarantine.contains(handle);
+            return self.handles.iter().skip(1).position(bad).or(Some(0));
+        }
+        let factors = self.multibody()?.inv_augmented_mass().lu_internal();
+        let pivot = |row: usize| factors[(row, row)];
+        (0..factors.nrows()).find(|&row| !pivot(row).is_finite() || pivot(row) == 0.0)
+    }
+
+    /// What each actuator exerted in the step that ended in `q`, `qd`: the torque, and the servo's
+    /// by the law that rapier integrates implicitly.
+    pub(crate) fn exerted(&self, commands: &Commands, (q, qd): (&[f64], &[f64]), torque: &mut [f64]) {
+        for (coordinate, slot) in self.slots.iter().enumerate() {
+            let direct = commands.torque[coordinate].clamp(-slot.effort, slot.effort);
+            let servo =
+                commands.motors[coordinate].map_or(0.0, |Motor { gains, q: target_q, qd: target_qd }| {
+                    let effort = slot.servo_effort(direct);
+                    let position = gains.stiffness * (target_q - q[coordinate]);
+                    (position + gains.damping * (target_qd - qd[coordinate])).clamp(-effort, effort)
+                });
+            torque[coordinate] = direct + servo;
+        }
+    }
+
+    /// Adds the torques that hold the robot: minus the sum of `J' m g` over the bodies.
+    pub(crate) fn add_gravity_torque(&self, torque: &mut [f64]) {
+        assert_eq!(torque.len(), self.slots.len(), "one entry for each movable joint");
+        let Some(multibody) = self.multibody() else { return };
+        for link in multibody.links().skip(1) {
+            let body = self.sets.bodies.get(link.rigid_body_handle()).expect("the body exists");
+            let weight = self.gravity * body.mass();
+            let jacobian = multibody.body_jacobian(link.link_id());
+            for (torque, column) in torque.iter_mut().zip(jacobian.column_iter()) {
+                *torque -= column[0] * weight.x + column[1] * weight.y + column[2] * weight.z;
+            }
+        }
+    }
+
+    /// Joint-space inertia, from rapier's own factorisation of it.
+    pub(crate) fn mass_matrix(&self) -> DMatrix<f64> {
+        let Some(multibody) = self.multibody() else { return DMatrix::zeros(0, 0) };
+        let mut multibody = multibody.clone();
+        // Called for what it assembles: the mass matrix without damping.
+        multibody.dof_inverse_inertia(&self.sets.bodies);
+        let factors = multibody.inv_augmented_mass();
+        let mut matrix = factors.l() * factors.u();
+        factors.p().inv_permute_rows(&mut matrix);
+        matrix
+    }
+
+    pub(crate) fn sets(&self) -> &Sets {
+        &self.sets
+    }
+
+    pub(crate) fn restore(&mut self, sets: &Sets) {
+        self.sets.clone_from(sets);
+        // Its memory is of the state that was left.
+        self.pipeline = new_pipeline();
+        self.is_forced = true;
+    }
+}
+
+impl Slot {
+    /// What the joint's effort limit leaves to a servo beside a torque.
+    fn servo_effort(&self, torque: f64) -> f64 {
+        (self.effort - torque.abs()).max(0.0)
+    }
+}
+
+fn new_pipeline() -> PhysicsPipeline {
+    let mut pipeline = PhysicsPipeline::new();
+    pipeline.counters.disable();
+    pipeline
+}
+
+fn parent_and_child(multibody: &Multibody, coordinate: usize) -> (&MultibodyLink, &MultibodyLink) {
+    let child = multibody.link(coordinate + 1).expect("one link for each coordinate");
+    let parent = child.parent_id().and_then(|parent| multibody.link(parent));
+    (parent.expect("only the root has no parent"), child)
+}
+
+fn axis_in_world(parent: &MultibodyLink, child: &MultibodyLink) -> Vector {
+    let joint_in_world = parent.local_to_world().rotation * child.joint().data.local_frame1.rotation;
+    joint_in_world * Vector::X
+}

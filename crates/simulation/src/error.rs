@@ -1,0 +1,83 @@
+//! What can go wrong in this crate: one enum, one test for each variant.
+
+use congruent_description::known_names;
+
+/// Why a world was not built, or why it did not step.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SimulationError {
+    /// The time step is no positive number.
+    #[error("step_s = {step_s} is no positive number of seconds")]
+    Step {
+        /// The step that was asked for, s.
+        step_s: f64,
+    },
+    /// Gravity has an entry that is no number.
+    #[error("gravity [{}, {}, {}] m/s2 is not finite", .gravity_in_world[0], .gravity_in_world[1], .gravity_in_world[2])]
+    Gravity {
+        /// The gravity that was asked for, m/s^2.
+        gravity_in_world: [f64; 3],
+    },
+    /// The limits of a joint leave no position.
+    #[error("joint \"{joint}\": the lower limit {lower} {unit} is above the upper limit {upper} {unit}")]
+    Limits {
+        /// The joint.
+        joint: String,
+        /// Lower limit.
+        lower: f64,
+        /// Upper limit.
+        upper: f64,
+        /// `rad` or `m`.
+        unit: &'static str,
+    },
+    /// A shape that shall touch has no convex hull.
+    #[error("{owner}: a shape is flat or empty and has no convex hull; give it a thickness or leave it out")]
+    Shape {
+        /// The link or the obstacle.
+        owner: String,
+    },
+    /// A vector does not hold one entry for each movable joint.
+    #[error("{what}: {found} entries, but the robot has {expected} movable joints")]
+    Length {
+        /// Which vector.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// The number of movable joints.
+        expected: usize,
+    },
+    /// A number went to infinity or is no number at all.
+    #[error("joint \"{joint}\": {what} is not finite at {time_s} s")]
+    NotFinite {
+        /// The first joint at fault.
+        joint: String,
+        /// Simulated time at the end of the step.
+        time_s: f64,
+        /// Which quantity.
+        what: &'static str,
+    },
+    /// A joint moves nothing that has inertia, so no dynamics follow.
+    #[error(
+        "link \"{link}\" and all that it carries have no mass; give it an <inertial>, or use the controller kinematic"
+    )]
+    Massless {
+        /// The link that the joint carries.
+        link: String,
+    },
+    /// There is no controller of that name.
+    #[error("unknown controller \"{name}\"; {}", known_names(.name, "controllers", .known.iter().copied()))]
+    UnknownController {
+        /// The name that was asked for.
+        name: String,
+        /// All names.
+        known: Vec<&'static str>,
+    },
+    /// A gain is negative or no number.
+    #[error("{gain} = {value} is no gain; it must be zero or positive")]
+    Gain {
+        /// `stiffness` or `damping`.
+        gain: &'static str,
+        /// Its value.
+        value: f64,
+    },
+}

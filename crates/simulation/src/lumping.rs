@@ -1,0 +1,79 @@
+//! Bodies: links that fixed joints hold together move as one, with one mass. Pure nalgebra.
+
+use congruent_description::{Inertia, JointKind, LinkIndex, Robot};
+use nalgebra::{Isometry3, Matrix3, Vector3};
+
+/// Inertia of a body; zero where none of its links has any.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BodyInertia {
+    pub mass_kg: f64,
+    /// Centre of mass in the frame of the body's first link, m.
+    pub com_in_body: Vector3<f64>,
+    /// About the centre of mass, axes of the body.
+    pub tensor_kg_m2: Matrix3<f64>,
+}
+
+/// Where a link is fixed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LinkOnBody {
+    pub body: usize,
+    pub body_from_link: Isometry3<f64>,
+    /// The link whose frame is the body's: its pose needs no product.
+    pub is_first: bool,
+}
+
+/// The bodies of a robot: body 0 holds the root, body `i + 1` hangs on movable joint `i`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Bodies {
+    /// In the order of [`Robot::links`].
+    pub links: Vec<LinkOnBody>,
+    pub inertias: Vec<BodyInertia>,
+}
+
+impl Bodies {
+    pub(crate) fn of(robot: &Robot) -> Self {
+        let mut links: Vec<LinkOnBody> = Vec::with_capacity(robot.links().len());
+        for link in robot.link_indices() {
+            links.push(place(robot, link, &links));
+        }
+        let inertias = (0..=robot.dof()).map(|body| inertia(robot, body, &links)).collect();
+        Self { links, inertias }
+    }
+}
+
+/// Parents come before children, so `before` holds the parent.
+fn place(robot: &Robot, link: LinkIndex, before: &[LinkOnBody]) -> LinkOnBody {
+    let first_of = |body| LinkOnBody { body, body_from_link: Isometry3::identity(), is_first: true };
+    let Some(index) = robot.parent_joint(link) else {
+        return first_of(0);
+    };
+    let joint = robot.joint(index);
+    if joint.kind == JointKind::Fixed {
+        let parent = before[joint.parent.get()];
+        let body_from_link = parent.body_from_link * joint.parent_from_joint;
+        return LinkOnBody { body: parent.body, body_from_link, is_first: false };
+    }
+    first_of(robot.coordinate(index).expect("a movable joint has a coordinate") + 1)
+}
+
+fn inertia(robot: &Robot, body: usize, links: &[LinkOnBody]) -> BodyInertia {
+    let parts = || {
+        let on_body = links.iter().zip(robot.links()).filter(move |(place, _)| place.body == body);
+        on_body.filter_map(|(place, link)| Some((place.body_from_link, link.inertia?)))
+    };
+    let mass_kg: f64 = parts().map(|(_, part)| part.mass_kg).sum();
+    let com = |(body_from_link, part): (Isometry3<f64>, Inertia)| {
+        (body_from_link * part.link_from_inertial).translation.vector
+    };
+    let weighted = parts().map(|part| part.1.mass_kg * com(part)).sum::<Vector3<f64>>();
+    let com_in_body = if mass_kg > 0.0 { weighted / mass_kg } else { Vector3::zeros() };
+    let about_com = |part: (Isometry3<f64>, Inertia)| {
+        let turn = (part.0.rotation * part.1.link_from_inertial.rotation).to_rotation_matrix();
+        let shift = com(part) - com_in_body;
+        let steiner = Matrix3::identity() * shift.norm_squared() - shift * shift.transpose();
+        turn.matrix() * part.1.tensor_kg_m2 * turn.matrix().transpose() + part.1.mass_kg * steiner
+    };
+    let tensor = parts().map(about_com).sum::<Matrix3<f64>>();
+    // What rounding made unsymmetric is no inertia.
+    BodyInertia { mass_kg, com_in_body, tensor_kg_m2: (tensor + tensor.transpose()) * 0.5 }
+}

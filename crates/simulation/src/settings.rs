@@ -1,0 +1,42 @@
+//! What a world is built with, apart from the robot.
+
+use congruent_description::Geometry;
+use nalgebra::{Isometry3, Vector3};
+
+/// How a [`World`](crate::World) is set up.
+///
+/// The world frame is the frame of the robot's root link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WorldSettings {
+    /// Length of a step, s. The scheme is of first order in it.
+    pub step_s: f64,
+    /// Acceleration of free fall, m/s^2.
+    pub gravity_in_world: Vector3<f64>,
+    /// Bodies that stand still.
+    pub obstacles: Vec<Obstacle>,
+    /// Whether links touch obstacles; links never touch each other.
+    pub contacts: bool,
+}
+
+impl Default for WorldSettings {
+    /// A step of 1 ms, 9.81 m/s^2 along -z, nothing to touch.
+    fn default() -> Self {
+        Self {
+            step_s: 1e-3,
+            gravity_in_world: Vector3::new(0.0, 0.0, -9.81),
+            obstacles: Vec::new(),
+            contacts: false,
+        }
+    }
+}
+
+/// A body that stands still in the world.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Obstacle {
+    /// Name, as in the scenario.
+    pub name: String,
+    /// Pose of the shape's frame in the world, m.
+    pub world_from_obstacle: Isometry3<f64>,
+    /// The shape, m; of a mesh, the convex hull is what touches.
+    pub geometry: Geometry,
+}

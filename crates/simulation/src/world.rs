@@ -1,0 +1,306 @@
+//! The world: one robot, fixed at its root, and what stands around it.
+
+use congruent_description::{LinkIndex, Robot};
+use nalgebra::{DMatrix, DVector, Isometry3};
+
+use crate::{
+    actuation::{Commands, Controller, JointsView, Reference},
+    build,
+    engine::{Engine, Sets},
+    error::SimulationError,
+    lumping::{Bodies, LinkOnBody},
+    settings::WorldSettings,
+};
+
+/// Diagonal entries of the mass matrix below this part of the largest count as zero: rounding of
+/// products and sums leaves about 1e-16. Dimensionless.
+const NO_INERTIA_RATIO: f64 = 1e-15;
+
+/// Positions and velocities from here on count as infinite. Below, no product that rapier forms
+/// of them overflows; above, one may, and rapier would go on with accelerations of zero.
+const LARGEST: f64 = 1e75;
+
+/// A robot in physics.
+///
+/// The world frame is the frame of the root link, which stands still. Vectors hold one entry for
+/// each movable joint, mimic joints included, in the order of [`Robot::movable_joints`]; units are
+/// rad and N m, or m and N for a prismatic joint.
+///
+/// # Examples
+/// A bar of 1 kg on a hinge, released level, falls:
+/// ```
+/// use congruent_description::{Inertia, Joint, JointKind, JointParts, Link, LinkIndex, Robot};
+/// use congruent_simulation::{Gains, Reference, World, WorldSettings, controller};
+/// use nalgebra::{Isometry3, Matrix3, Vector3};
+///
+/// # let root = Robot::new("", vec![Link::default()], vec![])?.root();
+/// let inertia = Inertia {
+///     mass_kg: 1.0,
+///     link_from_inertial: Isometry3::translation(0.5, 0.0, 0.0),
+///     tensor_kg_m2: Matrix3::identity() * 0.02,
+/// };
+/// let base = Link { name: "base".into(), ..Link::default() };
+/// let bar = Link { name: "bar".into(), inertia: Some(inertia), ..Link::default() };
+/// let hinge = Joint {
+///     name: "hinge".into(),
+///     kind: JointKind::Continuous,
+///     parent: root, child: root, // both are overwritten by the names below
+///     parent_from_joint: Isometry3::identity(),
+///     axis_in_joint: Vector3::y_axis(),
+///     limit: None, damping: 0.0, friction: 0.0, mimic: None,
+/// };
+/// let parts = JointParts { joint: hinge, parent: "base".into(), child: "bar".into(), mimic: None };
+/// let robot = Robot::new("pendulum", vec![base, bar], vec![parts])?;
+///
+/// let mut world = World::new(&robot, &WorldSettings::default())?;
+/// let mut passive = controller("passive", Gains::default())?;
+/// world.step(passive.as_mut(), &Reference { q: &[0.0], qd: &[0.0] })?;
+/// // Acceleration m g l / (I + m l^2) = 4.905 / 0.27 rad/s^2, for 1 ms.
+/// assert!((world.qd()[0] - 4.905 / 0.27 * 1e-3).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct World {
+    engine: Engine,
+    joint_names: Vec<String>,
+    links: Vec<LinkOnBody>,
+    /// The first link that no dynamics can move.
+    massless: Option<String>,
+    commands: Commands,
+    state: State,
+}
+
+/// What is ours of the state; rapier's part is [`Sets`].
+#[derive(Debug, Clone)]
+struct State {
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    torque: Vec<f64>,
+    step_count: u64,
+}
+
+/// The whole state of a [`World`] at one moment.
+#[derive(Clone)]
+pub struct Snapshot {
+    state: State,
+    sets: Sets,
+}
+
+impl World {
+    /// Builds the world; the robot stands at zero, at rest, at time zero.
+    ///
+    /// A robot without mass is accepted: it can be placed, and stepped by a controller that
+    /// places it.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when a setting is out of range, the limits of a joint exclude each
+    /// other, or a shape that shall touch has no volume.
+    pub fn new(robot: &Robot, settings: &WorldSettings) -> Result<Self, SimulationError> {
+        check(settings)?;
+        let bodies = Bodies::of(robot);
+        let engine = Engine::new(build::build(robot, &bodies, settings)?, settings);
+        let dof = robot.dof();
+        let movable = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+        let carried = |row: usize| robot.link(robot.joint(robot.movable_joints()[row]).child).name.clone();
+        Ok(Self {
+            massless: first_without_inertia(&engine.mass_matrix()).map(carried),
+            engine,
+            joint_names: movable().map(|joint| joint.name.clone()).collect(),
+            links: bodies.links,
+            commands: Commands::new(dof),
+            state: State { q: vec![0.0; dof], qd: vec![0.0; dof], torque: vec![0.0; dof], step_count: 0 },
+        })
+    }
+
+    /// Puts the robot at `q` with velocities `qd`, inside the limits or outside; time goes on
+    /// from where it was.
+    ///
+    /// # Errors
+    /// [`SimulationError::Length`], and [`SimulationError::NotFinite`] for an entry that is no
+    /// number; the state is then as before.
+    pub fn set_state(&mut self, q: &[f64], qd: &[f64]) -> Result<(), SimulationError> {
+        self.check_vector("position", q)?;
+        self.check_vector("velocity", qd)?;
+        self.engine.place(q, qd);
+        self.state.torque.fill(0.0);
+        self.engine.read(&mut self.state.q, &mut self.state.qd);
+        Ok(())
+    }
+
+    /// Joint positions: rapier's own coordinates.
+    pub fn q(&self) -> &[f64] {
+        &self.state.q
+    }
+
+    /// Joint velocities: rapier's own.
+    pub fn qd(&self) -> &[f64] {
+        &self.state.qd
+    }
+
+    /// What each actuator exerted in the last step; zero after a step that placed the robot.
+    pub fn torque(&self) -> &[f64] {
+        &self.state.torque
+    }
+
+    /// Simulated time, s: the number of steps times their length.
+    #[expect(clippy::cast_precision_loss, reason = "2^53 steps of 1 ms are 285 thousand years")]
+    pub fn time_s(&self) -> f64 {
+        self.state.step_count as f64 * self.engine.step_s()
+    }
+
+    /// Number of steps since the world was built.
+    pub fn step_count(&self) -> u64 {
+        self.state.step_count
+    }
+
+    /// Poses of all links in the root link's frame, in the order of [`Robot::links`], from
+    /// rapier's forward kinematics.
+    ///
+    /// # Panics
+    /// When `out` does not hold one entry for each link.
+    pub fn root_from_links_into(&self, out: &mut [Isometry3<f64>]) {
+        assert_eq!(out.len(), self.links.len(), "one entry for each link");
+        // Links of one body follow each other but for branches, so this converts most bodies once.
+        let mut body = 0;
+        let mut root_from_body = Isometry3::identity();
+        for (out, link) in out.iter_mut().zip(&self.links) {
+            if link.body != body {
+                body = link.body;
+                root_from_body = self.engine.world_from_body(body);
+            }
+            *out = if link.is_first { root_from_body } else { root_from_body * link.body_from_link };
+        }
+    }
+
+    /// Pose of one link in the root link's frame, from rapier's forward kinematics.
+    ///
+    /// # Panics
+    /// When the link is not one of this robot.
+    pub fn root_from_link(&self, link: LinkIndex) -> Isometry3<f64> {
+        let link = self.links[link.get()];
+        let root_from_body = self.engine.world_from_body(link.body);
+        if link.is_first { root_from_body } else { root_from_body * link.body_from_link }
+    }
+
+    /// Goes one step ahead under a controller, towards the reference for the step's end.
+    ///
+    /// # Errors
+    /// [`SimulationError::Length`] for a reference of another length;
+    /// [`SimulationError::Massless`] for dynamics of a robot without mass;
+    /// [`SimulationError::NotFinite`] when the reference, the controller or the physics give no
+    /// number. After the last, the world needs [`World::set_state`] or [`World::restore`].
+    pub fn step(
+        &mut self,
+        controller: &mut dyn Controller,
+        reference: &Reference<'_>,
+    ) -> Result<(), SimulationError> {
+        self.check_vector("reference position", reference.q)?;
+        self.check_vector("reference velocity", reference.qd)?;
+        self.commands.clear();
+        let joints = JointsView { q: &self.state.q, qd: &self.state.qd, engine: &self.engine };
+        controller.command(&joints, reference, &mut self.commands);
+        if self.commands.placed {
+            self.state.step_count += 1;
+            return self.set_state(reference.q, reference.qd);
+        }
+        if let Some(link) = &self.massless {
+            return Err(SimulationError::Massless { link: link.clone() });
+        }
+        self.check_commands()?;
+        self.engine.step(&self.commands);
+        self.state.step_count += 1;
+        self.finish_step()
+    }
+
+    /// Joint-space inertia at the present configuration, dof x dof; mimic joints count as free.
+    pub fn mass_matrix(&self) -> DMatrix<f64> {
+        self.engine.mass_matrix()
+    }
+
+    /// Torques that hold the robot against gravity at the present configuration; mimic joints
+    /// count as free.
+    pub fn gravity_torque(&self) -> DVector<f64> {
+        let mut torque = DVector::zeros(self.state.q.len());
+        self.engine.add_gravity_torque(torque.as_mut_slice());
+        torque
+    }
+
+    /// The whole state: after [`World::restore`], all goes on bit by bit as it would have.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot { state: self.state.clone(), sets: self.engine.sets().clone() }
+    }
+
+    /// Goes back to a snapshot of this world.
+    ///
+    /// # Panics
+    /// When the snapshot is of a robot with another number of joints.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        assert_eq!(snapshot.state.q.len(), self.state.q.len(), "the snapshot is of another robot");
+        self.engine.restore(&snapshot.sets);
+        self.state.clone_from(&snapshot.state);
+    }
+
+    fn finish_step(&mut self) -> Result<(), SimulationError> {
+        let State { q, qd, torque, .. } = &mut self.state;
+        self.engine.read(q, qd);
+        self.engine.exerted(&self.commands, (q, qd), torque);
+        for (what, vector) in [("position", &self.state.q), ("velocity", &self.state.qd)] {
+            // Written so that it also catches what is no number.
+            if let Some(coordinate) = vector.iter().position(|value| !matches!(value.abs(), 0.0..LARGEST)) {
+                return Err(self.not_finite(what, coordinate));
+            }
+        }
+        match self.engine.first_unsolved() {
+            Some(coordinate) => Err(self.not_finite("acceleration", coordinate)),
+            None => Ok(()),
+        }
+    }
+
+    fn check_commands(&self) -> Result<(), SimulationError> {
+        self.check_finite("commanded torque", &self.commands.torque)?;
+        let is_number = |motor: &crate::Motor| {
+            [motor.q, motor.qd, motor.gains.stiffness, motor.gains.damping].iter().all(|x| x.is_finite())
+        };
+        match self.commands.motors.iter().position(|motor| motor.as_ref().is_some_and(|m| !is_number(m))) {
+            Some(coordinate) => Err(self.not_finite("commanded servo", coordinate)),
+            None => Ok(()),
+        }
+    }
+
+    fn check_vector(&self, what: &'static str, vector: &[f64]) -> Result<(), SimulationError> {
+        let (found, expected) = (vector.len(), self.state.q.len());
+        if found != expected {
+            return Err(SimulationError::Length { what, found, expected });
+        }
+        self.check_finite(what, vector)
+    }
+
+    fn check_finite(&self, what: &'static str, vector: &[f64]) -> Result<(), SimulationError> {
+        match vector.iter().position(|value| !value.is_finite()) {
+            Some(coordinate) => Err(self.not_finite(what, coordinate)),
+            None => Ok(()),
+        }
+    }
+
+    fn not_finite(&self, what: &'static str, coordinate: usize) -> SimulationError {
+        let joint = self.joint_names[coordinate].clone();
+        SimulationError::NotFinite { joint, time_s: self.time_s(), what }
+    }
+}
+
+fn check(settings: &WorldSettings) -> Result<(), SimulationError> {
+    let WorldSettings { step_s, gravity_in_world, .. } = settings;
+    if !(step_s.is_finite() && *step_s > 0.0) {
+        return Err(SimulationError::Step { step_s: *step_s });
+    }
+    if !gravity_in_world.iter().all(|entry| entry.is_finite()) {
+        return Err(SimulationError::Gravity { gravity_in_world: (*gravity_in_world).into() });
+    }
+    Ok(())
+}
+
+/// The first joint that moves no inertia.
+fn first_without_inertia(mass_matrix: &DMatrix<f64>) -> Option<usize> {
+    let diagonal = mass_matrix.diagonal();
+    let floor = diagonal.amax() * NO_INERTIA_RATIO;
+    diagonal.iter().position(|&entry| entry <= floor)
+}

@@ -1,0 +1,156 @@
+//! Each error, and that it says what to do.
+
+mod support;
+
+use std::sync::Arc;
+
+use congruent_description::{Geometry, Mesh, Robot};
+use congruent_simulation::{
+    Commands, Controller, Gains, JointsView, Obstacle, Reference, SimulationError, World, WorldSettings,
+    controller, controller_names,
+};
+use nalgebra::{Isometry3, Point3, Vector3};
+use support::{ARM_Q0, arm, arm_with, limited, make, massless, pendulum, run};
+
+fn refused(settings: &WorldSettings) -> SimulationError {
+    World::new(&pendulum(), settings).err().expect("the settings are bad")
+}
+
+#[test]
+fn settings_out_of_range() {
+    for step_s in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
+        let error = refused(&WorldSettings { step_s, ..WorldSettings::default() });
+        assert!(matches!(error, SimulationError::Step { .. }), "{error}");
+    }
+    let gravity_in_world = Vector3::new(0.0, f64::NAN, 0.0);
+    let error = refused(&WorldSettings { gravity_in_world, ..WorldSettings::default() });
+    assert_eq!(error.to_string(), "gravity [0, NaN, 0] m/s2 is not finite");
+}
+
+#[test]
+fn limits_that_exclude_each_other() {
+    let robot = arm_with(|parts| limited(parts, (1.0, -1.0), 0.0));
+    let error = World::new(&robot, &WorldSettings::default()).err().unwrap();
+    let expected = "joint \"shoulder_joint\": the lower limit 1 rad is above the upper limit -1 rad";
+    assert_eq!(error.to_string(), expected);
+}
+
+fn mesh_obstacle(vertices_m: Vec<Point3<f64>>) -> WorldSettings {
+    let mesh = Mesh { path: "sheet.stl".into(), vertices_m, triangles: vec![] };
+    let obstacle = Obstacle {
+        name: "sheet".into(),
+        world_from_obstacle: Isometry3::identity(),
+        geometry: Geometry::Mesh(Arc::new(mesh)),
+    };
+    WorldSettings { contacts: true, obstacles: vec![obstacle], ..WorldSettings::default() }
+}
+
+#[test]
+fn a_shape_without_a_hull() {
+    let line = (0..4).map(|i| Point3::new(f64::from(i), 0.0, 0.0)).collect();
+    let error = refused(&mesh_obstacle(line));
+    assert_eq!(error, SimulationError::Shape { owner: "obstacle \"sheet\"".into() });
+    assert!(World::new(&pendulum(), &mesh_obstacle(vec![])).is_ok(), "an empty mesh touches nothing");
+}
+
+#[test]
+fn vectors_of_another_length() {
+    let mut world = World::new(&arm(), &WorldSettings::default()).unwrap();
+    let error = world.set_state(&[0.0; 5], &[0.0; 6]).unwrap_err();
+    assert_eq!(error.to_string(), "position: 5 entries, but the robot has 6 movable joints");
+    let reference = Reference { q: &[0.0; 6], qd: &[] };
+    let error = world.step(make("passive", 0.0, 0.0).as_mut(), &reference).unwrap_err();
+    assert_eq!(error, SimulationError::Length { what: "reference velocity", found: 0, expected: 6 });
+    assert_eq!(world.step_count(), 0);
+}
+
+#[test]
+fn an_unknown_controller_lists_the_known() {
+    let error = controller("kinematics", Gains::default()).err().unwrap();
+    let expected = "unknown controller \"kinematics\"; did you mean \"kinematic\"? known controllers: \
+                    passive, kinematic, pd, gravity_compensation";
+    assert_eq!(error.to_string(), expected);
+    for name in controller_names() {
+        assert_eq!(controller(name, Gains::default()).unwrap().name(), name);
+    }
+}
+
+#[test]
+fn a_gain_that_is_none() {
+    let error = controller("pd", Gains { stiffness: 1.0, damping: -2.0 }).err().unwrap();
+    assert_eq!(error.to_string(), "damping = -2 is no gain; it must be zero or positive");
+    assert!(controller("pd", Gains { stiffness: f64::NAN, damping: 0.0 }).is_err());
+}
+
+#[test]
+fn a_robot_without_mass_is_placed_but_not_stepped() {
+    let parts =
+        support::joint(congruent_description::JointKind::Continuous, ("base", "arm"), [0.0; 3], [0.0; 3]);
+    let robot = Robot::new("ghost", vec![massless("base"), massless("arm")], vec![parts]).unwrap();
+    let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
+    let reference = Reference { q: &[0.5], qd: &[0.0] };
+    let error = world.step(make("passive", 0.0, 0.0).as_mut(), &reference).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "link \"arm\" and all that it carries have no mass; give it an <inertial>, or use the controller kinematic"
+    );
+    world.step(make("kinematic", 0.0, 0.0).as_mut(), &reference).unwrap();
+    assert_eq!(world.q(), [0.5]);
+}
+
+#[test]
+fn a_robot_without_a_joint_stands() {
+    let robot = Robot::new("table", vec![massless("table")], vec![]).unwrap();
+    let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
+    run(&mut world, make("pd", 1.0, 1.0).as_mut(), &[], 3);
+    assert_eq!(world.root_from_link(robot.root()), Isometry3::identity());
+    assert_eq!((world.mass_matrix().len(), world.gravity_torque().len(), world.step_count()), (0, 0, 3));
+}
+
+/// Commands the same torque at every joint.
+struct Push(f64);
+
+impl Controller for Push {
+    fn name(&self) -> &'static str {
+        "push"
+    }
+
+    fn command(&mut self, _: &JointsView<'_>, _: &Reference<'_>, commands: &mut Commands) {
+        commands.torque_mut().fill(self.0);
+    }
+}
+
+#[test]
+fn numbers_that_are_none() {
+    let mut world = World::new(&arm(), &WorldSettings::default()).unwrap();
+    let error = world.set_state(&[0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0], &[0.0; 6]).unwrap_err();
+    assert_eq!(error.to_string(), "joint \"forearm_joint\": position is not finite at 0 s");
+    let reference = Reference { q: &[0.0; 6], qd: &[0.0; 6] };
+    let error = world.step(&mut Push(f64::NAN), &reference).unwrap_err();
+    assert_eq!(error.to_string(), "joint \"shoulder_joint\": commanded torque is not finite at 0 s");
+    assert_eq!(world.q(), [0.0; 6]);
+}
+
+#[test]
+fn physics_that_runs_away_is_an_error_and_can_be_left() {
+    let robot = arm_with(|mut parts| {
+        parts.joint.limit = None;
+        parts
+    });
+    let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
+    world.set_state(&ARM_Q0, &[0.0; 6]).unwrap();
+    let before = world.snapshot();
+    let reference = Reference { q: &[0.0; 6], qd: &[0.0; 6] };
+    let error = (0..200).find_map(|_| world.step(&mut Push(1e200), &reference).err());
+    assert!(matches!(error, Some(SimulationError::NotFinite { .. })), "{error:?}");
+
+    let mut passive = make("passive", 0.0, 0.0);
+    world.restore(&before);
+    run(&mut world, passive.as_mut(), &[0.0; 6], 100);
+    let restored = world.q().to_vec();
+    let error = (0..200).find_map(|_| world.step(&mut Push(1e200), &reference).err());
+    assert!(error.is_some());
+    world.set_state(&ARM_Q0, &[0.0; 6]).unwrap();
+    run(&mut world, passive.as_mut(), &[0.0; 6], 100);
+    assert_eq!(world.q(), restored);
+}

@@ -1,0 +1,311 @@
+//! The gates on robots built in code: what a correct twin does, without any file.
+//! Numbers (a06 and so on) are those of the table of gates; the corpus part is `gates.rs`.
+
+mod support;
+
+use congruent_description::Geometry;
+use congruent_simulation::{Commands, Controller, Gains, JointsView, Reference};
+use congruent_simulation::{Motor, Obstacle, World, WorldSettings};
+use nalgebra::{Isometry3, Vector3};
+use support::{ARM_Q0, arm, arm_with, limited, make, mimic_arm, pendulum, run, swinging_bar, worst};
+
+fn with_step(step_s: f64) -> WorldSettings {
+    WorldSettings { step_s, ..WorldSettings::default() }
+}
+
+/// A world with the robot at `q`, at rest.
+fn at(robot: &congruent_description::Robot, settings: &WorldSettings, q: &[f64]) -> World {
+    let mut world = World::new(robot, settings).unwrap();
+    world.set_state(q, &vec![0.0; q.len()]).unwrap();
+    world
+}
+
+/// Ratio of the errors at h and h/2, physics (first order): 2 + O(h).
+const FIRST_ORDER: std::ops::Range<f64> = 1.9..2.1;
+
+/// Angle of a pendulum of 1 m and 1 kg released at 0.3 rad, by RK4 with 0.1 ms.
+fn pendulum_truth_rad(duration_s: f64) -> f64 {
+    let step = 1e-4;
+    let f = |[q, v]: [f64; 2]| [v, -9.81 * q.sin()];
+    let add = |[a, b]: [f64; 2], [c, d]: [f64; 2], h: f64| [a + h * c, b + h * d];
+    let mut x = [0.3, 0.0];
+    for _ in 0..(duration_s / step).round() as usize {
+        let k1 = f(x);
+        let k2 = f(add(x, k1, step / 2.0));
+        let k3 = f(add(x, k2, step / 2.0));
+        let k4 = f(add(x, k3, step));
+        x = add(add(add(add(x, k1, step / 6.0), k2, step / 3.0), k3, step / 3.0), k4, step / 6.0);
+    }
+    x[0]
+}
+
+#[test]
+fn a06_pendulum_error_halves_with_the_step() {
+    let truth = pendulum_truth_rad(1.3);
+    let error = |step_s: f64| {
+        let mut world = at(&pendulum(), &with_step(step_s), &[0.3]);
+        run(&mut world, make("passive", 0.0, 0.0).as_mut(), &[0.0], (1.3 / step_s).round() as usize);
+        (world.q()[0] - truth).abs()
+    };
+    let errors = [1e-3, 5e-4, 2.5e-4].map(error);
+    println!("a06: {errors:?}");
+    for pair in errors.windows(2) {
+        assert!(FIRST_ORDER.contains(&(pair[0] / pair[1])), "{errors:?}");
+    }
+}
+
+#[test]
+fn a05_free_swing_error_halves_with_the_step() {
+    let end = |step_s: f64| {
+        let mut world = at(&arm(), &with_step(step_s), &ARM_Q0);
+        run(&mut world, make("passive", 0.0, 0.0).as_mut(), &[0.0; 6], (0.5 / step_s).round() as usize);
+        world.q().to_vec()
+    };
+    let ends = [1e-3, 5e-4, 2.5e-4].map(end);
+    let steps = [worst(&ends[0], &ends[1]), worst(&ends[1], &ends[2])];
+    println!("a05: {steps:?}");
+    assert!(FIRST_ORDER.contains(&(steps[0] / steps[1])), "{steps:?}");
+}
+
+/// Drift under gravity compensation, rad in 10 s; rounding of g(q), an equilibrium that is not
+/// stable; worst seen 3e-12.
+const DRIFT_RAD: f64 = 1e-9;
+
+#[test]
+fn a07_gravity_compensation_holds_the_arm() {
+    let mut world = at(&arm(), &WorldSettings::default(), &ARM_Q0);
+    run(&mut world, make("gravity_compensation", 0.0, 0.0).as_mut(), &[0.0; 6], 10_000);
+    println!("a07: {:e}", worst(world.q(), &ARM_Q0));
+    assert!(worst(world.q(), &ARM_Q0) < DRIFT_RAD, "{:?}", world.q());
+    assert!(worst(world.torque(), world.gravity_torque().as_slice()) < DRIFT_RAD);
+}
+
+#[test]
+fn a07_gravity_compensation_holds_slides_and_followers() {
+    let robot = mimic_arm();
+    let mut q0 = [0.4, 0.0, 0.0];
+    robot.apply_mimic(&mut q0);
+    let mut world = at(&robot, &WorldSettings::default(), &q0);
+    run(&mut world, make("gravity_compensation", 0.0, 0.0).as_mut(), &q0, 10_000);
+    println!("a07 mimic: {:e}", worst(world.q(), &q0));
+    assert!(worst(world.q(), &q0) < DRIFT_RAD, "{:?}", world.q());
+}
+
+/// Sag of a servo against gravity torque / stiffness, rad; solver stop of 20 sweeps and what is
+/// left of the settling after 5 s; worst seen 1e-13.
+const SAG_RAD: f64 = 1e-8;
+
+#[test]
+fn a08_a_servo_sags_by_gravity_torque_over_stiffness() {
+    let mut world = at(&arm(), &WorldSettings::default(), &ARM_Q0);
+    run(&mut world, make("pd", 2000.0, 200.0).as_mut(), &ARM_Q0, 5000);
+    let sag: Vec<f64> = ARM_Q0.iter().zip(world.q()).map(|(target, q)| target - q).collect();
+    let expected = world.gravity_torque() / 2000.0;
+    println!("a08: {:e}", worst(&sag, expected.as_slice()));
+    assert!(worst(&sag, expected.as_slice()) < SAG_RAD, "{sag:?} {expected:?}");
+    assert!(worst(world.torque(), world.gravity_torque().as_slice()) < SAG_RAD * 2000.0);
+}
+
+#[test]
+fn a09_a_limit_is_overshot_by_less_than_two_steps() {
+    let robot = arm_with(|parts| limited(parts, (-0.5, 1.0), 0.0));
+    let settings = WorldSettings { gravity_in_world: Vector3::zeros(), ..WorldSettings::default() };
+    let mut world = at(&robot, &settings, &[0.9; 6]);
+    let speed = 3.0;
+    world.set_state(&[0.9; 6], &[speed, 0.0, 0.0, 0.0, 0.0, 0.0]).unwrap();
+    let mut passive = make("passive", 0.0, 0.0);
+    let mut overshoot = 0.0_f64;
+    for _ in 0..200 {
+        run(&mut world, passive.as_mut(), &[0.0; 6], 1);
+        overshoot = overshoot.max(world.q()[0] - 1.0);
+    }
+    println!("a09: {overshoot:e}");
+    assert!(overshoot > 0.0 && overshoot <= 2.0 * speed * 1e-3, "{overshoot}");
+}
+
+/// Creep under dry friction above gravity, rad in 5 s; solver stop of 20 sweeps; worst seen 1e-5.
+const CREEP_RAD: f64 = 1e-4;
+
+#[test]
+fn a10_friction_above_gravity_sticks() {
+    let robot = arm_with(|mut parts| {
+        parts.joint.friction = 80.0;
+        parts
+    });
+    let mut world = at(&robot, &WorldSettings::default(), &ARM_Q0);
+    run(&mut world, make("passive", 0.0, 0.0).as_mut(), &[0.0; 6], 5000);
+    println!("a10: {:e}", worst(world.q(), &ARM_Q0));
+    assert!(worst(world.q(), &ARM_Q0) < CREEP_RAD, "{:?}", world.q());
+}
+
+/// Error of `q = multiplier * master + offset`, rad or m; rounding, some eps; worst seen 1e-15.
+const COUPLING: f64 = 1e-12;
+
+#[test]
+fn a11_mimic_joints_follow_their_master() {
+    let robot = mimic_arm();
+    let mut q0 = [0.4, 0.0, 0.0];
+    robot.apply_mimic(&mut q0);
+    for kind in ["passive", "pd"] {
+        let mut world = at(&robot, &WorldSettings::default(), &q0);
+        let mut controller = make(kind, 50.0, 5.0);
+        let mut off = 0.0_f64;
+        for _ in 0..3000 {
+            run(&mut world, controller.as_mut(), &[-0.3, 0.55, -0.11], 1);
+            let mut expected = world.q().to_vec();
+            robot.apply_mimic(&mut expected);
+            off = off.max(worst(world.q(), &expected));
+        }
+        println!("a11 {kind}: {off:e}");
+        assert!(off < COUPLING, "{kind}: {off:e}");
+        assert!((world.q()[0] - 0.4).abs() > 0.1, "{kind}: it moved");
+    }
+}
+
+/// Torque of a servo against its effort limit, N m; rounding of 20 sweeps; worst seen 1e-14.
+const EFFORT_N_M: f64 = 1e-9;
+
+#[test]
+fn a12_effort_limits_clip_servos_and_torques() {
+    let robot = arm_with(|parts| limited(parts, (-6.0, 6.0), 20.0));
+    let mut world = at(&robot, &WorldSettings::default(), &ARM_Q0);
+    run(&mut world, make("gravity_compensation", 1e5, 1e3).as_mut(), &[3.0; 6], 1);
+    assert!(world.torque().iter().all(|torque| torque.abs() <= 20.0 + EFFORT_N_M), "{:?}", world.torque());
+    assert!((world.torque()[0] - 20.0).abs() < EFFORT_N_M, "{:?}", world.torque());
+
+    // Without gravity the acceleration of the clipped torques shows what really acted.
+    let settings =
+        WorldSettings { gravity_in_world: Vector3::zeros(), step_s: 1e-6, ..WorldSettings::default() };
+    let mut world = at(&robot, &settings, &ARM_Q0);
+    let mass_matrix = world.mass_matrix();
+    run(&mut world, make("pd", 1e5, 1e3).as_mut(), &[3.0; 6], 1);
+    let acceleration = nalgebra::DVector::from_row_slice(world.qd()) / 1e-6;
+    let acted = mass_matrix * acceleration;
+    println!("a12: {:e}", worst(acted.as_slice(), &[20.0; 6]));
+    assert!(worst(acted.as_slice(), &[20.0; 6]) < EFFORT_N_M, "{acted}");
+}
+
+#[test]
+fn a13_runs_and_restored_runs_are_equal_bit_by_bit() {
+    let obstacle = Obstacle {
+        name: "floor".into(),
+        world_from_obstacle: Isometry3::translation(0.0, 0.0, -0.6),
+        geometry: Geometry::Box { size_m: Vector3::new(4.0, 4.0, 0.2) },
+    };
+    let settings = WorldSettings { contacts: true, obstacles: vec![obstacle], ..WorldSettings::default() };
+    for (robot, q0) in
+        [(arm(), ARM_Q0.to_vec()), (mimic_arm(), vec![0.4, -0.5, 0.03]), (swinging_bar(), vec![0.0])]
+    {
+        for kind in ["passive", "kinematic", "pd", "gravity_compensation"] {
+            let target = vec![0.1; q0.len()];
+            let mut controller = make(kind, 300.0, 20.0);
+            let mut first = at(&robot, &settings, &q0);
+            run(&mut first, controller.as_mut(), &target, 700);
+            let snapshot = first.snapshot();
+            run(&mut first, controller.as_mut(), &target, 700);
+
+            let mut second = at(&robot, &settings, &q0);
+            run(&mut second, controller.as_mut(), &target, 1400);
+            assert_eq!(bits(&first), bits(&second), "{} {kind}: repeated", robot.name());
+
+            second.restore(&snapshot);
+            assert_eq!(second.step_count(), 700);
+            run(&mut second, controller.as_mut(), &target, 700);
+            assert_eq!(bits(&first), bits(&second), "{} {kind}: restored", robot.name());
+        }
+    }
+}
+
+fn bits(world: &World) -> (Vec<u64>, u64) {
+    let numbers = world.q().iter().chain(world.qd()).chain(world.torque());
+    (numbers.map(|number| number.to_bits()).collect(), world.step_count())
+}
+
+#[test]
+fn an_obstacle_stops_a_servo() {
+    let floor = Obstacle {
+        name: "floor".into(),
+        world_from_obstacle: Isometry3::translation(1.0, 0.0, -0.4),
+        geometry: Geometry::Box { size_m: Vector3::new(1.0, 1.0, 0.1) },
+    };
+    let end = |contacts| {
+        let obstacles = vec![floor.clone()];
+        let settings = WorldSettings { contacts, obstacles, ..WorldSettings::default() };
+        let mut world = at(&swinging_bar(), &settings, &[0.0]);
+        run(&mut world, make("pd", 100.0, 20.0).as_mut(), &[1.2], 4000);
+        world.q()[0]
+    };
+    let (stopped, free) = (end(true), end(false));
+    println!("contact: {stopped} {free}");
+    assert!((0.2..0.5).contains(&stopped) && free > 1.1, "{stopped} {free}");
+}
+
+#[test]
+fn kinematic_is_exactly_where_the_reference_is() {
+    let robot = arm_with(|parts| limited(parts, (-0.1, 0.1), 1.0));
+    let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
+    let mut kinematic = make("kinematic", 0.0, 0.0);
+    for step in 1..=100_u32 {
+        let q = ARM_Q0.map(|q| q * f64::from(step) * 0.1);
+        let qd = ARM_Q0.map(|q| -q);
+        world.step(kinematic.as_mut(), &Reference { q: &q, qd: &qd }).unwrap();
+        assert_eq!((world.q(), world.qd()), (&q[..], &qd[..]));
+        assert_eq!(world.step_count(), u64::from(step));
+        assert_eq!(world.time_s().to_bits(), (f64::from(step) * 1e-3).to_bits());
+    }
+}
+
+/// Poses against the product of the joints' transforms, m and quaternion entries; rounding of
+/// eight products of 1 m; worst seen 1e-15.
+const POSE: f64 = 1e-12;
+
+#[test]
+fn a01_poses_are_those_of_the_coordinates() {
+    let robot = arm();
+    let mut world = at(&robot, &WorldSettings::default(), &[7.0, -8.0, 0.1, 2.0, -1.0, 20.0]);
+    let mut passive = make("passive", 0.0, 0.0);
+    for _ in 0..3 {
+        let mut poses = vec![Isometry3::identity(); robot.links().len()];
+        world.root_from_links_into(&mut poses);
+        for link in robot.link_indices() {
+            assert_eq!(world.root_from_link(link), poses[link.get()]);
+            let Some(index) = robot.parent_joint(link) else { continue };
+            let joint = robot.joint(index);
+            let q = robot.coordinate(index).map_or(0.0, |coordinate| world.q()[coordinate]);
+            let turn = nalgebra::UnitQuaternion::from_axis_angle(&joint.axis_in_joint, q);
+            let expected = poses[joint.parent.get()] * joint.parent_from_joint * turn;
+            let error = expected.to_homogeneous() - poses[link.get()].to_homogeneous();
+            assert!(error.amax() < POSE, "{}: {error}", joint.name);
+        }
+        run(&mut world, passive.as_mut(), &[0.0; 6], 40);
+    }
+}
+
+/// A controller from outside the crate: a servo on one joint only.
+struct OneServo;
+
+impl Controller for OneServo {
+    fn name(&self) -> &'static str {
+        "one_servo"
+    }
+
+    fn command(&mut self, joints: &JointsView<'_>, reference: &Reference<'_>, commands: &mut Commands) {
+        joints.add_gravity_torque(commands.torque_mut());
+        let gains = Gains { stiffness: 500.0, damping: 100.0 };
+        commands.drive(5, Motor { gains, q: reference.q[5], qd: reference.qd[5] });
+    }
+}
+
+#[test]
+fn controllers_can_come_from_outside() {
+    let mut world = at(&arm(), &WorldSettings::default(), &ARM_Q0);
+    run(&mut world, &mut OneServo, &[0.0; 6], 4000);
+    assert!(world.q()[5].abs() < 1e-3, "{:?}", world.q());
+}
+
+#[test]
+fn a_world_may_move_to_another_thread() {
+    fn is_send<T: Send>() {}
+    is_send::<World>();
+    is_send::<congruent_simulation::Snapshot>();
+}
