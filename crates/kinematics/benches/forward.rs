@@ -1,4 +1,4 @@
-//! What one forward kinematics costs, on an arm of six joints shaped like a UR5e.
+//! What one forward kinematics costs, on an arm of six joints with the lengths of a `UR5e`.
 
 #[path = "../tests/support/mod.rs"]
 mod support;

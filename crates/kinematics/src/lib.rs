@@ -12,6 +12,7 @@ mod error;
 mod pose;
 mod rotation;
 mod screw_tree;
+mod sin_cos;
 mod twist;
 mod urdf_tree;
 

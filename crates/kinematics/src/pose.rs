@@ -188,9 +188,9 @@ mod tests {
     use super::*;
     use crate::{rotation::rotation_exp, support};
 
-    /// Rounding: a product of two poses within 3 m costs some ten roundings of 3 eps; worst seen 1.6e-15.
+    /// Rounding: a product of two poses within 3 m costs some ten roundings of 3 eps; worst seen 1.5e-15.
     const ROUNDING_M: f64 = 1e-14;
-    /// Rounding of entries of size 1, ten operations; worst seen 8.4e-16.
+    /// Rounding of entries of size 1, ten operations; worst seen 6.8e-16.
     const ROUNDING_RAD: f64 = 1e-14;
 
     fn turned(x: f64, y: f64, z: f64) -> Pose {

@@ -35,8 +35,8 @@ use crate::{error::KinematicsError, pose::Pose, rotation::hat};
 /// let mut root_from_links = [Pose::identity(); 4];
 /// tree.root_from_links_into(&q, &mut root_from_links)?;
 /// let tool = robot.find_link("tool").unwrap();
-/// assert!((root_from_links[tool.get()].translation - Vector3::new(0., 0.5, 0.2)).norm() < 1e-15);
-/// assert!((tree.root_from_link(&q, tool)?.translation - Vector3::new(0., 0.5, 0.2)).norm() < 1e-15);
+/// assert!((root_from_links[tool.get()].translation - Vector3::new(0., 0.5, 0.2)).norm() < 4.0 * f64::EPSILON);
+/// assert!((tree.root_from_link(&q, tool)?.translation - Vector3::new(0., 0.5, 0.2)).norm() < 4.0 * f64::EPSILON);
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())
 /// ```
 #[derive(Debug, Clone)]

@@ -9,9 +9,9 @@ use nalgebra::{Isometry3, Matrix3, Point3, UnitQuaternion, Vector3};
 use support::{RowFigures, TableFigures, within};
 
 /// Golden digits: the cases print twelve decimals, so half a unit of the last, and rounding; worst
-/// seen 5.0e-13.
+/// seen 4.7e-13.
 const PRINTED: f64 = 5.01e-13;
-/// Rounding of up to nine products within 2 m, eps each, once by each path; worst seen 4.5e-16.
+/// Rounding of up to nine products within 2 m, eps each, once by each path; worst seen 2.8e-15.
 const ROUNDING: f64 = 1e-14;
 
 #[track_caller]
@@ -125,6 +125,8 @@ fn case_08_dh_against_poe() {
 
 #[test]
 fn case_09_one_table_under_both_conventions_is_two_robots() {
+    /// No rounding: the arm reaches 0.9 m, and the two tips lie 0.4996 m apart.
+    const APART_M: f64 = 0.2;
     let q = degrees([20.0, -30.0, 40.0]);
     let tip = |convention| {
         let figures = TableFigures::new(convention, &spatial_3r());
@@ -147,8 +149,6 @@ fn case_09_one_table_under_both_conventions_is_two_robots() {
             ModifiedDh { a_m, alpha_rad, d_m, theta_rad }.transform()
         }),
     );
-    /// By hand: standard puts the shoulder 0.2 m up, modified shifts it along the turned axis by as much.
-    const APART_M: f64 = 0.2;
     assert!(standard.distance_m(&modified) > APART_M);
 }
 

@@ -11,22 +11,7 @@ pub use standard::StandardDh;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::pose::Pose;
-
-/// Sine and cosine of one angle.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct SinCos {
-    pub(crate) sin: f64,
-    pub(crate) cos: f64,
-}
-
-impl SinCos {
-    #[inline]
-    pub(crate) fn of(angle_rad: f64) -> Self {
-        let (sin, cos) = angle_rad.sin_cos();
-        Self { sin, cos }
-    }
-}
+use crate::{pose::Pose, sin_cos::SinCos};
 
 /// A pose under way along a chain, as axes and origin: a row turns two axes and shifts the origin,
 /// which is a third of the work of a matrix product.
@@ -72,5 +57,17 @@ impl Axes {
             z: self.z * alpha.cos - self.y * alpha.sin,
             origin: self.origin + self.x * a_m,
         }
+    }
+
+    /// Times any pose.
+    #[inline]
+    pub(crate) fn times(&self, here_from_there: &Pose) -> Pose {
+        let Pose { rotation, translation: p } = here_from_there;
+        let turned = |column: usize| {
+            let along = |row: usize| rotation[(row, column)];
+            self.x * along(0) + self.y * along(1) + self.z * along(2)
+        };
+        let origin = self.x * p.x + self.y * p.y + self.z * p.z + self.origin;
+        Self { x: turned(0), y: turned(1), z: turned(2), origin }.pose()
     }
 }

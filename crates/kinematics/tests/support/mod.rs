@@ -15,6 +15,7 @@ use proptest::{prelude::*, test_runner::FileFailurePersistence};
 /// Whether `value` is below `bound`; with `CONGRUENT_MEASURE` set it also says so on stderr, from
 /// where the worst values in the comments of the tolerances come.
 #[track_caller]
+#[allow(clippy::print_stderr, reason = "asked for, and read by whoever asks")]
 pub fn within(value: f64, bound: f64) -> bool {
     if std::env::var_os("CONGRUENT_MEASURE").is_some() {
         let at = std::panic::Location::caller();
