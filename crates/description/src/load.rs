@@ -1,13 +1,175 @@
-//! From a path to a [`RobotDescription`]: the one place that decides which files are opened.
+//! From a path to a [`RobotDescription`]: decides which files are opened.
 
-use std::path::Path;
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
-use crate::{RobotDescription, diagnostic::Diagnostic};
+use toml::Spanned;
+
+use crate::{
+    Robot, RobotDescription, Tolerance,
+    diagnostic::{Diagnostic, SourceFile},
+    file::read_text,
+    findings::Findings,
+    mesh::MeshStore,
+    packages::Packages,
+    robot_file::{self, Declared, ROBOT_FILE, ROBOT_FILE_BYTES, WrittenRobot, default_chain},
+    srdf::{self, SRDF_BYTES},
+    toml_text::parse_toml,
+    urdf::{self, URDF_BYTES},
+};
+
+const ACCEPTED: &str = "give a folder with robot.toml, a robot file (.toml) or a .urdf";
 
 /// Loads a robot: a folder with `robot.toml`, that file under any name, or a bare `.urdf`.
+///
+/// A bare URDF has its root as base, the leaf of its longest chain of moving joints as tip, and no
+/// Denavit-Hartenberg table.
 ///
 /// # Errors
 /// Every finding, errors and warnings, when at least one is an error.
 pub fn load_robot(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
-    Err(vec![Diagnostic::error("load::todo", path.display().to_string())])
+    let name = path.display();
+    if path.is_dir() {
+        let robot_file = path.join(ROBOT_FILE);
+        if !robot_file.exists() {
+            let message = format!("{name} is a directory without a {ROBOT_FILE}");
+            return Err(vec![Diagnostic::error("load::no_robot_file", message).with_help(ACCEPTED)]);
+        }
+        return load_robot_file(&robot_file);
+    }
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+        load_robot_file(path)
+    } else {
+        load_bare_urdf(path)
+    }
+}
+
+fn open(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Vec<Diagnostic>> {
+    read_text(path, most_bytes).map_err(|fault| {
+        let is_missing = fault.code == "file::not_found";
+        vec![if is_missing { fault.with_help(ACCEPTED) } else { fault }]
+    })
+}
+
+fn load_bare_urdf(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
+    let (robot, warnings) = load_urdf(path, BTreeMap::new())?;
+    let (base, tip) = default_chain(&robot);
+    Ok(RobotDescription {
+        path: path.to_owned(),
+        urdf_path: path.to_owned(),
+        robot,
+        base,
+        tip,
+        dh: None,
+        tip_from_tcp: None,
+        tolerance: Tolerance::default(),
+        disabled_collisions: std::collections::BTreeSet::new(),
+        warnings,
+    })
+}
+
+fn load_urdf(
+    path: &Path,
+    declared: BTreeMap<String, PathBuf>,
+) -> Result<(Robot, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let source = open(path, URDF_BYTES)?;
+    let packages = Packages::new(parent(path), declared).map_err(|error| {
+        let message = format!("{}: its folder cannot be read: {error}", path.display());
+        vec![Diagnostic::error("file::unreadable", message)]
+    })?;
+    let mut meshes = MeshStore::new(&packages);
+    let mut findings = Findings::default();
+    let robot = urdf::parse(&source.text, &mut |uri, scale| meshes.find(uri, scale), &mut findings);
+    let findings = findings.in_file(&source);
+    robot.map(|robot| (robot, findings.clone())).ok_or(findings)
+}
+
+/// The folder of a file; a bare file name is in the current one.
+fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+fn load_robot_file(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
+    let source = open(path, ROBOT_FILE_BYTES)?;
+    let mut findings = Findings::default();
+    let (written, urdf_path) = match written_robot(path, &source.text, &mut findings) {
+        Some(found) => found,
+        None => return Err(findings.in_file(&source)),
+    };
+    let declared_packages = declared_packages(&written, parent(path), &mut findings);
+    // A broken URDF must not hide what is wrong with the robot file.
+    let (robot, urdf_warnings) = match load_urdf(&urdf_path, declared_packages) {
+        Ok(loaded) => loaded,
+        Err(urdf_findings) => {
+            let mut all = findings.in_file(&source);
+            all.extend(urdf_findings);
+            return Err(all);
+        }
+    };
+    let declared = robot_file::check(&written, &source.text, &robot, &mut findings);
+    let (disabled_collisions, srdf_findings) = match &written.srdf {
+        Some(srdf) => match read_text(&parent(path).join(srdf.get_ref()), SRDF_BYTES) {
+            Ok(source) => srdf::parse(&source, &robot),
+            Err(fault) => (std::collections::BTreeSet::new(), vec![fault.at(srdf.span())]),
+        },
+        None => Default::default(),
+    };
+    findings.extend(srdf_findings);
+    findings.extend(urdf_warnings);
+    if let (Some(declared), false) = (declared, findings.has_error()) {
+        let Declared { base, tip, dh, tip_from_tcp, tolerance } = declared;
+        return Ok(RobotDescription {
+            path: path.to_owned(),
+            urdf_path,
+            robot,
+            base,
+            tip,
+            dh,
+            tip_from_tcp,
+            tolerance,
+            disabled_collisions,
+            warnings: findings.in_file(&source),
+        });
+    }
+    Err(findings.in_file(&source))
+}
+
+fn written_robot(path: &Path, text: &str, findings: &mut Findings) -> Option<(WrittenRobot, PathBuf)> {
+    let written: WrittenRobot = parse_toml(text, findings)?;
+    let urdf = findings.keep(written.urdf.as_ref().ok_or_else(|| {
+        Diagnostic::error("robot_file::urdf", "the robot file has no key \"urdf\"")
+            .at(0..0)
+            .with_help("urdf = \"robot.urdf\", relative to the robot file")
+    }))?;
+    let urdf_path = parent(path).join(urdf.get_ref());
+    if !urdf_path.exists() {
+        let message =
+            format!("urdf = \"{}\": {} does not exist", urdf.get_ref().display(), urdf_path.display());
+        findings.push(Diagnostic::error("file::not_found", message).at(urdf.span()));
+        return None;
+    }
+    Some((written, urdf_path))
+}
+
+fn declared_packages(
+    written: &WrittenRobot,
+    folder: &Path,
+    findings: &mut Findings,
+) -> BTreeMap<String, PathBuf> {
+    let mut resolve = |(name, written): (&String, &Spanned<PathBuf>)| {
+        let path = folder.join(written.get_ref());
+        let canonical = path.canonicalize().ok().filter(|path| path.is_dir());
+        let folder = findings.keep(canonical.ok_or_else(|| {
+            let message = format!("package \"{name}\": {} is not a folder", path.display());
+            Diagnostic::error("robot_file::package", message).at(written.span())
+        }))?;
+        Some((name.clone(), folder))
+    };
+    written.packages.iter().filter_map(&mut resolve).collect()
 }

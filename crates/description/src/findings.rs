@@ -1,0 +1,43 @@
+//! Collecting what is wrong instead of stopping at the first fault.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Diagnostic, Severity, SourceFile};
+
+/// What was found so far while reading one input.
+#[derive(Debug, Default)]
+pub struct Findings(Vec<Diagnostic>);
+
+impl Findings {
+    /// Adds a finding.
+    pub fn push(&mut self, finding: Diagnostic) {
+        self.0.push(finding);
+    }
+
+    /// Adds findings.
+    pub fn extend(&mut self, findings: impl IntoIterator<Item = Diagnostic>) {
+        self.0.extend(findings);
+    }
+
+    /// The value of `result`; its fault is kept here.
+    pub fn keep<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
+        result.map_err(|finding| self.push(finding)).ok()
+    }
+
+    /// Whether anything found so far stops the work.
+    pub fn has_error(&self) -> bool {
+        self.0.iter().any(|finding| finding.severity == Severity::Error)
+    }
+
+    /// All findings in the order of the text.
+    pub fn into_vec(mut self) -> Vec<Diagnostic> {
+        self.0.sort_by_key(|finding| finding.span.as_ref().map(|span| span.start));
+        self.0
+    }
+
+    /// All findings in the order of the text, each marked as being about `source` unless it
+    /// already says otherwise.
+    pub fn in_file(self, source: &Arc<SourceFile>) -> Vec<Diagnostic> {
+        self.into_vec().into_iter().map(|finding| finding.in_file(source)).collect()
+    }
+}

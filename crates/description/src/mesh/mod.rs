@@ -1,0 +1,131 @@
+//! Mesh files to triangles: STL, OBJ and COLLADA. Bytes in, checked triangles out; nothing here
+//! opens a file, and a material library that a mesh names is never read.
+
+mod dae;
+mod obj;
+mod stl;
+mod store;
+
+use nalgebra::{Point3, Vector3};
+
+pub(crate) use store::{FoundMesh, MeshStore};
+
+/// Triangles of one file, in metres and in the file's own axes.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Triangles {
+    pub(crate) vertices_m: Vec<Point3<f64>>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Material libraries that the file names.
+    pub(crate) material_libraries: Vec<String>,
+}
+
+/// Why bytes are no usable mesh.
+#[derive(Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub(crate) enum MeshError {
+    /// The file name's extension is none of the three.
+    #[error("mesh format \"{extension}\" is not supported (use STL, OBJ or DAE)")]
+    Unsupported { extension: String },
+    /// Fewer bytes than any STL has.
+    #[error("{bytes} bytes are too short for an STL file, whose header alone is 84")]
+    TooShort { bytes: usize },
+    /// The count in the header and the length of the file disagree.
+    #[error("the header promises {promised} triangles, the file holds {held}: it is truncated")]
+    Truncated { promised: u32, held: usize },
+    /// A fault with its line.
+    #[error("line {line}: {what}")]
+    Line { line: usize, what: String },
+    /// A fault that the reader of the format describes.
+    #[error("{what}")]
+    Format { what: String },
+    /// A corner names a vertex that is not there.
+    #[error("triangle {triangle} uses vertex index {index}, out of range: there are {vertices} vertices")]
+    Index { triangle: usize, index: u32, vertices: usize },
+    /// A coordinate is NaN or infinite.
+    #[error("triangle {triangle} has a vertex that is not finite")]
+    NotFinite { triangle: usize },
+    /// Nothing to touch or to look at.
+    #[error("no triangle has area")]
+    NoArea,
+}
+
+/// Reads a mesh in the format that `extension` names.
+///
+/// An empty result is an empty COLLADA scene, which real robots hold; every other mesh without a
+/// triangle that has area is refused.
+pub(crate) fn parse(extension: &str, bytes: &[u8]) -> Result<Triangles, MeshError> {
+    let mesh = match extension.to_ascii_lowercase().as_str() {
+        "stl" => stl::parse(bytes)?,
+        "obj" => obj::parse(bytes)?,
+        "dae" => {
+            let mesh = dae::parse(bytes)?;
+            if mesh.triangles.is_empty() {
+                return Ok(mesh);
+            }
+            mesh
+        }
+        _ => return Err(MeshError::Unsupported { extension: format!(".{extension}") }),
+    };
+    check(&mesh)?;
+    Ok(mesh)
+}
+
+fn check(mesh: &Triangles) -> Result<(), MeshError> {
+    let mut has_area = false;
+    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+        let vertices = mesh.vertices_m.len();
+        if let Some(&index) = corners.iter().find(|&&index| index as usize >= vertices) {
+            return Err(MeshError::Index { triangle, index, vertices });
+        }
+        let [a, b, c] = corners.map(|index| mesh.vertices_m[index as usize]);
+        if [a, b, c].iter().any(|corner| !corner.coords.iter().all(|figure| figure.is_finite())) {
+            return Err(MeshError::NotFinite { triangle });
+        }
+        has_area |= (b - a).cross(&(c - a)) != Vector3::zeros();
+    }
+    if has_area { Ok(()) } else { Err(MeshError::NoArea) }
+}
+
+/// A polygon as a fan of triangles around its first corner.
+fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
+    corners.windows(2).skip(1).map(|edge| [corners[0], edge[0], edge[1]])
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::point;
+
+    use super::*;
+
+    fn mesh(vertices_m: Vec<Point3<f64>>, triangle: [u32; 3]) -> Triangles {
+        Triangles { vertices_m, triangles: vec![triangle], ..Triangles::default() }
+    }
+
+    #[test]
+    fn geometry_is_checked_before_use() {
+        let corners = vec![Point3::origin(), point![1.0, 0.0, 0.0], point![0.0, 1.0, 0.0]];
+        let mut broken = corners.clone();
+        broken[2].z = f64::NAN;
+        assert_eq!(check(&mesh(corners.clone(), [0, 1, 2])), Ok(()));
+        assert_eq!(check(&mesh(corners.clone(), [0, 1, 1])), Err(MeshError::NoArea));
+        assert_eq!(
+            check(&mesh(corners, [0, 1, 3])),
+            Err(MeshError::Index { triangle: 0, index: 3, vertices: 3 })
+        );
+        assert_eq!(check(&mesh(broken, [0, 1, 2])), Err(MeshError::NotFinite { triangle: 0 }));
+        assert_eq!(check(&Triangles::default()), Err(MeshError::NoArea));
+    }
+
+    #[test]
+    fn other_formats_are_refused_by_name() {
+        let message = parse("step", b"").unwrap_err().to_string();
+        assert_eq!(message, "mesh format \".step\" is not supported (use STL, OBJ or DAE)");
+    }
+
+    #[test]
+    fn a_polygon_is_a_fan() {
+        assert_eq!(fan(&[4, 5, 6, 7]).collect::<Vec<_>>(), [[4, 5, 6], [4, 6, 7]]);
+        assert_eq!(fan(&[4, 5]).count(), 0);
+        assert_eq!(fan(&[]).count(), 0);
+    }
+}

@@ -1,0 +1,112 @@
+//! The meshes of one robot: each file is read once for each scale and shared.
+
+use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+
+use nalgebra::{Point3, Vector3};
+
+use super::{Triangles, parse};
+use crate::{diagnostic::Diagnostic, file::read_bytes, geometry::Mesh, packages::Packages};
+
+/// The largest mesh file that is read.
+const MESH_BYTES: u64 = 256 << 20;
+
+/// A mesh and what is suspicious about it; the latter only where it is read for the first time.
+pub(crate) struct FoundMesh {
+    pub(crate) mesh: Arc<Mesh>,
+    pub(crate) warnings: Vec<Diagnostic>,
+}
+
+/// Reads meshes inside the folders that `packages` allows.
+pub(crate) struct MeshStore<'a> {
+    packages: &'a Packages,
+    /// By file and the bits of the scale.
+    read: BTreeMap<(PathBuf, [u64; 3]), Arc<Mesh>>,
+}
+
+impl<'a> MeshStore<'a> {
+    pub(crate) fn new(packages: &'a Packages) -> Self {
+        Self { packages, read: BTreeMap::new() }
+    }
+
+    /// The mesh that a URDF names by `uri`, in metres, scaled.
+    pub(crate) fn find(&mut self, uri: &str, scale: Vector3<f64>) -> Result<FoundMesh, Diagnostic> {
+        let path = self.packages.resolve(uri)?;
+        let key = (path.clone(), scale.map(f64::to_bits).into());
+        if let Some(mesh) = self.read.get(&key) {
+            return Ok(FoundMesh { mesh: Arc::clone(mesh), warnings: Vec::new() });
+        }
+        let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+        let refused =
+            |error: super::MeshError| Diagnostic::error("mesh::invalid", format!("mesh \"{uri}\": {error}"));
+        // A format that is not read is not opened either.
+        if !["stl", "obj", "dae"].contains(&extension.to_ascii_lowercase().as_str()) {
+            return Err(refused(super::MeshError::Unsupported { extension: format!(".{extension}") }));
+        }
+        let triangles = parse(&extension, &read_bytes(&path, MESH_BYTES)?).map_err(refused)?;
+        let warnings = self.warnings(uri, &path, &triangles);
+        let mesh = Arc::new(scaled(path, triangles, scale));
+        self.read.insert(key, Arc::clone(&mesh));
+        Ok(FoundMesh { mesh, warnings })
+    }
+
+    fn warnings(&self, uri: &str, path: &std::path::Path, mesh: &Triangles) -> Vec<Diagnostic> {
+        let folder = path.parent().unwrap_or(path);
+        let outside = |library: &&String| !self.packages.allows(&folder.join(library));
+        let leaves = |library: &String| {
+            let message = format!("mesh \"{uri}\": mtllib \"{library}\" leaves the project folder");
+            Diagnostic::warning("mesh::material_outside", message)
+                .with_help("material libraries are never read; remove the line")
+        };
+        let mut warnings: Vec<_> = mesh.material_libraries.iter().filter(outside).map(leaves).collect();
+        if mesh.triangles.is_empty() {
+            let message = format!("mesh \"{uri}\": the scene is empty, the link has no shape here");
+            warnings.push(Diagnostic::warning("mesh::empty", message));
+        }
+        warnings
+    }
+}
+
+fn scaled(path: PathBuf, mesh: Triangles, scale: Vector3<f64>) -> Mesh {
+    let vertices_m =
+        mesh.vertices_m.iter().map(|vertex| Point3::from(vertex.coords.component_mul(&scale))).collect();
+    let mut triangles = mesh.triangles;
+    if scale.product() < 0.0 {
+        // A mirrored mesh would be inside out.
+        triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+    }
+    Mesh { path, vertices_m, triangles }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{point, vector};
+
+    use super::*;
+
+    const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+    #[test]
+    fn a_file_is_read_once_for_each_scale_and_mirroring_keeps_the_outside_out() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a.obj"), TRIANGLE).unwrap();
+        let packages = Packages::new(folder.path(), BTreeMap::new()).unwrap();
+        let mut store = MeshStore::new(&packages);
+        let mut find = |scale| store.find("a.obj", scale).unwrap().mesh;
+        let once = vector![1.0, 1.0, 1.0];
+        assert!(Arc::ptr_eq(&find(once), &find(once)));
+        let mirrored = find(vector![-2.0, 1.0, 1.0]);
+        assert_eq!(mirrored.vertices_m[1], point![-2.0, 0.0, 0.0]);
+        assert_eq!(mirrored.triangles, [[0, 2, 1]]);
+    }
+
+    #[test]
+    fn a_material_library_outside_is_a_warning() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("a.obj"), format!("mtllib /etc/hosts\nmtllib b.mtl\n{TRIANGLE}"))
+            .unwrap();
+        let packages = Packages::new(folder.path(), BTreeMap::new()).unwrap();
+        let found = MeshStore::new(&packages).find("a.obj", vector![1.0, 1.0, 1.0]).unwrap();
+        let messages: Vec<_> = found.warnings.into_iter().map(|warning| warning.message).collect();
+        assert_eq!(messages, ["mesh \"a.obj\": mtllib \"/etc/hosts\" leaves the project folder"]);
+    }
+}

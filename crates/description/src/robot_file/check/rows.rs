@@ -1,0 +1,170 @@
+//! The rows of a Denavit-Hartenberg table against the chain that they stand for.
+
+use std::f64::consts::TAU;
+
+use toml::Spanned;
+
+use super::{Context, first_line};
+use crate::{
+    dh_table::{DhRow, DhRowKind},
+    diagnostic::{Diagnostic, known_names, line_column},
+    findings::Findings,
+    joint::JointIndex,
+    robot_file::written::{WrittenDh, WrittenRow},
+    units::Unit,
+};
+
+pub(super) fn check(
+    dh: &Spanned<WrittenDh>,
+    context: &Context<'_>,
+    findings: &mut Findings,
+) -> Option<Vec<DhRow>> {
+    let written = &dh.get_ref().row;
+    let rows: Vec<Option<DhRow>> = written.iter().map(|row| self::row(row, context, findings)).collect();
+    let rows: Vec<DhRow> = rows.into_iter().collect::<Option<_>>()?;
+    no_joint_twice(written, &rows, findings);
+    every_joint_has_a_row(dh, &rows, context, findings);
+    order(written, &rows, context, findings);
+    (!rows.is_empty()).then_some(rows)
+}
+
+fn row(written: &Spanned<WrittenRow>, context: &Context<'_>, findings: &mut Findings) -> Option<DhRow> {
+    let row = written.get_ref();
+    let at = || first_line(written.span(), context.text);
+    let mut figure = |quantity, unit: Unit, plain: &Option<Spanned<f64>>, handy: &Option<Spanned<f64>>| {
+        findings.keep(unit.value(quantity, plain.as_ref(), handy.as_ref()))
+    };
+    let a_m = figure("a", Unit::Length, &row.a_m, &row.a_mm);
+    let alpha_rad = figure("alpha", Unit::Angle, &row.alpha_rad, &row.alpha_deg);
+    let d_m = figure("d", Unit::Length, &row.d_m, &row.d_mm);
+    let theta_rad = figure("theta", Unit::Angle, &row.theta_rad, &row.theta_deg);
+    let mut needed = |quantity, unit: Unit, value: Option<Option<f64>>| {
+        findings.keep(value?.ok_or_else(|| {
+            let [plain, handy] = unit.keys(quantity);
+            let message = format!("row of joint \"{}\" has no {plain} or {handy}", row.joint.get_ref());
+            Diagnostic::error("robot_file::missing_figure", message).at(at())
+        }))
+    };
+    let a_m = needed("a", Unit::Length, a_m);
+    let alpha_rad = needed("alpha", Unit::Angle, alpha_rad);
+    let d_m = needed("d", Unit::Length, d_m);
+    for (quantity, value, span) in [
+        ("alpha", alpha_rad, row.alpha_rad.as_ref().map(Spanned::span)),
+        ("theta", theta_rad.flatten(), row.theta_rad.as_ref().map(Spanned::span)),
+    ] {
+        if let (Some(value), Some(span)) = (value, span)
+            && value.abs() > TAU
+        {
+            let message = format!("{quantity}_rad = {value} is more than a full turn");
+            findings.push(
+                Diagnostic::warning("robot_file::degrees", message)
+                    .at(span)
+                    .with_help(format!("degrees? then the key is {quantity}_deg")),
+            );
+        }
+    }
+    let sign = sign(row, findings);
+    let joint = joint(row, context, findings);
+    Some(DhRow {
+        joint: joint?,
+        kind: (*row.kind.get_ref()).into(),
+        a_m: a_m?,
+        alpha_rad: alpha_rad?,
+        d_m: d_m?,
+        theta_rad: theta_rad?.unwrap_or(0.0),
+        sign: sign?,
+        line: line_column(context.text, written.span().start).0,
+    })
+}
+
+fn sign(row: &WrittenRow, findings: &mut Findings) -> Option<f64> {
+    let Some(sign) = &row.sign else { return Some(1.0) };
+    if sign.get_ref().abs() == 1.0 {
+        return Some(*sign.get_ref());
+    }
+    let message = format!("sign = {} must be 1 or -1", sign.get_ref());
+    findings.push(Diagnostic::error("robot_file::sign", message).at(sign.span()));
+    None
+}
+
+/// The joint of a row, which must be a moving one of the chain.
+fn joint(row: &WrittenRow, context: &Context<'_>, findings: &mut Findings) -> Option<JointIndex> {
+    let (name, robot) = (row.joint.get_ref(), context.robot);
+    let names = || context.chain.iter().map(|&joint| robot.joint(joint).name.as_str());
+    let found = robot.find_joint(name).filter(|joint| context.chain.contains(joint));
+    let Some(joint) = found else {
+        let what = match robot.find_joint(name) {
+            Some(joint) if !robot.joint(joint).kind.is_movable() => "is fixed, no row can drive it",
+            Some(_) => "is not in the chain from base to tip",
+            None => "is not in the robot",
+        };
+        let message = format!("joint \"{name}\" {what}");
+        let help = known_names(name, "moving joints of the chain", names().collect::<Vec<_>>());
+        findings.push(
+            Diagnostic::error("robot_file::unknown_joint", message).at(row.joint.span()).with_help(help),
+        );
+        return None;
+    };
+    let kind: DhRowKind = (*row.kind.get_ref()).into();
+    let is_angular = robot.joint(joint).kind.is_angular();
+    if is_angular != (kind == DhRowKind::Revolute) {
+        let (row_kind, unit) = match kind {
+            DhRowKind::Revolute => ("revolute", "metres"),
+            DhRowKind::Prismatic => ("prismatic", "radians"),
+        };
+        let message = format!("the row is {row_kind}, joint \"{name}\" of the URDF moves in {unit}");
+        findings.push(Diagnostic::warning("robot_file::row_kind", message).at(row.kind.span()));
+    }
+    Some(joint)
+}
+
+fn no_joint_twice(written: &[Spanned<WrittenRow>], rows: &[DhRow], findings: &mut Findings) {
+    for (index, row) in rows.iter().enumerate() {
+        if let Some(first) = rows[..index].iter().find(|first| first.joint == row.joint) {
+            let name = &written[index].get_ref().joint;
+            let message = format!("joint \"{}\" has a row already, at line {}", name.get_ref(), first.line);
+            findings.push(Diagnostic::error("robot_file::joint_twice", message).at(name.span()));
+        }
+    }
+}
+
+fn every_joint_has_a_row(
+    dh: &Spanned<WrittenDh>,
+    rows: &[DhRow],
+    context: &Context<'_>,
+    findings: &mut Findings,
+) {
+    let robot = context.robot;
+    // A mimic joint is driven by its master, in the model as in the machine.
+    let missing: Vec<&str> = context
+        .chain
+        .iter()
+        .filter(|&&joint| robot.joint(joint).mimic.is_none())
+        .filter(|&&joint| rows.iter().all(|row| row.joint != joint))
+        .map(|&joint| robot.joint(joint).name.as_str())
+        .collect();
+    if missing.is_empty() && !rows.is_empty() {
+        return;
+    }
+    let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
+    let mut message = format!(
+        "table has {}, chain base -> tip has {}",
+        count(rows.len(), "row"),
+        count(context.chain.len(), "moving joint")
+    );
+    if !missing.is_empty() {
+        message += &format!(": no row for {}", missing.join(", "));
+    }
+    findings
+        .push(Diagnostic::error("robot_file::missing_row", message).at(first_line(dh.span(), context.text)));
+}
+
+fn order(written: &[Spanned<WrittenRow>], rows: &[DhRow], context: &Context<'_>, findings: &mut Findings) {
+    let place = |row: &DhRow| context.chain.iter().position(|&joint| joint == row.joint);
+    if let Some(later) = rows.windows(2).position(|pair| place(&pair[0]) > place(&pair[1])) {
+        let name = &written[later + 1].get_ref().joint;
+        let message =
+            format!("row of joint \"{}\" is in another order than the chain base -> tip", name.get_ref());
+        findings.push(Diagnostic::warning("robot_file::row_order", message).at(name.span()));
+    }
+}

@@ -1,0 +1,13 @@
+//! The robot file `robot.toml`: which URDF, which chain, which analytical model.
+
+mod check;
+mod written;
+
+pub(crate) use check::{Declared, check, default_chain};
+pub(crate) use written::WrittenRobot;
+
+/// The largest robot file that is read.
+pub(crate) const ROBOT_FILE_BYTES: u64 = 16 << 20;
+
+/// The name that a robot file has in a robot's folder.
+pub(crate) const ROBOT_FILE: &str = "robot.toml";

@@ -1,0 +1,44 @@
+//! SRDF: the pairs of links whose collisions do not count.
+
+use std::{collections::BTreeSet, sync::Arc};
+
+use crate::{
+    Robot,
+    diagnostic::{Diagnostic, SourceFile, known_names},
+    link::LinkIndex,
+    urdf,
+};
+
+/// The largest SRDF that is read.
+pub(crate) const SRDF_BYTES: u64 = 16 << 20;
+
+/// The pairs that `<disable_collisions>` names, the smaller index first; findings beside them.
+pub(crate) fn parse(
+    source: &Arc<SourceFile>,
+    robot: &Robot,
+) -> (BTreeSet<(LinkIndex, LinkIndex)>, Vec<Diagnostic>) {
+    let mut pairs = BTreeSet::new();
+    let document = match urdf::parse_xml(&source.text) {
+        Ok(document) => document,
+        Err(fault) => return (pairs, vec![fault.in_file(source)]),
+    };
+    let mut findings = Vec::new();
+    for node in document.descendants().filter(|node| node.has_tag_name("disable_collisions")) {
+        let mut link = |key: &str| {
+            let name = node.attribute(key).unwrap_or_default();
+            robot.find_link(name).or_else(|| {
+                let message = format!("<disable_collisions>: {key} \"{name}\" is no link of the robot");
+                let links = robot.links().iter().map(|link| link.name.as_str());
+                let finding = Diagnostic::warning("srdf::unknown_link", message)
+                    .at(node.range())
+                    .with_help(known_names(name, "links", links));
+                findings.push(finding.in_file(source));
+                None
+            })
+        };
+        if let (Some(one), Some(other)) = (link("link1"), link("link2")) {
+            pairs.insert((one.min(other), one.max(other)));
+        }
+    }
+    (pairs, findings)
+}

@@ -1,0 +1,154 @@
+//! TOML text to a `Written` struct, every fault a diagnostic with its place in the text.
+//!
+//! serde stops at the first unknown key. Here that key is reported and taken out, and the rest is
+//! tried again, so that one run names every misspelt key.
+
+use std::ops::Range;
+
+use serde::de::DeserializeOwned;
+use toml::{
+    Deserializer,
+    de::{DeTable, DeValue, Error},
+};
+
+use crate::{
+    diagnostic::{Diagnostic, known_names},
+    findings::Findings,
+};
+
+/// Parses `text`; faults go to `findings`.
+///
+/// A value is returned as well when the only faults are unknown keys, so that the caller can
+/// check the rest and report everything at once.
+pub fn parse_toml<T: DeserializeOwned>(text: &str, findings: &mut Findings) -> Option<T> {
+    let root = findings.keep(DeTable::parse(text).map_err(|error| diagnostic(&error)))?;
+    let (span, mut root) = (root.span(), root.into_inner());
+    loop {
+        let attempt = toml::Spanned::new(span.clone(), root.clone());
+        let error = match T::deserialize(Deserializer::from(attempt)) {
+            Ok(value) => return Some(value),
+            Err(error) => error,
+        };
+        findings.push(diagnostic(&error));
+        // Each turn takes one key out, so the loop ends.
+        let unknown = error.span().filter(|_| error.message().starts_with(UNKNOWN_KEY))?;
+        if !take_out(&mut root, &unknown) {
+            return None;
+        }
+    }
+}
+
+/// How serde begins its message about a key that no field has.
+const UNKNOWN_KEY: &str = "unknown field ";
+
+fn take_out(table: &mut DeTable<'_>, key: &Range<usize>) -> bool {
+    if let Some(name) = table.keys().find(|name| name.span() == *key).cloned() {
+        return table.remove(&name).is_some();
+    }
+    table.iter_mut().any(|(_, value)| take_out_of_value(value.get_mut(), key))
+}
+
+fn take_out_of_value(value: &mut DeValue<'_>, key: &Range<usize>) -> bool {
+    match value {
+        DeValue::Table(table) => take_out(table, key),
+        DeValue::Array(array) => array.iter_mut().any(|value| take_out_of_value(value.get_mut(), key)),
+        _ => false,
+    }
+}
+
+/// The error of the `toml` crate as a diagnostic.
+pub fn diagnostic(error: &Error) -> Diagnostic {
+    let text = error.message();
+    // serde quotes names with backticks: the offending one first, then the expected ones.
+    let mut names = text.split('`').skip(1).step_by(2);
+    let first = names.next().unwrap_or_default();
+    let known: Vec<&str> = names.collect();
+    let known_help = |what: &str| known_names(first, what, known.iter().copied());
+    let found = if text.starts_with(UNKNOWN_KEY) {
+        Diagnostic::error("toml::unknown_key", format!("unknown key \"{first}\""))
+            .with_help(known_help("keys"))
+    } else if text.starts_with("unknown variant ") {
+        Diagnostic::error("toml::unknown_value", format!("unknown value \"{first}\""))
+            .with_help(known_help("values"))
+    } else if text.starts_with("missing field ") {
+        Diagnostic::error("toml::missing_key", format!("missing key \"{first}\""))
+    } else {
+        Diagnostic::error("toml::invalid", text.replace('\n', ", "))
+    };
+    found.at(error.span().unwrap_or(0..0))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde::Deserialize;
+
+    use super::*;
+    use crate::diagnostic::SourceFile;
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Written {
+        duration: Option<f64>,
+        #[serde(default)]
+        row: Vec<Row>,
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Row {
+        kind: Kind,
+    }
+
+    #[derive(Debug, Deserialize, PartialEq)]
+    #[serde(rename_all = "snake_case")]
+    enum Kind {
+        Revolute,
+        Prismatic,
+    }
+
+    fn read(text: &str) -> (Option<Written>, Vec<String>) {
+        let mut findings = Findings::default();
+        let value = parse_toml(text, &mut findings);
+        let source = SourceFile { path: "x.toml".into(), text: text.to_owned() };
+        let line = |found: Diagnostic| {
+            let (line, column) = found.line_column().unwrap();
+            let help = found.help.map_or(String::new(), |help| format!(" ({help})"));
+            format!("{line}:{column}: {}{help}", found.message)
+        };
+        (value, findings.in_file(&source.into()).into_iter().map(line).collect())
+    }
+
+    #[test]
+    fn a_good_text_gives_the_value() {
+        let (value, findings) = read("duration = 2\n[[row]]\nkind = \"prismatic\"");
+        let value = value.unwrap();
+        assert_eq!(findings, Vec::<String>::new());
+        assert_eq!((value.duration, &value.row[0].kind), (Some(2.0), &Kind::Prismatic));
+    }
+
+    #[test]
+    fn every_unknown_key_is_named_in_one_run() {
+        let (value, findings) = read("durration = 2\nseed = 1\n[[row]]\nkind = \"revolute\"\nkinds = 3\n");
+        assert!(value.is_some());
+        assert_eq!(
+            findings,
+            [
+                "1:1: unknown key \"durration\" (did you mean \"duration\"? known keys: duration, row)",
+                "2:1: unknown key \"seed\" (known keys: duration, row)",
+                "5:1: unknown key \"kinds\" (did you mean \"kind\"? known keys: kind)",
+            ]
+        );
+    }
+
+    #[test]
+    fn other_faults_say_where() {
+        let (_, findings) = read("[[row]]\nkind = \"revolut\"");
+        assert_eq!(
+            findings,
+            ["2:8: unknown value \"revolut\" (did you mean \"revolute\"? known values: revolute, prismatic)"]
+        );
+        assert_eq!(read("\n[[row]]").1, ["2:1: missing key \"kind\""]);
+        assert_eq!(read("duration = \"2\"").1, ["1:12: invalid type: string \"2\", expected f64"]);
+        assert_eq!(read("duration = = 2").1.len(), 1);
+    }
+}

@@ -1,0 +1,128 @@
+//! A pass over the tokens that bounds the depth before any tree is built: thousands of nested
+//! elements overflow the stack of a tree builder, which nothing can catch.
+
+use xmlparser::{ElementEnd, Token, Tokenizer};
+
+use crate::diagnostic::Diagnostic;
+
+/// URDF needs six levels, vendor blocks a few more.
+const DEEPEST: usize = 64;
+
+/// An element that is not closed yet.
+struct Open<'a> {
+    tag: &'a str,
+    name: Option<&'a str>,
+    start: usize,
+}
+
+/// Refuses DTDs, too deep nesting and text that ends early.
+pub(super) fn check(text: &str) -> Result<(), Diagnostic> {
+    let mut open: Vec<Open<'_>> = Vec::new();
+    for token in Tokenizer::from(text) {
+        let token = token.map_err(|error| malformed(&error, text, &open))?;
+        match token {
+            Token::DtdStart { span, .. } | Token::EmptyDtd { span, .. } => {
+                let message = "DTD (<!DOCTYPE ...>) and entity declarations are refused";
+                return Err(Diagnostic::error("xml::dtd", message)
+                    .at(span.range())
+                    .with_help("write the values out; no entity is ever expanded or fetched"));
+            }
+            Token::ElementStart { span, local, .. } => {
+                open.push(Open { tag: local.as_str(), name: None, start: span.start() });
+                if open.len() > DEEPEST {
+                    let message = format!("XML is nested deeper than {DEEPEST} elements");
+                    return Err(Diagnostic::error("xml::depth", message).at(span.range()));
+                }
+            }
+            Token::Attribute { local, value, .. } if local.as_str() == "name" => {
+                if let Some(element) = open.last_mut() {
+                    element.name = Some(value.as_str());
+                }
+            }
+            Token::ElementEnd { end: ElementEnd::Empty | ElementEnd::Close(..), .. } => {
+                open.pop();
+            }
+            _ => {}
+        }
+    }
+    if open.is_empty() { Ok(()) } else { Err(unclosed(&open)) }
+}
+
+fn malformed(error: &xmlparser::Error, text: &str, open: &[Open<'_>]) -> Diagnostic {
+    let at = offset(text, error.pos().row, error.pos().col);
+    if !open.is_empty() && !text[at..].contains('>') {
+        return unclosed(open);
+    }
+    // The library's text ends in a position of its own, which the span already gives.
+    let what = error.to_string();
+    Diagnostic::error("xml::malformed", format!("XML is not well-formed: {what}")).at(at..at)
+}
+
+/// What is open at the end, innermost last: the innermost element that has a name is what a
+/// person looks for.
+fn unclosed(open: &[Open<'_>]) -> Diagnostic {
+    let last = &open[open.len() - 1];
+    let owner = open.iter().rev().find_map(|element| Some((element.tag, element.name?)));
+    let inside = match owner {
+        Some((tag, name)) if last.name.is_none() => format!(" in {tag} \"{name}\""),
+        Some((_, name)) => format!(" \"{name}\""),
+        None => String::new(),
+    };
+    let message = format!("unexpected end of file: <{}>{inside} is not closed", last.tag);
+    Diagnostic::error("xml::truncated", message)
+        .at(last.start..last.start + 1 + last.tag.len())
+        .with_help("the file is cut off or a closing tag is missing")
+}
+
+/// Byte offset of a row and a column in characters, both from 1.
+pub(super) fn offset(text: &str, row: u32, column: u32) -> usize {
+    let line_start = match row {
+        0 | 1 => 0,
+        _ => text.match_indices('\n').nth(row as usize - 2).map_or(text.len(), |(newline, _)| newline + 1),
+    };
+    let line = &text[line_start..];
+    let column = column.saturating_sub(1) as usize;
+    line_start + line.char_indices().nth(column).map_or(line.len(), |(at, _)| at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn refused(text: &str, code: &str, message: &str) {
+        let fault = check(text).unwrap_err();
+        assert_eq!(fault.code, code);
+        assert!(fault.message.contains(message), "{}", fault.message);
+        assert!(fault.span.is_some());
+    }
+
+    #[test]
+    fn depth_and_entities_are_bounded() {
+        let nested = |depth| "<a>".repeat(depth) + &"</a>".repeat(depth);
+        assert_eq!(check(&nested(DEEPEST)), Ok(()));
+        refused(&nested(100_000), "xml::depth", "deeper than 64");
+        refused("<!DOCTYPE r [<!ENTITY x SYSTEM \"f\">]><r>&x;</r>", "xml::dtd", "entity");
+        refused("<!DOCTYPE r><r/>", "xml::dtd", "DTD");
+    }
+
+    #[test]
+    fn an_early_end_names_what_is_open() {
+        refused(
+            "<r><joint name=\"j\"><limit a=\"1",
+            "xml::truncated",
+            "<limit> in joint \"j\" is not closed",
+        );
+        refused("<r><joint name=\"j\">\n", "xml::truncated", "<joint> \"j\" is not closed");
+        refused("<r>", "xml::truncated", "<r> is not closed");
+        refused("<r><a b=></a></r>", "xml::malformed", "invalid attribute");
+    }
+
+    #[test]
+    fn rows_and_columns_are_offsets() {
+        let text = "ab\néd\n";
+        assert_eq!(offset(text, 1, 1), 0);
+        assert_eq!(offset(text, 2, 2), 5);
+        assert_eq!(offset(text, 9, 9), text.len());
+    }
+}

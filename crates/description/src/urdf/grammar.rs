@@ -1,0 +1,227 @@
+//! The grammar of URDF as tables: which elements and attributes there are, which of them must be
+//! there, and what an attribute holds. `raw.rs` reads documents against it.
+//!
+//! Source: the XML reference of URDF (wiki.ros.org/urdf/XML) and the schema of urdfdom, up to
+//! version 1.2. Required is what `urdf-rs` cannot do without.
+
+/// An element: what may be in it.
+pub(super) struct Element {
+    pub(super) name: &'static str,
+    pub(super) attributes: &'static [Attribute],
+    pub(super) children: &'static [Child],
+    /// Whether exactly one of the children must be there and no other element may.
+    pub(super) is_choice: bool,
+}
+
+/// An attribute of an element.
+pub(super) struct Attribute {
+    pub(super) name: &'static str,
+    pub(super) value: Value,
+    pub(super) is_required: bool,
+}
+
+/// What an attribute holds.
+pub(super) enum Value {
+    /// Any text, also none.
+    Text,
+    /// A name: text that is not empty.
+    Name,
+    /// So many figures.
+    Numbers(usize),
+    /// One of these words.
+    Word(&'static [&'static str]),
+}
+
+/// An element inside another.
+pub(super) struct Child {
+    pub(super) element: &'static Element,
+    pub(super) occurs: Occurs,
+}
+
+/// How often.
+#[derive(PartialEq)]
+pub(super) enum Occurs {
+    Once,
+    AtMostOnce,
+    AnyNumber,
+}
+
+const fn element(
+    name: &'static str,
+    attributes: &'static [Attribute],
+    children: &'static [Child],
+) -> Element {
+    Element { name, attributes, children, is_choice: false }
+}
+
+const fn required(name: &'static str, value: Value) -> Attribute {
+    Attribute { name, value, is_required: true }
+}
+
+const fn optional(name: &'static str, value: Value) -> Attribute {
+    Attribute { name, value, is_required: false }
+}
+
+const fn once(element: &'static Element) -> Child {
+    Child { element, occurs: Occurs::Once }
+}
+
+const fn at_most_once(element: &'static Element) -> Child {
+    Child { element, occurs: Occurs::AtMostOnce }
+}
+
+const fn any_number(element: &'static Element) -> Child {
+    Child { element, occurs: Occurs::AnyNumber }
+}
+
+use Value::{Name, Numbers, Text, Word};
+
+const NUMBER: Value = Numbers(1);
+
+/// The types that a joint may have; which of them can be simulated is decided in `joint.rs`.
+pub(super) const JOINT_TYPES: &[&str] =
+    &["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
+
+/// The whole document.
+pub(super) static ROBOT: Element = element(
+    "robot",
+    &[optional("name", Text), optional("version", Text)],
+    &[any_number(&LINK), any_number(&JOINT), any_number(&MATERIAL)],
+);
+
+static LINK: Element = element(
+    "link",
+    &[required("name", Name), optional("type", Text)],
+    &[at_most_once(&INERTIAL), any_number(&VISUAL), any_number(&COLLISION)],
+);
+
+static INERTIAL: Element = element("inertial", &[], &[at_most_once(&ORIGIN), once(&MASS), once(&INERTIA)]);
+
+static MASS: Element = element("mass", &[required("value", NUMBER)], &[]);
+
+static INERTIA: Element = element(
+    "inertia",
+    &[
+        required("ixx", NUMBER),
+        required("ixy", NUMBER),
+        required("ixz", NUMBER),
+        required("iyy", NUMBER),
+        required("iyz", NUMBER),
+        required("izz", NUMBER),
+    ],
+    &[],
+);
+
+static ORIGIN: Element = element(
+    "origin",
+    &[optional("xyz", Numbers(3)), optional("rpy", Numbers(3)), optional("quat_xyzw", Numbers(4))],
+    &[],
+);
+
+static VISUAL: Element = element(
+    "visual",
+    &[optional("name", Text)],
+    &[at_most_once(&ORIGIN), once(&GEOMETRY), at_most_once(&MATERIAL)],
+);
+
+static COLLISION: Element = element(
+    "collision",
+    &[optional("name", Text)],
+    // urdf-rs does not read a collision's material, so nothing in it is judged.
+    &[at_most_once(&ORIGIN), once(&GEOMETRY), any_number(&UNREAD_MATERIAL)],
+);
+
+static GEOMETRY: Element = Element {
+    name: "geometry",
+    attributes: &[],
+    children: &[
+        at_most_once(&BOX),
+        at_most_once(&CYLINDER),
+        at_most_once(&SPHERE),
+        at_most_once(&MESH),
+        at_most_once(&CAPSULE),
+    ],
+    is_choice: true,
+};
+
+static BOX: Element = element("box", &[required("size", Numbers(3))], &[]);
+
+static CYLINDER: Element =
+    element("cylinder", &[required("radius", NUMBER), required("length", NUMBER)], &[]);
+
+static CAPSULE: Element = element("capsule", &[required("radius", NUMBER), required("length", NUMBER)], &[]);
+
+static SPHERE: Element = element("sphere", &[required("radius", NUMBER)], &[]);
+
+static MESH: Element = element("mesh", &[required("filename", Name), optional("scale", Numbers(3))], &[]);
+
+static MATERIAL: Element =
+    element("material", &[required("name", Text)], &[at_most_once(&COLOR), at_most_once(&TEXTURE)]);
+
+static UNREAD_MATERIAL: Element = element("material", &[], &[]);
+
+static COLOR: Element = element("color", &[required("rgba", Numbers(4))], &[]);
+
+static TEXTURE: Element = element("texture", &[required("filename", Text)], &[]);
+
+static JOINT: Element = element(
+    "joint",
+    &[required("name", Name), required("type", Word(JOINT_TYPES))],
+    &[
+        at_most_once(&ORIGIN),
+        once(&PARENT),
+        once(&CHILD),
+        at_most_once(&AXIS),
+        at_most_once(&LIMIT),
+        at_most_once(&DYNAMICS),
+        at_most_once(&MIMIC),
+        at_most_once(&CALIBRATION),
+        at_most_once(&SAFETY_CONTROLLER),
+    ],
+);
+
+static PARENT: Element = element("parent", &[required("link", Name)], &[]);
+
+static CHILD: Element = element("child", &[required("link", Name)], &[]);
+
+static AXIS: Element = element("axis", &[required("xyz", Numbers(3))], &[]);
+
+static LIMIT: Element = element(
+    "limit",
+    &[
+        optional("lower", NUMBER),
+        optional("upper", NUMBER),
+        optional("effort", NUMBER),
+        optional("velocity", NUMBER),
+        optional("acceleration", NUMBER),
+        optional("deceleration", NUMBER),
+        optional("jerk", NUMBER),
+    ],
+    &[],
+);
+
+static DYNAMICS: Element =
+    element("dynamics", &[optional("damping", NUMBER), optional("friction", NUMBER)], &[]);
+
+static MIMIC: Element = element(
+    "mimic",
+    &[required("joint", Name), optional("multiplier", NUMBER), optional("offset", NUMBER)],
+    &[],
+);
+
+static CALIBRATION: Element = element(
+    "calibration",
+    &[optional("rising", NUMBER), optional("falling", NUMBER), optional("reference_position", NUMBER)],
+    &[],
+);
+
+static SAFETY_CONTROLLER: Element = element(
+    "safety_controller",
+    &[
+        required("k_velocity", NUMBER),
+        optional("k_position", NUMBER),
+        optional("soft_lower_limit", NUMBER),
+        optional("soft_upper_limit", NUMBER),
+    ],
+    &[],
+);

@@ -1,0 +1,167 @@
+//! `<joint>`: what the figures of one joint mean.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Unit, Vector3};
+use roxmltree::Node;
+use urdf_rs::JointType;
+
+use super::{element, label, place, pose, tag};
+use crate::{
+    JointParts,
+    diagnostic::Diagnostic,
+    findings::Findings,
+    joint::{Joint, JointKind, JointLimit},
+    link::LinkIndex,
+};
+
+/// How far the length of an axis may be from 1 in silence: six digits in the file.
+const AXIS_LENGTH: f64 = 1e-6;
+/// Limits beyond so many radians are taken for degrees: cables do not stand four turns.
+const LARGEST_PLAUSIBLE_RAD: f64 = 4.0 * TAU;
+
+/// One joint with what is wrong with it.
+struct Reader<'a, 'f> {
+    joint: &'a urdf_rs::Joint,
+    node: Node<'a, 'a>,
+    findings: &'f mut Findings,
+}
+
+/// Reads a joint. Its links are found by name when the tree is built; where something is wrong
+/// the value is a stand-in that lets the rest be checked.
+pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, findings: &mut Findings) -> JointParts {
+    let parent_from_joint = pose::read(&joint.origin, node, node, findings);
+    let mut reader = Reader { joint, node, findings };
+    let kind = reader.kind();
+    let read = Joint {
+        name: joint.name.clone(),
+        kind,
+        // Overwritten when the tree is built.
+        parent: LinkIndex(0),
+        child: LinkIndex(0),
+        parent_from_joint,
+        axis_in_joint: reader.axis(kind),
+        limit: reader.limit(kind),
+        damping: reader.loss("damping", joint.dynamics.as_ref().map(|dynamics| dynamics.damping)),
+        friction: reader.loss("friction", joint.dynamics.as_ref().map(|dynamics| dynamics.friction)),
+        mimic: None,
+    };
+    let mimic = joint
+        .mimic
+        .as_ref()
+        .filter(|_| kind.is_movable())
+        .map(|mimic| (mimic.joint.clone(), mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0)));
+    JointParts { joint: read, parent: joint.parent.link.clone(), child: joint.child.link.clone(), mimic }
+}
+
+impl Reader<'_, '_> {
+    fn report(&mut self, finding: Diagnostic, child: &str) {
+        let message = format!("{}: {}", label(self.node), finding.message);
+        self.findings.push(Diagnostic { message, ..finding }.at(place(self.node, child)));
+    }
+
+    fn error(&mut self, code: &'static str, what: impl Into<String>, child: &str) {
+        self.report(Diagnostic::error(code, what), child);
+    }
+
+    fn warn(&mut self, code: &'static str, what: impl Into<String>, child: &str) {
+        self.report(Diagnostic::warning(code, what), child);
+    }
+
+    fn kind(&mut self) -> JointKind {
+        match self.joint.joint_type {
+            JointType::Fixed => JointKind::Fixed,
+            JointType::Revolute => JointKind::Revolute,
+            JointType::Continuous => JointKind::Continuous,
+            JointType::Prismatic => JointKind::Prismatic,
+            JointType::Floating | JointType::Planar | JointType::Spherical => {
+                let written = self.node.attribute("type").unwrap_or_default();
+                let fault = Diagnostic::error(
+                    "urdf::joint_type",
+                    format!("type \"{written}\" is not supported"),
+                )
+                .with_help(
+                    "use fixed, revolute, continuous or prismatic; several of them in a row make the others",
+                )
+                .at(tag(self.node));
+                self.report(fault, "");
+                JointKind::Fixed
+            }
+        }
+    }
+
+    fn axis(&mut self, kind: JointKind) -> Unit<Vector3<f64>> {
+        let axis = Vector3::from(self.joint.axis.xyz.0);
+        let length = axis.norm();
+        // Exporters write a zero axis for fixed joints, where it means nothing.
+        if !kind.is_movable() {
+            return Vector3::z_axis();
+        }
+        if length == 0.0 {
+            self.error("urdf::axis", "axis is the zero vector", "axis");
+            return Vector3::z_axis();
+        }
+        if (length - 1.0).abs() > AXIS_LENGTH {
+            self.warn("urdf::axis", format!("axis is normalised from length {length}"), "axis");
+        }
+        Unit::new_normalize(axis)
+    }
+
+    fn limit(&mut self, kind: JointKind) -> Option<JointLimit> {
+        let written = element(self.node, "limit");
+        if written.is_none() && matches!(kind, JointKind::Revolute | JointKind::Prismatic) {
+            let name = if kind == JointKind::Revolute { "revolute" } else { "prismatic" };
+            let or = if kind == JointKind::Revolute { " (or type \"continuous\")" } else { "" };
+            self.error("urdf::limit", format!("a {name} joint needs <limit>{or}"), "limit");
+        }
+        let limit = &self.joint.limit;
+        let written = written.filter(|_| kind.is_movable())?;
+        for (key, value) in [("effort", limit.effort), ("velocity", limit.velocity)] {
+            if value < 0.0 {
+                self.error("urdf::limit", format!("limit {key} {value} is negative"), "limit");
+            }
+        }
+        let (velocity, effort) = (limit.velocity, limit.effort);
+        if kind == JointKind::Continuous {
+            // Exporters write zeros for "none".
+            if (limit.lower.is_finite() && limit.lower != 0.0)
+                || (limit.upper.is_finite() && limit.upper != 0.0)
+            {
+                self.warn("urdf::limit", "a continuous joint ignores the limits lower and upper", "limit");
+            }
+            return Some(JointLimit { lower: f64::NEG_INFINITY, upper: f64::INFINITY, velocity, effort });
+        }
+        self.range(kind, written);
+        Some(JointLimit { lower: limit.lower, upper: limit.upper, velocity, effort })
+    }
+
+    fn range(&mut self, kind: JointKind, written: Node<'_, '_>) {
+        let (lower, upper) = (self.joint.limit.lower, self.joint.limit.upper);
+        let missing: Vec<&str> =
+            ["lower", "upper"].into_iter().filter(|key| !written.has_attribute(*key)).collect();
+        if lower > upper {
+            self.error("urdf::limit", format!("lower limit {lower} is above upper limit {upper}"), "limit");
+        } else if !missing.is_empty() && lower.is_finite() && upper.is_finite() {
+            let what =
+                format!("limit without {} means 0: the range is [{lower}, {upper}]", missing.join(" and "));
+            self.warn("urdf::limit", what, "limit");
+        } else if lower == upper {
+            self.warn("urdf::limit", format!("limits lock the joint at {lower}"), "limit");
+        }
+        let furthest = lower.abs().max(upper.abs());
+        if kind.is_angular() && furthest.is_finite() && furthest > LARGEST_PLAUSIBLE_RAD {
+            let what =
+                format!("limits [{lower}, {upper}] are more than four turns: degrees instead of radians?");
+            self.warn("urdf::degrees", what, "limit");
+        }
+    }
+
+    /// Damping or friction, which take energy away and never give any.
+    fn loss(&mut self, key: &str, value: Option<f64>) -> f64 {
+        let value = value.unwrap_or(0.0);
+        if value < 0.0 {
+            self.error("urdf::dynamics", format!("{key} {value} is negative"), "dynamics");
+        }
+        value
+    }
+}

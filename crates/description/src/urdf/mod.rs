@@ -1,0 +1,172 @@
+//! URDF text to a [`Robot`], or to diagnostics that each say where.
+//!
+//! Four passes, each of which may trust what the one before has checked:
+//! 1. `depth`: tokens only; refuses what would overflow a stack or the memory of a tree builder;
+//! 2. `raw`: the XML with positions against the grammar of URDF, every number token by token;
+//! 3. `urdf-rs`: the structure. It accepts much that is wrong (it drops vector tokens that are no
+//!    numbers, it cannot tell a missing element from its default), which is why pass 2 exists;
+//! 4. `joint`, `link`, `shape`: what the figures mean, then the tree.
+//!
+//! Every figure is taken from `urdf-rs`; pass 2 reads the same text but only judges it. The one
+//! exception is `quat_xyzw`, which `urdf-rs` turns into angles and loses up to 4 mrad near a pitch
+//! of a quarter turn: it is taken from the XML.
+
+mod body;
+mod depth;
+mod dialect;
+mod grammar;
+mod joint;
+mod link;
+mod number;
+mod pose;
+mod raw;
+mod shape;
+
+use std::{collections::BTreeMap, ops::Range};
+
+use nalgebra::Vector3;
+use roxmltree::{Document, Node};
+
+use crate::{
+    Robot, RobotError,
+    diagnostic::{Diagnostic, known_names},
+    findings::Findings,
+    link::Link,
+    mesh::FoundMesh,
+};
+
+/// The largest URDF that is read.
+pub(crate) const URDF_BYTES: u64 = 16 << 20;
+/// The largest number of links: far above any robot, far below what would take minutes.
+const MOST_LINKS: usize = 10_000;
+
+/// Gives the mesh that a URDF names, scaled.
+pub(crate) type FindMesh<'a> = dyn FnMut(&str, Vector3<f64>) -> Result<FoundMesh, Diagnostic> + 'a;
+
+/// Reads a robot; `None` when `findings` holds an error.
+pub(crate) fn parse(text: &str, find_mesh: &mut FindMesh<'_>, findings: &mut Findings) -> Option<Robot> {
+    let document = findings.keep(parse_xml(text))?;
+    let root = document.root_element();
+    findings.keep(dialect::check(root))?;
+    raw::check(root, findings);
+    let links = elements(root, "link").count();
+    if links > MOST_LINKS {
+        let message = format!("too many links: {links}, the limit is {MOST_LINKS}");
+        findings.push(Diagnostic::error("urdf::too_many_links", message).at(tag(root)));
+    }
+    if findings.has_error() {
+        return None;
+    }
+    let urdf = findings.keep(urdf_rs::read_from_string(text).map_err(|error| {
+        // Whatever the grammar lets through and urdf-rs does not.
+        Diagnostic::error("urdf::structure", format!("not a valid URDF: {error}")).at(tag(root))
+    }))?;
+    let robot = build(&urdf, root, find_mesh, findings)?;
+    body::check(&robot, &spans(root, "link"), findings);
+    (!findings.has_error()).then_some(robot)
+}
+
+/// XML of bounded depth and without entities.
+pub(crate) fn parse_xml(text: &str) -> Result<Document<'_>, Diagnostic> {
+    depth::check(text)?;
+    Document::parse(text).map_err(|error| dialect::malformed(&error, text))
+}
+
+fn build(
+    urdf: &urdf_rs::Robot,
+    root: Node<'_, '_>,
+    find_mesh: &mut FindMesh<'_>,
+    findings: &mut Findings,
+) -> Option<Robot> {
+    // urdf-rs lists links and joints in file order, as the XML does.
+    let colors = shape::named_colors(urdf);
+    let mut reader = shape::ShapeReader { colors, find_mesh, findings };
+    let links: Vec<Link> = urdf
+        .links
+        .iter()
+        .zip(elements(root, "link"))
+        .map(|(link, node)| link::read(link, node, &mut reader))
+        .collect();
+    let joints: Vec<_> = urdf
+        .joints
+        .iter()
+        .zip(elements(root, "joint"))
+        .map(|(joint, node)| joint::read(joint, node, findings))
+        .collect();
+    let name = urdf.name.clone();
+    findings.keep(Robot::new(name, links, joints).map_err(|error| tree_fault(&error, root)))
+}
+
+fn tree_fault(error: &RobotError, root: Node<'_, '_>) -> Diagnostic {
+    let joint = error.joint().and_then(|name| last_span(root, "joint", name));
+    let link = error.link().and_then(|name| last_span(root, "link", name));
+    let fault =
+        Diagnostic::error("urdf::tree", error.to_string()).at(joint.or(link).unwrap_or_else(|| tag(root)));
+    match error {
+        RobotError::UnknownLink { link, known, .. } => {
+            fault.with_help(known_names(link, "links", known.iter().map(String::as_str)))
+        }
+        RobotError::UnknownMimic { target, known, .. } => {
+            fault.with_help(known_names(target, "moving joints", known.iter().map(String::as_str)))
+        }
+        RobotError::DuplicateLink { link } => first_at(fault, root, "link", link),
+        RobotError::DuplicateJoint { joint } => first_at(fault, root, "joint", joint),
+        RobotError::SeveralRoots { .. } => {
+            fault.with_help("join them with a fixed joint, or keep one robot in a file")
+        }
+        _ => fault,
+    }
+}
+
+fn first_at(fault: Diagnostic, root: Node<'_, '_>, tag_name: &str, name: &str) -> Diagnostic {
+    let first = elements(root, tag_name).find(|node| node.attribute("name") == Some(name));
+    let line = first.map(|node| root.document().text_pos_at(node.range().start).row);
+    match line {
+        Some(line) => fault.with_help(format!("the first one is at line {line}")),
+        None => fault,
+    }
+}
+
+/// The last element with this name: of two that share one, the second is at fault.
+fn last_span(root: Node<'_, '_>, tag_name: &str, name: &str) -> Option<Range<usize>> {
+    elements(root, tag_name).filter(|node| node.attribute("name") == Some(name)).last().map(tag)
+}
+
+fn spans<'a>(root: Node<'a, '_>, tag_name: &'a str) -> BTreeMap<&'a str, Range<usize>> {
+    elements(root, tag_name).filter_map(|node| Some((node.attribute("name")?, tag(node)))).collect()
+}
+
+/// The child elements with this name, in file order.
+fn elements<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> impl Iterator<Item = Node<'a, 'i>> {
+    parent.children().filter(move |node| node.is_element() && node.tag_name().name() == name)
+}
+
+/// The child element with this name, where there is one.
+fn element<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
+    elements(parent, name).next()
+}
+
+/// The place of a child element, or of the element itself where the child is missing.
+fn place(parent: Node<'_, '_>, child: &str) -> Range<usize> {
+    tag(element(parent, child).unwrap_or(parent))
+}
+
+/// The opening of a start tag, `<name`: an element's whole range may be a thousand lines.
+fn tag(node: Node<'_, '_>) -> Range<usize> {
+    let range = node.range();
+    let text = &node.document().input_text()[range.clone()];
+    let end = text.find(|c: char| c.is_whitespace() || c == '/' || c == '>').unwrap_or(text.len());
+    range.start..range.start + end
+}
+
+/// `link "forearm"`, its name cut where it is longer than a line.
+fn label(node: Node<'_, '_>) -> String {
+    const SHOWN: usize = 60;
+    let name = node.attribute("name").unwrap_or_default();
+    let short: String = name.chars().take(SHOWN).collect();
+    let dots = if short.len() < name.len() { "..." } else { "" };
+    format!("{} \"{short}{dots}\"", node.tag_name().name())
+}
+
+#[cfg(test)]
+mod tests;

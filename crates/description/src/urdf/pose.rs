@@ -1,0 +1,58 @@
+//! `<origin>`: a pose, by fixed-axis angles or (from version 1.1) by a quaternion.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use roxmltree::Node;
+
+use super::{element, label, place, tag};
+use crate::{diagnostic::Diagnostic, findings::Findings, written_transform::rotation_from_rpy_fixed_xyz};
+
+/// Longer offsets between the parts of one robot are taken for millimetres.
+pub(super) const LARGEST_PLAUSIBLE_M: f64 = 10.0;
+
+/// The pose that `<origin>` in `parent` gives; identity where there is none.
+///
+/// `owner` is the link or joint that warnings name.
+pub(super) fn read(
+    pose: &urdf_rs::Pose,
+    parent: Node<'_, '_>,
+    owner: Node<'_, '_>,
+    findings: &mut Findings,
+) -> Isometry3<f64> {
+    let (xyz, rpy) = (pose.xyz.0, pose.rpy.0);
+    if let Some(length) = xyz.into_iter().find(|length| length.abs() > LARGEST_PLAUSIBLE_M) {
+        let message = format!("{}: origin {length} is more than {LARGEST_PLAUSIBLE_M} m away", label(owner));
+        findings.push(
+            Diagnostic::warning("urdf::millimetres", message)
+                .at(place(parent, "origin"))
+                .with_help("millimetres instead of metres?"),
+        );
+    }
+    let translation = Translation3::from(xyz);
+    let origin = element(parent, "origin");
+    if let Some(quaternion) = origin.and_then(|origin| origin.attribute("quat_xyzw")) {
+        let rotation = from_quaternion(quaternion).unwrap_or_else(|| {
+            let message = format!("{}: quat_xyzw = \"{quaternion}\" is zero", label(owner));
+            findings.push(Diagnostic::error("urdf::quaternion", message).at(origin.map_or(0..0, tag)));
+            UnitQuaternion::identity()
+        });
+        return Isometry3::from_parts(translation, rotation);
+    }
+    if let Some(angle) = rpy.into_iter().find(|angle| angle.abs() > TAU) {
+        let message = format!("{}: rpy {angle} is more than a full turn in radians", label(owner));
+        findings.push(
+            Diagnostic::warning("urdf::degrees", message)
+                .at(place(parent, "origin"))
+                .with_help("degrees instead of radians?"),
+        );
+    }
+    Isometry3::from_parts(translation, rotation_from_rpy_fixed_xyz(rpy))
+}
+
+/// Normalised as urdfdom does; the raw pass has checked the figures.
+fn from_quaternion(text: &str) -> Option<UnitQuaternion<f64>> {
+    let figures: Vec<f64> = text.split_whitespace().filter_map(|token| token.parse().ok()).collect();
+    let [x, y, z, w] = figures[..] else { return None };
+    UnitQuaternion::try_new(Quaternion::new(w, x, y, z), f64::MIN_POSITIVE)
+}

@@ -1,0 +1,220 @@
+//! The XML against the grammar: missing, repeated and misspelt parts, and every figure.
+//!
+//! What the grammar does not know is a vendor's business and passes in silence, unless its name is
+//! a letter or two away from one that the grammar knows.
+
+use std::ops::Range;
+
+use roxmltree::{Attribute as XmlAttribute, Node};
+
+use super::{
+    elements,
+    grammar::{Attribute, Child, Element, Occurs, ROBOT, Value},
+    label, number, tag,
+};
+use crate::{
+    diagnostic::{Diagnostic, known_names},
+    findings::Findings,
+};
+
+/// The longest name without a warning: what a file system allows.
+const LONGEST_NAME: usize = 255;
+
+/// Checks a whole document.
+pub(super) fn check(root: Node<'_, '_>, findings: &mut Findings) {
+    if root.attribute("name").is_none_or(str::is_empty) {
+        findings.push(Diagnostic::warning("urdf::robot_name", "the robot has no name").at(tag(root)));
+    }
+    let mut reader = Reader { version: version(root), owner: "robot".to_owned(), findings };
+    reader.attributes(root, &ROBOT);
+    reader.unknown_children(root, &ROBOT);
+    for child in ROBOT.children {
+        for node in elements(root, child.element.name) {
+            reader.owner = label(node);
+            reader.element(node, child.element);
+            reader.name(node);
+        }
+    }
+}
+
+/// `version="1.1"` as numbers; 1.0 where it is missing or no version, as urdfdom has it.
+pub(super) fn version(root: Node<'_, '_>) -> (u32, u32) {
+    let parse = |text: &str| {
+        let (major, minor) = text.trim().split_once('.')?;
+        Some((major.parse().ok()?, minor.parse().ok()?))
+    };
+    root.attribute("version").and_then(parse).unwrap_or((1, 0))
+}
+
+struct Reader<'f> {
+    version: (u32, u32),
+    /// The link, joint or material that is read: every finding begins with it.
+    owner: String,
+    findings: &'f mut Findings,
+}
+
+impl Reader<'_> {
+    fn report(&mut self, code: &'static str, what: &str, at: Range<usize>) {
+        self.findings.push(Diagnostic::error(code, format!("{}: {what}", self.owner)).at(at));
+    }
+
+    /// Recursion ends with the grammar, whose deepest path has six elements.
+    fn element(&mut self, node: Node<'_, '_>, rules: &Element) {
+        self.attributes(node, rules);
+        self.unknown_children(node, rules);
+        for child in rules.children {
+            self.occurrences(node, child);
+            for found in elements(node, child.element.name) {
+                self.element(found, child.element);
+            }
+        }
+        let shapes = node.children().filter(Node::is_element).count();
+        if rules.is_choice && shapes != 1 {
+            let found = if shapes == 0 { "has no shape" } else { "has more than one shape" };
+            self.report("urdf::geometry", &format!("<{}> {found}", rules.name), tag(node));
+        }
+        if rules.name == "limit" && self.version < (1, 2) {
+            self.limit(node);
+        }
+    }
+
+    /// Before version 1.2 both must be given; `urdf-rs` would take a missing effort as zero.
+    fn limit(&mut self, node: Node<'_, '_>) {
+        for key in ["effort", "velocity"] {
+            if !node.has_attribute(key) {
+                self.report("urdf::missing_attribute", &format!("<limit> has no {key}"), tag(node));
+            }
+        }
+    }
+
+    fn occurrences(&mut self, parent: Node<'_, '_>, child: &Child) {
+        let name = child.element.name;
+        let mut found = elements(parent, name);
+        match (found.next(), found.next()) {
+            (None, _) if child.occurs == Occurs::Once => {
+                let what = match parent.tag_name().name() {
+                    "joint" | "link" => format!("missing <{name}>"),
+                    inside => format!("<{inside}> has no <{name}>"),
+                };
+                self.report("urdf::missing_element", &what, tag(parent));
+            }
+            (_, Some(second)) if child.occurs != Occurs::AnyNumber => {
+                self.report("urdf::repeated_element", &format!("<{name}> is given twice"), tag(second));
+            }
+            _ => {}
+        }
+    }
+
+    fn attributes(&mut self, node: Node<'_, '_>, rules: &Element) {
+        for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
+            match rules.attributes.iter().find(|known| known.name == attribute.name()) {
+                Some(known) => self.attribute(rules, known, &attribute),
+                None => self.unknown_attribute(rules, &attribute),
+            }
+        }
+        for missing in rules.attributes.iter().filter(|a| a.is_required && !node.has_attribute(a.name)) {
+            let what = format!("<{}> has no {}", rules.name, missing.name);
+            self.report("urdf::missing_attribute", &what, tag(node));
+        }
+    }
+
+    fn attribute(&mut self, rules: &Element, known: &Attribute, attribute: &XmlAttribute<'_, '_>) {
+        let value = attribute.value();
+        let fault = match known.value {
+            Value::Text => None,
+            Value::Name => value.trim().is_empty().then(|| ("urdf::empty_name", "it is empty".to_owned())),
+            Value::Numbers(count) => number::fault(value, count).map(|fault| ("urdf::number", fault)),
+            Value::Word(words) => (!words.contains(&value))
+                .then(|| ("urdf::unknown_type", known_names(value, "types", words.iter().copied()))),
+        };
+        if let Some((code, fault)) = fault {
+            let what = match known.value {
+                Value::Word(_) => format!("unknown {} \"{value}\"; {fault}", known.name),
+                _ => format!("<{}> {} = \"{value}\": {fault}", rules.name, known.name),
+            };
+            self.report(code, &what, attribute.range());
+        } else if known.name == "quat_xyzw" && self.version < (1, 1) {
+            let what = "unknown attribute \"quat_xyzw\": it needs <robot version=\"1.1\">";
+            self.report("urdf::quaternion", what, attribute.range());
+        }
+    }
+
+    fn unknown_attribute(&mut self, rules: &Element, attribute: &XmlAttribute<'_, '_>) {
+        let name = attribute.name();
+        if let Some(meant) = misspelt(name, rules.attributes.iter().map(|known| known.name)) {
+            let what = format!("<{}>: unknown attribute \"{name}\" (did you mean \"{meant}\"?)", rules.name);
+            self.report("urdf::unknown_attribute", &what, attribute.range());
+        }
+    }
+
+    fn unknown_children(&mut self, parent: Node<'_, '_>, rules: &Element) {
+        let known = || rules.children.iter().map(|child| child.element.name);
+        for node in parent.children().filter(Node::is_element) {
+            let name = node.tag_name().name();
+            if node.tag_name().namespace().is_some() || known().any(|known| known == name) {
+                continue;
+            }
+            if let Some(meant) = misspelt(name, known()) {
+                let what = format!("unknown element <{name}> (did you mean <{meant}>?)");
+                self.report("urdf::unknown_element", &what, tag(node));
+            } else if rules.is_choice {
+                let what = format!(
+                    "unknown shape <{name}>; {}",
+                    known_names(name, "shapes", known().collect::<Vec<_>>())
+                );
+                self.report("urdf::geometry", &what, tag(node));
+            }
+        }
+    }
+
+    /// Names become file names, entity paths and table cells: odd ones are legal but worth a word.
+    fn name(&mut self, node: Node<'_, '_>) {
+        let name = node.attribute("name").unwrap_or_default();
+        let length = name.chars().count();
+        let what = if length > LONGEST_NAME {
+            format!("its name is {length} characters long")
+        } else if name.contains("../") || name.chars().any(char::is_control) {
+            "its name holds \"../\" or control characters; it is escaped wherever it is written".to_owned()
+        } else {
+            return;
+        };
+        self.findings
+            .push(Diagnostic::warning("urdf::name", format!("{}: {what}", self.owner)).at(tag(node)));
+    }
+}
+
+/// The known name that `name` is a slip of: other case, or at most one letter in three wrong.
+fn misspelt<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    const MOST_WRONG: usize = 2;
+    known
+        .map(|known| (strsim::damerau_levenshtein(&name.to_lowercase(), known), known))
+        .filter(|(wrong, known)| *wrong <= MOST_WRONG && wrong * 3 <= known.len())
+        .min_by_key(|(wrong, _)| *wrong)
+        .map(|(_, known)| known)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::misspelt;
+
+    #[track_caller]
+    fn check(name: &str, expected: Option<&str>) {
+        let known = ["origin", "limit", "axis", "xyz", "collision", "joint", "safety_controller"];
+        assert_eq!(misspelt(name, known.into_iter()), expected, "{name}");
+    }
+
+    #[test]
+    fn slips_are_told_from_vendor_names() {
+        check("limits", Some("limit"));
+        check("Limit", Some("limit"));
+        check("orgin", Some("origin"));
+        check("axes", Some("axis"));
+        check("xzy", Some("xyz"));
+        check("colission", Some("collision"));
+        check("K", None);
+        check("mu1", None);
+        check("self_collision_checking", None);
+        check("gazebo", None);
+        check("sensor", None);
+    }
+}

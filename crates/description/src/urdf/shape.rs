@@ -1,0 +1,150 @@
+//! `<visual>` and `<collision>`: shapes, their colours and their meshes.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+use roxmltree::Node;
+
+use super::{FindMesh, element, label, pose, tag};
+use crate::{
+    diagnostic::Diagnostic,
+    findings::Findings,
+    geometry::{Geometry, Mesh, Shape},
+};
+
+/// Colours of the materials that the document defines at its top, by name.
+pub(super) fn named_colors(urdf: &urdf_rs::Robot) -> BTreeMap<&str, [f32; 4]> {
+    urdf.materials
+        .iter()
+        .filter_map(|material| Some((material.name.as_str(), own_color(material)?)))
+        .collect()
+}
+
+fn own_color(material: &urdf_rs::Material) -> Option<[f32; 4]> {
+    #[expect(clippy::cast_possible_truncation, reason = "a colour for the eye")]
+    material.color.as_ref().map(|color| color.rgba.0.map(|channel| channel.clamp(0.0, 1.0) as f32))
+}
+
+/// Reads shapes: what they need from outside their own element.
+pub(super) struct ShapeReader<'a, 'm> {
+    pub(super) colors: BTreeMap<&'a str, [f32; 4]>,
+    pub(super) find_mesh: &'a mut FindMesh<'m>,
+    pub(super) findings: &'a mut Findings,
+}
+
+impl ShapeReader<'_, '_> {
+    /// A shape to look at; `None` where something is wrong with it.
+    pub(super) fn visual(&mut self, visual: &urdf_rs::Visual, node: Node<'_, '_>) -> Option<Shape> {
+        let color = |material: &urdf_rs::Material| {
+            own_color(material).or_else(|| self.colors.get(material.name.as_str()).copied())
+        };
+        let color_rgba = visual.material.as_ref().and_then(color);
+        let shape = self.shape(&visual.origin, &visual.geometry, node)?;
+        Some(Shape { color_rgba, ..shape })
+    }
+
+    /// A shape that touches; `None` where something is wrong with it.
+    pub(super) fn collision(&mut self, collision: &urdf_rs::Collision, node: Node<'_, '_>) -> Option<Shape> {
+        self.shape(&collision.origin, &collision.geometry, node)
+    }
+
+    fn shape(
+        &mut self,
+        origin: &urdf_rs::Pose,
+        geometry: &urdf_rs::Geometry,
+        node: Node<'_, '_>,
+    ) -> Option<Shape> {
+        let owner = node.parent_element().unwrap_or(node);
+        let link_from_shape = pose::read(origin, node, owner, self.findings);
+        let place =
+            element(node, "geometry").and_then(|geometry| geometry.first_element_child()).unwrap_or(node);
+        let geometry = match self.geometry(geometry) {
+            Ok((geometry, warnings)) => {
+                self.findings.extend(warnings.into_iter().map(|warning| placed(warning, owner, place)));
+                geometry
+            }
+            Err(fault) => {
+                self.findings.push(placed(fault, owner, place));
+                return None;
+            }
+        };
+        Some(Shape { link_from_shape, geometry, color_rgba: None })
+    }
+
+    fn geometry(&mut self, geometry: &urdf_rs::Geometry) -> Result<(Geometry, Vec<Diagnostic>), Diagnostic> {
+        use urdf_rs::Geometry as Written;
+        let geometry = match *geometry {
+            Written::Box { size } => {
+                let smallest =
+                    check_sizes("box", &[("size", size[0]), ("size", size[1]), ("size", size[2])])?;
+                (Geometry::Box { size_m: size.0.into() }, smallest)
+            }
+            Written::Cylinder { radius, length } => {
+                let smallest = check_sizes("cylinder", &[("radius", radius), ("length", length)])?;
+                (Geometry::Cylinder { radius_m: radius, length_m: length }, smallest)
+            }
+            Written::Sphere { radius } => {
+                let smallest = check_sizes("sphere", &[("radius", radius)])?;
+                (Geometry::Sphere { radius_m: radius }, smallest)
+            }
+            Written::Capsule { .. } => {
+                let message = "shape <capsule> is not supported";
+                let help = "use a cylinder and two spheres, each in an element of its own";
+                return Err(Diagnostic::error("urdf::geometry", message).with_help(help));
+            }
+            Written::Mesh { ref filename, scale } => {
+                return self.mesh(filename, scale.map_or(Vector3::repeat(1.0), |scale| scale.0.into()));
+            }
+        };
+        let (geometry, smallest_m) = geometry;
+        // The smallest side, so that a wide floor is no fault.
+        let warnings = too_large("shape", smallest_m).into_iter().collect();
+        Ok((geometry, warnings))
+    }
+
+    fn mesh(&mut self, uri: &str, scale: Vector3<f64>) -> Result<(Geometry, Vec<Diagnostic>), Diagnostic> {
+        if scale.iter().any(|factor| *factor == 0.0) {
+            let [x, y, z] = scale.into();
+            let message = format!("mesh \"{uri}\": scale \"{x} {y} {z}\" flattens it to nothing");
+            return Err(Diagnostic::error("urdf::scale", message));
+        }
+        let found = (self.find_mesh)(uri, scale)?;
+        let mut warnings = found.warnings;
+        warnings.extend(too_large(&format!("mesh \"{uri}\""), extent(&found.mesh)));
+        Ok((Geometry::Mesh(found.mesh), warnings))
+    }
+}
+
+fn placed(finding: Diagnostic, owner: Node<'_, '_>, place: Node<'_, '_>) -> Diagnostic {
+    let message = format!("{}: {}", label(owner), finding.message);
+    Diagnostic { message, ..finding }.at(tag(place))
+}
+
+/// The smallest of the sizes, all of which must be positive.
+fn check_sizes(shape: &str, sizes: &[(&str, f64)]) -> Result<f64, Diagnostic> {
+    match sizes.iter().find(|(_, size)| *size <= 0.0) {
+        Some((key, size)) => {
+            let message = format!("{shape} {key} {size} must be positive");
+            Err(Diagnostic::error("urdf::geometry", message))
+        }
+        None => Ok(sizes.iter().fold(f64::INFINITY, |least, (_, size)| least.min(*size))),
+    }
+}
+
+fn too_large(what: &str, size_m: f64) -> Option<Diagnostic> {
+    (size_m > pose::LARGEST_PLAUSIBLE_M).then(|| {
+        Diagnostic::warning("urdf::millimetres", format!("{what} is {size_m:.1} m large"))
+            .with_help("millimetres instead of metres? a mesh takes scale=\"0.001 0.001 0.001\"")
+    })
+}
+
+/// Longest edge of the box around a mesh.
+fn extent(mesh: &Mesh) -> f64 {
+    let Some(first) = mesh.vertices_m.first() else { return 0.0 };
+    let corners = (first.coords, first.coords);
+    let (least, most) = mesh
+        .vertices_m
+        .iter()
+        .fold(corners, |(least, most), vertex| (least.inf(&vertex.coords), most.sup(&vertex.coords)));
+    (most - least).max()
+}

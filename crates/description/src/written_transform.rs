@@ -1,0 +1,182 @@
+//! A rigid transform as a TOML file writes it: by translation and one of three kinds of rotation,
+//! or by a whole matrix.
+
+use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion};
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::{
+    diagnostic::Diagnostic,
+    units::{Unit, check_finite},
+};
+
+/// How far the norm of a written quaternion may be from 1: six digits in the file, rounding of
+/// four components. A larger fault is a slip of the pen, and normalising would hide it.
+const QUATERNION_NORM: f64 = 1e-6;
+/// How far `R^T R` of a written matrix may be from the identity, per entry: ten digits in the file.
+const ORTHONORMAL: f64 = 1e-9;
+
+/// A transform as written; identity where nothing is given.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WrittenTransform {
+    /// Translation in metres.
+    pub xyz_m: Option<Spanned<[f64; 3]>>,
+    /// Translation in millimetres.
+    pub xyz_mm: Option<Spanned<[f64; 3]>>,
+    /// Turns about the fixed axes x, then y, then z, in radians.
+    pub rpy_rad: Option<Spanned<[f64; 3]>>,
+    /// Turns about the fixed axes x, then y, then z, in degrees.
+    pub rpy_deg: Option<Spanned<[f64; 3]>>,
+    /// Unit quaternion, scalar first.
+    pub quaternion_wxyz: Option<Spanned<[f64; 4]>>,
+    /// Homogeneous matrix by rows, in metres; excludes all other keys.
+    pub matrix: Option<Spanned<[[f64; 4]; 4]>>,
+}
+
+impl WrittenTransform {
+    /// The transform.
+    ///
+    /// # Errors
+    /// Two keys for one thing, a figure that is not finite, a quaternion whose norm is not 1, or
+    /// a matrix that is no rigid motion.
+    pub fn isometry(&self) -> Result<Isometry3<f64>, Diagnostic> {
+        let translation = Unit::Length.vector("xyz", self.xyz_m.as_ref(), self.xyz_mm.as_ref())?;
+        let rpy = Unit::Angle.vector("rpy", self.rpy_rad.as_ref(), self.rpy_deg.as_ref())?;
+        if let Some(matrix) = &self.matrix {
+            if translation.is_some() || rpy.is_some() || self.quaternion_wxyz.is_some() {
+                return Err(conflict("matrix excludes xyz, rpy and quaternion_wxyz", matrix.span()));
+            }
+            return from_matrix(matrix);
+        }
+        let rotation = match (rpy, &self.quaternion_wxyz) {
+            (Some(_), Some(quaternion)) => {
+                return Err(conflict("rpy and quaternion_wxyz are both given", quaternion.span()));
+            }
+            (Some(rpy), None) => rotation_from_rpy_fixed_xyz(rpy),
+            (None, Some(quaternion)) => from_quaternion(quaternion)?,
+            (None, None) => UnitQuaternion::identity(),
+        };
+        Ok(Isometry3::from_parts(Translation3::from(translation.unwrap_or_default()), rotation))
+    }
+}
+
+/// The rotation that turns about the fixed axes x, then y, then z: `Rz(yaw) Ry(pitch) Rx(roll)`.
+pub(crate) fn rotation_from_rpy_fixed_xyz([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_euler_angles(roll, pitch, yaw)
+}
+
+fn conflict(message: &str, span: std::ops::Range<usize>) -> Diagnostic {
+    Diagnostic::error("transform::conflict", message).at(span).with_help("keep exactly one of them")
+}
+
+fn from_quaternion(written: &Spanned<[f64; 4]>) -> Result<UnitQuaternion<f64>, Diagnostic> {
+    let [w, x, y, z] = *written.get_ref();
+    for figure in [w, x, y, z] {
+        check_finite("quaternion_wxyz", figure, written.span())?;
+    }
+    let quaternion = Quaternion::new(w, x, y, z);
+    let norm = quaternion.norm();
+    if (norm - 1.0).abs() > QUATERNION_NORM {
+        let message = format!("quaternion_wxyz has norm {norm:.7}, it must be 1 within {QUATERNION_NORM}");
+        return Err(Diagnostic::error("transform::quaternion_norm", message)
+            .at(written.span())
+            .with_help("it is not normalised silently: write it with more digits, scalar first"));
+    }
+    Ok(UnitQuaternion::from_quaternion(quaternion))
+}
+
+fn from_matrix(written: &Spanned<[[f64; 4]; 4]>) -> Result<Isometry3<f64>, Diagnostic> {
+    let rows = written.get_ref();
+    for &figure in rows.iter().flatten() {
+        check_finite("matrix", figure, written.span())?;
+    }
+    let refused = |message: String| {
+        Err(Diagnostic::error("transform::matrix", message)
+            .at(written.span())
+            .with_help("rows of [R | t] with R^T R = 1 and det R = 1, then [0, 0, 0, 1]; t in metres"))
+    };
+    let last = [0.0, 0.0, 0.0, 1.0];
+    if rows[3].iter().zip(last).any(|(found, expected)| (found - expected).abs() > ORTHONORMAL) {
+        return refused(format!("the last row of matrix is {:?}, it must be [0, 0, 0, 1]", rows[3]));
+    }
+    let turn = Matrix3::from_fn(|row, column| rows[row][column]);
+    let off = (turn.transpose() * turn - Matrix3::identity()).amax();
+    if off > ORTHONORMAL {
+        return refused(format!(
+            "the columns of matrix are not orthonormal: R^T R is off by {off:.1e} (limit {ORTHONORMAL:e})"
+        ));
+    }
+    if turn.determinant() < 0.0 {
+        return refused("matrix mirrors: the determinant of its rotation is -1".to_owned());
+    }
+    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
+    Ok(Isometry3::from_parts(Translation3::new(rows[0][3], rows[1][3], rows[2][3]), rotation))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use nalgebra::{Point3, point};
+
+    use super::*;
+    use crate::{findings::Findings, toml_text::parse_toml};
+
+    fn read(text: &str) -> Result<Isometry3<f64>, Diagnostic> {
+        let mut findings = Findings::default();
+        parse_toml::<WrittenTransform>(text, &mut findings).expect(text).isometry()
+    }
+
+    /// Rounding of a handful of products of numbers near 1; worst seen 2.3e-16.
+    const ROUNDING: f64 = 1e-15;
+
+    #[track_caller]
+    fn check(text: &str, from: Point3<f64>, to: Point3<f64>) {
+        let found = read(text).unwrap() * from;
+        assert!((found - to).norm() < ROUNDING, "{text}: {found} is not {to}");
+    }
+
+    #[test]
+    fn every_way_of_writing_gives_the_same_transform() {
+        // Shift by (1, 2, 3) after a quarter turn about z: (1, 0, 0) goes to (1, 3, 3).
+        let (from, to) = (point![1.0, 0.0, 0.0], point![1.0, 3.0, 3.0]);
+        check("", from, from);
+        check("xyz_m = [1, 2, 3]\nrpy_deg = [0, 0, 90]", from, to);
+        check(&format!("xyz_mm = [1000, 2000, 3000]\nrpy_rad = [0, 0, {FRAC_PI_2}]"), from, to);
+        check(
+            "xyz_m = [1, 2, 3]\nquaternion_wxyz = [0.7071067811865476, 0, 0, 0.7071067811865476]",
+            from,
+            to,
+        );
+        check("matrix = [[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]", from, to);
+    }
+
+    #[test]
+    fn rpy_turns_about_fixed_axes() {
+        // x, then y: (0, 1, 0) goes to z by the first turn, to x by the second.
+        check("rpy_deg = [90, 90, 0]", point![0.0, 1.0, 0.0], point![1.0, 0.0, 0.0]);
+    }
+
+    #[track_caller]
+    fn refused(text: &str, message: &str) {
+        let error = read(text).expect_err(text);
+        assert!(error.message.contains(message), "{}", error.message);
+        assert!(error.span.is_some());
+    }
+
+    #[test]
+    fn faults_are_named() {
+        refused("xyz_m = [1, 2, 3]\nxyz_mm = [1, 2, 3]", "xyz_m and xyz_mm are both given");
+        refused("rpy_deg = [1, 2, 3]\nquaternion_wxyz = [1, 0, 0, 0]", "rpy and quaternion_wxyz");
+        refused("quaternion_wxyz = [0.5, 0.5, 0.5, 0.6]", "norm 1.0535654");
+        refused("quaternion_wxyz = [nan, 0, 0, 0]", "NaN");
+        refused("matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 2, 0], [0, 0, 0, 1]]", "off by 3");
+        refused("matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1]]", "mirrors");
+        refused("matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]", "last row");
+        refused(
+            "matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\nxyz_m = [0, 0, 0]",
+            "excludes",
+        );
+    }
+}
