@@ -35,7 +35,7 @@ fn tip(robot: &Robot) -> LinkIndex {
     robot.find_link("tip").expect("the arm has a tip")
 }
 
-/// Six sines with their cosines: the part that no arrangement of the products saves.
+/// Six sines with their cosines by the platform, as the trees take them.
 #[divan::bench]
 fn six_sine_cosine_pairs(bencher: Bencher<'_, '_>) {
     bencher.bench(|| black_box(Q).map(f64::sin_cos));

@@ -132,6 +132,15 @@ impl Pose {
     }
 
     /// How far the matrix is from orthonormal: the Frobenius norm of `R^T R - I`.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::Pose;
+    /// use nalgebra::{Matrix3, Vector3};
+    /// let stretched = Pose::from_parts(Matrix3::identity() * 2.0, Vector3::zeros());
+    /// assert_eq!(stretched.orthonormality_error(), 27_f64.sqrt()); // three times 2^2 - 1 = 3
+    /// assert_eq!(stretched.determinant(), 8.0);
+    /// ```
     pub fn orthonormality_error(&self) -> f64 {
         (self.rotation.transpose() * self.rotation - Matrix3::identity()).norm()
     }

@@ -1,7 +1,8 @@
 //! Sine and cosine together, in line and without a branch on the value.
 //!
-//! A call to the platform's function costs more than a row of a table, keeps the compiler from
-//! overlapping joints, and gives other last bits on another platform; this one gives the same.
+//! It serves the tables only: a call to the platform's function costs more than the products of a
+//! row (`benches/forward.rs`), keeps the compiler from overlapping joints, and gives other last bits
+//! on another platform. The trees keep to the platform's, so that a fault here cannot hide in both.
 
 /// Up to here the angle's multiple of pi/2 is found exactly: 2^20 pi/2. Beyond, the standard
 /// library answers.
@@ -78,8 +79,7 @@ impl SinCos {
     }
 }
 
-/// Sines and cosines of several angles, kept apart: so the compiler computes them in pairs, which
-/// is twice as fast as one after another.
+/// Sines and cosines of several angles, kept apart: so the compiler computes them in pairs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SinesCosines<const N: usize> {
     sin: [f64; N],

@@ -32,6 +32,15 @@ impl Twist {
     /// The 4 x 4 matrix `[V]` whose matrix exponential is the motion.
     ///
     /// Source: Lynch & Park, *Modern Robotics* (2017), section 3.3.2.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::Twist;
+    /// use nalgebra::{Matrix4, Vector3};
+    /// let twist = Twist { angular: Vector3::new(1., 2., 3.), linear: Vector3::new(4., 5., 6.) };
+    /// let rows = [[0., -3., 2., 4.], [3., 0., -1., 5.], [-2., 1., 0., 6.], [0.; 4]];
+    /// assert_eq!(twist.hat(), Matrix4::from_row_slice(rows.as_flattened()));
+    /// ```
     pub fn hat(&self) -> Matrix4<f64> {
         let mut matrix = Matrix4::zeros();
         matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&hat(&self.angular));
@@ -129,6 +138,13 @@ impl Screw {
     }
 
     /// The shift along `axis`; its coordinate is in metres.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::Screw;
+    /// use nalgebra::Vector3;
+    /// assert_eq!(Screw::prismatic(Vector3::z_axis()).exp(0.3).translation, Vector3::new(0., 0., 0.3));
+    /// ```
     pub fn prismatic(axis: Unit<Vector3<f64>>) -> Self {
         Self {
             twist: Twist { angular: Vector3::zeros(), linear: axis.into_inner() },

@@ -13,8 +13,8 @@ use support::{Carried, within};
 /// Rounding: up to nine products within 25 m of reach (prismatic joints move by pi), eps each;
 /// worst seen 4.3e-14.
 const ROUNDING_M: f64 = 2e-13;
-/// Rounding: up to nine products of rotations, a few eps each; worst seen 6.4e-15.
-const ROUNDING_RAD: f64 = 2e-14;
+/// Rounding: up to nine products of rotations, eight eps each; worst seen 8.4e-15.
+const ROUNDING_RAD: f64 = 3e-14;
 
 fn urdf_links(robot: &Robot, q: &[f64]) -> Vec<Pose> {
     let mut links = vec![Pose::identity(); robot.links().len()];

@@ -20,7 +20,7 @@ use crate::{
 /// ```
 /// # use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Joint, JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
-/// use congruent_kinematics::{DhChain, Pose};
+/// use congruent_kinematics::{DhChain, DhFrames, Pose};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
 /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
 /// # let parts = |name: &str, parent: &str, child: &str, x: f64| JointParts {
@@ -50,6 +50,8 @@ use crate::{
 /// let mut frames = [Pose::identity(); 3];
 /// chain.dh_frames_into(&q, &mut frames)?;
 /// assert_eq!(frames[1].translation, Vector3::new(0.6, 0., 0.));
+/// let tip_from_elbow = chain.dhi_from_dhj(&q, DhFrames { seen_from: 2, of: 1 })?;
+/// assert!((tip_from_elbow.translation - Vector3::new(-0.4, 0., 0.)).norm() < f64::EPSILON);
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -171,6 +173,8 @@ impl DhChain {
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`], or [`KinematicsError::FrameIndex`] for a frame that is not there.
+    /// # Examples
+    /// See [`DhChain`].
     pub fn dhi_from_dhj(&self, q: &[f64], frames: DhFrames) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
         let (first, last) = (frames.seen_from.min(frames.of), frames.seen_from.max(frames.of));
@@ -182,7 +186,7 @@ impl DhChain {
         Ok(if frames.seen_from <= frames.of { first_from_last } else { first_from_last.inverse() })
     }
 
-    /// Steps along `rows`, sines first: calls between the products would cost more than both.
+    /// Steps along `rows`, the sines of a block first, so that they are computed together.
     #[inline]
     fn visit(&self, from: Axes, rows: &[Row], q: &[f64], mut each: impl FnMut(usize, &Axes)) -> Axes {
         let mut axes = from;
