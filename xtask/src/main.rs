@@ -1,2 +1,33 @@
-//! Repository chores.
-fn main() {}
+//! Repository chores: `cargo run --release -p xtask -- tidy`.
+
+#![expect(clippy::print_stderr, reason = "a chore talks to its user")]
+
+use std::process::{Command, ExitCode};
+
+fn main() -> ExitCode {
+    let chore = std::env::args().nth(1);
+    match chore.as_deref() {
+        Some("tidy") => tidy(),
+        _ => {
+            eprintln!("usage: xtask tidy    keeps the architecture's arrows and its map true");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Formats the sources and runs the tests of `tests/tidy.rs`.
+fn tidy() -> ExitCode {
+    let chores: [&[&str]; 2] =
+        [&["fmt", "--all"], &["test", "--release", "--package", "xtask", "--test", "tidy"]];
+    for arguments in chores {
+        match Command::new(env!("CARGO")).args(arguments).status() {
+            Ok(status) if status.success() => {}
+            Ok(_) => return ExitCode::FAILURE,
+            Err(error) => {
+                eprintln!("cargo {}: {error}", arguments.join(" "));
+                return ExitCode::FAILURE;
+            }
+        }
+    }
+    ExitCode::SUCCESS
+}

@@ -20,3 +20,7 @@ pub use actuation::{
 pub use error::SimulationError;
 pub use settings::{Obstacle, WorldSettings};
 pub use world::{Snapshot, World};
+
+/// Name and version of the physics engine, as reports give it; a repository test holds it
+/// against the manifest.
+pub const ENGINE: &str = "rapier3d-f64 0.36.1";

@@ -1,1 +1,28 @@
-//! Runs model and physics side by side, compares, reports and records.
+//! Runs a robot's analytical model and its physics twin side by side, compares them at every
+//! sample, checks clearances and limits, reports and records.
+
+pub mod check;
+pub mod clearance;
+mod batch;
+mod configurations;
+pub mod distances;
+mod execute;
+pub mod forward;
+pub mod model;
+pub mod monitor;
+pub mod motion;
+pub mod proximity;
+pub mod recorder;
+#[cfg(feature = "recording")]
+pub mod recording;
+pub mod report;
+mod run;
+mod sample;
+pub mod scenario;
+pub mod verdict;
+
+pub use batch::{configuration, read_configurations};
+pub use configurations::probe_configurations;
+pub use execute::{ExecuteError, Options, execute};
+pub use run::{Outcome, Run, RunError};
+pub use sample::{LinkError, Sample};

@@ -1,0 +1,107 @@
+//! `congruent check`: model against URDF against twin.
+
+use std::{fmt::Write, path::PathBuf};
+
+use congruent_description::{Diagnostic, load_robot};
+use congruent_twin::check::{Agreement, CheckReport, Comparison, check};
+
+use crate::{failure::Failure, print::Printer};
+
+/// Whether a robot's table, its URDF and its physics twin are the same robot.
+///
+/// Compared at zero, one axis at a time, at 200 seeded random configurations within the limits,
+/// and at the limits. Exit code 1 where they disagree.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Folders with robot.toml, robot files, or bare .urdf files.
+    #[arg(required = true)]
+    robots: Vec<PathBuf>,
+    /// Seed of the random configurations.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let mut reports = Vec::with_capacity(arguments.robots.len());
+    for path in &arguments.robots {
+        let description = load_robot(path)?;
+        printer.warnings(&description.warnings);
+        let report = check(&description, arguments.seed)
+            .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
+        reports.push(report);
+    }
+    let all_agree = reports.iter().all(|report| report.verdict == Agreement::Agree);
+    match &reports[..] {
+        [report] => printer.result(report, text)?,
+        reports => printer.result(&reports, |reports| reports.iter().map(text).collect())?,
+    }
+    Ok(u8::from(!all_agree))
+}
+
+fn text(report: &CheckReport) -> String {
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "{}: {}, worst {} and {} over {} configurations (tolerance {:e} m, {:e} rad)",
+        report.robot,
+        word(report.verdict),
+        length(report.worst.position_m),
+        angle(report.worst.orientation_rad),
+        report.configurations,
+        report.tolerance.position_m,
+        report.tolerance.orientation_rad
+    );
+    for comparison in &report.comparisons {
+        compared(&mut text, comparison);
+    }
+    if report.verdict == Agreement::Disagree {
+        let at: Vec<String> =
+            report.worst.at.iter().map(|named| format!("{} {:.4}", named.joint, named.value)).collect();
+        let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, at.join(", "));
+    }
+    text
+}
+
+fn compared(text: &mut String, comparison: &Comparison) {
+    let _ = writeln!(
+        text,
+        "  {:9} {:32} {:>12}  {:>12}  at {}",
+        word(comparison.verdict),
+        comparison.title,
+        length(comparison.worst.position_m),
+        angle(comparison.worst.orientation_rad),
+        comparison.worst.link
+    );
+    if comparison.verdict == Agreement::Agree {
+        return;
+    }
+    for link in &comparison.links {
+        let fitted = match link.source {
+            congruent_twin::model::PoseSource::DhFitted => "(constant fitted at zero)",
+            _ => "",
+        };
+        let _ = writeln!(
+            text,
+            "            {:32} {:>12}  {:>12}  {fitted}",
+            link.link,
+            length(link.position_m),
+            angle(link.orientation_rad)
+        );
+    }
+}
+
+fn word(agreement: Agreement) -> &'static str {
+    match agreement {
+        Agreement::Agree => "agree",
+        Agreement::Disagree => "disagree",
+    }
+}
+
+/// Millimetres where a hand could measure them, otherwise metres with an exponent.
+fn length(metres: f64) -> String {
+    if metres >= 1e-6 { format!("{:.4} mm", metres * 1e3) } else { format!("{metres:.2e} m") }
+}
+
+fn angle(radians: f64) -> String {
+    if radians >= 1e-6 { format!("{:.5} deg", radians.to_degrees()) } else { format!("{radians:.2e} rad") }
+}

@@ -1,0 +1,38 @@
+//! Why a command has no answer, and the exit code that says so.
+
+use congruent_description::Diagnostic;
+
+/// The input is wrong.
+pub(crate) const BAD_INPUT: u8 = 2;
+/// The simulation or the machine failed.
+pub(crate) const BROKEN: u8 = 3;
+
+/// Why a command has no answer.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The input is wrong: every finding.
+    Input(Vec<Diagnostic>),
+    /// The machine failed: a full disk, a closed pipe.
+    Machine(String),
+}
+
+impl Failure {
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::Input(_) => BAD_INPUT,
+            Self::Machine(_) => BROKEN,
+        }
+    }
+}
+
+impl From<Diagnostic> for Failure {
+    fn from(finding: Diagnostic) -> Self {
+        Self::Input(vec![finding])
+    }
+}
+
+impl From<Vec<Diagnostic>> for Failure {
+    fn from(findings: Vec<Diagnostic>) -> Self {
+        Self::Input(findings)
+    }
+}

@@ -1,0 +1,74 @@
+//! `congruent fk`: where the links are.
+
+use std::fmt::Write;
+
+use clap::ValueEnum;
+use congruent_description::Diagnostic;
+use congruent_twin::forward::{ForwardReport, Source, forward};
+
+use crate::{
+    failure::Failure,
+    input::{ConfigurationArguments, RobotArgument},
+    print::Printer,
+};
+
+/// Poses of all links in the root link's frame, by a chosen source.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// Which witness answers.
+    #[arg(long, value_enum, default_value_t = SourceArgument::Urdf)]
+    source: SourceArgument,
+    #[command(flatten)]
+    configurations: ConfigurationArguments,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SourceArgument {
+    /// The URDF chain, by analysis.
+    Urdf,
+    /// The table of robot.toml: its frames, the tip and the TCP.
+    Dh,
+    /// Screws (product of exponentials).
+    Poe,
+    /// The physics engine.
+    Simulation,
+}
+
+impl From<SourceArgument> for Source {
+    fn from(source: SourceArgument) -> Self {
+        match source {
+            SourceArgument::Urdf => Self::Urdf,
+            SourceArgument::Dh => Self::Dh,
+            SourceArgument::Poe => Self::Poe,
+            SourceArgument::Simulation => Self::Simulation,
+        }
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let description = arguments.robot.load(printer)?;
+    let configurations = arguments.configurations.read(&description.robot)?;
+    let report = forward(&description, arguments.source.into(), &configurations).map_err(Diagnostic::from)?;
+    printer.result(&report, text)?;
+    Ok(0)
+}
+
+fn text(report: &ForwardReport) -> String {
+    let mut text = String::new();
+    let width =
+        report.results.iter().flat_map(|poses| &poses.links).map(|(name, _)| name.len()).max().unwrap_or(0);
+    for (index, poses) in report.results.iter().enumerate() {
+        let _ = writeln!(text, "configuration {index}: translation in m, quaternion w x y z");
+        for (name, pose) in &poses.links {
+            let [x, y, z] = pose.translation_m;
+            let [qw, qx, qy, qz] = pose.quaternion_wxyz;
+            let _ = writeln!(
+                text,
+                "  {name:width$}  {x:13.9} {y:13.9} {z:13.9}   {qw:12.9} {qx:12.9} {qy:12.9} {qz:12.9}"
+            );
+        }
+    }
+    text
+}

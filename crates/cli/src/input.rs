@@ -1,0 +1,61 @@
+//! Arguments that several commands share.
+
+use std::{collections::BTreeMap, path::PathBuf};
+
+use congruent_description::{Diagnostic, Robot, RobotDescription, load_robot};
+use congruent_twin::{configuration, read_configurations};
+
+use crate::{failure::Failure, print::Printer};
+
+/// A robot on the command line.
+#[derive(Debug, clap::Args)]
+pub(crate) struct RobotArgument {
+    /// A folder with robot.toml, a robot file, or a bare .urdf.
+    pub(crate) robot: PathBuf,
+}
+
+impl RobotArgument {
+    /// Loads it and prints its warnings.
+    pub(crate) fn load(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
+        let description = load_robot(&self.robot)?;
+        printer.warnings(&description.warnings);
+        Ok(description)
+    }
+}
+
+/// Configurations on the command line.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ConfigurationArguments {
+    /// A JSON array of {"q": {"joint": value}} in rad and m; joints that are not named are at 0.
+    #[arg(long, value_name = "FILE", conflicts_with = "at")]
+    configurations: Option<PathBuf>,
+    /// One joint's position in rad or m; may be given several times.
+    #[arg(long, value_name = "JOINT=VALUE")]
+    at: Vec<String>,
+}
+
+impl ConfigurationArguments {
+    /// The configuration vectors: those of the file, or the one of `--at`, or zero.
+    pub(crate) fn read(&self, robot: &Robot) -> Result<Vec<Vec<f64>>, Failure> {
+        if let Some(path) = &self.configurations {
+            return Ok(read_configurations(path, robot)?);
+        }
+        let mut values = BTreeMap::new();
+        for assignment in &self.at {
+            let (joint, value) = parse(assignment)?;
+            values.insert(joint, value);
+        }
+        Ok(vec![configuration(&values, robot)?])
+    }
+}
+
+fn parse(assignment: &str) -> Result<(String, f64), Diagnostic> {
+    let value = |(joint, value): (&str, &str)| {
+        let value: f64 = value.trim().parse().ok().filter(|value: &f64| value.is_finite())?;
+        Some((joint.trim().to_owned(), value))
+    };
+    assignment.split_once('=').and_then(value).ok_or_else(|| {
+        Diagnostic::error("cli::at", format!("--at \"{assignment}\" is not JOINT=VALUE"))
+            .with_help("for example --at elbow_joint=1.57, in rad or m")
+    })
+}

@@ -1,0 +1,96 @@
+//! Configurations by joint name, as batch commands read them: JSON, SI units.
+
+use std::{collections::BTreeMap, path::Path};
+
+use congruent_description::{Diagnostic, Robot, known_names, read_text};
+use serde::Deserialize;
+
+/// How far a given mimic position may be from what its master implies. Kind: digits of the file.
+const MIMIC_DIGITS: f64 = 1e-9;
+/// Largest file of configurations that is read.
+const MOST_BYTES: u64 = 256 << 20;
+
+/// One entry of a batch, joints by name; what a command does not use is checked all the same.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    #[serde(default)]
+    q: BTreeMap<String, f64>,
+    #[serde(default)]
+    v: BTreeMap<String, f64>,
+    #[serde(default)]
+    tau: BTreeMap<String, f64>,
+    #[serde(default)]
+    a: BTreeMap<String, f64>,
+}
+
+/// Reads a file of configurations: a JSON array of `{"q": {joint: value}, ...}` in rad and m,
+/// missing joints 0. The result holds configuration vectors of the robot.
+///
+/// # Errors
+/// Where the file cannot be read, is no such array, or names an unknown joint.
+pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, Diagnostic> {
+    let source = read_text(path, MOST_BYTES)?;
+    let refused = |error: &serde_json::Error| {
+        let offset = offset_of(&source.text, error.line(), error.column());
+        Diagnostic::error("configurations::json", error.to_string())
+            .with_help(r#"expected a JSON array: [{"q": {"joint name": 0.1}}]"#)
+            .at(offset..offset)
+    };
+    let written: Vec<Written> =
+        serde_json::from_str(&source.text).map_err(|error| refused(&error).in_file(&source))?;
+    let vector = |(index, entry): (usize, &Written)| {
+        for group in [&entry.v, &entry.tau, &entry.a] {
+            place(group, robot).map_err(|error| at_index(error, index))?;
+        }
+        configuration(&entry.q, robot).map_err(|error| at_index(error, index).in_file(&source))
+    };
+    written.iter().enumerate().map(vector).collect()
+}
+
+/// The configuration vector that has these joints at these positions (rad or m), others at 0,
+/// mimic joints as their masters imply.
+///
+/// # Errors
+/// Where a joint is unknown, or a mimic joint is not where its master puts it.
+pub fn configuration(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Vec<f64>, Diagnostic> {
+    let mut q = place(values, robot)?;
+    let given = q.clone();
+    robot.apply_mimic(&mut q);
+    for ((&joint, implied), given) in robot.movable_joints().iter().zip(&q).zip(&given) {
+        let name = &robot.joint(joint).name;
+        if values.contains_key(name) && (implied - given).abs() > MIMIC_DIGITS {
+            let message =
+                format!("joint \"{name}\" is given as {given}, but what it mimics puts it at {implied}");
+            return Err(Diagnostic::error("configurations::mimic", message)
+                .with_help("leave mimic joints out, or give what follows from their master"));
+        }
+    }
+    Ok(q)
+}
+
+fn place(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Vec<f64>, Diagnostic> {
+    let mut vector = vec![0.0; robot.dof()];
+    for (name, &value) in values {
+        let coordinate = robot.find_joint(name).and_then(|joint| robot.coordinate(joint));
+        let Some(coordinate) = coordinate else {
+            let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.as_str());
+            let message = format!("robot \"{}\" has no moving joint \"{name}\"", robot.name());
+            return Err(Diagnostic::error("configurations::unknown_joint", message)
+                .with_help(known_names(name, "joints", joints)));
+        };
+        vector[coordinate] = value;
+    }
+    Ok(vector)
+}
+
+fn at_index(mut error: Diagnostic, index: usize) -> Diagnostic {
+    error.message = format!("configuration {index}: {}", error.message);
+    error
+}
+
+/// Byte offset of a line and column, both from 1.
+fn offset_of(text: &str, line: usize, column: usize) -> usize {
+    let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    (before + column.saturating_sub(1)).min(text.len())
+}

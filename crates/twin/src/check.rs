@@ -1,0 +1,308 @@
+//! Model against URDF against twin, without motion: are they the same robot?
+
+use congruent_description::{RobotDescription, Tolerance};
+use congruent_kinematics::{KinematicsError, Pose, ScrewTree, UrdfTree};
+use congruent_simulation::{SimulationError, World, WorldSettings};
+use nalgebra::Isometry3;
+use serde::Serialize;
+
+use crate::{
+    configurations::probe_configurations,
+    model::{Model, PoseSource},
+    report::Finding,
+    sample::LinkError,
+    verdict::NamedValue,
+};
+
+/// Why two witnesses cannot be held against each other.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckError {
+    /// The physics refuses the robot.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// The model does not fit the robot.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+}
+
+/// Whether witnesses tell of the same robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Agreement {
+    /// Within tolerance at every configuration.
+    Agree,
+    /// Beyond tolerance somewhere.
+    Disagree,
+}
+
+/// The largest differences with their places; the two need not be at the same configuration.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Worst {
+    /// Largest distance of the origins of a link.
+    pub position_m: f64,
+    /// Largest angle between the orientations of a link.
+    pub orientation_rad: f64,
+    /// The link that is furthest off in position.
+    pub link: String,
+    /// The configuration at which it is: every movable joint, rad or m.
+    #[serde(serialize_with = "as_map")]
+    pub at: Vec<NamedValue>,
+}
+
+/// Two witnesses against each other.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Which two: `model_urdf`, `poe_urdf` or `urdf_simulation`.
+    pub name: &'static str,
+    /// The same in words.
+    pub title: &'static str,
+    /// Whether the links that decide are within tolerance.
+    pub verdict: Agreement,
+    /// The worst over the links that decide.
+    pub worst: Worst,
+    /// The worst at each link.
+    pub links: Vec<LinkDifference>,
+}
+
+/// The largest difference at one link.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LinkDifference {
+    /// The link.
+    pub link: String,
+    /// Where the first witness's pose comes from.
+    pub source: PoseSource,
+    /// Largest distance of the origins.
+    pub position_m: f64,
+    /// Largest angle between the orientations.
+    pub orientation_rad: f64,
+}
+
+/// The answer of `congruent check` for one robot.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CheckReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// Whether all witnesses agree.
+    pub verdict: Agreement,
+    /// The worst of all comparisons.
+    pub worst: Worst,
+    /// When two poses count as the same.
+    pub tolerance: ReportedTolerance,
+    /// Number of configurations: zero, single axes, random ones, limits.
+    pub configurations: usize,
+    /// Seed of the random ones.
+    pub seed: u64,
+    /// Two witnesses at a time.
+    pub comparisons: Vec<Comparison>,
+    /// What was suspicious in the input.
+    pub warnings: Vec<Finding>,
+}
+
+/// A tolerance as programs read it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ReportedTolerance {
+    /// Distance of the origins.
+    pub position_m: f64,
+    /// Angle between the orientations.
+    pub orientation_rad: f64,
+}
+
+/// Random configurations of a check.
+pub const RANDOM_CONFIGURATIONS: usize = 200;
+
+/// Holds model, URDF chain, screws and physics against each other.
+///
+/// The model is judged at link `tip`, whose constants are declared; links between are compared
+/// with a fitted constant, shown, and follow from the tip: two chains that agree at the tip for
+/// every configuration have the same axes.
+///
+/// # Errors
+/// [`CheckError`] where a witness refuses the robot.
+pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, CheckError> {
+    let robot = &description.robot;
+    let configurations = probe_configurations(robot, seed, RANDOM_CONFIGURATIONS);
+    let mut witnesses = Witnesses::new(description)?;
+    let mut tallies = Vec::new();
+    if description.dh.is_some() {
+        let decides = |source| source == PoseSource::Dh;
+        let sources = witnesses.model.sources();
+        tallies.push(Tally::new("model_urdf", "DH table against URDF chain", model_urdf, sources, decides));
+    }
+    let urdf = vec![PoseSource::Urdf; robot.links().len()];
+    let all = |_| true;
+    tallies.push(Tally::new("poe_urdf", "screws (POE) against URDF chain", poe_urdf, &urdf, all));
+    tallies.push(Tally::new("urdf_simulation", "URDF chain against physics", urdf_simulation, &urdf, all));
+    for (index, q) in configurations.iter().enumerate() {
+        witnesses.look(q)?;
+        for tally in &mut tallies {
+            tally.observe(index, &witnesses);
+        }
+    }
+    let comparisons: Vec<Comparison> =
+        tallies.iter().map(|tally| tally.finish(description, &configurations)).collect();
+    let worst = comparisons
+        .iter()
+        .map(|comparison| &comparison.worst)
+        .max_by(|a, b| a.position_m.total_cmp(&b.position_m))
+        .expect("there are at least two comparisons")
+        .clone();
+    let orientation_rad = comparisons.iter().map(|each| each.worst.orientation_rad).fold(0.0, f64::max);
+    let agree = comparisons.iter().all(|comparison| comparison.verdict == Agreement::Agree);
+    let Tolerance { position_m, orientation_rad: angle } = description.tolerance;
+    Ok(CheckReport {
+        robot: robot.name().to_owned(),
+        verdict: if agree { Agreement::Agree } else { Agreement::Disagree },
+        worst: Worst { orientation_rad, ..worst },
+        tolerance: ReportedTolerance { position_m, orientation_rad: angle },
+        configurations: configurations.len(),
+        seed,
+        comparisons,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
+    })
+}
+
+/// All poses at one configuration, by each witness.
+struct Witnesses {
+    model: Model,
+    urdf: UrdfTree,
+    screws: ScrewTree,
+    world: World,
+    by_urdf: Vec<Pose>,
+    by_screws: Vec<Pose>,
+    by_physics: Vec<Isometry3<f64>>,
+    at_rest: Vec<f64>,
+}
+
+impl Witnesses {
+    fn new(description: &RobotDescription) -> Result<Self, CheckError> {
+        let robot = &description.robot;
+        let links = robot.links().len();
+        Ok(Self {
+            model: Model::new(description)?,
+            urdf: UrdfTree::new(robot),
+            screws: ScrewTree::new(robot),
+            world: World::new(robot, &WorldSettings::default())?,
+            by_urdf: vec![Pose::identity(); links],
+            by_screws: vec![Pose::identity(); links],
+            by_physics: vec![Isometry3::identity(); links],
+            at_rest: vec![0.0; robot.dof()],
+        })
+    }
+
+    fn look(&mut self, q: &[f64]) -> Result<(), CheckError> {
+        self.model.root_from_links(q)?;
+        self.urdf.root_from_links_into(q, &mut self.by_urdf)?;
+        self.screws.root_from_links_into(q, &mut self.by_screws)?;
+        self.world.set_state(q, &self.at_rest)?;
+        self.world.root_from_links_into(&mut self.by_physics);
+        Ok(())
+    }
+}
+
+/// One pair of witnesses: their difference at a link.
+type Difference = fn(&Witnesses, usize) -> LinkError;
+
+fn model_urdf(witnesses: &Witnesses, link: usize) -> LinkError {
+    LinkError::of(&witnesses.model.latest()[link], &witnesses.by_urdf[link])
+}
+
+fn poe_urdf(witnesses: &Witnesses, link: usize) -> LinkError {
+    LinkError::of(&witnesses.by_screws[link], &witnesses.by_urdf[link])
+}
+
+fn urdf_simulation(witnesses: &Witnesses, link: usize) -> LinkError {
+    LinkError::between(&witnesses.by_urdf[link], &witnesses.by_physics[link])
+}
+
+/// The worst of one comparison so far.
+struct Tally {
+    name: &'static str,
+    title: &'static str,
+    difference: Difference,
+    sources: Vec<PoseSource>,
+    /// Whether a link decides the verdict.
+    decides: Vec<bool>,
+    worst: Vec<LinkError>,
+    /// Link and configuration furthest off in position, of those that decide.
+    furthest: (usize, usize),
+}
+
+impl Tally {
+    fn new(
+        name: &'static str,
+        title: &'static str,
+        difference: Difference,
+        sources: &[PoseSource],
+        decides: impl Fn(PoseSource) -> bool,
+    ) -> Self {
+        let decides: Vec<bool> = sources.iter().map(|&source| decides(source)).collect();
+        let first = decides.iter().position(|&decides| decides).expect("the tip or every link decides");
+        Self {
+            name,
+            title,
+            difference,
+            sources: sources.to_vec(),
+            worst: vec![LinkError::default(); sources.len()],
+            decides,
+            furthest: (first, 0),
+        }
+    }
+
+    fn observe(&mut self, configuration: usize, witnesses: &Witnesses) {
+        for link in 0..self.worst.len() {
+            let error = (self.difference)(witnesses, link);
+            if self.decides[link] && error.position_m > self.worst[self.furthest.0].position_m {
+                self.furthest = (link, configuration);
+            }
+            let worst = &mut self.worst[link];
+            // `max` would drop a NaN, and a NaN is the worst of all.
+            worst.position_m = larger(worst.position_m, error.position_m);
+            worst.orientation_rad = larger(worst.orientation_rad, error.orientation_rad);
+        }
+    }
+
+    fn finish(&self, description: &RobotDescription, configurations: &[Vec<f64>]) -> Comparison {
+        let robot = &description.robot;
+        let deciding = || self.worst.iter().zip(&self.decides).filter(|(_, decides)| **decides);
+        let position_m = deciding().map(|(error, _)| error.position_m).fold(0.0, larger);
+        let orientation_rad = deciding().map(|(error, _)| error.orientation_rad).fold(0.0, larger);
+        let Tolerance { position_m: most_m, orientation_rad: most_rad } = description.tolerance;
+        let agrees = position_m <= most_m && orientation_rad <= most_rad;
+        let (link, configuration) = self.furthest;
+        let links = robot.links().iter().zip(&self.sources).zip(&self.worst);
+        Comparison {
+            name: self.name,
+            title: self.title,
+            verdict: if agrees { Agreement::Agree } else { Agreement::Disagree },
+            worst: Worst {
+                position_m,
+                orientation_rad,
+                link: robot.links()[link].name.clone(),
+                at: named(description, &configurations[configuration]),
+            },
+            links: links
+                .map(|((link, &source), worst)| LinkDifference {
+                    link: link.name.clone(),
+                    source,
+                    position_m: worst.position_m,
+                    orientation_rad: worst.orientation_rad,
+                })
+                .collect(),
+        }
+    }
+}
+
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b <= a { a } else { b }
+}
+
+fn named(description: &RobotDescription, q: &[f64]) -> Vec<NamedValue> {
+    let robot = &description.robot;
+    let value = |(&joint, &value)| NamedValue { joint: robot.joint(joint).name.clone(), value };
+    robot.movable_joints().iter().zip(q).map(value).collect()
+}
+
+fn as_map<S: serde::Serializer>(values: &[NamedValue], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(values.iter().map(|named| (&named.joint, named.value)))
+}

@@ -1,0 +1,58 @@
+//! Configurations at which two models are held against each other without motion.
+
+use congruent_description::{Joint, JointKind, Robot};
+use rand_chacha::{
+    ChaCha8Rng,
+    rand_core::{RngCore, SeedableRng},
+};
+
+/// How far one axis is moved alone: 10 degrees.
+const AXIS_STEP_RAD: f64 = std::f64::consts::PI / 18.0;
+/// How far one sliding axis is moved alone.
+const AXIS_STEP_M: f64 = 0.01;
+
+/// Zero, one axis at a time, `random` seeded draws within the limits, and the limits themselves:
+/// each joint alone at both ends with the others half way, then all at their lower and upper ends.
+pub fn probe_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Vec<f64>> {
+    let joints: Vec<&Joint> = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).collect();
+    let mut configurations = vec![vec![0.0; joints.len()]];
+    for (coordinate, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.mimic.is_none()) {
+        let mut q = vec![0.0; joints.len()];
+        q[coordinate] = if joint.kind == JointKind::Prismatic { AXIS_STEP_M } else { AXIS_STEP_RAD };
+        configurations.push(q);
+    }
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    for _ in 0..random {
+        let draw = |joint: &&Joint| {
+            let (lower, upper) = range(joint);
+            lower + (upper - lower) * unit_interval(&mut generator)
+        };
+        configurations.push(joints.iter().map(draw).collect());
+    }
+    let middle: Vec<f64> = joints.iter().map(|joint| f64::midpoint(range(joint).0, range(joint).1)).collect();
+    for (coordinate, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.mimic.is_none()) {
+        let (lower, upper) = range(joint);
+        for end in [lower, upper] {
+            let mut q = middle.clone();
+            q[coordinate] = end;
+            configurations.push(q);
+        }
+    }
+    configurations.push(joints.iter().map(|joint| range(joint).0).collect());
+    configurations.push(joints.iter().map(|joint| range(joint).1).collect());
+    for q in &mut configurations {
+        robot.apply_mimic(q);
+    }
+    configurations
+}
+
+/// The limits of a joint, or one turn where it has none.
+fn range(joint: &Joint) -> (f64, f64) {
+    joint.position_range().unwrap_or((-std::f64::consts::PI, std::f64::consts::PI))
+}
+
+/// A number in [0, 1) with 53 random bits.
+#[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
+fn unit_interval(generator: &mut ChaCha8Rng) -> f64 {
+    (generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+}

@@ -1,0 +1,117 @@
+//! One scenario from its file to its results on disk.
+
+use std::path::PathBuf;
+
+use crate::{
+    model::PoseSource,
+    monitor::Names,
+    recorder::{NoRecorder, Recorder, RecordingError},
+    report::{OutputError, OutputFolder, RunReport, junit},
+    run::{Run, RunError},
+    scenario::Scenario,
+};
+
+/// Where results go and which.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Options {
+    /// The folder above the scenarios' own folders.
+    pub out: PathBuf,
+    /// Whether a recording is made.
+    pub recording: bool,
+}
+
+/// Why there is no report.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExecuteError {
+    /// Results cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The robot cannot be simulated as the scenario asks.
+    #[error("scenario \"{scenario}\" cannot run: {source}")]
+    CannotRun {
+        /// The scenario.
+        scenario: String,
+        /// Why.
+        source: RunError,
+    },
+}
+
+/// Runs a scenario and writes its results; the report says how it went.
+///
+/// `progress` is told the number of steps taken.
+///
+/// # Errors
+/// [`ExecuteError`] when there can be no report. A run that breaks on the way has one.
+pub fn execute(
+    mut scenario: Scenario,
+    options: &Options,
+    progress: impl FnMut(u64),
+) -> Result<(RunReport, OutputFolder), ExecuteError> {
+    let folder = OutputFolder::create(&options.out, &scenario.name)?;
+    folder.write("scenario.resolved.toml", scenario.resolved().as_bytes())?;
+    let mut checks = std::mem::take(&mut scenario.checks);
+    let cannot_run = |source: RunError| ExecuteError::CannotRun { scenario: scenario.name.clone(), source };
+    let run = Run::new(&scenario).map_err(cannot_run)?;
+    let sources = run.model().sources().to_vec();
+    let mut recording = Recording::start(options, &folder, &scenario, run.names(), &sources)
+        .map_err(|error| cannot_run(error.into()))?;
+    let (outcome, result) = run.finish(&mut checks, recording.recorder(), progress);
+    let mut report = RunReport::new(&scenario, &sources, outcome.clone(), result.as_ref().err());
+    if let Err(error) = recording.finish(&report) {
+        report = RunReport::new(&scenario, &sources, outcome, Some(&error.into()));
+    } else if options.recording && cfg!(feature = "recording") {
+        folder.publish(PARTIAL, "recording.rrd")?;
+    }
+    let mut json = serde_json::to_vec_pretty(&report).expect("a report holds nothing that JSON cannot");
+    json.push(b'\n');
+    folder.write("report.json", &json)?;
+    folder.write("junit.xml", junit(std::slice::from_ref(&report)).as_bytes())?;
+    Ok((report, folder))
+}
+
+/// A recording under its temporary name.
+const PARTIAL: &str = "recording.rrd.partial";
+
+/// The recording of a run, or none.
+enum Recording {
+    None(NoRecorder),
+    #[cfg(feature = "recording")]
+    Rerun(Box<crate::recording::RerunRecorder>),
+}
+
+impl Recording {
+    #[cfg_attr(not(feature = "recording"), expect(unused_variables, reason = "nothing is recorded"))]
+    fn start(
+        options: &Options,
+        folder: &OutputFolder,
+        scenario: &Scenario,
+        names: &Names,
+        sources: &[PoseSource],
+    ) -> Result<Self, RecordingError> {
+        #[cfg(feature = "recording")]
+        if options.recording {
+            let path = folder.file(PARTIAL);
+            let recorder = crate::recording::RerunRecorder::create(&path, scenario, names, sources)?;
+            return Ok(Self::Rerun(Box::new(recorder)));
+        }
+        Ok(Self::None(NoRecorder))
+    }
+
+    fn recorder(&mut self) -> &mut dyn Recorder {
+        match self {
+            Self::None(recorder) => recorder,
+            #[cfg(feature = "recording")]
+            Self::Rerun(recorder) => &mut **recorder,
+        }
+    }
+
+    #[cfg_attr(not(feature = "recording"), expect(unused_variables, reason = "nothing is recorded"))]
+    fn finish(self, report: &RunReport) -> Result<(), RecordingError> {
+        match self {
+            Self::None(_) => Ok(()),
+            #[cfg(feature = "recording")]
+            Self::Rerun(recorder) => recorder.finish(report),
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! Checks of a scenario. A new one is a file here and a line in [`KINDS`].
+
+mod agreement;
+mod clearance;
+mod limits;
+mod watch;
+
+use congruent_description::{Diagnostic, Robot, RobotDescription};
+
+use crate::{
+    clearance::Clearance,
+    sample::Sample,
+    scenario::Section,
+    verdict::{CheckResult, Measure, Status},
+};
+
+/// A check that looks at every sample of a run.
+pub trait Monitor: Send {
+    /// Looks at one instant.
+    fn observe(&mut self, sample: &mut Sample<'_>);
+
+    /// What was found so far.
+    fn finish(&self, names: &Names) -> Findings;
+
+    /// Whether the check has failed already.
+    fn has_failed(&self) -> bool;
+
+    /// The settings with every default written out, as they go into the resolved scenario.
+    fn resolved(&self) -> toml::Table;
+}
+
+/// What a monitor found, before it is known which check of which file it belongs to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Findings {
+    /// Instants looked at.
+    pub samples: u64,
+    /// The quantities with their limits.
+    pub measures: Vec<Measure>,
+    /// What to know beside the figures.
+    pub notes: Vec<String>,
+}
+
+/// Names that turn numbers of a sample into words.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Names {
+    /// Links, in the robot's order.
+    pub links: Vec<String>,
+    /// Movable joints, in the order of configuration vectors.
+    pub joints: Vec<String>,
+    /// Watched pairs, as `a--b`.
+    pub pairs: Vec<String>,
+}
+
+impl Names {
+    /// The names of a robot and of the pairs that are watched around it.
+    pub fn new(robot: &Robot, clearance: &Clearance) -> Self {
+        let pair = |index| {
+            let (a, b) = clearance.names(index);
+            format!("{a}--{b}")
+        };
+        Self {
+            links: robot.links().iter().map(|link| link.name.clone()).collect(),
+            joints: robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.clone()).collect(),
+            pairs: (0..clearance.pairs().len()).map(pair).collect(),
+        }
+    }
+}
+
+/// How one kind of check is made from its section of a scenario file.
+struct Kind {
+    name: &'static str,
+    parse: fn(Section<'_>, &RobotDescription) -> Result<Box<dyn Monitor>, Diagnostic>,
+}
+
+/// Every kind of check.
+const KINDS: &[Kind] = &[
+    Kind { name: agreement::NAME, parse: agreement::parse },
+    Kind { name: clearance::NAME, parse: clearance::parse },
+    Kind { name: limits::NAME, parse: limits::parse },
+];
+
+/// A check of a scenario: a monitor with its place in the file.
+pub struct Check {
+    /// The kind, as the scenario names it.
+    pub kind: &'static str,
+    /// Line of its section, from 1.
+    pub line: usize,
+    /// What looks at the samples.
+    pub monitor: Box<dyn Monitor>,
+}
+
+impl std::fmt::Debug for Check {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Check").field("kind", &self.kind).field("line", &self.line).finish_non_exhaustive()
+    }
+}
+
+impl Check {
+    /// Makes the check that a `[[check]]` section asks for.
+    ///
+    /// # Errors
+    /// A diagnostic at the section's kind or at the key that is wrong.
+    pub fn parse(section: Section<'_>, description: &RobotDescription) -> Result<Self, Diagnostic> {
+        let line = section.line();
+        let mut section = section;
+        let kind = section.select("check", KINDS.iter().map(|kind| kind.name))?;
+        let kind = KINDS.iter().find(|known| known.name == kind).expect("selected from the same list");
+        Ok(Self { kind: kind.name, line, monitor: (kind.parse)(section, description)? })
+    }
+
+    /// The result of the check.
+    pub fn result(&self, names: &Names) -> CheckResult {
+        let Findings { samples, measures, notes } = self.monitor.finish(names);
+        let status = match samples {
+            _ if self.monitor.has_failed() => Status::Fail,
+            0 => Status::Skipped,
+            _ if measures.iter().all(|measure| measure.worst.is_none()) => Status::Skipped,
+            _ => Status::Pass,
+        };
+        CheckResult { check: self.kind, line: self.line, status, samples, measures, notes }
+    }
+}
+
+/// Names of all kinds of check.
+pub fn kinds() -> impl Iterator<Item = &'static str> + Clone {
+    KINDS.iter().map(|kind| kind.name)
+}

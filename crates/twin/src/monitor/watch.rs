@@ -1,0 +1,92 @@
+//! One quantity against its limit, sample after sample, without allocation.
+
+use crate::{
+    sample::Sample,
+    verdict::{Bound, Measure, Moment, NamedValue},
+};
+
+/// Remembers the worst value and the first violation of one quantity.
+#[derive(Debug, Clone)]
+pub(crate) struct Watch {
+    quantity: &'static str,
+    unit: &'static str,
+    bound: Bound,
+    limit: f64,
+    worst: Seen,
+    first_violation: Seen,
+}
+
+/// A value with its place; `q` is allocated once.
+#[derive(Debug, Clone)]
+struct Seen {
+    value: f64,
+    subject: usize,
+    time_s: f64,
+    q: Vec<f64>,
+    is_set: bool,
+}
+
+impl Seen {
+    fn set(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
+        (self.value, self.subject, self.time_s, self.is_set) = (value, subject, sample.time_s, true);
+        self.q.copy_from_slice(sample.q);
+    }
+}
+
+impl Watch {
+    /// A watch over `quantity` for a robot with `dof` movable joints.
+    pub(crate) fn new(
+        quantity: &'static str,
+        unit: &'static str,
+        bound: Bound,
+        limit: f64,
+        dof: usize,
+    ) -> Self {
+        let unseen = Seen { value: f64::NAN, subject: 0, time_s: 0.0, q: vec![0.0; dof], is_set: false };
+        Self { quantity, unit, bound, limit, worst: unseen.clone(), first_violation: unseen }
+    }
+
+    /// Looks at one value about `subject`, a number that `finish` turns into a name.
+    pub(crate) fn observe(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
+        if !self.worst.is_set || self.bound.is_worse(value, self.worst.value) {
+            self.worst.set(value, subject, sample);
+        }
+        if !self.first_violation.is_set && !self.bound.holds(value, self.limit) {
+            self.first_violation.set(value, subject, sample);
+        }
+    }
+
+    /// The worst value so far.
+    pub(crate) fn worst(&self) -> Option<f64> {
+        self.worst.is_set.then_some(self.worst.value)
+    }
+
+    /// Whether a value was outside the limit.
+    pub(crate) fn is_violated(&self) -> bool {
+        self.first_violation.is_set
+    }
+
+    /// The report of this quantity; `joints` are the names that go with `q`.
+    pub(crate) fn measure(&self, joints: &[String], name: impl Fn(usize) -> String) -> Measure {
+        let moment = |seen: &Seen| {
+            seen.is_set.then(|| Moment {
+                time_s: seen.time_s,
+                subject: name(seen.subject),
+                value: seen.value,
+                q: joints
+                    .iter()
+                    .zip(&seen.q)
+                    .map(|(joint, &value)| NamedValue { joint: joint.clone(), value })
+                    .collect(),
+            })
+        };
+        Measure {
+            quantity: self.quantity,
+            unit: self.unit,
+            limit: self.limit,
+            bound: self.bound,
+            worst: moment(&self.worst),
+            first_violation: moment(&self.first_violation),
+        }
+    }
+}

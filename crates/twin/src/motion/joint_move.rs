@@ -1,0 +1,61 @@
+//! `move_joints_*`: named joints move to absolute positions, the others hold.
+
+use congruent_description::Diagnostic;
+use serde::Deserialize;
+
+use super::{Context, Motion, Profile};
+use crate::scenario::{JointValues, Positive, Section, WrittenJoints};
+
+/// The keys that make a section this kind of motion.
+pub(super) const KEYS: &[&str] = &["move_joints_deg", "move_joints_rad", "move_joints_m", "move_joints_mm"];
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    #[serde(default)]
+    move_joints_deg: WrittenJoints,
+    #[serde(default)]
+    move_joints_rad: WrittenJoints,
+    #[serde(default)]
+    move_joints_m: WrittenJoints,
+    #[serde(default)]
+    move_joints_mm: WrittenJoints,
+    duration_s: Positive,
+    #[serde(default)]
+    profile: Profile,
+}
+
+pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<Motion, Vec<Diagnostic>> {
+    let written: Written = section.read().map_err(|error| vec![error])?;
+    let targets = JointValues {
+        deg: written.move_joints_deg,
+        rad: written.move_joints_rad,
+        m: written.move_joints_m,
+        mm: written.move_joints_mm,
+    }
+    .resolve(context.robot)?;
+    let mut to = context.from.to_vec();
+    for target in targets {
+        let joint = context.robot.joint(target.joint);
+        if let Some((lower, upper)) = joint.position_range()
+            && !(lower..=upper).contains(&target.value)
+        {
+            let message = format!(
+                "joint \"{}\": target {} {} is outside [{lower}, {upper}]",
+                joint.name,
+                target.value,
+                joint.kind.unit()
+            );
+            context.warnings.push(Diagnostic::warning("scenario::target_limit", message).at(target.span));
+        }
+        let coordinate = context.robot.coordinate(target.joint).expect("resolved joints move");
+        to[coordinate] = target.value;
+    }
+    context.robot.apply_mimic(&mut to);
+    Ok(Motion {
+        from: context.from.to_vec(),
+        to,
+        duration_s: written.duration_s.get(),
+        profile: written.profile,
+    })
+}

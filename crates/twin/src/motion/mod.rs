@@ -1,0 +1,116 @@
+//! What the arm is asked to do: motions one after another, in joint space. A new kind of motion is
+//! a file here and a line in [`KINDS`].
+
+mod joint_move;
+mod profile;
+
+use congruent_description::{Diagnostic, Robot};
+
+pub use profile::{Profile, Progress};
+
+use crate::scenario::Section;
+
+/// What a motion's parser may look at.
+struct Context<'a> {
+    robot: &'a Robot,
+    /// Where the motion before it ends.
+    from: &'a [f64],
+    warnings: &'a mut Vec<Diagnostic>,
+}
+
+/// How one kind of motion is made from its section; it is known by its keys.
+struct Kind {
+    keys: &'static [&'static str],
+    parse: fn(Section<'_>, &mut Context<'_>) -> Result<Motion, Vec<Diagnostic>>,
+}
+
+/// Every kind of motion.
+const KINDS: &[Kind] = &[Kind { keys: joint_move::KEYS, parse: joint_move::parse }];
+
+/// One motion in joint space; all vectors are configuration vectors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// Positions at its start, rad or m.
+    pub from: Vec<f64>,
+    /// Positions at its end, rad or m.
+    pub to: Vec<f64>,
+    /// How long it takes.
+    pub duration_s: f64,
+    /// Its course in between.
+    pub profile: Profile,
+}
+
+/// All motions of a scenario; the arm holds before the first and after the last.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trajectory {
+    start: Vec<f64>,
+    motions: Vec<Motion>,
+    /// Start time of each motion.
+    starts_s: Vec<f64>,
+}
+
+impl Trajectory {
+    /// Reads the `[[motion]]` sections of a scenario, from the start configuration on.
+    ///
+    /// # Errors
+    /// Every finding of the first section that is wrong.
+    pub fn parse(
+        sections: Vec<Section<'_>>,
+        robot: &Robot,
+        start: &[f64],
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let mut trajectory = Self { start: start.to_vec(), motions: Vec::new(), starts_s: Vec::new() };
+        for section in sections {
+            let starts_s = trajectory.duration_s();
+            let mut context = Context { robot, from: trajectory.end(), warnings };
+            let kind = KINDS.iter().find(|kind| kind.keys.iter().any(|key| section.has(key)));
+            let kind = kind.ok_or_else(|| vec![unknown_kind(&section)])?;
+            let motion = (kind.parse)(section, &mut context)?;
+            trajectory.motions.push(motion);
+            trajectory.starts_s.push(starts_s);
+        }
+        Ok(trajectory)
+    }
+
+    /// The motions, one after another.
+    pub fn motions(&self) -> &[Motion] {
+        &self.motions
+    }
+
+    /// When the last motion ends.
+    pub fn duration_s(&self) -> f64 {
+        match (self.starts_s.last(), self.motions.last()) {
+            (Some(start_s), Some(motion)) => start_s + motion.duration_s,
+            _ => 0.0,
+        }
+    }
+
+    /// Where the last motion ends.
+    fn end(&self) -> &[f64] {
+        self.motions.last().map_or(&self.start, |motion| &motion.to)
+    }
+
+    /// Writes the desired positions and velocities at `time_s`.
+    pub fn reference_into(&self, time_s: f64, q: &mut [f64], qd: &mut [f64]) {
+        let current = self.starts_s.partition_point(|&start_s| start_s <= time_s);
+        let Some(current) = current.checked_sub(1) else {
+            q.copy_from_slice(&self.start);
+            qd.fill(0.0);
+            return;
+        };
+        let motion = &self.motions[current];
+        let progress = motion.profile.at(time_s - self.starts_s[current], motion.duration_s);
+        for ((q, qd), (from, to)) in q.iter_mut().zip(qd).zip(motion.from.iter().zip(&motion.to)) {
+            *q = from + (to - from) * progress.share;
+            *qd = (to - from) * progress.share_per_s;
+        }
+    }
+}
+
+fn unknown_kind(section: &Section<'_>) -> Diagnostic {
+    let known: Vec<&str> = KINDS.iter().flat_map(|kind| kind.keys.iter().copied()).collect();
+    Diagnostic::error("scenario::unknown_motion", "the motion does not say what moves")
+        .with_help(format!("give one of {}", known.join(", ")))
+        .at(section.span())
+}

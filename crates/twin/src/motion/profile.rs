@@ -1,0 +1,62 @@
+//! How a motion runs from 0 to 1 over its duration.
+
+use serde::Deserialize;
+
+/// Position and rate of a motion at one instant, both as a share of the whole way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// 0 at the start, 1 at the end.
+    pub share: f64,
+    /// Change of `share` per second.
+    pub share_per_s: f64,
+}
+
+/// The course of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Profile {
+    /// Rest to rest without a jump in acceleration: `10 s^3 - 15 s^4 + 6 s^5`
+    /// (Lynch & Park, *Modern Robotics* (2017), sec. 9.2.2.1).
+    #[default]
+    Quintic,
+    /// Rest to rest: `3 s^2 - 2 s^3` (eq. 9.11).
+    Cubic,
+    /// Constant speed, with a jump of speed at both ends.
+    Linear,
+}
+
+impl Profile {
+    /// The name in scenario files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quintic => "quintic",
+            Self::Cubic => "cubic",
+            Self::Linear => "linear",
+        }
+    }
+
+    /// Where a motion of `duration_s` is after `elapsed_s`; it rests before its start and after its end.
+    ///
+    /// ```
+    /// use congruent_twin::motion::Profile;
+    /// let half_way = Profile::Quintic.at(1.0, 2.0);
+    /// assert_eq!((half_way.share, half_way.share_per_s), (0.5, 1.875 / 2.0));
+    /// ```
+    pub fn at(self, elapsed_s: f64, duration_s: f64) -> Progress {
+        let s = elapsed_s / duration_s;
+        if s <= 0.0 {
+            return Progress { share: 0.0, share_per_s: 0.0 };
+        }
+        if s >= 1.0 {
+            return Progress { share: 1.0, share_per_s: 0.0 };
+        }
+        let (share, rate) = match self {
+            Self::Quintic => {
+                (s * s * s * (10.0 + s * (6.0 * s - 15.0)), 30.0 * s * s * (1.0 - s) * (1.0 - s))
+            }
+            Self::Cubic => (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s)),
+            Self::Linear => (s, 1.0),
+        };
+        Progress { share, share_per_s: rate / duration_s }
+    }
+}

@@ -1,0 +1,127 @@
+//! The output folder of a scenario. Files appear whole or not at all: each is written under a
+//! temporary name and renamed.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+/// Why a result cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {source}", .path.display())]
+pub struct OutputError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// What the operating system says.
+    pub source: io::Error,
+}
+
+/// The folder that holds one scenario's results.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutputFolder {
+    path: PathBuf,
+}
+
+/// Everything that a run may leave behind.
+const RESULTS: [&str; 5] =
+    ["report.json", "junit.xml", "recording.rrd", "recording.rrd.partial", "scenario.resolved.toml"];
+
+impl OutputFolder {
+    /// Where the results of a scenario of this name go.
+    pub fn path_for(out: &Path, scenario: &str) -> PathBuf {
+        out.join(file_name(scenario))
+    }
+
+    /// Makes the folder, proves that it can be written, and clears the results of an earlier run.
+    ///
+    /// # Errors
+    /// [`OutputError`] where the folder cannot be made or written.
+    pub fn create(out: &Path, scenario: &str) -> Result<Self, OutputError> {
+        let folder = Self { path: Self::path_for(out, scenario) };
+        fs::create_dir_all(&folder.path).map_err(|source| folder.refused("", source))?;
+        for name in RESULTS {
+            match fs::remove_file(folder.file(name)) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                    return Err(folder.refused(name, error));
+                }
+                _ => {}
+            }
+        }
+        Ok(folder)
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// A file in it.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes a file whole.
+    ///
+    /// # Errors
+    /// [`OutputError`] where it cannot be written; the name then does not exist.
+    pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), OutputError> {
+        write_whole(&self.file(name), contents)
+    }
+
+    /// Gives a file that was written under a temporary name its own.
+    ///
+    /// # Errors
+    /// [`OutputError`] where it cannot be renamed.
+    pub fn publish(&self, temporary: &str, name: &str) -> Result<(), OutputError> {
+        fs::rename(self.file(temporary), self.file(name)).map_err(|source| self.refused(name, source))
+    }
+
+    fn refused(&self, name: &str, source: io::Error) -> OutputError {
+        OutputError { path: self.file(name), source }
+    }
+}
+
+/// Writes a file under a temporary name beside it and renames it.
+///
+/// # Errors
+/// [`OutputError`] where it cannot be written.
+pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
+    let mut temporary = path.as_os_str().to_owned();
+    temporary.push(".tmp");
+    let temporary = PathBuf::from(temporary);
+    fs::write(&temporary, contents)
+        .and_then(|()| fs::rename(&temporary, path))
+        .map_err(|source| OutputError { path: path.to_owned(), source })
+}
+
+/// A scenario's name as a folder name: what is not a letter, a digit, `_`, `-` or `.` becomes `_`.
+fn file_name(scenario: &str) -> String {
+    const LONGEST: usize = 100;
+    let safe = |c: char| if c.is_alphanumeric() || matches!(c, '_' | '-' | '.') { c } else { '_' };
+    let name: String = scenario.chars().take(LONGEST).map(safe).collect();
+    // A name of dots alone would be the folder itself or the one above.
+    if name.chars().all(|c| c == '.') { "_".repeat(name.len().max(1)) } else { name }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_stay_inside_the_output_folder() {
+        let path = |name| OutputFolder::path_for(Path::new("out"), name);
+        assert_eq!(path("ur5e_pick"), Path::new("out/ur5e_pick"));
+        assert_eq!(path("../../etc"), Path::new("out/.._.._etc"));
+        assert_eq!(path(".."), Path::new("out/__"));
+        assert_eq!(path("a]]>\"\n\0b"), Path::new("out/a______b"));
+    }
+
+    #[test]
+    fn a_folder_that_is_a_file_is_refused() {
+        let out = std::env::temp_dir().join(format!("congruent-files-{}", std::process::id()));
+        fs::write(&out, "a file").unwrap();
+        let error = OutputFolder::create(&out, "name").unwrap_err();
+        fs::remove_file(&out).unwrap();
+        assert!(error.to_string().starts_with("cannot write"), "{error}");
+    }
+}

@@ -1,0 +1,77 @@
+//! A report as JUnit XML: one test case for each check, judged against what the scenario expects.
+
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+
+use super::RunReport;
+use crate::verdict::{Bound, CheckResult, Expectation, Measure, Status, Verdict};
+
+/// All scenarios as one JUnit document.
+pub fn junit(reports: &[RunReport]) -> String {
+    let mut document = Report::new("congruent");
+    document.add_test_suites(reports.iter().map(suite));
+    document.to_string().expect("a report in memory is always written")
+}
+
+fn suite(report: &RunReport) -> TestSuite {
+    let mut suite = TestSuite::new(printable(&report.scenario));
+    for (index, check) in report.checks.iter().enumerate() {
+        suite.add_test_case(case(index, check, report));
+    }
+    if report.verdict == Verdict::NothingChecked || report.error.is_some() {
+        let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
+        status.set_message(printable(report.error.as_deref().unwrap_or("nothing was checked")));
+        suite.add_test_case(TestCase::new("run", status));
+    }
+    suite
+}
+
+fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
+    let must_fail = match &report.expected {
+        Expectation::Pass => false,
+        Expectation::Fail { checks } => checks.is_empty() || checks.iter().any(|kind| kind == check.check),
+    };
+    let mut status = match check.status {
+        Status::Pass if !must_fail => TestCaseStatus::success(),
+        Status::Fail if must_fail => TestCaseStatus::success(),
+        // With no kind named, any one failure is enough.
+        Status::Pass if report.verdict == Verdict::AsExpected => TestCaseStatus::success(),
+        Status::Skipped => TestCaseStatus::skipped(),
+        Status::Error => TestCaseStatus::non_success(NonSuccessKind::Error),
+        Status::Pass | Status::Fail => TestCaseStatus::non_success(NonSuccessKind::Failure),
+    };
+    let text: Vec<String> = check.measures.iter().map(sentence).chain(check.notes.clone()).collect();
+    let text = printable(&text.join("; "));
+    match &status {
+        TestCaseStatus::Success { .. } => {}
+        _ if must_fail && check.status == Status::Pass => {
+            status.set_message(format!("expected to fail, but passed: {text}"));
+        }
+        _ => {
+            status.set_message(text.clone());
+        }
+    }
+    let mut case = TestCase::new(format!("{}_{}", index + 1, check.check), status);
+    case.set_classname(printable(&report.scenario)).set_system_out(text);
+    case
+}
+
+/// One measure in words: `position 3.2e-10 m at tool0, t = 1.2 s, limit 1e-9`.
+pub fn sentence(measure: &Measure) -> String {
+    let bound = match measure.bound {
+        Bound::AtMost => "at most",
+        Bound::AtLeast => "at least",
+    };
+    let (unit, limit) = (measure.unit, measure.limit);
+    match &measure.worst {
+        Some(worst) => format!(
+            "{} {:.3e} {unit} at {} ({:.3} s), {bound} {limit:e} {unit}",
+            measure.quantity, worst.value, worst.subject, worst.time_s
+        ),
+        None => format!("{}: nothing seen, {bound} {limit:e} {unit}", measure.quantity),
+    }
+}
+
+/// XML has no place for most control characters.
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() && c != '\n' { '\u{fffd}' } else { c }).collect()
+}

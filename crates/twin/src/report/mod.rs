@@ -1,0 +1,163 @@
+//! What a run leaves behind for programs: `report.json` is the truth, `junit.xml` a view of it.
+
+mod files;
+mod junit;
+
+use congruent_description::{Diagnostic, Severity};
+use serde::Serialize;
+
+pub use files::{OutputError, OutputFolder, write_whole};
+pub use junit::{junit, sentence};
+
+use crate::{
+    model::PoseSource,
+    run::{Outcome, RunError},
+    scenario::Scenario,
+    verdict::{CheckResult, Expectation, Status, Verdict},
+};
+
+/// The whole report of one scenario.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RunReport {
+    /// Name and version of this format.
+    pub format: &'static str,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// The scenario file, as it was named.
+    pub scenario_file: String,
+    /// Name of the robot.
+    pub robot: String,
+    /// Whether the run went as the scenario expects.
+    pub verdict: Verdict,
+    /// The exit code that stands for the verdict.
+    pub exit_code: u8,
+    /// What the scenario expects.
+    pub expected: Expectation,
+    /// Every check.
+    pub checks: Vec<CheckResult>,
+    /// Why the run broke off, where it did.
+    pub error: Option<String>,
+    /// The clock.
+    pub simulation: Clock,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// SHA-256 over the joint positions of every sample: equal runs have equal hashes.
+    pub trajectory_sha256: String,
+    /// Where the model's pose of each link comes from.
+    pub links: Vec<LinkSource>,
+    /// What computed it.
+    pub versions: Versions,
+    /// What was suspicious in the input.
+    pub warnings: Vec<Finding>,
+}
+
+/// The clock of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Clock {
+    /// Length of a step.
+    pub step_s: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Simulated time.
+    pub duration_s: f64,
+}
+
+/// A link with the origin of its pose in the model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LinkSource {
+    /// The link.
+    pub link: String,
+    /// Where the model's pose of it comes from.
+    pub source: PoseSource,
+}
+
+/// Programs that took part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Versions {
+    /// This program.
+    pub congruent: &'static str,
+    /// The physics engine.
+    pub physics: &'static str,
+}
+
+/// A diagnostic as programs read it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Finding {
+    /// `error` or `warning`.
+    pub severity: &'static str,
+    /// Stable name of the fault.
+    pub code: &'static str,
+    /// What is wrong.
+    pub message: String,
+    /// The file, where there is one.
+    pub file: Option<String>,
+    /// Line, from 1.
+    pub line: Option<usize>,
+    /// Column, from 1.
+    pub column: Option<usize>,
+    /// What to do.
+    pub help: Option<String>,
+}
+
+impl From<&Diagnostic> for Finding {
+    fn from(diagnostic: &Diagnostic) -> Self {
+        let place = diagnostic.line_column();
+        Self {
+            severity: match diagnostic.severity {
+                Severity::Warning => "warning",
+                Severity::Error => "error",
+            },
+            code: diagnostic.code,
+            message: diagnostic.message.clone(),
+            file: diagnostic.source.as_ref().map(|source| source.path.display().to_string()),
+            line: place.map(|(line, _)| line),
+            column: place.map(|(_, column)| column),
+            help: diagnostic.help.clone(),
+        }
+    }
+}
+
+impl RunReport {
+    /// Puts together what a run has found.
+    pub fn new(
+        scenario: &Scenario,
+        sources: &[PoseSource],
+        outcome: Outcome,
+        error: Option<&RunError>,
+    ) -> Self {
+        let robot = &scenario.description.robot;
+        let mut checks = outcome.checks;
+        if error.is_some() {
+            for check in checks.iter_mut().filter(|check| check.status == Status::Pass) {
+                check.status = Status::Error; // it was not looked at to the end
+            }
+        }
+        let verdict = if error.is_some() { Verdict::Broken } else { scenario.expect.judge(&checks) };
+        let links = robot.links().iter().zip(sources);
+        let warnings = scenario.description.warnings.iter().chain(&scenario.warnings);
+        Self {
+            format: "congruent-report/1",
+            scenario: scenario.name.clone(),
+            scenario_file: scenario.path.display().to_string(),
+            robot: robot.name().to_owned(),
+            verdict,
+            exit_code: verdict.exit_code(),
+            expected: scenario.expect.clone(),
+            checks,
+            error: error.map(ToString::to_string),
+            simulation: Clock {
+                step_s: scenario.simulation.step_s,
+                steps: outcome.steps,
+                duration_s: scenario.simulation.time_s(outcome.steps),
+            },
+            seed: scenario.seed,
+            trajectory_sha256: outcome.trajectory_sha256,
+            links: links.map(|(link, &source)| LinkSource { link: link.name.clone(), source }).collect(),
+            versions: Versions {
+                congruent: env!("CARGO_PKG_VERSION"),
+                physics: congruent_simulation::ENGINE,
+            },
+            warnings: warnings.map(Finding::from).collect(),
+        }
+    }
+}

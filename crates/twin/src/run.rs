@@ -1,0 +1,199 @@
+//! The run loop: physics, comparison, clearance, checks and recording, one step after another.
+
+use congruent_kinematics::{KinematicsError, Pose};
+use congruent_simulation::{Controller, Reference, SimulationError, World, WorldSettings, controller};
+use nalgebra::Isometry3;
+use sha2::{Digest, Sha256};
+
+use crate::{
+    clearance::{Clearance, PairChoice},
+    model::Model,
+    monitor::{Check, Names},
+    proximity::ProximityError,
+    recorder::{Recorder, RecordingError},
+    sample::{LinkError, Sample},
+    scenario::Scenario,
+    verdict::CheckResult,
+};
+
+/// Why a run cannot start or cannot go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The physics refused the robot or broke on the way.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// The model does not fit the robot.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// A collision shape has no volume.
+    #[error(transparent)]
+    Proximity(#[from] ProximityError),
+    /// The recording cannot be written.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+}
+
+/// What a finished run has found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Results of all checks, in the order of the scenario.
+    pub checks: Vec<CheckResult>,
+    /// Steps taken.
+    pub steps: u64,
+    /// SHA-256 over the joint positions of every sample.
+    pub trajectory_sha256: String,
+}
+
+/// A run under way. [`Run::finish`] does all of it; the stages are public so that a benchmark can
+/// take them apart.
+pub struct Run<'a> {
+    scenario: &'a Scenario,
+    world: World,
+    controller: Box<dyn Controller>,
+    model: Model,
+    clearance: Clearance,
+    names: Names,
+    desired_q: Vec<f64>,
+    desired_qd: Vec<f64>,
+    root_from_links: Vec<Isometry3<f64>>,
+    errors: Vec<LinkError>,
+    hash: Sha256,
+}
+
+impl std::fmt::Debug for Run<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Run")
+            .field("scenario", &self.scenario.name)
+            .field("steps", &self.world.step_count())
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a> Run<'a> {
+    /// Builds world and model and places the robot at the start.
+    ///
+    /// # Errors
+    /// [`RunError`] where the robot cannot be simulated.
+    pub fn new(scenario: &'a Scenario) -> Result<Self, RunError> {
+        let robot = &scenario.description.robot;
+        let settings = WorldSettings {
+            step_s: scenario.simulation.step_s,
+            gravity_in_world: scenario.simulation.gravity_in_world,
+            obstacles: scenario.obstacles.clone(),
+            contacts: true,
+        };
+        let mut world = World::new(robot, &settings)?;
+        world.set_state(&scenario.start, &vec![0.0; robot.dof()])?;
+        let clearance = Clearance::new(&scenario.description, &scenario.obstacles, PairChoice::Usual)?;
+        Ok(Self {
+            scenario,
+            world,
+            controller: controller(&scenario.controller.kind, scenario.controller.gains)?,
+            model: Model::new(&scenario.description)?,
+            names: Names::new(robot, &clearance),
+            clearance,
+            desired_q: vec![0.0; robot.dof()],
+            desired_qd: vec![0.0; robot.dof()],
+            root_from_links: vec![Isometry3::identity(); robot.links().len()],
+            errors: vec![LinkError::default(); robot.links().len()],
+            hash: Sha256::new(),
+        })
+    }
+
+    /// Names for the numbers of samples.
+    pub fn names(&self) -> &Names {
+        &self.names
+    }
+
+    /// The analytical side.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// One step of physics towards the motion's next point.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when the physics breaks.
+    pub fn step(&mut self) -> Result<(), SimulationError> {
+        let time_s = self.scenario.simulation.time_s(self.world.step_count() + 1);
+        self.scenario.trajectory.reference_into(time_s, &mut self.desired_q, &mut self.desired_qd);
+        let reference = Reference { q: &self.desired_q, qd: &self.desired_qd };
+        self.world.step(&mut *self.controller, &reference)
+    }
+
+    /// Poses of all links by both witnesses at this instant, and how far they are apart.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] never comes once [`Run::new`] has succeeded.
+    pub fn compare(&mut self) -> Result<(), KinematicsError> {
+        self.world.root_from_links_into(&mut self.root_from_links);
+        let model: &[Pose] = self.model.root_from_links(self.world.q())?;
+        for ((error, model), twin) in self.errors.iter_mut().zip(model).zip(&self.root_from_links) {
+            *error = LinkError::between(model, twin);
+        }
+        Ok(())
+    }
+
+    /// Shows this instant to all checks and to the recorder.
+    ///
+    /// # Errors
+    /// [`RunError::Recording`] when the recorder cannot write.
+    pub fn observe(&mut self, checks: &mut [Check], recorder: &mut dyn Recorder) -> Result<(), RunError> {
+        self.clearance.move_links(&self.root_from_links);
+        let step = self.world.step_count();
+        let mut sample = Sample {
+            step,
+            time_s: self.scenario.simulation.time_s(step),
+            q: self.world.q(),
+            model: self.model.latest(),
+            twin: &self.root_from_links,
+            errors: &self.errors,
+            clearance: &mut self.clearance,
+        };
+        for check in checks {
+            check.monitor.observe(&mut sample);
+        }
+        for q in sample.q {
+            self.hash.update(q.to_le_bytes());
+        }
+        recorder.record(&mut sample)?;
+        Ok(())
+    }
+
+    /// Runs to the end. What was found before an error is in the results all the same.
+    pub fn finish(
+        mut self,
+        checks: &mut [Check],
+        recorder: &mut dyn Recorder,
+        mut progress: impl FnMut(u64),
+    ) -> (Outcome, Result<(), RunError>) {
+        let end = self.scenario.simulation.steps;
+        let mut go = || -> Result<(), RunError> {
+            self.compare()?;
+            self.observe(checks, recorder)?;
+            while self.world.step_count() < end {
+                self.step()?;
+                self.compare()?;
+                self.observe(checks, recorder)?;
+                progress(self.world.step_count());
+            }
+            Ok(())
+        };
+        let result = go();
+        let outcome = Outcome {
+            checks: checks.iter().map(|check| check.result(&self.names)).collect(),
+            steps: self.world.step_count(),
+            trajectory_sha256: hex(&self.hash.finalize()),
+        };
+        (outcome, result)
+    }
+}
+
+fn hex(bytes: &[u8]) -> String {
+    use std::fmt::Write;
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        write!(text, "{byte:02x}").expect("a String takes every byte");
+        text
+    })
+}

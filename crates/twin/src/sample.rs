@@ -1,0 +1,46 @@
+//! What one instant of a run looks like to monitors and recorders.
+
+use congruent_kinematics::Pose;
+use nalgebra::Isometry3;
+
+use crate::clearance::Clearance;
+
+/// How far model and twin are apart at one link.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LinkError {
+    /// Distance of the origins.
+    pub position_m: f64,
+    /// Angle between the orientations.
+    pub orientation_rad: f64,
+}
+
+impl LinkError {
+    /// Between two poses of one link.
+    pub fn of(a: &Pose, b: &Pose) -> Self {
+        Self { position_m: a.distance_m(b), orientation_rad: a.angle_rad(b) }
+    }
+
+    /// Between a pose by analysis and the same link's pose by physics.
+    pub fn between(model: &Pose, twin: &Isometry3<f64>) -> Self {
+        Self::of(model, &Pose::from(*twin))
+    }
+}
+
+/// One instant: borrowed from the run loop, nothing is copied.
+#[derive(Debug)]
+pub struct Sample<'a> {
+    /// Number of physics steps so far.
+    pub step: u64,
+    /// Simulated time.
+    pub time_s: f64,
+    /// Joint positions of the twin, in the robot's order of movable joints.
+    pub q: &'a [f64],
+    /// Poses by analysis, in the root link's frame and the robot's order of links.
+    pub model: &'a [Pose],
+    /// Poses by physics, likewise.
+    pub twin: &'a [Isometry3<f64>],
+    /// Model against twin, link by link.
+    pub errors: &'a [LinkError],
+    /// Distances between links and to obstacles: measured where a monitor asks.
+    pub clearance: &'a mut Clearance,
+}

@@ -1,0 +1,121 @@
+//! A scenario written back as TOML, with every default spelt out.
+
+use congruent_description::{Geometry, JointKind, Robot};
+use congruent_simulation::Obstacle;
+use nalgebra::Isometry3;
+use toml::{Table, Value};
+
+use super::Scenario;
+use crate::{motion::Motion, verdict::Expectation};
+
+pub(super) fn toml(scenario: &Scenario) -> String {
+    let robot = &scenario.description.robot;
+    let mut top = table([
+        ("schema_version", Value::Integer(1)),
+        ("name", scenario.name.as_str().into()),
+        ("robot", scenario.robot_as_written.as_str().into()),
+        ("seed", seed(scenario.seed)),
+    ]);
+    let simulation = &scenario.simulation;
+    insert(
+        &mut top,
+        "simulation",
+        [
+            ("step_s", simulation.step_s.into()),
+            ("duration_s", simulation.duration_s().into()),
+            ("gravity_m_s2", numbers(simulation.gravity_in_world.as_slice())),
+        ],
+    );
+    top.insert("start".to_owned(), joints("joints", robot, &scenario.start).into());
+    let controller = &scenario.controller;
+    insert(
+        &mut top,
+        "controller",
+        [
+            ("kind", controller.kind.as_str().into()),
+            ("stiffness", controller.gains.stiffness.into()),
+            ("damping", controller.gains.damping.into()),
+        ],
+    );
+    let motions = scenario.trajectory.motions().iter().map(|step| motion(robot, step));
+    top.insert("motion".to_owned(), Value::Array(motions.collect()));
+    top.insert("obstacle".to_owned(), Value::Array(scenario.obstacles.iter().map(obstacle).collect()));
+    let checks = scenario.checks.iter().map(|check| {
+        let mut section = table([("kind", check.kind.into())]);
+        section.extend(check.monitor.resolved());
+        Value::Table(section)
+    });
+    top.insert("check".to_owned(), Value::Array(checks.collect()));
+    top.insert("expect".to_owned(), expectation(&scenario.expect));
+    top.to_string()
+}
+
+fn table<const N: usize>(entries: [(&str, Value); N]) -> Table {
+    entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+fn insert<const N: usize>(top: &mut Table, key: &str, entries: [(&str, Value); N]) {
+    top.insert(key.to_owned(), table(entries).into());
+}
+
+fn numbers(values: &[f64]) -> Value {
+    Value::Array(values.iter().map(|&value| value.into()).collect())
+}
+
+/// TOML integers are signed.
+fn seed(seed: u64) -> Value {
+    i64::try_from(seed).map_or_else(|_| Value::String(seed.to_string()), Value::Integer)
+}
+
+/// Positions of all joints that follow no other, by name, in radians and metres.
+fn joints(prefix: &str, robot: &Robot, q: &[f64]) -> Table {
+    let (mut angles, mut shifts) = (Table::new(), Table::new());
+    for (&joint, &value) in robot.movable_joints().iter().zip(q) {
+        let joint = robot.joint(joint);
+        if joint.mimic.is_none() {
+            let group = if joint.kind == JointKind::Prismatic { &mut shifts } else { &mut angles };
+            group.insert(joint.name.clone(), value.into());
+        }
+    }
+    [("rad", angles), ("m", shifts)]
+        .into_iter()
+        .filter(|(_, group)| !group.is_empty())
+        .map(|(unit, group)| (format!("{prefix}_{unit}"), Value::Table(group)))
+        .collect()
+}
+
+fn motion(robot: &Robot, motion: &Motion) -> Value {
+    let mut section = joints("move_joints", robot, &motion.to);
+    section.insert("duration_s".to_owned(), motion.duration_s.into());
+    section.insert("profile".to_owned(), motion.profile.name().into());
+    Value::Table(section)
+}
+
+fn obstacle(obstacle: &Obstacle) -> Value {
+    let mut section = table([("name", obstacle.name.as_str().into())]);
+    let (key, shape) = match &obstacle.geometry {
+        Geometry::Box { size_m } => ("box_m", numbers(size_m.as_slice())),
+        Geometry::Sphere { radius_m } => ("sphere_radius_m", (*radius_m).into()),
+        Geometry::Cylinder { radius_m, length_m } => (
+            "cylinder",
+            Value::Table(table([("radius_m", (*radius_m).into()), ("length_m", (*length_m).into())])),
+        ),
+        Geometry::Mesh(_) => unreachable!("scenarios have no mesh obstacles"),
+    };
+    section.insert(key.to_owned(), shape);
+    let Isometry3 { rotation, translation } = obstacle.world_from_obstacle;
+    let (roll, pitch, yaw) = rotation.euler_angles();
+    section.insert("xyz_m".to_owned(), numbers(translation.vector.as_slice()));
+    section.insert("rpy_rad".to_owned(), numbers(&[roll, pitch, yaw]));
+    Value::Table(section)
+}
+
+fn expectation(expect: &Expectation) -> Value {
+    Value::Table(match expect {
+        Expectation::Pass => table([("verdict", "pass".into())]),
+        Expectation::Fail { checks } => table([
+            ("verdict", "fail".into()),
+            ("checks", Value::Array(checks.iter().map(|kind| kind.as_str().into()).collect())),
+        ]),
+    })
+}

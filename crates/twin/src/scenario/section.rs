@@ -1,0 +1,123 @@
+//! One table of a scenario file, on its way to the module that knows what it means.
+
+use congruent_description::{Diagnostic, known_names, line_column, toml_text};
+use serde::de::DeserializeOwned;
+use toml::{
+    Spanned,
+    de::{DeTable, DeValue, Deserializer},
+};
+
+/// A table with its place in the text.
+#[derive(Debug, Clone)]
+pub struct Section<'a> {
+    text: &'a str,
+    table: Spanned<DeTable<'a>>,
+}
+
+impl<'a> Section<'a> {
+    /// The whole document.
+    ///
+    /// # Errors
+    /// A diagnostic where the text is no TOML.
+    pub fn document(text: &'a str) -> Result<Self, Diagnostic> {
+        let table = DeTable::parse(text).map_err(|error| toml_text::diagnostic(&error))?;
+        Ok(Self { text, table })
+    }
+
+    /// Line of the section, from 1.
+    pub fn line(&self) -> usize {
+        line_column(self.text, self.table.span().start).0
+    }
+
+    /// The section's place in the text.
+    pub fn span(&self) -> std::ops::Range<usize> {
+        self.table.span()
+    }
+
+    /// Whether the section has this key.
+    pub fn has(&self, key: &str) -> bool {
+        self.table.get_ref().contains_key(key)
+    }
+
+    /// Takes a table out of this one.
+    ///
+    /// # Errors
+    /// A diagnostic where the key holds something else.
+    pub fn take_table(&mut self, key: &str) -> Result<Option<Self>, Diagnostic> {
+        self.table.get_mut().remove(key).map(|value| self.as_section(key, value)).transpose()
+    }
+
+    /// Takes an array of tables out of this one; empty where the key is absent.
+    ///
+    /// # Errors
+    /// A diagnostic where the key holds something else.
+    pub fn take_tables(&mut self, key: &str) -> Result<Vec<Self>, Diagnostic> {
+        let Some(value) = self.table.get_mut().remove(key) else { return Ok(Vec::new()) };
+        let span = value.span();
+        match value.into_inner() {
+            DeValue::Array(items) => items.into_iter().map(|item| self.as_section(key, item)).collect(),
+            other => Err(wrong_type(key, "an array of tables", other.type_str()).at(span)),
+        }
+    }
+
+    /// Takes the string under `kind` out and holds it against the known ones.
+    ///
+    /// # Errors
+    /// A diagnostic at the unknown kind, or at the section where there is none.
+    pub fn select<'k>(
+        &mut self,
+        what: &str,
+        known: impl IntoIterator<Item = &'k str> + Clone,
+    ) -> Result<&'k str, Diagnostic> {
+        self.select_key("kind", what, known)
+    }
+
+    /// Like [`Section::select`], under another key.
+    ///
+    /// # Errors
+    /// As [`Section::select`].
+    pub fn select_key<'k>(
+        &mut self,
+        key: &str,
+        what: &str,
+        known: impl IntoIterator<Item = &'k str> + Clone,
+    ) -> Result<&'k str, Diagnostic> {
+        let Some(value) = self.table.get_mut().remove(key) else {
+            let help = known_names("", "ones", known);
+            return Err(Diagnostic::error("scenario::no_kind", format!("the {what} has no `{key}`"))
+                .with_help(help)
+                .at(self.span()));
+        };
+        let found = value.get_ref().as_str().unwrap_or_default();
+        known.clone().into_iter().find(|&name| name == found).ok_or_else(|| {
+            Diagnostic::error("scenario::unknown_kind", format!("unknown {what} \"{found}\""))
+                .with_help(known_names(found, "ones", known))
+                .at(value.span())
+        })
+    }
+
+    /// Reads the section into a value; unknown keys are errors where the type denies them.
+    ///
+    /// # Errors
+    /// A diagnostic at the key or value that is wrong.
+    pub fn read<T: DeserializeOwned>(self) -> Result<T, Diagnostic> {
+        let span = self.span();
+        T::deserialize(Deserializer::from(self.table)).map_err(|error| {
+            let mut diagnostic = toml_text::diagnostic(&error);
+            diagnostic.span.get_or_insert(span);
+            diagnostic
+        })
+    }
+
+    fn as_section(&self, key: &str, value: Spanned<DeValue<'a>>) -> Result<Self, Diagnostic> {
+        let span = value.span();
+        match value.into_inner() {
+            DeValue::Table(table) => Ok(Self { text: self.text, table: Spanned::new(span, table) }),
+            other => Err(wrong_type(key, "a table", other.type_str()).at(span)),
+        }
+    }
+}
+
+fn wrong_type(key: &str, expected: &str, found: &str) -> Diagnostic {
+    Diagnostic::error("scenario::type", format!("`{key}` is {expected}, found {found}"))
+}

@@ -1,0 +1,230 @@
+//! What a check found: one shape for every check, so that every report and exit code agrees.
+
+use serde::{Deserialize, Serialize};
+
+/// The outcome of one check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// Every value was within its limit.
+    Pass,
+    /// A value was outside its limit.
+    Fail,
+    /// The run broke before the check could finish.
+    Error,
+    /// There was nothing to look at.
+    Skipped,
+}
+
+impl Status {
+    /// The word that reports use.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Error => "error",
+            Self::Skipped => "skipped",
+        }
+    }
+}
+
+/// One instant of a run, with what was seen there.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Moment {
+    /// Simulated time.
+    pub time_s: f64,
+    /// The link, joint or pair that it is about.
+    pub subject: String,
+    /// The value seen, in the unit of its [`Measure`].
+    pub value: f64,
+    /// Position of every movable joint, rad or m.
+    pub q: Vec<NamedValue>,
+}
+
+/// A joint with its position.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NamedValue {
+    /// The joint.
+    pub joint: String,
+    /// Its position, rad or m.
+    pub value: f64,
+}
+
+/// One quantity that a check holds against a limit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Measure {
+    /// What it is: `position`, `orientation`, `distance`.
+    pub quantity: &'static str,
+    /// Unit of limit and values.
+    pub unit: &'static str,
+    /// The limit.
+    pub limit: f64,
+    /// Whether values may not exceed the limit (`at_most`) or not fall below it (`at_least`).
+    pub bound: Bound,
+    /// The worst value with its place; `None` where nothing was seen.
+    pub worst: Option<Moment>,
+    /// The first value outside the limit.
+    pub first_violation: Option<Moment>,
+}
+
+/// On which side of a limit values are fine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Bound {
+    /// Fine up to the limit.
+    AtMost,
+    /// Fine from the limit on.
+    AtLeast,
+}
+
+impl Bound {
+    /// Whether `value` is fine; NaN never is.
+    pub fn holds(self, value: f64, limit: f64) -> bool {
+        match self {
+            Self::AtMost => value <= limit,
+            Self::AtLeast => value >= limit,
+        }
+    }
+
+    /// Whether `value` is worse than `known`; NaN is worst of all.
+    pub fn is_worse(self, value: f64, known: f64) -> bool {
+        match self {
+            _ if known.is_nan() => false,
+            _ if value.is_nan() => true,
+            Self::AtMost => value > known,
+            Self::AtLeast => value < known,
+        }
+    }
+}
+
+/// The result of one check of a scenario.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CheckResult {
+    /// The kind of check, as the scenario names it.
+    pub check: &'static str,
+    /// Line of the check in the scenario file, from 1.
+    pub line: usize,
+    /// The outcome.
+    pub status: Status,
+    /// How many instants were looked at.
+    pub samples: u64,
+    /// The quantities with their limits.
+    pub measures: Vec<Measure>,
+    /// What to know beside the figures.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+}
+
+/// What a run has shown, all checks together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// All as the scenario expects.
+    AsExpected,
+    /// Not as the scenario expects.
+    NotAsExpected,
+    /// Nothing was checked, which is never success.
+    NothingChecked,
+    /// The simulation broke.
+    Broken,
+}
+
+impl Verdict {
+    /// The exit code that stands for it.
+    pub fn exit_code(self) -> u8 {
+        match self {
+            Self::AsExpected => 0,
+            Self::NotAsExpected => 1,
+            Self::Broken => 3,
+            Self::NothingChecked => 4,
+        }
+    }
+}
+
+/// What a scenario says will happen.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(tag = "verdict", rename_all = "snake_case")]
+pub enum Expectation {
+    /// Every check passes.
+    Pass,
+    /// A negative control: exactly these kinds of check fail (any, where none is named).
+    Fail {
+        /// Kinds of check.
+        checks: Vec<String>,
+    },
+}
+
+impl Expectation {
+    /// Judges the results of all checks.
+    pub fn judge(&self, results: &[CheckResult]) -> Verdict {
+        let looked_at = |result: &&CheckResult| result.status != Status::Skipped;
+        if !results.iter().any(|result| looked_at(&result)) {
+            return Verdict::NothingChecked;
+        }
+        if results.iter().any(|result| result.status == Status::Error) {
+            return Verdict::Broken;
+        }
+        let failed =
+            |kind: &str| results.iter().any(|result| result.check == kind && result.status == Status::Fail);
+        let any_failed = results.iter().any(|result| result.status == Status::Fail);
+        let as_expected = match self {
+            Self::Pass => !any_failed,
+            Self::Fail { checks } if checks.is_empty() => any_failed,
+            Self::Fail { checks } => {
+                let others_pass = results.iter().all(|result| {
+                    result.status != Status::Fail || checks.iter().any(|kind| kind == result.check)
+                });
+                checks.iter().all(|kind| failed(kind)) && others_pass
+            }
+        };
+        if as_expected { Verdict::AsExpected } else { Verdict::NotAsExpected }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn result(check: &'static str, status: Status) -> CheckResult {
+        CheckResult { check, line: 1, status, samples: 1, measures: Vec::new(), notes: Vec::new() }
+    }
+
+    #[track_caller]
+    fn judged(expected: &Expectation, results: &[CheckResult], verdict: Verdict) {
+        assert_eq!(expected.judge(results), verdict);
+    }
+
+    fn fail(checks: &[&str]) -> Expectation {
+        Expectation::Fail { checks: checks.iter().map(|&kind| kind.to_owned()).collect() }
+    }
+
+    #[test]
+    fn nothing_checked_is_no_success() {
+        judged(&Expectation::Pass, &[], Verdict::NothingChecked);
+        judged(&Expectation::Pass, &[result("limits", Status::Skipped)], Verdict::NothingChecked);
+        judged(&fail(&[]), &[], Verdict::NothingChecked);
+    }
+
+    #[test]
+    fn a_negative_control_fails_for_its_own_reason_only() {
+        let agreement = result("agreement", Status::Fail);
+        let clearance = result("clearance", Status::Fail);
+        let passing = result("limits", Status::Pass);
+        judged(&fail(&["agreement"]), &[agreement.clone(), passing.clone()], Verdict::AsExpected);
+        judged(&fail(&["agreement"]), &[agreement.clone(), clearance.clone()], Verdict::NotAsExpected);
+        judged(&fail(&["agreement"]), &[clearance], Verdict::NotAsExpected);
+        judged(&fail(&["agreement"]), &[passing], Verdict::NotAsExpected);
+        judged(&fail(&[]), &[agreement], Verdict::AsExpected);
+    }
+
+    #[test]
+    fn a_broken_run_is_neither() {
+        judged(&Expectation::Pass, &[result("agreement", Status::Error)], Verdict::Broken);
+    }
+
+    #[test]
+    fn not_a_number_is_outside_every_limit_and_worst_of_all() {
+        assert!(!Bound::AtMost.holds(f64::NAN, 1.0) && !Bound::AtLeast.holds(f64::NAN, 1.0));
+        assert!(Bound::AtMost.is_worse(f64::NAN, 5.0) && !Bound::AtMost.is_worse(5.0, f64::NAN));
+    }
+}

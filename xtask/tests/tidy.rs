@@ -1,0 +1,152 @@
+//! Keeps the architecture's absences and its map true.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Which crate may depend on which.
+const ARROWS: &[(&str, &[&str])] = &[
+    ("description", &[]),
+    ("kinematics", &["description"]),
+    ("simulation", &["description"]),
+    ("twin", &["description", "kinematics", "simulation"]),
+    ("cli", &["description", "twin"]),
+];
+
+/// Crates that stand in one place of the sources only.
+const PLACES: &[(&str, &str)] = &[
+    ("rapier3d_f64", "crates/simulation/src"),
+    ("parry3d_f64", "crates/twin/src/proximity.rs"),
+    ("rerun::", "crates/twin/src/recording"),
+];
+
+/// Words that `kinematics` does without: no I/O, no clock, no printing.
+const NOT_IN_KINEMATICS: &[&str] =
+    &["std::fs", "std::io", "std::env", "std::time", "println!", "eprintln!", "rand::"];
+
+/// Longest file before its tests.
+const MOST_LINES: usize = 400;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().expect("the workspace exists")
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// All Rust sources below a folder, in order.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(folder) = open.pop() {
+        for entry in fs::read_dir(&folder).expect("a folder of the workspace").flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                open.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// All sources of the crates, named relative to the root.
+fn all_sources() -> Vec<(String, String)> {
+    let root = root();
+    let mut files = Vec::new();
+    for folder in ["crates", "tests", "xtask"] {
+        files.extend(sources(&root.join(folder)));
+    }
+    let name = |path: &PathBuf| path.strip_prefix(&root).expect("below the root").display().to_string();
+    files.iter().map(|path| (name(path), read(path))).collect()
+}
+
+fn crate_names() -> Vec<String> {
+    let folders = fs::read_dir(root().join("crates")).expect("the folder of crates").flatten();
+    let mut names: Vec<String> = folders.map(|entry| entry.file_name().display().to_string()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_map_names_every_crate() {
+    let map = read(&root().join("ARCHITECTURE.md"));
+    let heading = |line: &str| Some(line.strip_prefix("### `crates/")?.trim_end_matches('`').to_owned());
+    let mut mapped: Vec<String> = map.lines().filter_map(heading).collect();
+    mapped.sort();
+    assert_eq!(mapped, crate_names());
+    assert!(map.lines().count() < 150, "ARCHITECTURE.md is a map, not a book");
+}
+
+#[test]
+fn arrows_go_one_way() {
+    for name in crate_names() {
+        let (_, allowed) =
+            ARROWS.iter().find(|(from, _)| *from == name).expect("a new crate needs its arrows");
+        let manifest = read(&root().join("crates").join(&name).join("Cargo.toml"));
+        let dependencies = manifest.split("[dev-dependencies]").next().unwrap_or_default();
+        for line in dependencies.lines().filter_map(|line| line.strip_prefix("congruent-")) {
+            let to = line.split(['.', ' ', '=']).next().unwrap_or_default();
+            assert!(allowed.contains(&to), "{name} -> {to} is no arrow of the architecture");
+        }
+    }
+}
+
+#[test]
+fn engines_stay_in_their_places() {
+    for (name, text) in all_sources().iter().filter(|(name, _)| name.contains("/src/")) {
+        for (engine, place) in PLACES {
+            let named =
+                text.lines().any(|line| line.contains(engine) && !line.trim_start().starts_with("//"));
+            assert!(!named || name.starts_with(place), "{name} names {engine}; only {place} may");
+        }
+    }
+}
+
+#[test]
+fn kinematics_is_pure() {
+    for (name, text) in all_sources().iter().filter(|(name, _)| name.starts_with("crates/kinematics/src")) {
+        for word in NOT_IN_KINEMATICS {
+            assert!(!text.contains(word), "{name} has {word}");
+        }
+    }
+}
+
+#[test]
+fn files_are_short_and_open_with_their_job() {
+    for (name, text) in all_sources() {
+        assert!(text.starts_with("//!"), "{name} does not open with //!");
+        let lines = text.lines().take_while(|line| *line != "#[cfg(test)]").count();
+        assert!(lines <= MOST_LINES, "{name} has {lines} lines before its tests, the limit is {MOST_LINES}");
+    }
+}
+
+#[test]
+fn the_engine_in_reports_is_the_one_of_the_manifest() {
+    let manifest = read(&root().join("Cargo.toml"));
+    let line = manifest.lines().find(|line| line.starts_with("rapier3d-f64 = ")).expect("rapier is declared");
+    let version = line.split('"').nth(1).expect("a version").trim_start_matches('=');
+    let source = read(&root().join("crates/simulation/src/lib.rs"));
+    assert!(source.contains(&format!("\"rapier3d-f64 {version}\"")), "ENGINE is not {version}");
+}
+
+#[test]
+fn ci_runs_the_test_command_of_the_readme() {
+    let (readme, ci) = (read(&root().join("README.md")), read(&root().join(".ci/run")));
+    let command =
+        readme.lines().find(|line| line.starts_with("cargo test")).expect("the README's test command");
+    assert!(ci.contains(command), ".ci/run does not call `{command}`");
+}
+
+#[test]
+fn every_robot_says_where_its_figures_come_from() {
+    for entry in fs::read_dir(root().join("robots")).expect("the folder of robots").flatten() {
+        for file in ["robot.toml", "SOURCE.md"] {
+            assert!(entry.path().join(file).is_file(), "{} has no {file}", entry.path().display());
+        }
+    }
+}
