@@ -27,6 +27,8 @@ impl Default for Tolerance {
 pub struct RobotDescription {
     /// The robot file, or the URDF where there is no robot file.
     pub path: PathBuf,
+    /// The name that the robot file gives, or the URDF's.
+    pub name: String,
     /// The URDF.
     pub urdf_path: PathBuf,
     /// Links and joints.

@@ -58,34 +58,36 @@ pub fn read_text(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagno
 
 /// UTF-8 without its byte order mark, or what is wrong and the text up to there.
 fn decode(bytes: &[u8]) -> Result<&str, (Diagnostic, &str)> {
-    const AS_UTF8: &str = "save the file as UTF-8";
-    let refused = |code, message: String, readable: &'static str| {
-        Err((Diagnostic::error(code, message).at(0..0).with_help(AS_UTF8), readable))
+    let refused = |code, message: String, readable| {
+        let end = str::len(readable);
+        (Diagnostic::error(code, message).at(end..end), readable)
     };
     if bytes.is_empty() {
-        return refused("file::empty", "the file is empty".to_owned(), "");
+        return Err(refused("file::empty", "the file is empty".to_owned(), ""));
     }
     if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
-        return refused("file::utf16", "the file is UTF-16, UTF-8 is expected".to_owned(), "");
+        let (fault, readable) =
+            refused("file::utf16", "the file is UTF-16, UTF-8 is expected".to_owned(), "");
+        return Err((fault.with_help("save the file as UTF-8"), readable));
     }
     let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
-    let (text, fault) = match std::str::from_utf8(bytes) {
+    let (good, bad) = match std::str::from_utf8(bytes) {
         Ok(text) => (text, None),
         Err(error) => {
             let (good, bad) = bytes.split_at(error.valid_up_to());
-            (std::str::from_utf8(good).unwrap_or_default(), Some(bad[0]))
+            (std::str::from_utf8(good).unwrap_or_default(), bad.first())
         }
     };
-    let at = text.find('\0').or(fault.map(|_| text.len()));
-    let Some(at) = at else { return Ok(text) };
-    let (line, _) = line_column(text, at);
-    let found = match fault {
-        Some(byte) if at == text.len() => {
-            Diagnostic::error("file::not_utf8", format!("byte 0x{byte:02X} at line {line} is not UTF-8"))
-        }
-        _ => Diagnostic::error("file::nul", format!("NUL byte at line {line}: the file is not text")),
-    };
-    Err((found.at(at..at).with_help(AS_UTF8), text))
+    if let Some(at) = good.find('\0') {
+        let (line, _) = line_column(good, at);
+        let message = format!("NUL byte at line {line}: the file is not text");
+        return Err(refused("file::nul", message, &good[..at]));
+    }
+    let Some(byte) = bad else { return Ok(good) };
+    let (line, _) = line_column(good, good.len());
+    let message = format!("byte 0x{byte:02X} at line {line} is not UTF-8");
+    let (fault, readable) = refused("file::not_utf8", message, good);
+    Err((fault.with_help("save the file as UTF-8"), readable))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Collecting what is wrong instead of stopping at the first fault.
 
-use std::sync::Arc;
+use std::{path::Path, sync::Arc};
 
 use crate::diagnostic::{Diagnostic, Severity, SourceFile};
 
@@ -31,7 +31,7 @@ impl Findings {
 
     /// All findings in the order of the text.
     pub fn into_vec(mut self) -> Vec<Diagnostic> {
-        self.0.sort_by_key(|finding| finding.span.as_ref().map(|span| span.start));
+        self.0.sort_by(|one, other| place(one).cmp(&place(other)));
         self.0
     }
 
@@ -40,4 +40,10 @@ impl Findings {
     pub fn in_file(self, source: &Arc<SourceFile>) -> Vec<Diagnostic> {
         self.into_vec().into_iter().map(|finding| finding.in_file(source)).collect()
     }
+}
+
+/// By file, the one that is being read first, then by place in it.
+fn place(finding: &Diagnostic) -> (Option<&Path>, Option<usize>) {
+    let file = finding.source.as_ref().map(|source| source.path.as_path());
+    (file, finding.span.as_ref().map(|span| span.start))
 }

@@ -23,6 +23,7 @@ mod tree;
 pub mod units;
 mod urdf;
 mod written_transform;
+mod xml;
 
 pub use description::{RobotDescription, Tolerance};
 pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};

@@ -1,7 +1,7 @@
 //! From a path to a [`RobotDescription`]: decides which files are opened.
 
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -13,6 +13,7 @@ use crate::{
     diagnostic::{Diagnostic, SourceFile},
     file::read_text,
     findings::Findings,
+    link::LinkIndex,
     mesh::MeshStore,
     packages::Packages,
     robot_file::{self, Declared, ROBOT_FILE, ROBOT_FILE_BYTES, WrittenRobot, default_chain},
@@ -59,6 +60,7 @@ fn load_bare_urdf(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
     let (base, tip) = default_chain(&robot);
     Ok(RobotDescription {
         path: path.to_owned(),
+        name: robot.name().to_owned(),
         urdf_path: path.to_owned(),
         robot,
         base,
@@ -66,7 +68,7 @@ fn load_bare_urdf(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
         dh: None,
         tip_from_tcp: None,
         tolerance: Tolerance::default(),
-        disabled_collisions: std::collections::BTreeSet::new(),
+        disabled_collisions: BTreeSet::new(),
         warnings,
     })
 }
@@ -98,46 +100,68 @@ fn parent(path: &Path) -> &Path {
 fn load_robot_file(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
     let source = open(path, ROBOT_FILE_BYTES)?;
     let mut findings = Findings::default();
-    let (written, urdf_path) = match written_robot(path, &source.text, &mut findings) {
-        Some(found) => found,
-        None => return Err(findings.in_file(&source)),
-    };
-    let declared_packages = declared_packages(&written, parent(path), &mut findings);
-    // A broken URDF must not hide what is wrong with the robot file.
-    let (robot, urdf_warnings) = match load_urdf(&urdf_path, declared_packages) {
-        Ok(loaded) => loaded,
-        Err(urdf_findings) => {
-            let mut all = findings.in_file(&source);
-            all.extend(urdf_findings);
-            return Err(all);
+    let description = read_robot_file(path, &source.text, &mut findings);
+    let is_refused = findings.has_error();
+    let findings = findings.in_file(&source);
+    match description {
+        Some(description) if !is_refused => Ok(RobotDescription { warnings: findings, ..description }),
+        _ => Err(findings),
+    }
+}
+
+/// Everything about the robot file at `path`; its warnings are in `findings`.
+fn read_robot_file(path: &Path, text: &str, findings: &mut Findings) -> Option<RobotDescription> {
+    let (written, urdf_path) = written_robot(path, text, findings)?;
+    let declared_packages = declared_packages(&written, parent(path), findings);
+    let robot = match load_urdf(&urdf_path, declared_packages) {
+        Ok((robot, warnings)) => {
+            findings.extend(warnings);
+            robot
+        }
+        Err(faults) => {
+            findings.extend(faults);
+            return None;
         }
     };
-    let declared = robot_file::check(&written, &source.text, &robot, &mut findings);
-    let (disabled_collisions, srdf_findings) = match &written.srdf {
-        Some(srdf) => match read_text(&parent(path).join(srdf.get_ref()), SRDF_BYTES) {
-            Ok(source) => srdf::parse(&source, &robot),
-            Err(fault) => (std::collections::BTreeSet::new(), vec![fault.at(srdf.span())]),
-        },
-        None => Default::default(),
-    };
-    findings.extend(srdf_findings);
-    findings.extend(urdf_warnings);
-    if let (Some(declared), false) = (declared, findings.has_error()) {
-        let Declared { base, tip, dh, tip_from_tcp, tolerance } = declared;
-        return Ok(RobotDescription {
-            path: path.to_owned(),
-            urdf_path,
-            robot,
-            base,
-            tip,
-            dh,
-            tip_from_tcp,
-            tolerance,
-            disabled_collisions,
-            warnings: findings.in_file(&source),
-        });
+    let declared = robot_file::check(&written, text, &robot, findings);
+    let disabled_collisions = disabled_collisions(&written, parent(path), &robot, findings);
+    let Declared { base, tip, dh, tip_from_tcp, tolerance } = declared?;
+    let name = written.name.map_or_else(|| robot.name().to_owned(), Spanned::into_inner);
+    Some(RobotDescription {
+        path: path.to_owned(),
+        name,
+        urdf_path,
+        robot,
+        base,
+        tip,
+        dh,
+        tip_from_tcp,
+        tolerance,
+        disabled_collisions,
+        warnings: Vec::new(),
+    })
+}
+
+fn disabled_collisions(
+    written: &WrittenRobot,
+    folder: &Path,
+    robot: &Robot,
+    findings: &mut Findings,
+) -> BTreeSet<(LinkIndex, LinkIndex)> {
+    let Some(srdf) = &written.srdf else { return BTreeSet::new() };
+    match read_text(&folder.join(srdf.get_ref()), SRDF_BYTES) {
+        Ok(source) => {
+            let (pairs, faults) = srdf::parse(&source, robot);
+            findings.extend(faults);
+            pairs
+        }
+        Err(fault) => {
+            // Without a text of its own the fault is shown where the file is named.
+            let is_placed = fault.source.is_some();
+            findings.push(if is_placed { fault } else { fault.at(srdf.span()) });
+            BTreeSet::new()
+        }
     }
-    Err(findings.in_file(&source))
 }
 
 fn written_robot(path: &Path, text: &str, findings: &mut Findings) -> Option<(WrittenRobot, PathBuf)> {

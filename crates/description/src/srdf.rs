@@ -6,7 +6,7 @@ use crate::{
     Robot,
     diagnostic::{Diagnostic, SourceFile, known_names},
     link::LinkIndex,
-    urdf,
+    xml,
 };
 
 /// The largest SRDF that is read.
@@ -18,7 +18,7 @@ pub(crate) fn parse(
     robot: &Robot,
 ) -> (BTreeSet<(LinkIndex, LinkIndex)>, Vec<Diagnostic>) {
     let mut pairs = BTreeSet::new();
-    let document = match urdf::parse_xml(&source.text) {
+    let document = match xml::parse(&source.text) {
         Ok(document) => document,
         Err(fault) => return (pairs, vec![fault.in_file(source)]),
     };

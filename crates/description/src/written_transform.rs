@@ -118,7 +118,7 @@ fn from_matrix(written: &Spanned<[[f64; 4]; 4]>) -> Result<Isometry3<f64>, Diagn
 mod tests {
     use std::f64::consts::FRAC_PI_2;
 
-    use nalgebra::{Point3, point};
+    use nalgebra::Point3;
 
     use super::*;
     use crate::{findings::Findings, toml_text::parse_toml};
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn every_way_of_writing_gives_the_same_transform() {
         // Shift by (1, 2, 3) after a quarter turn about z: (1, 0, 0) goes to (1, 3, 3).
-        let (from, to) = (point![1.0, 0.0, 0.0], point![1.0, 3.0, 3.0]);
+        let (from, to) = (Point3::new(1.0, 0.0, 0.0), Point3::new(1.0, 3.0, 3.0));
         check("", from, from);
         check("xyz_m = [1, 2, 3]\nrpy_deg = [0, 0, 90]", from, to);
         check(&format!("xyz_mm = [1000, 2000, 3000]\nrpy_rad = [0, 0, {FRAC_PI_2}]"), from, to);
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn rpy_turns_about_fixed_axes() {
         // x, then y: (0, 1, 0) goes to z by the first turn, to x by the second.
-        check("rpy_deg = [90, 90, 0]", point![0.0, 1.0, 0.0], point![1.0, 0.0, 0.0]);
+        check("rpy_deg = [90, 90, 0]", Point3::new(0.0, 1.0, 0.0), Point3::new(1.0, 0.0, 0.0));
     }
 
     #[track_caller]

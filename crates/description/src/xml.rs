@@ -1,11 +1,17 @@
-//! A pass over the tokens that bounds the depth before any tree is built: thousands of nested
-//! elements overflow the stack of a tree builder, which nothing can catch.
+//! XML trees of bounded depth and without entities, for URDF, SRDF and COLLADA.
+//!
+//! A pass over the tokens comes first: thousands of nested elements overflow the stack of a tree
+//! builder, which nothing can catch, and entities multiply.
 
+use roxmltree::Document;
 use xmlparser::{ElementEnd, Token, Tokenizer};
 
 use crate::diagnostic::Diagnostic;
 
-/// URDF needs six levels, vendor blocks a few more.
+/// The code of an element whose prefix is not declared.
+pub(crate) const UNKNOWN_PREFIX: &str = "xml::prefix";
+
+/// URDF needs six levels, vendor blocks a few more, COLLADA one for each node of a limb.
 const DEEPEST: usize = 64;
 
 /// An element that is not closed yet.
@@ -15,8 +21,32 @@ struct Open<'a> {
     start: usize,
 }
 
+/// The tree of a text.
+pub(crate) fn parse(text: &str) -> Result<Document<'_>, Diagnostic> {
+    check(text)?;
+    Document::parse(text).map_err(|error| unbuilt(&error, text))
+}
+
+/// The tree builder's error as a diagnostic.
+fn unbuilt(error: &roxmltree::Error, text: &str) -> Diagnostic {
+    use roxmltree::Error;
+    let position = error.pos();
+    let at = offset(text, position.row, position.col);
+    let (code, message) = match error {
+        Error::DuplicatedAttribute(name, _) => {
+            ("xml::malformed", format!("attribute \"{name}\" is given twice"))
+        }
+        Error::UnknownNamespace(prefix, _) => {
+            (UNKNOWN_PREFIX, format!("the prefix \"{prefix}:\" is not declared"))
+        }
+        Error::NoRootNode => ("xml::malformed", "the file holds no XML element".to_owned()),
+        _ => ("xml::malformed", format!("XML is not well-formed: {error}")),
+    };
+    Diagnostic::error(code, message).at(at..at)
+}
+
 /// Refuses DTDs, too deep nesting and text that ends early.
-pub(super) fn check(text: &str) -> Result<(), Diagnostic> {
+fn check(text: &str) -> Result<(), Diagnostic> {
     let mut open: Vec<Open<'_>> = Vec::new();
     for token in Tokenizer::from(text) {
         let token = token.map_err(|error| malformed(&error, text, &open))?;
@@ -75,7 +105,7 @@ fn unclosed(open: &[Open<'_>]) -> Diagnostic {
 }
 
 /// Byte offset of a row and a column in characters, both from 1.
-pub(super) fn offset(text: &str, row: u32, column: u32) -> usize {
+fn offset(text: &str, row: u32, column: u32) -> usize {
     let line_start = match row {
         0 | 1 => 0,
         _ => text.match_indices('\n').nth(row as usize - 2).map_or(text.len(), |(newline, _)| newline + 1),

@@ -93,8 +93,6 @@ fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::point;
-
     use super::*;
 
     fn mesh(vertices_m: Vec<Point3<f64>>, triangle: [u32; 3]) -> Triangles {
@@ -103,7 +101,7 @@ mod tests {
 
     #[test]
     fn geometry_is_checked_before_use() {
-        let corners = vec![Point3::origin(), point![1.0, 0.0, 0.0], point![0.0, 1.0, 0.0]];
+        let corners = vec![Point3::origin(), Point3::new(1.0, 0.0, 0.0), Point3::new(0.0, 1.0, 0.0)];
         let mut broken = corners.clone();
         broken[2].z = f64::NAN;
         assert_eq!(check(&mesh(corners.clone(), [0, 1, 2])), Ok(()));

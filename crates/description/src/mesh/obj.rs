@@ -55,8 +55,6 @@ fn index_fault(text: &str) -> Option<MeshError> {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::point;
-
     use super::*;
 
     const SQUARE: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.1\n";
@@ -66,7 +64,7 @@ mod tests {
         let mesh = parse(format!("{SQUARE}f 1 2 3 4\no second\nf -4/1 -3/2 -2/3\n").as_bytes());
         let mesh = parse(format!("{SQUARE}f 1 2 3 4\no second\nf -4 -3 -2\n").as_bytes()).or(mesh).unwrap();
         assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [4, 5, 6]]);
-        assert_eq!(mesh.vertices_m[3], point![0.0, 1.0, 0.1]);
+        assert_eq!(mesh.vertices_m[3], Point3::new(0.0, 1.0, 0.1));
         assert_eq!(mesh.material_libraries, ["a.mtl"]);
     }
 

@@ -79,8 +79,6 @@ fn scaled(path: PathBuf, mesh: Triangles, scale: Vector3<f64>) -> Mesh {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{point, vector};
-
     use super::*;
 
     const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -92,10 +90,10 @@ mod tests {
         let packages = Packages::new(folder.path(), BTreeMap::new()).unwrap();
         let mut store = MeshStore::new(&packages);
         let mut find = |scale| store.find("a.obj", scale).unwrap().mesh;
-        let once = vector![1.0, 1.0, 1.0];
+        let once = Vector3::new(1.0, 1.0, 1.0);
         assert!(Arc::ptr_eq(&find(once), &find(once)));
-        let mirrored = find(vector![-2.0, 1.0, 1.0]);
-        assert_eq!(mirrored.vertices_m[1], point![-2.0, 0.0, 0.0]);
+        let mirrored = find(Vector3::new(-2.0, 1.0, 1.0));
+        assert_eq!(mirrored.vertices_m[1], Point3::new(-2.0, 0.0, 0.0));
         assert_eq!(mirrored.triangles, [[0, 2, 1]]);
     }
 
@@ -105,7 +103,7 @@ mod tests {
         std::fs::write(folder.path().join("a.obj"), format!("mtllib /etc/hosts\nmtllib b.mtl\n{TRIANGLE}"))
             .unwrap();
         let packages = Packages::new(folder.path(), BTreeMap::new()).unwrap();
-        let found = MeshStore::new(&packages).find("a.obj", vector![1.0, 1.0, 1.0]).unwrap();
+        let found = MeshStore::new(&packages).find("a.obj", Vector3::new(1.0, 1.0, 1.0)).unwrap();
         let messages: Vec<_> = found.warnings.into_iter().map(|warning| warning.message).collect();
         assert_eq!(messages, ["mesh \"a.obj\": mtllib \"/etc/hosts\" leaves the project folder"]);
     }

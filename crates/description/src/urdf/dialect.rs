@@ -1,9 +1,9 @@
-//! Files that are not URDF: broken XML, SDF, other robot formats, xacro that nobody expanded.
+//! Files that are not URDF: SDF, other robot formats, xacro that nobody expanded.
 
-use roxmltree::{Document, Error, Node};
+use roxmltree::{Document, Node};
 
-use super::{depth::offset, label, tag};
-use crate::diagnostic::Diagnostic;
+use super::{label, tag};
+use crate::{diagnostic::Diagnostic, xml};
 
 /// xacro runs code, so it is never run here.
 const RUN_XACRO: &str =
@@ -12,19 +12,13 @@ const RUN_XACRO: &str =
 /// Part of the namespace that every xacro file declares, whatever its prefix.
 const XACRO: &str = "xacro";
 
-/// The tree builder's error as a diagnostic.
-pub(super) fn malformed(error: &Error, text: &str) -> Diagnostic {
-    let position = error.pos();
-    let at = offset(text, position.row, position.col);
-    let malformed = |message: String| Diagnostic::error("xml::malformed", message).at(at..at);
-    match error {
-        Error::DuplicatedAttribute(name, _) => malformed(format!("attribute \"{name}\" is given twice")),
-        Error::UnknownNamespace(prefix, _) if prefix == XACRO => {
-            Diagnostic::error("urdf::xacro", "unexpanded xacro").at(at..at).with_help(RUN_XACRO)
-        }
-        Error::NoRootNode => malformed("the file holds no XML element".to_owned()),
-        _ => malformed(format!("XML is not well-formed: {error}")),
+/// What a fault of the XML means in a URDF.
+pub(super) fn explain(fault: Diagnostic) -> Diagnostic {
+    if fault.code == xml::UNKNOWN_PREFIX && fault.message.contains(XACRO) {
+        let message = "unexpanded xacro".to_owned();
+        return Diagnostic { code: "urdf::xacro", message, ..fault }.with_help(RUN_XACRO);
     }
+    fault
 }
 
 /// Refuses documents that are no expanded URDF.

@@ -1,7 +1,7 @@
 //! URDF text to a [`Robot`], or to diagnostics that each say where.
 //!
 //! Four passes, each of which may trust what the one before has checked:
-//! 1. `depth`: tokens only; refuses what would overflow a stack or the memory of a tree builder;
+//! 1. `xml`: tokens, then the tree; refuses what would overflow a stack or the memory;
 //! 2. `raw`: the XML with positions against the grammar of URDF, every number token by token;
 //! 3. `urdf-rs`: the structure. It accepts much that is wrong (it drops vector tokens that are no
 //!    numbers, it cannot tell a missing element from its default), which is why pass 2 exists;
@@ -12,7 +12,6 @@
 //! of a quarter turn: it is taken from the XML.
 
 mod body;
-mod depth;
 mod dialect;
 mod grammar;
 mod joint;
@@ -25,7 +24,7 @@ mod shape;
 use std::{collections::BTreeMap, ops::Range};
 
 use nalgebra::Vector3;
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
 use crate::{
     Robot, RobotError,
@@ -33,6 +32,7 @@ use crate::{
     findings::Findings,
     link::Link,
     mesh::FoundMesh,
+    xml,
 };
 
 /// The largest URDF that is read.
@@ -45,7 +45,7 @@ pub(crate) type FindMesh<'a> = dyn FnMut(&str, Vector3<f64>) -> Result<FoundMesh
 
 /// Reads a robot; `None` when `findings` holds an error.
 pub(crate) fn parse(text: &str, find_mesh: &mut FindMesh<'_>, findings: &mut Findings) -> Option<Robot> {
-    let document = findings.keep(parse_xml(text))?;
+    let document = findings.keep(xml::parse(text).map_err(dialect::explain))?;
     let root = document.root_element();
     findings.keep(dialect::check(root))?;
     raw::check(root, findings);
@@ -62,14 +62,11 @@ pub(crate) fn parse(text: &str, find_mesh: &mut FindMesh<'_>, findings: &mut Fin
         Diagnostic::error("urdf::structure", format!("not a valid URDF: {error}")).at(tag(root))
     }))?;
     let robot = build(&urdf, root, find_mesh, findings)?;
+    if findings.has_error() {
+        return None;
+    }
     body::check(&robot, &spans(root, "link"), findings);
-    (!findings.has_error()).then_some(robot)
-}
-
-/// XML of bounded depth and without entities.
-pub(crate) fn parse_xml(text: &str) -> Result<Document<'_>, Diagnostic> {
-    depth::check(text)?;
-    Document::parse(text).map_err(|error| dialect::malformed(&error, text))
+    Some(robot)
 }
 
 fn build(
@@ -98,8 +95,14 @@ fn build(
 }
 
 fn tree_fault(error: &RobotError, root: Node<'_, '_>) -> Diagnostic {
-    let joint = error.joint().and_then(|name| last_span(root, "joint", name));
-    let link = error.link().and_then(|name| last_span(root, "link", name));
+    // The element inside the joint that names what is not there.
+    let part = match error {
+        RobotError::UnknownLink { role, .. } => role,
+        RobotError::UnknownMimic { .. } | RobotError::MimicLoop { .. } => "mimic",
+        _ => "",
+    };
+    let joint = error.joint().and_then(|name| last(root, "joint", name)).map(|node| place(node, part));
+    let link = error.link().and_then(|name| last(root, "link", name)).map(tag);
     let fault =
         Diagnostic::error("urdf::tree", error.to_string()).at(joint.or(link).unwrap_or_else(|| tag(root)));
     match error {
@@ -128,8 +131,8 @@ fn first_at(fault: Diagnostic, root: Node<'_, '_>, tag_name: &str, name: &str) -
 }
 
 /// The last element with this name: of two that share one, the second is at fault.
-fn last_span(root: Node<'_, '_>, tag_name: &str, name: &str) -> Option<Range<usize>> {
-    elements(root, tag_name).filter(|node| node.attribute("name") == Some(name)).last().map(tag)
+fn last<'a, 'i>(root: Node<'a, 'i>, tag_name: &str, name: &str) -> Option<Node<'a, 'i>> {
+    elements(root, tag_name).filter(|node| node.attribute("name") == Some(name)).last()
 }
 
 fn spans<'a>(root: Node<'a, '_>, tag_name: &'a str) -> BTreeMap<&'a str, Range<usize>> {

@@ -1,0 +1,179 @@
+//! `<geometry>`: sources and primitives to vertices and triangles, in the units of the file.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Point3;
+use roxmltree::Node;
+
+use super::{MeshError, Reader, child, children, fault, figures};
+use crate::mesh::fan;
+
+/// One geometry in its own frame.
+#[derive(Debug, Default)]
+pub(super) struct Part {
+    pub(super) vertices: Vec<Point3<f64>>,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+/// Where a list of positions stands among the vertices of a part.
+#[derive(Clone, Copy)]
+struct Positions {
+    first: usize,
+    count: usize,
+}
+
+impl<'a, 'i> Reader<'a, 'i> {
+    pub(super) fn read_geometry(&self, geometry: Node<'a, 'i>) -> Result<Part, MeshError> {
+        let mut part = Part::default();
+        // Splines and convex hulls of other geometries hold no triangles of their own.
+        let Some(mesh) = child(geometry, "mesh") else { return Ok(part) };
+        let mut known: BTreeMap<&str, Positions> = BTreeMap::new();
+        for primitive in mesh.children().filter(Node::is_element) {
+            let name = primitive.tag_name().name();
+            if !["triangles", "polylist", "polygons", "tristrips", "trifans"].contains(&name) {
+                continue;
+            }
+            let Some(vertex) =
+                children(primitive, "input").find(|input| input.attribute("semantic") == Some("VERTEX"))
+            else {
+                return Err(fault(primitive, format!("<{name}> has no input VERTEX")));
+            };
+            let (id, vertices) = self.target(vertex, "source", "vertices")?;
+            let positions = match known.get(id) {
+                Some(positions) => *positions,
+                None => {
+                    let found = self.positions(vertices)?;
+                    let positions = Positions { first: part.vertices.len(), count: found.len() };
+                    part.vertices.extend(found);
+                    known.insert(id, positions);
+                    positions
+                }
+            };
+            add_triangles(&mut part, primitive, &Corners::new(primitive, vertex, positions)?)?;
+        }
+        Ok(part)
+    }
+
+    fn positions(&self, vertices: Node<'a, 'i>) -> Result<Vec<Point3<f64>>, MeshError> {
+        let Some(input) =
+            children(vertices, "input").find(|input| input.attribute("semantic") == Some("POSITION"))
+        else {
+            return Err(fault(vertices, "<vertices> has no input POSITION"));
+        };
+        let (_, source) = self.target(input, "source", "source")?;
+        let accessor = child(source, "technique_common").and_then(|common| child(common, "accessor"));
+        let Some(accessor) = accessor else { return Err(fault(source, "<source> has no <accessor>")) };
+        let (_, array) = self.target(accessor, "source", "float_array")?;
+        let [count, stride, offset] = [
+            number(accessor, "count", None)?,
+            number(accessor, "stride", Some(1))?,
+            number(accessor, "offset", Some(0))?,
+        ];
+        if stride < 3 {
+            return Err(fault(accessor, format!("positions of {stride} numbers, 3 are needed")));
+        }
+        let values: Vec<f64> = figures(array)?;
+        let needed = count.checked_mul(stride).and_then(|needed| needed.checked_add(offset));
+        if needed.is_none_or(|needed| needed > values.len()) {
+            let what = format!(
+                "{count} positions of {stride} numbers are promised, {} numbers are there",
+                values.len()
+            );
+            return Err(fault(array, what));
+        }
+        Ok(values[offset..].chunks_exact(stride).take(count).map(|p| Point3::new(p[0], p[1], p[2])).collect())
+    }
+}
+
+/// An attribute that counts something.
+fn number(node: Node<'_, '_>, key: &str, default: Option<usize>) -> Result<usize, MeshError> {
+    let text = node.attribute(key);
+    let value = text.map_or(default, |text| text.trim().parse().ok());
+    value.ok_or_else(|| {
+        let found = text.map_or("missing".to_owned(), |text| format!("\"{text}\""));
+        fault(node, format!("<{}> {key} is {found}, a number is needed", node.tag_name().name()))
+    })
+}
+
+/// How the vertex indices lie among the indices of a primitive.
+struct Corners {
+    positions: Positions,
+    /// Indices for each corner: position, normal, texture, ...
+    stride: usize,
+    /// Which of them is the position's.
+    offset: usize,
+}
+
+impl Corners {
+    fn new(primitive: Node<'_, '_>, vertex: Node<'_, '_>, positions: Positions) -> Result<Self, MeshError> {
+        let mut last = 0;
+        for input in children(primitive, "input") {
+            last = last.max(number(input, "offset", Some(0))?);
+        }
+        Ok(Self { positions, stride: last.saturating_add(1), offset: number(vertex, "offset", Some(0))? })
+    }
+
+    /// The vertices of the corners that a `<p>` lists.
+    fn read(&self, p: Node<'_, '_>) -> Result<Vec<u32>, MeshError> {
+        let indices: Vec<usize> = figures(p)?;
+        if !indices.len().is_multiple_of(self.stride) {
+            let what =
+                format!("<p> holds {} indices, which is no multiple of {}", indices.len(), self.stride);
+            return Err(fault(p, what));
+        }
+        let vertex = |corner: &[usize]| {
+            let index = corner[self.offset];
+            let vertex = u32::try_from(self.positions.first + index).ok();
+            vertex.filter(|_| index < self.positions.count).ok_or_else(|| {
+                let count = self.positions.count;
+                fault(p, format!("vertex index {index} is out of range: there are {count} vertices"))
+            })
+        };
+        indices.chunks_exact(self.stride).map(vertex).collect()
+    }
+}
+
+fn add_triangles(part: &mut Part, primitive: Node<'_, '_>, corners: &Corners) -> Result<(), MeshError> {
+    let name = primitive.tag_name().name();
+    let mut sizes = match child(primitive, "vcount") {
+        Some(vcount) if name == "polylist" => figures::<usize>(vcount)?.into_iter(),
+        _ => Vec::new().into_iter(),
+    };
+    for p in children(primitive, "p") {
+        let list = corners.read(p)?;
+        match name {
+            "triangles" => {
+                if !list.len().is_multiple_of(3) {
+                    return Err(fault(
+                        p,
+                        format!("{} corners make no whole number of triangles", list.len()),
+                    ));
+                }
+                part.triangles.extend(list.chunks_exact(3).map(|c| [c[0], c[1], c[2]]));
+            }
+            "polylist" => {
+                let mut rest = &list[..];
+                for size in sizes.by_ref() {
+                    let polygon = rest.split_at_checked(size);
+                    let (polygon, after) = polygon.ok_or_else(|| {
+                        fault(
+                            p,
+                            format!("<vcount> asks for more corners than the {} that <p> holds", list.len()),
+                        )
+                    })?;
+                    part.triangles.extend(fan(polygon));
+                    rest = after;
+                }
+            }
+            "tristrips" => {
+                let turned = |(at, c): (usize, &[u32])| {
+                    if at % 2 == 0 { [c[0], c[1], c[2]] } else { [c[0], c[2], c[1]] }
+                };
+                part.triangles.extend(list.windows(3).enumerate().map(turned));
+            }
+            // Fans, and polygons, which are taken for convex.
+            _ => part.triangles.extend(fan(&list)),
+        }
+    }
+    Ok(())
+}
