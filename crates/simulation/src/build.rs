@@ -4,7 +4,7 @@
 //! Insertion order is row order, so body `i + 1`, multibody link `i + 1` and coordinate `i` are
 //! one and the same joint throughout the crate.
 
-use congruent_description::{Joint, JointIndex, Robot};
+use congruent_description::{Joint, JointIndex, Mimic, Robot};
 use rapier3d_f64::{
     dynamics::MultibodyDofCoupling,
     prelude::{
@@ -17,7 +17,7 @@ use crate::{
     engine::{Sets, Slot},
     error::SimulationError,
     lumping::{Bodies, BodyInertia},
-    settings::WorldSettings,
+    settings::{Obstacle, WorldSettings},
 };
 
 /// A robot in rapier's sets.
@@ -42,10 +42,9 @@ pub(crate) fn build(
         .map(|(body, inertia)| sets.bodies.insert(rigid_body(body, inertia)))
         .collect();
     if settings.contacts && !settings.obstacles.is_empty() {
-        add_colliders(&mut sets, &handles, (robot, bodies, settings))?;
+        add_colliders(&mut sets, &handles, robot, bodies, &settings.obstacles)?;
     }
-    let slots =
-        robot.movable_joints().iter().map(|&joint| slot(robot, joint)).collect::<Result<Vec<_>, _>>()?;
+    let slots = slots(robot)?;
     for (slot, &index) in slots.iter().zip(robot.movable_joints()) {
         let joint = robot.joint(index);
         let (parent, child) = (bodies.links[joint.parent.get()].body, bodies.links[joint.child.get()].body);
@@ -76,17 +75,46 @@ fn rigid_body(body: usize, inertia: &BodyInertia) -> RigidBodyBuilder {
 fn add_colliders(
     sets: &mut Sets,
     handles: &[RigidBodyHandle],
-    (robot, bodies, settings): (&Robot, &Bodies, &WorldSettings),
+    robot: &Robot,
+    bodies: &Bodies,
+    obstacles: &[Obstacle],
 ) -> Result<(), SimulationError> {
     for (body, collider) in contact::of_links(robot, bodies)? {
         sets.colliders.insert_with_parent(collider, handles[body], &mut sets.bodies);
     }
-    for obstacle in &settings.obstacles {
+    for obstacle in obstacles {
         if let Some(collider) = contact::of_obstacle(obstacle)? {
             sets.colliders.insert(collider);
         }
     }
     Ok(())
+}
+
+fn slots(robot: &Robot) -> Result<Vec<Slot>, SimulationError> {
+    let mut slots =
+        robot.movable_joints().iter().map(|&joint| slot(robot, joint)).collect::<Result<Vec<_>, _>>()?;
+    for (row, &joint) in robot.movable_joints().iter().enumerate() {
+        if let Some(mimic) = robot.joint(joint).mimic {
+            let master = robot.coordinate(mimic.master).expect("a mimicked joint moves");
+            let range = (slots[row].lower, slots[row].upper);
+            (slots[row].lower, slots[row].upper) = (f64::NEG_INFINITY, f64::INFINITY);
+            slots[master].narrow(range, &mimic);
+        }
+    }
+    Ok(slots)
+}
+
+impl Slot {
+    /// Makes a master stop where one of its followers has to. Two limits on coupled joints would
+    /// be one constraint twice, which the solver settles slowly: 1e-12 instead of 1e-15.
+    fn narrow(&mut self, (lower, upper): (f64, f64), mimic: &Mimic) {
+        let [a, b] = [lower, upper].map(|end| (end - mimic.offset) / mimic.multiplier);
+        let (lower, upper) = (self.lower.max(a.min(b)), self.upper.min(a.max(b)));
+        // Ranges without a common position limit nothing that could be kept.
+        if mimic.multiplier != 0.0 && lower <= upper {
+            (self.lower, self.upper) = (lower, upper);
+        }
+    }
 }
 
 fn slot(robot: &Robot, index: JointIndex) -> Result<Slot, SimulationError> {

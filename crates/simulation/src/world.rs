@@ -4,7 +4,7 @@ use congruent_description::{LinkIndex, Robot};
 use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::{
-    actuation::{Commands, Controller, JointsView, Reference},
+    actuation::{Commands, Controller, JointsView, Motor, Reference},
     build,
     engine::{Engine, Sets},
     error::SimulationError,
@@ -16,8 +16,9 @@ use crate::{
 /// products and sums leaves about 1e-16. Dimensionless.
 const NO_INERTIA_RATIO: f64 = 1e-15;
 
-/// Positions and velocities from here on count as infinite. Below, no product that rapier forms
-/// of them overflows; above, one may, and rapier would go on with accelerations of zero.
+/// Numbers from here on count as infinite, whether they come in or out. Below, no product that
+/// rapier forms of them overflows; above, one may, and rapier then goes on with accelerations of
+/// zero and says nothing.
 const LARGEST: f64 = 1e75;
 
 /// A robot in physics.
@@ -206,7 +207,7 @@ impl World {
             return Err(SimulationError::Massless { link: link.clone() });
         }
         self.check_commands()?;
-        self.engine.step(&self.commands);
+        self.engine.step(&mut self.commands);
         self.state.step_count += 1;
         self.finish_step()
     }
@@ -242,13 +243,9 @@ impl World {
     fn finish_step(&mut self) -> Result<(), SimulationError> {
         let State { q, qd, torque, .. } = &mut self.state;
         self.engine.read(q, qd);
-        self.engine.exerted(&self.commands, (q, qd), torque);
-        for (what, vector) in [("position", &self.state.q), ("velocity", &self.state.qd)] {
-            // Written so that it also catches what is no number.
-            if let Some(coordinate) = vector.iter().position(|value| !matches!(value.abs(), 0.0..LARGEST)) {
-                return Err(self.not_finite(what, coordinate));
-            }
-        }
+        self.engine.exerted(&self.commands, q, qd, torque);
+        self.check_finite("position", &self.state.q)?;
+        self.check_finite("velocity", &self.state.qd)?;
         match self.engine.first_unsolved() {
             Some(coordinate) => Err(self.not_finite("acceleration", coordinate)),
             None => Ok(()),
@@ -257,10 +254,10 @@ impl World {
 
     fn check_commands(&self) -> Result<(), SimulationError> {
         self.check_finite("commanded torque", &self.commands.torque)?;
-        let is_number = |motor: &crate::Motor| {
-            [motor.q, motor.qd, motor.gains.stiffness, motor.gains.damping].iter().all(|x| x.is_finite())
+        let is_sound = |motor: &Motor| {
+            [motor.q, motor.qd, motor.gains.stiffness, motor.gains.damping].into_iter().all(is_number)
         };
-        match self.commands.motors.iter().position(|motor| motor.as_ref().is_some_and(|m| !is_number(m))) {
+        match self.commands.motors.iter().position(|motor| motor.as_ref().is_some_and(|m| !is_sound(m))) {
             Some(coordinate) => Err(self.not_finite("commanded servo", coordinate)),
             None => Ok(()),
         }
@@ -275,7 +272,7 @@ impl World {
     }
 
     fn check_finite(&self, what: &'static str, vector: &[f64]) -> Result<(), SimulationError> {
-        match vector.iter().position(|value| !value.is_finite()) {
+        match vector.iter().position(|value| !is_number(*value)) {
             Some(coordinate) => Err(self.not_finite(what, coordinate)),
             None => Ok(()),
         }
@@ -285,6 +282,10 @@ impl World {
         let joint = self.joint_names[coordinate].clone();
         SimulationError::NotFinite { joint, time_s: self.time_s(), what }
     }
+}
+
+fn is_number(value: f64) -> bool {
+    value.abs() < LARGEST
 }
 
 fn check(settings: &WorldSettings) -> Result<(), SimulationError> {

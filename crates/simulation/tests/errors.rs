@@ -126,8 +126,10 @@ fn numbers_that_are_none() {
     let error = world.set_state(&[0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0], &[0.0; 6]).unwrap_err();
     assert_eq!(error.to_string(), "joint \"forearm_joint\": position is not finite at 0 s");
     let reference = Reference { q: &[0.0; 6], qd: &[0.0; 6] };
-    let error = world.step(&mut Push(f64::NAN), &reference).unwrap_err();
-    assert_eq!(error.to_string(), "joint \"shoulder_joint\": commanded torque is not finite at 0 s");
+    for torque in [f64::NAN, f64::NEG_INFINITY, 1e200] {
+        let error = world.step(&mut Push(torque), &reference).unwrap_err();
+        assert_eq!(error.to_string(), "joint \"shoulder_joint\": commanded torque is not finite at 0 s");
+    }
     assert_eq!(world.q(), [0.0; 6]);
 }
 
@@ -140,17 +142,18 @@ fn physics_that_runs_away_is_an_error_and_can_be_left() {
     let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
     world.set_state(&ARM_Q0, &[0.0; 6]).unwrap();
     let before = world.snapshot();
-    let reference = Reference { q: &[0.0; 6], qd: &[0.0; 6] };
-    let error = (0..200).find_map(|_| world.step(&mut Push(1e200), &reference).err());
-    assert!(matches!(error, Some(SimulationError::NotFinite { .. })), "{error:?}");
-
     let mut passive = make("passive", 0.0, 0.0);
-    world.restore(&before);
     run(&mut world, passive.as_mut(), &[0.0; 6], 100);
-    let restored = world.q().to_vec();
-    let error = (0..200).find_map(|_| world.step(&mut Push(1e200), &reference).err());
-    assert!(error.is_some());
-    world.set_state(&ARM_Q0, &[0.0; 6]).unwrap();
-    run(&mut world, passive.as_mut(), &[0.0; 6], 100);
-    assert_eq!(world.q(), restored);
+    let expected = world.q().to_vec();
+    let reference = Reference { q: &[0.0; 6], qd: &[0.0; 6] };
+    for torque in [1e60, 1e74, 1e200, f64::MAX] {
+        for leave in [World::restore, |world: &mut World, _: &_| world.set_state(&ARM_Q0, &[0.0; 6]).unwrap()]
+        {
+            let error = (0..200).find_map(|_| world.step(&mut Push(torque), &reference).err());
+            assert!(matches!(error, Some(SimulationError::NotFinite { .. })), "{torque:e}: {error:?}");
+            leave(&mut world, &before);
+            run(&mut world, passive.as_mut(), &[0.0; 6], 100);
+            assert_eq!(world.q(), expected, "{torque:e}");
+        }
+    }
 }

@@ -1,12 +1,13 @@
 //! Robots built in code, for tests and benchmarks that need no file.
 #![allow(dead_code, reason = "each test binary uses a part")]
 #![allow(clippy::unwrap_used, clippy::missing_panics_doc, reason = "helpers of tests")]
+#![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of steps")]
 #![allow(missing_docs, unreachable_pub, reason = "helpers of tests")]
 
 use congruent_description::{
     Geometry, Inertia, Joint, JointKind, JointLimit, JointParts, Link, LinkIndex, Robot, Shape,
 };
-use congruent_simulation::{Controller, Gains, Reference, World, controller};
+use congruent_simulation::{Controller, Gains, Reference, World, WorldSettings, controller};
 use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// A link index, which `Robot::new` overwrites.
@@ -65,7 +66,7 @@ pub fn pendulum() -> Robot {
     Robot::new("pendulum", vec![massless("base"), bob], vec![hinge]).unwrap()
 }
 
-/// Six joints with the geometry, masses and effort limits of a UR5e, a flange and a tool.
+/// Six joints with the geometry, masses and effort limits of a `UR5e`, a flange and a tool.
 pub fn arm() -> Robot {
     arm_with(|parts| parts)
 }
@@ -136,6 +137,18 @@ pub fn swinging_bar() -> Robot {
 /// A controller without or with gains.
 pub fn make(kind: &str, stiffness: f64, damping: f64) -> Box<dyn Controller> {
     controller(kind, Gains { stiffness, damping }).unwrap()
+}
+
+/// A world with the robot at `q`, at rest.
+pub fn at(robot: &Robot, settings: &WorldSettings, q: &[f64]) -> World {
+    let mut world = World::new(robot, settings).unwrap();
+    world.set_state(q, &vec![0.0; q.len()]).unwrap();
+    world
+}
+
+/// Number of steps in a duration.
+pub fn steps(duration_s: f64, step_s: f64) -> usize {
+    (duration_s / step_s).round() as usize
 }
 
 /// Steps towards a reference that stands still.
