@@ -79,6 +79,26 @@ impl Twist {
         Pose::from_parts(rotation, left * shift)
     }
 
+    /// The same motion in the frame that `a_from_b` leads to: `V_a = Ad(a_from_b) V_b`.
+    ///
+    /// Source: Lynch & Park, *Modern Robotics* (2017), definition 3.20: `w_a = R w_b`,
+    /// `v_a = p x R w_b + R v_b`.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::{Pose, Twist};
+    /// use nalgebra::{Matrix3, Vector3};
+    /// let turn_in_body = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
+    /// let space_from_body = Pose::from_parts(Matrix3::identity(), Vector3::new(1., 0., 0.));
+    /// assert_eq!(turn_in_body.seen_from(&space_from_body).linear, Vector3::new(0., -1., 0.));
+    /// ```
+    #[must_use]
+    pub fn seen_from(&self, a_from_b: &Pose) -> Self {
+        let angular = a_from_b.rotation * self.angular;
+        let linear = a_from_b.translation.cross(&angular) + a_from_b.rotation * self.linear;
+        Self { angular, linear }
+    }
+
     /// The twist that makes a motion within one unit, its turn in `0..=pi`.
     ///
     /// Source: Lynch & Park, *Modern Robotics* (2017), section 3.3.3.2; the inverse of the left

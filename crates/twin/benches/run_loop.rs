@@ -1,0 +1,87 @@
+//! The whole run loop of `scenarios/ur5e_pick.toml` (4 s at 1 kHz), one stage more in each benchmark.
+//!
+//! 4 s divided by a time here is how many times faster than real time it runs.
+
+use std::path::{Path, PathBuf};
+
+use congruent_twin::{
+    Run,
+    monitor::Check,
+    recorder::{NoRecorder, Recorder},
+    scenario::{Overrides, Scenario},
+};
+
+fn main() {
+    divan::main();
+}
+
+fn scenario() -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/ur5e_pick.toml");
+    Scenario::load(&path, Overrides::default()).expect("the scenario is part of the project")
+}
+
+/// What a run does besides physics.
+#[derive(Clone, Copy)]
+struct Stages {
+    compare: bool,
+    observe: bool,
+}
+
+fn run(scenario: &Scenario, checks: &mut [Check], recorder: &mut dyn Recorder, stages: Stages) {
+    let mut run = Run::new(scenario).expect("the scenario runs");
+    for _ in 0..scenario.simulation.steps {
+        run.step().expect("the physics holds");
+        if stages.compare {
+            run.compare().expect("model and robot fit");
+        }
+        if stages.observe {
+            run.observe(checks, recorder).expect("nothing is recorded");
+        }
+    }
+}
+
+fn bench(bencher: divan::Bencher<'_, '_>, stages: Stages, checks: fn(&Check) -> bool) {
+    bencher
+        .with_inputs(|| {
+            let mut scenario = scenario();
+            let mut kept = std::mem::take(&mut scenario.checks);
+            kept.retain(checks);
+            (scenario, kept)
+        })
+        .bench_local_values(|(scenario, mut checks)| run(&scenario, &mut checks, &mut NoRecorder, stages));
+}
+
+#[divan::bench]
+fn a_physics(bencher: divan::Bencher<'_, '_>) {
+    bench(bencher, Stages { compare: false, observe: false }, |_| false);
+}
+
+#[divan::bench]
+fn b_and_comparison(bencher: divan::Bencher<'_, '_>) {
+    bench(bencher, Stages { compare: true, observe: false }, |_| false);
+}
+
+#[divan::bench]
+fn c_and_checks_and_clearance(bencher: divan::Bencher<'_, '_>) {
+    bench(bencher, Stages { compare: true, observe: true }, |_| true);
+}
+
+#[cfg(feature = "recording")]
+#[divan::bench]
+fn d_and_recording(bencher: divan::Bencher<'_, '_>) {
+    use congruent_twin::recording::RerunRecorder;
+    let path: PathBuf = std::env::temp_dir().join("congruent-bench.rrd");
+    bencher
+        .with_inputs(|| {
+            let mut scenario = scenario();
+            let checks = std::mem::take(&mut scenario.checks);
+            (scenario, checks)
+        })
+        .bench_local_values(|(scenario, mut checks)| {
+            let built = Run::new(&scenario).expect("the scenario runs");
+            let (names, sources) = (built.names().clone(), built.model().sources().to_vec());
+            let mut recorder =
+                RerunRecorder::create(&path, &scenario, &names, &sources).expect("a temporary file");
+            run(&scenario, &mut checks, &mut recorder, Stages { compare: true, observe: true });
+        });
+}

@@ -1,0 +1,212 @@
+//! Bad input ends with exit code 2, the file, the line where there is one, and what to do.
+
+use std::{fs, path::PathBuf};
+
+use crate::{
+    command::{congruent, congruent_json, text},
+    corpus::workspace,
+};
+
+/// A folder with a copy of a small robot and a scenario for it.
+struct Workbench {
+    folder: tempfile::TempDir,
+}
+
+const SCENARIO: &str = "\
+schema_version = 1
+name = \"bench\"
+robot = \"robot\"
+[simulation]
+duration_s = 0.01
+[controller]
+kind = \"passive\"
+[[motion]]
+move_joints_deg = { joint_1 = 10 }
+duration_s = 0.01
+[[check]]
+kind = \"agreement\"
+";
+
+impl Workbench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let robot = folder.path().join("robot");
+        fs::create_dir(&robot).unwrap();
+        for file in ["robot.toml", "planar_2r.urdf"] {
+            fs::copy(workspace().join("robots/planar_2r").join(file), robot.join(file)).unwrap();
+        }
+        let bench = Self { folder };
+        bench.write("scenario.toml", SCENARIO);
+        bench
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn write(&self, name: &str, contents: &str) {
+        fs::write(self.path(name), contents).unwrap();
+    }
+
+    /// Replaces one piece of a file.
+    #[track_caller]
+    fn edit(&self, name: &str, from: &str, to: &str) {
+        let before = fs::read_to_string(self.path(name)).unwrap();
+        assert!(before.contains(from), "{name} has no {from:?}:\n{before}");
+        self.write(name, &before.replacen(from, to, 1));
+    }
+
+    /// Runs the scenario and expects a refusal whose text has all of `words`, and, where `line` is
+    /// not 0, a finding of `file` at that line.
+    #[track_caller]
+    fn refused(&self, file: &str, line: u64, words: &[&str]) {
+        let (scenario, out) = (text(&self.path("scenario.toml")), text(&self.path("out")));
+        let arguments = ["run", &scenario, "--no-recording", "--out", &out];
+        let answer = congruent(&arguments);
+        assert_eq!(answer.code, 2, "{}{}", answer.stdout, answer.stderr);
+        for word in words.iter().chain(&[file]) {
+            assert!(answer.stderr.contains(word), "no {word:?} in:\n{}", answer.stderr);
+        }
+        let document = congruent_json(&arguments).json();
+        let findings = document["findings"].as_array().unwrap();
+        let here = |finding: &&serde_json::Value| {
+            finding["file"].as_str().is_some_and(|path| path.ends_with(file)) && finding["line"] == line
+        };
+        assert!(line == 0 || findings.iter().any(|finding| here(&finding)), "{file}:{line} not in {document:#}");
+    }
+}
+
+#[test]
+fn the_bench_itself_is_fine() {
+    let bench = Workbench::new();
+    let (scenario, out) = (text(&bench.path("scenario.toml")), text(&bench.path("out")));
+    let answer = congruent(&["run", &scenario, "--no-recording", "--out", &out]);
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+}
+
+#[test]
+fn an_unknown_key() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "[simulation]\nduration_s", "[simulation]\ndurration_s");
+    bench.refused("scenario.toml", 5, &["durration_s", "did you mean \"duration_s\"?"]);
+}
+
+#[test]
+fn an_unknown_section() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "[simulation]", "[simulaton]");
+    bench.refused("scenario.toml", 4, &["simulaton", "[simulation]"]);
+}
+
+#[test]
+fn an_unknown_joint() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "joint_1", "joint_11");
+    bench.refused("scenario.toml", 9, &["joint_11", "did you mean \"joint_1\"?", "joint_2"]);
+}
+
+#[test]
+fn an_unknown_check() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "agreement", "agrement");
+    bench.refused("scenario.toml", 12, &["agrement", "did you mean \"agreement\"?", "clearance"]);
+}
+
+#[test]
+fn a_step_of_zero_and_a_tolerance_that_is_no_number() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "duration_s = 0.01", "step_s = 0\nduration_s = 0.01");
+    bench.edit("scenario.toml", "kind = \"agreement\"", "kind = \"agreement\"\nposition_m = nan");
+    bench.refused("scenario.toml", 5, &["above 0", "NaN"]);
+}
+
+#[test]
+fn more_steps_than_anyone_waits_for() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "duration_s = 0.01", "step_s = 1e-6\nduration_s = 1e6");
+    bench.refused("scenario.toml", 5, &["1e12 steps"]);
+}
+
+#[test]
+fn a_start_beyond_a_limit() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "[controller]", "[start]\njoints_deg = { joint_1 = 1000 }\n[controller]");
+    bench.refused("scenario.toml", 7, &["joint \"joint_1\"", "outside"]);
+}
+
+#[test]
+fn a_malformed_urdf() {
+    let bench = Workbench::new();
+    bench.edit("robot/planar_2r.urdf", "</robot>", "");
+    bench.refused("planar_2r.urdf", 0, &["robot"]);
+}
+
+#[test]
+fn a_missing_mesh() {
+    let bench = Workbench::new();
+    let urdf = fs::read_to_string(bench.path("robot/planar_2r.urdf")).unwrap();
+    let start = urdf.find("<geometry>").unwrap();
+    let end = urdf.find("</geometry>").unwrap();
+    let line = urdf[..start].matches('\n').count() as u64 + 1;
+    let mesh = "<geometry><mesh filename=\"nowhere.stl\"/>";
+    bench.write("robot/planar_2r.urdf", &format!("{}{mesh}{}", &urdf[..start], &urdf[end..]));
+    bench.refused("planar_2r.urdf", line, &["nowhere.stl", "not found"]);
+}
+
+#[test]
+fn a_table_with_a_row_too_few() {
+    let bench = Workbench::new();
+    let file = fs::read_to_string(bench.path("robot/robot.toml")).unwrap();
+    let second = file.rfind("[[dh.row]]").unwrap();
+    let rest = file[second + 2..].find("\n[").map_or("", |next| &file[second + 2 + next..]);
+    bench.write("robot/robot.toml", &format!("{}{rest}", &file[..second]));
+    bench.refused("robot.toml", 0, &["joint_2", "row"]);
+}
+
+#[test]
+fn a_table_without_a_convention() {
+    let bench = Workbench::new();
+    bench.edit("robot/robot.toml", "convention = \"standard\"", "");
+    bench.refused("robot.toml", 0, &["convention", "standard", "modified"]);
+}
+
+#[test]
+fn a_scenario_that_does_not_exist() {
+    let answer = congruent(&["run", "scenarios/nowhere.toml"]);
+    assert_eq!(answer.code, 2, "{}", answer.stderr);
+    assert!(answer.stderr.contains("nowhere.toml") && answer.stderr.contains("not exist"), "{}", answer.stderr);
+}
+
+#[test]
+fn an_output_folder_that_cannot_be_written() {
+    let bench = Workbench::new();
+    bench.write("out", "a file where a folder should be");
+    bench.refused("out", 0, &["cannot write", "--out"]);
+}
+
+#[test]
+fn two_scenarios_that_write_to_one_folder() {
+    let bench = Workbench::new();
+    fs::copy(bench.path("scenario.toml"), bench.path("other.toml")).unwrap();
+    let (a, b, out) =
+        (text(&bench.path("scenario.toml")), text(&bench.path("other.toml")), text(&bench.path("out")));
+    let answer = congruent(&["run", &a, &b, "--no-recording", "--out", &out]);
+    assert_eq!(answer.code, 2, "{}", answer.stderr);
+    assert!(answer.stderr.contains("other.toml") && answer.stderr.contains("would both write"), "{}", answer.stderr);
+}
+
+#[test]
+fn a_scenario_without_checks_is_no_success() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "[[check]]\nkind = \"agreement\"\n", "");
+    let (scenario, out) = (text(&bench.path("scenario.toml")), text(&bench.path("out")));
+    let answer = congruent(&["run", &scenario, "--no-recording", "--out", &out]);
+    assert_eq!(answer.code, 4, "{}{}", answer.stdout, answer.stderr);
+}
+
+#[test]
+fn a_configuration_with_an_unknown_joint() {
+    let answer = congruent(&["fk", "robots/ur5e", "--at", "elbow=1.0"]);
+    assert_eq!(answer.code, 2);
+    assert!(answer.stderr.contains("did you mean \"elbow_joint\"?"), "{}", answer.stderr);
+}

@@ -1,0 +1,14 @@
+//! Acceptance tests: the built command on real robots, against numbers from independent programs.
+//! What needs the corpus says that it was skipped where there is none.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
+
+mod bad_input;
+mod check_tables;
+mod clearance_goldens;
+mod command;
+mod corpus;
+mod forward_goldens;
+mod golden;
+mod robots;
+mod scenarios;

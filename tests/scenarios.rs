@@ -1,0 +1,132 @@
+//! The scenarios that come with the project, run as a user runs them.
+
+use std::{fs, path::Path};
+
+use serde_json::Value;
+
+use crate::{
+    command::{congruent, congruent_json, text},
+    corpus::workspace,
+    golden::read_json,
+};
+
+/// Runs one scenario without a recording and gives its report.
+#[track_caller]
+fn report(scenario: &str, out: &Path) -> Value {
+    let path = format!("scenarios/{scenario}.toml");
+    let answer = congruent_json(&["run", &path, "--no-recording", "--out", &text(out)]);
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+    let report = read_json(&out.join(scenario).join("report.json"));
+    assert_eq!(report, answer.json(), "standard output and report.json differ");
+    report
+}
+
+fn check<'a>(report: &'a Value, kind: &str) -> &'a Value {
+    let checks = report["checks"].as_array().unwrap();
+    checks.iter().find(|check| check["check"] == kind).unwrap_or_else(|| panic!("no check {kind}"))
+}
+
+#[track_caller]
+fn passes(scenario: &str) {
+    let out = tempfile::tempdir().unwrap();
+    let report = report(scenario, out.path());
+    assert_eq!(report["verdict"], "as_expected");
+    for kind in ["agreement", "clearance", "limits"] {
+        assert_eq!(check(&report, kind)["status"], "pass", "{kind}");
+        assert_eq!(check(&report, kind)["samples"], report["simulation"]["steps"].as_u64().unwrap() + 1);
+    }
+}
+
+/// A negative control: the named check fails at the named place.
+#[track_caller]
+fn fails(scenario: &str, kind: &str, subject: &str) -> Value {
+    let out = tempfile::tempdir().unwrap();
+    let report = report(scenario, out.path());
+    assert_eq!(report["verdict"], "as_expected");
+    let failed = check(&report, kind).clone();
+    assert_eq!(failed["status"], "fail");
+    let violation = &failed["measures"][0]["first_violation"];
+    assert!(violation["subject"].as_str().unwrap().contains(subject), "{violation}");
+    assert!(!violation["q"].as_array().unwrap().is_empty());
+    failed
+}
+
+#[test]
+fn ur5e_pick_passes() {
+    passes("ur5e_pick");
+}
+
+#[test]
+fn panda_reach_passes() {
+    passes("panda_reach");
+}
+
+#[test]
+fn rrr_arm_wave_passes() {
+    passes("rrr_arm_wave");
+}
+
+#[test]
+fn a_table_read_under_the_wrong_convention_fails() {
+    fails("ur5e_wrong_convention", "agreement", "link");
+    fails("panda_wrong_convention", "agreement", "panda_link");
+}
+
+#[test]
+fn a_tool_5_mm_off_fails_by_5_mm() {
+    let failed = fails("ur5e_tool_5mm_off", "agreement", "tool0");
+    let worst_m = failed["measures"][0]["worst"]["value"].as_f64().unwrap();
+    assert!((worst_m - 0.005).abs() < 1e-12, "{worst_m}");
+    assert!(failed["measures"][1]["first_violation"].is_null(), "the orientation is right");
+}
+
+#[test]
+fn an_arm_driven_into_a_table_fails() {
+    let failed = fails("ur5e_into_table", "clearance", "table");
+    assert_eq!(failed["measures"][0]["worst"]["value"], 0.0);
+}
+
+#[test]
+fn a_negative_control_that_passes_is_a_failure() {
+    let folder = tempfile::tempdir().unwrap();
+    let wrong = fs::read_to_string(workspace().join("scenarios/ur5e_tool_5mm_off.toml")).unwrap();
+    let right = wrong.lines().map(|line| match line.split_once('=') {
+        Some(("robot ", _)) => format!("robot = {:?}", workspace().join("robots/ur5e")),
+        _ => line.to_owned(),
+    });
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, right.collect::<Vec<_>>().join("\n")).unwrap();
+    let answer = congruent(&["run", &text(&path), "--no-recording", "--out", &text(folder.path())]);
+    assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
+}
+
+#[test]
+fn the_same_scenario_gives_the_same_bytes_at_any_number_of_jobs() {
+    let out = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    for (folder, jobs) in out.iter().zip(["1", "2"]) {
+        let folder = text(folder.path());
+        let scenarios = ["scenarios/rrr_arm_wave.toml", "scenarios/ur5e_tool_5mm_off.toml"];
+        let arguments = ["run", scenarios[0], scenarios[1], "--jobs", jobs, "--no-recording", "--out", &folder];
+        assert_eq!(congruent(&arguments).code, 0);
+    }
+    for scenario in ["rrr_arm_wave", "ur5e_tool_5mm_off"] {
+        for file in ["report.json", "junit.xml", "scenario.resolved.toml"] {
+            let [a, b] = out.each_ref().map(|out| fs::read(out.path().join(scenario).join(file)).unwrap());
+            assert!(a == b, "{scenario}/{file} differs");
+        }
+    }
+}
+
+#[test]
+fn the_resolved_scenario_runs_to_the_same_end() {
+    let out = tempfile::tempdir().unwrap();
+    let first = report("ur5e_pick", out.path());
+    let resolved = fs::read_to_string(out.path().join("ur5e_pick/scenario.resolved.toml")).unwrap();
+    let robot = format!("robot = {:?}", workspace().join("robots/ur5e"));
+    let resolved = resolved.replacen("robot = \"../robots/ur5e\"", &robot, 1);
+    let path = out.path().join("resolved.toml");
+    fs::write(&path, resolved).unwrap();
+    let answer = congruent_json(&["run", &text(&path), "--no-recording", "--out", &text(&out.path().join("again"))]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    assert_eq!(answer.json()["trajectory_sha256"], first["trajectory_sha256"]);
+}
