@@ -1,0 +1,242 @@
+//! Gathers what the messages of a file say.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rerun::{
+    EntityPathPart, Scalars, StoreId,
+    external::{
+        arrow::{
+            array::{Array, AsArray},
+            datatypes::{DataType, Float32Type, Float64Type, UInt64Type},
+        },
+        re_log_types::ArrowMsg,
+    },
+    log::Chunk,
+    time::TimeType,
+};
+use serde_json::Value;
+
+use super::summary::{EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary};
+
+/// The property that holds a whole report.
+const REPORT: &str = "congruent/report";
+/// The property that holds a verdict.
+const VERDICT: &str = "congruent/verdict";
+/// Arrow lists in lists in lists: deeper than any component.
+const DEEPEST: usize = 16;
+
+#[derive(Debug, Default)]
+struct Entity {
+    components: BTreeSet<String>,
+    rows: u64,
+    chunks: u64,
+    nan: u64,
+}
+
+#[derive(Debug, Default)]
+struct Scalar {
+    count: u64,
+    nan: u64,
+    min: Option<f64>,
+    max: Option<f64>,
+    last: Option<(i64, f64)>,
+}
+
+impl Scalar {
+    fn add(&mut self, time: i64, value: f64) {
+        self.count += 1;
+        if self.last.is_none_or(|(known, _)| known <= time) {
+            self.last = Some((time, value));
+        }
+        if value.is_nan() {
+            self.nan += 1;
+        } else {
+            self.min = Some(self.min.map_or(value, |known| known.min(value)));
+            self.max = Some(self.max.map_or(value, |known| known.max(value)));
+        }
+    }
+}
+
+/// What was found so far. Of several recordings in one file, the first is looked at.
+#[derive(Debug, Default)]
+pub(super) struct Content {
+    recording: Option<StoreId>,
+    others: BTreeSet<String>,
+    has_layout: bool,
+    timelines: BTreeMap<String, TimelineSummary>,
+    entities: BTreeMap<String, Entity>,
+    scalars: BTreeMap<String, Scalar>,
+    properties: BTreeMap<String, Value>,
+    problems: Vec<String>,
+}
+
+impl Content {
+    /// Notes a recording or a layout.
+    pub(super) fn add_store(&mut self, store: &StoreId) {
+        if store.is_blueprint() {
+            self.has_layout = true;
+        } else if self.recording.as_ref().is_none_or(|known| known == store) {
+            self.recording = Some(store.clone());
+        } else {
+            self.others.insert(store.recording_id().to_string());
+        }
+    }
+
+    /// Notes something wrong.
+    pub(super) fn add_problem(&mut self, problem: String) {
+        self.problems.push(problem);
+    }
+
+    /// Looks at a chunk; the error says why it cannot be read.
+    pub(super) fn add_chunk(&mut self, store: &StoreId, message: &ArrowMsg) -> Result<(), String> {
+        self.add_store(store);
+        if self.recording.as_ref() != Some(store) {
+            return Ok(());
+        }
+        let chunk = Chunk::from_arrow_msg(message).map_err(|error| error.to_string())?;
+        for (name, column) in chunk.timelines() {
+            self.add_times(name.as_str(), column.timeline().typ(), column.times_raw());
+        }
+        if chunk.entity_path().is_property() {
+            self.add_properties(&chunk);
+            return Ok(());
+        }
+        let path = chunk.entity_path().to_string();
+        let entity = self.entities.entry(path.clone()).or_default();
+        entity.chunks += 1;
+        entity.rows += chunk.num_rows() as u64;
+        let scalars = Scalars::descriptor_scalars().component;
+        for column in chunk.components().values() {
+            entity.components.insert(column.descriptor.component.to_string());
+            if column.descriptor.component != scalars {
+                entity.nan += count_nan(column.list_array.values(), 0);
+            }
+        }
+        self.add_scalars(&path, &chunk);
+        Ok(())
+    }
+
+    fn add_times(&mut self, name: &str, kind: TimeType, times: &[i64]) {
+        let (Some(&first), Some(&last)) = (times.iter().min(), times.iter().max()) else { return };
+        let kind = match kind {
+            TimeType::Sequence => "sequence",
+            TimeType::DurationNs => "duration",
+            TimeType::TimestampNs => "timestamp",
+        };
+        let new = || TimelineSummary { name: name.to_owned(), kind, first, last };
+        let timeline = self.timelines.entry(name.to_owned()).or_insert_with(new);
+        (timeline.first, timeline.last) = (timeline.first.min(first), timeline.last.max(last));
+    }
+
+    fn add_scalars(&mut self, path: &str, chunk: &Chunk) {
+        let Some(rows) = chunk.components().get_array(Scalars::descriptor_scalars().component) else {
+            return;
+        };
+        let first_timeline = chunk.timelines().iter().min_by_key(|(name, _)| name.as_str());
+        let times = first_timeline.map_or(&[][..], |(_, column)| column.times_raw());
+        let scalar = self.scalars.entry(path.to_owned()).or_default();
+        for row in (0..rows.len()).filter(|&row| rows.is_valid(row)) {
+            let time = times.get(row).copied().unwrap_or(i64::MIN);
+            if let Some(values) = rows.value(row).as_primitive_opt::<Float64Type>() {
+                values.iter().flatten().for_each(|value| scalar.add(time, value));
+            }
+        }
+    }
+
+    fn add_properties(&mut self, chunk: &Chunk) {
+        let parts: Vec<_> = chunk.entity_path().iter().skip(1).map(EntityPathPart::unescaped_str).collect();
+        for column in chunk.components().values() {
+            let component = column.descriptor.component.to_string();
+            let name = parts.iter().copied().chain([component.as_str()]).collect::<Vec<_>>().join("/");
+            if let Some(value) = first_value(column.list_array.values()) {
+                self.properties.insert(name, value);
+            }
+        }
+    }
+
+    /// The summary, without what only the file as a whole says; `None` without a recording.
+    pub(super) fn summary(mut self) -> Option<RecordingSummary> {
+        let recording = self.recording.as_ref()?;
+        let (application_id, recording_id) =
+            (recording.application_id().as_str().to_owned(), recording.recording_id().to_string());
+        self.find_problems();
+        let report = self.properties.remove(REPORT);
+        let report = report.and_then(|text| serde_json::from_str(text.as_str()?).ok());
+        let verdict = self.properties.get(VERDICT).and_then(Value::as_str).map(str::to_owned);
+        let entity = |(path, entity): (String, Entity)| EntitySummary {
+            path,
+            components: entity.components.into_iter().collect(),
+            rows: entity.rows,
+            chunks: entity.chunks,
+        };
+        let scalar = |(path, scalar): (String, Scalar)| ScalarSummary {
+            path,
+            count: scalar.count,
+            nan: scalar.nan,
+            min: scalar.min,
+            max: scalar.max,
+            last: scalar.last.map(|(_, value)| value),
+        };
+        Some(RecordingSummary {
+            format: "congruent-recording-summary/1",
+            application_id,
+            recording_id,
+            bytes: 0,
+            complete: false,
+            problems: self.problems,
+            verdict,
+            has_layout: self.has_layout,
+            timelines: self.timelines.into_values().collect(),
+            entities: self.entities.into_iter().map(entity).collect(),
+            scalars: self.scalars.into_iter().map(scalar).collect(),
+            properties: self.properties,
+            report,
+        })
+    }
+
+    fn find_problems(&mut self) {
+        for (path, scalar) in self.scalars.iter().filter(|(_, scalar)| scalar.nan > 0) {
+            self.problems.push(format!("{path}: {} of {} values are no number", scalar.nan, scalar.count));
+        }
+        for (path, entity) in self.entities.iter().filter(|(_, entity)| entity.nan > 0) {
+            self.problems.push(format!("{path}: {} figures are no number", entity.nan));
+        }
+        for other in &self.others {
+            self.problems.push(format!("the file holds another recording, which was left out: {other}"));
+        }
+    }
+}
+
+/// How many floats in nested lists are no number.
+fn count_nan(array: &dyn Array, depth: usize) -> u64 {
+    if depth > DEEPEST {
+        return 0;
+    }
+    let inside = |values: &dyn Array| count_nan(values, depth + 1);
+    let count = |are_nan: &mut dyn Iterator<Item = bool>| are_nan.filter(|&is_nan| is_nan).count() as u64;
+    match array.data_type() {
+        DataType::Float32 => {
+            count(&mut array.as_primitive::<Float32Type>().iter().flatten().map(f32::is_nan))
+        }
+        DataType::Float64 => {
+            count(&mut array.as_primitive::<Float64Type>().iter().flatten().map(f64::is_nan))
+        }
+        DataType::List(_) => inside(array.as_list::<i32>().values()),
+        DataType::FixedSizeList(..) => inside(array.as_fixed_size_list().values()),
+        DataType::Struct(_) => array.as_struct().columns().iter().map(|column| inside(column)).sum(),
+        _ => 0,
+    }
+}
+
+/// The first value of a property, where it is text or a number.
+fn first_value(array: &dyn Array) -> Option<Value> {
+    if array.is_empty() || array.is_null(0) {
+        return None;
+    }
+    match array.data_type() {
+        DataType::Utf8 => Some(array.as_string::<i32>().value(0).into()),
+        DataType::UInt64 => Some(array.as_primitive::<UInt64Type>().value(0).into()),
+        DataType::Float64 => Some(array.as_primitive::<Float64Type>().value(0).into()),
+        _ => None,
+    }
+}

@@ -1,0 +1,90 @@
+//! What a recording says once: shapes, names and colours.
+
+use rerun::{Color, EntityPath, LineStrips3D, Radius, SeriesLines, TimePoint, ViewCoordinates};
+
+use super::{
+    body::{Body, Paint},
+    disagreement::Disagreement,
+    palette, paths,
+    writer::RrdWriter,
+};
+use crate::{model::PoseSource, monitor::Names, recorder::RecordingError, scenario::Scenario};
+
+/// Thickness of the tool's trail on the screen.
+const TRAIL_UI_POINTS: f32 = 1.5;
+
+/// The robot's links with their shapes; a link without visuals shows what touches.
+pub(super) fn bodies(scenario: &Scenario) -> Vec<Body> {
+    let links = scenario.description.robot.links().iter().enumerate();
+    let body = |(index, link): (usize, &congruent_description::Link)| {
+        let shapes = if link.visuals.is_empty() { &link.collisions } else { &link.visuals };
+        Body::new(shapes, palette::link(index))
+    };
+    links.map(body).collect()
+}
+
+/// Writes shapes. The twin's links have no colour yet: it follows their error.
+pub(super) fn write(
+    writer: &mut RrdWriter,
+    scenario: &Scenario,
+    bodies: &[Body],
+) -> Result<(), RecordingError> {
+    writer.log_static(&paths::world(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
+    for (link, body) in scenario.description.robot.links().iter().zip(bodies) {
+        write_body(writer, body, &paths::twin(&link.name), None)?;
+        write_body(writer, body, &paths::model(&link.name), Some(Paint::Plain(palette::GHOST)))?;
+    }
+    for (index, obstacle) in scenario.obstacles.iter().enumerate() {
+        let shape = congruent_description::Shape {
+            link_from_shape: obstacle.world_from_obstacle,
+            geometry: obstacle.geometry.clone(),
+            color_rgba: None,
+        };
+        let body = Body::new(&[shape], palette::obstacle(index));
+        write_body(writer, &body, &paths::obstacle(&obstacle.name), Some(Paint::Own))?;
+    }
+    let trail = LineStrips3D::update_fields()
+        .with_colors([palette::TRAIL])
+        .with_radii([Radius::new_ui_points(TRAIL_UI_POINTS)]);
+    writer.log_static(&paths::trail(), &trail)?;
+    Disagreement::write_static(writer)
+}
+
+/// Shapes and paint share a path, so that each path is one row.
+fn write_body(
+    writer: &mut RrdWriter,
+    body: &Body,
+    path: &EntityPath,
+    paint: Option<Paint>,
+) -> Result<(), RecordingError> {
+    let mut colors = paint.map_or_else(Vec::new, |paint| body.colors(path, paint)).into_iter();
+    for (path, mut parts) in body.shapes(path) {
+        parts.extend(colors.next().into_iter().flat_map(|(_, colors)| colors));
+        writer.row(&path, TimePoint::default(), parts)?;
+    }
+    Ok(())
+}
+
+/// Writes names and colours of all lines. Links that only the URDF places are hidden at first
+/// where a table places others: there, model and URDF are the same thing.
+pub(super) fn write_styles(
+    writer: &mut RrdWriter,
+    names: &Names,
+    sources: &[PoseSource],
+) -> Result<(), RecordingError> {
+    let has_table = sources.iter().any(|source| *source != PoseSource::Urdf);
+    for (index, (link, source)) in names.links.iter().zip(sources).enumerate() {
+        let is_shown = !has_table || *source != PoseSource::Urdf;
+        let style = style(link, palette::link(index)).with_visible_series([is_shown]);
+        writer.log_static(&paths::position_error(link), &style)?;
+        writer.log_static(&paths::orientation_error(link), &style)?;
+    }
+    for (index, joint) in names.joints.iter().enumerate() {
+        writer.log_static(&paths::joint_position(joint), &style(joint, palette::link(index)))?;
+    }
+    Ok(())
+}
+
+fn style(name: &str, color: Color) -> SeriesLines {
+    SeriesLines::new().with_names([name]).with_colors([color]).with_widths([1.5])
+}
