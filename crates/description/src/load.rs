@@ -197,3 +197,72 @@ fn declared_packages(
     };
     written.packages.iter().filter_map(&mut resolve).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    const URDF: &str = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='continuous'>\
+                        <parent link='a'/><child link='b'/></joint></robot>";
+
+    /// A folder with these files.
+    fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text) in files {
+            fs::write(folder.path().join(name), text).unwrap();
+        }
+        folder
+    }
+
+    #[track_caller]
+    fn refused(path: &Path, message: &str) {
+        let found = load_robot(path).unwrap_err();
+        assert!(found[0].message.contains(message), "{found:#?}");
+    }
+
+    #[test]
+    fn a_folder_a_robot_file_and_a_urdf_load() {
+        let robot_file = "name = 'mine'\nurdf = 'r.urdf'\nsrdf = 'r.srdf'\npackages = { here = '.' }";
+        let srdf = "<robot name='r'><disable_collisions link1='b' link2='a'/></robot>";
+        let folder = folder(&[("robot.toml", robot_file), ("r.urdf", URDF), ("r.srdf", srdf)]);
+        for path in [folder.path().to_owned(), folder.path().join("robot.toml")] {
+            let loaded = load_robot(&path).unwrap();
+            assert_eq!((loaded.name.as_str(), loaded.robot.name()), ("mine", "r"));
+            assert_eq!(loaded.urdf_path, folder.path().join("r.urdf"));
+            assert_eq!(loaded.disabled_collisions.len(), 1);
+        }
+        let bare = load_robot(&folder.path().join("r.urdf")).unwrap();
+        assert_eq!((bare.name.as_str(), bare.robot.link(bare.tip).name.as_str()), ("r", "b"));
+        assert_eq!(bare.dh, None);
+    }
+
+    #[test]
+    fn warnings_and_errors_say_which_file() {
+        let folder = folder(&[("robot.toml", "urdf = 'r.urdf'\ntip = 'c'"), ("r.urdf", URDF)]);
+        let found = load_robot(folder.path()).unwrap_err();
+        let place = |found: &Diagnostic| (found.source.as_ref().unwrap().path.clone(), found.code);
+        let file = |name| folder.path().join(name);
+        assert_eq!(
+            found.iter().map(place).collect::<Vec<_>>(),
+            [(file("robot.toml"), "robot_file::unknown_link"), (file("r.urdf"), "urdf::massless")]
+        );
+    }
+
+    #[test]
+    fn what_is_missing_is_named() {
+        let empty = folder(&[("no_urdf.toml", "name = 'a'"), ("gone.toml", "urdf = 'gone.urdf'")]);
+        refused(empty.path(), "is a directory without a robot.toml");
+        refused(&empty.path().join("nowhere"), "nowhere does not exist");
+        refused(&empty.path().join("no_urdf.toml"), "no key \"urdf\"");
+        refused(&empty.path().join("gone.toml"), "gone.urdf does not exist");
+        let folder = folder(&[
+            ("robot.toml", "urdf = 'r.urdf'\nsrdf = 'r.srdf'\npackages = { p = 'nope' }"),
+            ("r.urdf", URDF),
+        ]);
+        let found = load_robot(folder.path()).unwrap_err();
+        let codes: Vec<&str> = found.iter().map(|found| found.code).collect();
+        assert_eq!(codes, ["file::not_found", "robot_file::package", "urdf::massless"]);
+    }
+}

@@ -42,3 +42,29 @@ pub(crate) fn parse(
     }
     (pairs, findings)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{findings::Findings, urdf};
+
+    fn read(text: &str) -> (usize, Vec<String>) {
+        let urdf = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'>\
+                    <parent link='a'/><child link='b'/></joint></robot>";
+        let robot = urdf::parse(urdf, &mut |_, _| unreachable!("no mesh"), &mut Findings::default()).unwrap();
+        let source = Arc::new(SourceFile { path: "r.srdf".into(), text: text.to_owned() });
+        let (pairs, findings) = parse(&source, &robot);
+        (pairs.len(), findings.into_iter().map(|found| found.message).collect())
+    }
+
+    #[test]
+    fn pairs_are_unordered_and_unknown_links_are_warned_of() {
+        let (pairs, findings) = read(
+            "<robot name='r'><disable_collisions link1='a' link2='b' reason='Adjacent'/>\
+             <disable_collisions link1='b' link2='a'/><disable_collisions link1='a' link2='c'/></robot>",
+        );
+        assert_eq!(pairs, 1);
+        assert_eq!(findings, ["<disable_collisions>: link2 \"c\" is no link of the robot"]);
+        assert_eq!(read("<robot>").0, 0);
+    }
+}

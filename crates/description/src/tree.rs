@@ -31,7 +31,15 @@ struct Layout {
     ends: Vec<Ends>,
     order: Vec<usize>,
     root: usize,
-    mimics: Vec<Option<(usize, f64, f64)>>,
+    mimics: Vec<Option<Follow>>,
+}
+
+/// A mimic joint's master, by its index in file order: `q = multiplier * q_master + offset`.
+#[derive(Clone, Copy)]
+struct Follow {
+    master: usize,
+    multiplier: f64,
+    offset: f64,
 }
 
 fn index_links(links: &[Link]) -> Result<BTreeMap<&str, usize>, RobotError> {
@@ -193,35 +201,68 @@ fn depth_first(root: usize, links: usize, ends: &[Ends]) -> Vec<usize> {
     order
 }
 
-/// Master, multiplier and offset of each joint in file order, chains of mimics composed.
-fn resolve_mimics(joints: &[JointParts]) -> Result<Vec<Option<(usize, f64, f64)>>, RobotError> {
-    let moving = |parts: &&JointParts| parts.joint.kind.is_movable();
+/// What each joint follows, in file order, chains of mimics composed.
+fn resolve_mimics(joints: &[JointParts]) -> Result<Vec<Option<Follow>>, RobotError> {
     let by_name: BTreeMap<&str, usize> = joints
         .iter()
         .enumerate()
-        .filter(|(_, parts)| moving(parts))
+        .filter(|(_, parts)| parts.joint.kind.is_movable())
         .map(|(index, parts)| (parts.joint.name.as_str(), index))
         .collect();
-    let resolve = |index: usize| {
-        let mut through = Vec::new();
-        let (mut at, mut multiplier, mut offset) = (index, 1.0, 0.0);
-        while let Some((target, factor, shift)) = &joints[at].mimic {
-            at = *by_name.get(target.as_str()).ok_or_else(|| RobotError::UnknownMimic {
-                joint: joints[at].joint.name.clone(),
-                target: target.clone(),
-                known: by_name.keys().map(|&name| name.to_owned()).collect(),
-            })?;
-            offset += multiplier * shift;
-            multiplier *= factor;
-            if at == index || through.len() > joints.len() {
-                through.dedup();
-                return Err(RobotError::MimicLoop { joint: joints[index].joint.name.clone(), through });
-            }
-            through.push(joints[at].joint.name.clone());
-        }
-        Ok((at != index).then_some((at, multiplier, offset)))
+    let unknown = |parts: &JointParts, target: &str| RobotError::UnknownMimic {
+        joint: parts.joint.name.clone(),
+        target: target.to_owned(),
+        known: by_name.keys().map(|&name| name.to_owned()).collect(),
     };
-    (0..joints.len()).map(resolve).collect()
+    let mut direct = Vec::with_capacity(joints.len());
+    for parts in joints {
+        direct.push(match &parts.mimic {
+            Some((target, multiplier, offset)) => {
+                let master = *by_name.get(target.as_str()).ok_or_else(|| unknown(parts, target))?;
+                Some(Follow { master, multiplier: *multiplier, offset: *offset })
+            }
+            None => None,
+        });
+    }
+    compose(&direct, joints)
+}
+
+/// Follows each chain of mimics to its end. A chain is walked once: its links are resolved from
+/// the end back, so that ten thousand of them take no quadratic time.
+fn compose(direct: &[Option<Follow>], joints: &[JointParts]) -> Result<Vec<Option<Follow>>, RobotError> {
+    let mut composed: Vec<Option<Follow>> = vec![None; direct.len()];
+    // On whose path a joint was met last: meeting it again there is a loop.
+    let mut met_from = vec![None; direct.len()];
+    for start in 0..direct.len() {
+        let mut path = Vec::new();
+        let mut at = start;
+        while let (Some(next), None) = (direct[at], composed[at]) {
+            if met_from[at] == Some(start) {
+                let names = path
+                    .iter()
+                    .skip_while(|&&joint| joint != at)
+                    .map(|&joint: &usize| joints[joint].joint.name.clone());
+                return Err(RobotError::MimicLoop {
+                    joint: joints[at].joint.name.clone(),
+                    through: names.skip(1).collect(),
+                });
+            }
+            met_from[at] = Some(start);
+            path.push(at);
+            at = next.master;
+        }
+        for &joint in path.iter().rev() {
+            composed[joint] = direct[joint].map(|own| match composed[own.master] {
+                Some(further) => Follow {
+                    master: further.master,
+                    multiplier: own.multiplier * further.multiplier,
+                    offset: own.multiplier * further.offset + own.offset,
+                },
+                None => own,
+            });
+        }
+    }
+    Ok(composed)
 }
 
 fn assemble(name: String, mut links: Vec<Link>, joints: Vec<JointParts>, layout: &Layout) -> Robot {
@@ -241,10 +282,10 @@ fn assemble(name: String, mut links: Vec<Link>, joints: Vec<JointParts>, layout:
         .map(|&index| Joint {
             parent: LinkIndex(link_at[layout.ends[index].parent]),
             child: LinkIndex(link_at[layout.ends[index].child]),
-            mimic: layout.mimics[index].map(|(master, multiplier, offset)| Mimic {
-                master: JointIndex(joint_at[master]),
-                multiplier,
-                offset,
+            mimic: layout.mimics[index].map(|follow| Mimic {
+                master: JointIndex(joint_at[follow.master]),
+                multiplier: follow.multiplier,
+                offset: follow.offset,
             }),
             ..parts[index].take().expect("the order names each joint once").joint
         })

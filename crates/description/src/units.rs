@@ -100,13 +100,13 @@ mod tests {
 
     use super::*;
 
-    fn given(figure: f64) -> Option<Spanned<f64>> {
-        Some(Spanned::new(3..5, figure))
+    fn given(figure: f64) -> Spanned<f64> {
+        Spanned::new(3..5, figure)
     }
 
     #[track_caller]
     fn check(unit: Unit, plain: Option<f64>, handy: Option<f64>, expected: Result<Option<f64>, &str>) {
-        let (plain, handy) = (plain.and_then(given), handy.and_then(given));
+        let (plain, handy) = (plain.map(given), handy.map(given));
         let found = unit.value("a", plain.as_ref(), handy.as_ref());
         assert_eq!(found.as_ref().map_err(|error| error.message.as_str()), expected.as_ref().map_err(|e| *e));
     }

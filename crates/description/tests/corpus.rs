@@ -187,14 +187,14 @@ fn make_special(folder: &Path) {
 
 /// A robot of so many links one after another, each followed by `padding`.
 fn chain(links: usize, padding: &str) -> String {
-    let mut text = "<robot name=\"chain\"><link name=\"l0\"/>".to_owned();
-    for (link, parent) in (1..links).zip(0..) {
-        text += &format!(
+    let link = |(link, parent): (usize, usize)| {
+        format!(
             "<joint name=\"j{link}\" type=\"fixed\"><parent link=\"l{parent}\"/><child link=\"l{link}\"/></joint>\
              <link name=\"l{link}\"/>{padding}"
-        );
-    }
-    text + "</robot>"
+        )
+    };
+    let links: String = (1..links).zip(0..).map(link).collect();
+    format!("<robot name=\"chain\"><link name=\"l0\"/>{links}</robot>")
 }
 
 #[test]

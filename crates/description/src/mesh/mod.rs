@@ -10,9 +10,9 @@ use nalgebra::{Point3, Vector3};
 
 pub(crate) use store::{FoundMesh, MeshStore};
 
-/// Triangles of one file, in metres and in the file's own axes.
+/// What a mesh file holds, in metres and in the file's own axes.
 #[derive(Debug, Default, PartialEq)]
-pub(crate) struct Triangles {
+pub(crate) struct MeshFile {
     pub(crate) vertices_m: Vec<Point3<f64>>,
     pub(crate) triangles: Vec<[u32; 3]>,
     /// Material libraries that the file names.
@@ -53,7 +53,7 @@ pub(crate) enum MeshError {
 ///
 /// An empty result is an empty COLLADA scene, which real robots hold; every other mesh without a
 /// triangle that has area is refused.
-pub(crate) fn parse(extension: &str, bytes: &[u8]) -> Result<Triangles, MeshError> {
+pub(crate) fn parse(extension: &str, bytes: &[u8]) -> Result<MeshFile, MeshError> {
     let mesh = match extension.to_ascii_lowercase().as_str() {
         "stl" => stl::parse(bytes)?,
         "obj" => obj::parse(bytes)?,
@@ -70,7 +70,7 @@ pub(crate) fn parse(extension: &str, bytes: &[u8]) -> Result<Triangles, MeshErro
     Ok(mesh)
 }
 
-fn check(mesh: &Triangles) -> Result<(), MeshError> {
+fn check(mesh: &MeshFile) -> Result<(), MeshError> {
     let mut has_area = false;
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
         let vertices = mesh.vertices_m.len();
@@ -95,8 +95,8 @@ fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
 mod tests {
     use super::*;
 
-    fn mesh(vertices_m: Vec<Point3<f64>>, triangle: [u32; 3]) -> Triangles {
-        Triangles { vertices_m, triangles: vec![triangle], ..Triangles::default() }
+    fn mesh(vertices_m: Vec<Point3<f64>>, triangle: [u32; 3]) -> MeshFile {
+        MeshFile { vertices_m, triangles: vec![triangle], ..MeshFile::default() }
     }
 
     #[test]
@@ -111,7 +111,7 @@ mod tests {
             Err(MeshError::Index { triangle: 0, index: 3, vertices: 3 })
         );
         assert_eq!(check(&mesh(broken, [0, 1, 2])), Err(MeshError::NotFinite { triangle: 0 }));
-        assert_eq!(check(&Triangles::default()), Err(MeshError::NoArea));
+        assert_eq!(check(&MeshFile::default()), Err(MeshError::NoArea));
     }
 
     #[test]

@@ -2,9 +2,9 @@
 
 use nalgebra::Point3;
 
-use super::{MeshError, Triangles};
+use super::{MeshError, MeshFile};
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Triangles, MeshError> {
+pub(super) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
     let text = String::from_utf8_lossy(bytes);
     let options = tobj::LoadOptions {
         triangulate: true,
@@ -15,7 +15,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Triangles, MeshError> {
     let no_materials = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
     let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_materials)
         .map_err(|error| index_fault(&text).unwrap_or(MeshError::Format { what: error.to_string() }))?;
-    let mut mesh = Triangles { material_libraries: material_libraries(&text), ..Triangles::default() };
+    let mut mesh = MeshFile { material_libraries: material_libraries(&text), ..MeshFile::default() };
     for model in models {
         let first = u32::try_from(mesh.vertices_m.len()).unwrap_or(u32::MAX);
         let corners = model.mesh.indices.chunks_exact(3);

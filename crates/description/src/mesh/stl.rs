@@ -4,14 +4,14 @@ use std::io::Cursor;
 
 use nalgebra::Point3;
 
-use super::{MeshError, Triangles};
+use super::{MeshError, MeshFile};
 
 /// Free text and the number of triangles.
 const HEADER_BYTES: usize = 84;
 /// A normal, three corners, two bytes of attributes.
 const TRIANGLE_BYTES: usize = 50;
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Triangles, MeshError> {
+pub(super) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
     let mesh = if let Some(ascii) = ascii(bytes) {
         stl_io::read_stl(&mut Cursor::new(ascii))
     } else {
@@ -23,7 +23,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Triangles, MeshError> {
     let mesh = mesh.map_err(|error| MeshError::Format { what: error.to_string() })?;
     // An STL of more than 2^32 corners is over the limit of any file.
     let index = |corner: usize| u32::try_from(corner).unwrap_or(u32::MAX);
-    Ok(Triangles {
+    Ok(MeshFile {
         vertices_m: mesh.vertices.iter().map(|vertex| Point3::from(vertex.0).cast()).collect(),
         triangles: mesh.faces.iter().map(|face| face.vertices.map(index)).collect(),
         material_libraries: Vec::new(),

@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
 use nalgebra::{Point3, Vector3};
 
-use super::{Triangles, parse};
+use super::{MeshFile, parse};
 use crate::{diagnostic::Diagnostic, file::read_bytes, geometry::Mesh, packages::Packages};
 
 /// The largest mesh file that is read.
@@ -49,7 +49,7 @@ impl<'a> MeshStore<'a> {
         Ok(FoundMesh { mesh, warnings })
     }
 
-    fn warnings(&self, uri: &str, path: &std::path::Path, mesh: &Triangles) -> Vec<Diagnostic> {
+    fn warnings(&self, uri: &str, path: &std::path::Path, mesh: &MeshFile) -> Vec<Diagnostic> {
         let folder = path.parent().unwrap_or(path);
         let outside = |library: &&String| !self.packages.allows(&folder.join(library));
         let leaves = |library: &String| {
@@ -66,13 +66,15 @@ impl<'a> MeshStore<'a> {
     }
 }
 
-fn scaled(path: PathBuf, mesh: Triangles, scale: Vector3<f64>) -> Mesh {
+fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Mesh {
     let vertices_m =
         mesh.vertices_m.iter().map(|vertex| Point3::from(vertex.coords.component_mul(&scale))).collect();
     let mut triangles = mesh.triangles;
     if scale.product() < 0.0 {
         // A mirrored mesh would be inside out.
-        triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+        for corners in &mut triangles {
+            corners.swap(1, 2);
+        }
     }
     Mesh { path, vertices_m, triangles }
 }

@@ -145,7 +145,7 @@ impl Reader<'_, '_> {
             let what =
                 format!("limit without {} means 0: the range is [{lower}, {upper}]", missing.join(" and "));
             self.warn("urdf::limit", what, "limit");
-        } else if lower == upper {
+        } else if upper <= lower {
             self.warn("urdf::limit", format!("limits lock the joint at {lower}"), "limit");
         }
         let furthest = lower.abs().max(upper.abs());

@@ -1,1 +1,247 @@
+#![expect(clippy::float_cmp, reason = "figures must arrive as they are written")]
 
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Point3, Vector3};
+
+use super::*;
+use crate::{
+    JointKind,
+    diagnostic::{Severity, line_column},
+    geometry::Geometry,
+};
+
+/// Two links and a joint, each with a place for more.
+fn arm(joint: &str, link: &str) -> String {
+    format!(
+        r#"<robot name="arm">
+<link name="base"/>
+<joint name="j" type="revolute">
+<parent link="base"/><child link="tip"/>
+{joint}
+</joint>
+<link name="tip">
+{link}
+</link>
+</robot>"#
+    )
+}
+
+const LIMIT: &str = r#"<limit lower="-1" upper="2" effort="3" velocity="4"/>"#;
+const INERTIAL: &str =
+    r#"<inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>"#;
+
+fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>) {
+    let mut findings = Findings::default();
+    let mut no_mesh = |uri: &str, _| Err(Diagnostic::error("mesh::none", format!("no mesh {uri}")));
+    let robot = parse(text, &mut no_mesh, &mut findings);
+    (robot, findings.into_vec())
+}
+
+#[track_caller]
+fn good(text: &str) -> Robot {
+    let (robot, findings) = read(text);
+    assert_eq!(findings, []);
+    robot.unwrap()
+}
+
+/// The text has exactly this finding, on this line.
+#[track_caller]
+fn one(text: &str, severity: Severity, line: usize, code: &str, message: &str) {
+    let (robot, findings) = read(text);
+    let [found] = &findings[..] else { panic!("{findings:#?}") };
+    assert_eq!((found.severity, found.code), (severity, code), "{}", found.message);
+    assert!(found.message.contains(message), "{}", found.message);
+    assert_eq!(line_column(text, found.span.as_ref().unwrap().start).0, line);
+    assert_eq!(robot.is_some(), severity == Severity::Warning);
+}
+
+#[track_caller]
+fn joint_error(joint: &str, code: &str, message: &str) {
+    one(&arm(joint, INERTIAL), Severity::Error, 5, code, message);
+}
+
+#[track_caller]
+fn joint_warning(joint: &str, code: &str, message: &str) {
+    one(&arm(joint, INERTIAL), Severity::Warning, 5, code, message);
+}
+
+#[track_caller]
+fn link_error(link: &str, code: &str, message: &str) {
+    let text = arm(LIMIT, &format!("{link}{INERTIAL}"));
+    one(&text, Severity::Error, 8, code, message);
+}
+
+#[test]
+fn every_figure_arrives() {
+    let joint = format!(
+        r#"{LIMIT}<origin rpy="0 0 {FRAC_PI_2}" xyz="1 2 3"/><axis xyz="0 -1 0"/><dynamics damping="0.5" friction="0.25"/>"#
+    );
+    let visual = r#"<visual><origin xyz="0 0 1"/><geometry><box size="1 2 3"/></geometry><material name="red"/></visual>"#;
+    let text = arm(&joint, &format!("{INERTIAL}{visual}"))
+        .replace("</robot>", r#"<material name="red"><color rgba="1 0 0 1"/></material></robot>"#);
+    let robot = good(&text);
+    let joint = &robot.joints()[0];
+    assert_eq!(joint.kind, JointKind::Revolute);
+    assert_eq!(joint.position_range(), Some((-1.0, 2.0)));
+    assert_eq!((joint.damping, joint.friction), (0.5, 0.25));
+    assert_eq!(joint.axis_in_joint.into_inner(), -Vector3::y());
+    let turned = joint.parent_from_joint * Point3::new(1.0, 0.0, 0.0);
+    assert!((turned - Point3::new(1.0, 3.0, 3.0)).norm() < 1e-15, "a quarter turn rounds once: {turned}");
+    let tip = &robot.links()[1];
+    assert_eq!(tip.inertia.unwrap().mass_kg, 2.0);
+    assert_eq!(tip.visuals[0].color_rgba, Some([1.0, 0.0, 0.0, 1.0]));
+    assert_eq!(tip.visuals[0].geometry, Geometry::Box { size_m: Vector3::new(1.0, 2.0, 3.0) });
+    assert_eq!(tip.visuals[0].link_from_shape.translation.z, 1.0);
+}
+
+#[test]
+fn what_real_files_hold_is_no_fault() {
+    good(&arm(LIMIT, &format!("{INERTIAL} &gt; stray text")));
+    good(&arm(&format!("{LIMIT}<dynamics damping='1' D='2' K='3' mu_viscous='0'/>"), INERTIAL));
+    good(&arm(
+        LIMIT,
+        &format!(
+            "{INERTIAL}<self_collision_checking><geometry><capsule/></geometry></self_collision_checking>"
+        ),
+    ));
+    good(&arm(&format!("{LIMIT}<axis xyz='0.7071067 0.7071067 0'/>"), INERTIAL));
+    good(&arm(&format!("{LIMIT}<safety_controller k_velocity='1'/>"), INERTIAL));
+    good(&arm(LIMIT, INERTIAL).replace("</robot>", "<gazebo><a b='$(find x)'/></gazebo></robot>"));
+    good(&arm("<axis xyz='0 0 0'/><limit effort='0' velocity='0'/>", "").replace("revolute", "fixed"));
+    good(
+        &arm("<limit lower='0' upper='0' effort='1' velocity='1'/>", INERTIAL)
+            .replace("revolute", "continuous"),
+    );
+}
+
+#[test]
+fn joints_are_checked() {
+    joint_error("<limits lower='0'/>", "urdf::unknown_element", "did you mean <limit>?");
+    joint_error(
+        "<limit lower='1' upper='0' effort='1' velocity='1'/>",
+        "urdf::limit",
+        "lower limit 1 is above upper limit 0",
+    );
+    joint_error(
+        "<limit lower='0' upper='1' effort='1'/>",
+        "urdf::missing_attribute",
+        "<limit> has no velocity",
+    );
+    joint_error(
+        "<limit lower='0' upper='1' effort='-1' velocity='1'/>",
+        "urdf::limit",
+        "effort -1 is negative",
+    );
+    joint_error(&format!("{LIMIT}<axis xyz='0 0 0'/>"), "urdf::axis", "zero vector");
+    joint_error(
+        &format!("{LIMIT}<axis xzy='0 0 1' xyz='0 0 1'/>"),
+        "urdf::unknown_attribute",
+        "did you mean \"xyz\"?",
+    );
+    joint_error(&format!("{LIMIT}<axis xyz='0 0'/>"), "urdf::number", "expected 3 numbers, found 2");
+    joint_error(&format!("{LIMIT}{LIMIT}"), "urdf::repeated_element", "<limit> is given twice");
+    joint_error(&format!("{LIMIT}<dynamics damping='-1'/>"), "urdf::dynamics", "damping -1 is negative");
+    joint_error(&format!("{LIMIT}<mimic joint='j'/>"), "urdf::tree", "mimics itself");
+    joint_error(&format!("{LIMIT}<mimic joint='k'/>"), "urdf::tree", "mimicked joint \"k\" not found");
+    let text = arm("", INERTIAL);
+    one(&text, Severity::Error, 3, "urdf::limit", "a revolute joint needs <limit> (or type \"continuous\")");
+    one(
+        &text.replace("revolute", "planar"),
+        Severity::Error,
+        3,
+        "urdf::joint_type",
+        "\"planar\" is not supported",
+    );
+    one(
+        &text.replace("<parent link=\"base\"/>", ""),
+        Severity::Error,
+        3,
+        "urdf::missing_element",
+        "missing <parent>",
+    );
+    one(
+        &arm(LIMIT, INERTIAL).replace("link=\"tip\"", "link=\"tap\""),
+        Severity::Error,
+        4,
+        "urdf::tree",
+        "child link \"tap\" not found",
+    );
+}
+
+#[test]
+fn suspicious_joints_are_warned_of() {
+    joint_warning(&format!("{LIMIT}<axis xyz='0 0 2'/>"), "urdf::axis", "normalised from length 2");
+    joint_warning("<limit upper='1' effort='1' velocity='1'/>", "urdf::limit", "limit without lower means 0");
+    joint_warning(
+        "<limit lower='1' upper='1' effort='1' velocity='1'/>",
+        "urdf::limit",
+        "lock the joint at 1",
+    );
+    joint_warning(
+        "<limit lower='-90' upper='90' effort='1' velocity='1'/>",
+        "urdf::degrees",
+        "degrees instead",
+    );
+    joint_warning(&format!("{LIMIT}<origin rpy='0 90 0'/>"), "urdf::degrees", "rpy 90");
+    joint_warning(&format!("{LIMIT}<origin xyz='0 0 400'/>"), "urdf::millimetres", "origin 400");
+    one(&arm(LIMIT, ""), Severity::Warning, 7, "urdf::massless", "link \"tip\" moves but has no <inertial>");
+    let text = arm(LIMIT, INERTIAL).replace("revolute", "continuous");
+    one(&text, Severity::Warning, 5, "urdf::limit", "ignores the limits");
+}
+
+#[test]
+fn quaternions_need_version_1_1_and_keep_their_digits() {
+    // So near a pitch of a quarter turn that angles would lose it.
+    let text =
+        arm(&format!("{LIMIT}<origin quat_xyzw='0 0.706825181105366 0 0.7073882691671998'/>"), INERTIAL);
+    one(&text, Severity::Error, 5, "urdf::quaternion", "needs <robot version=\"1.1\">");
+    let robot = good(&text.replace("<robot ", "<robot version='1.1' "));
+    let rotation = robot.joints()[0].parent_from_joint.rotation;
+    assert!((rotation.angle() - 1.57).abs() < 1e-15, "rounding of an arc tangent: {rotation}");
+}
+
+#[test]
+fn shapes_are_checked() {
+    let shape = |shape: &str| format!("<collision><geometry>{shape}</geometry></collision>");
+    link_error(&shape(""), "urdf::geometry", "<geometry> has no shape");
+    link_error(&shape("<box size='1 0 1'/>"), "urdf::geometry", "box size 0 must be positive");
+    link_error(&shape("<cylinder radius='-1' length='1'/>"), "urdf::geometry", "cylinder radius -1");
+    link_error(&shape("<cone radius='1'/>"), "urdf::geometry", "unknown shape <cone>");
+    link_error(&shape("<capsule radius='1' length='1'/>"), "urdf::geometry", "<capsule> is not supported");
+    link_error(&shape("<sphere radius='1'/><box size='1 1 1'/>"), "urdf::geometry", "more than one shape");
+    link_error(&shape("<mesh filename='a.stl' scale='0 1 1'/>"), "urdf::scale", "flattens");
+    link_error(&shape("<mesh filename='a.stl'/>"), "mesh::none", "link \"tip\": no mesh a.stl");
+    link_error("<visual/>", "urdf::missing_element", "<visual> has no <geometry>");
+}
+
+#[test]
+fn all_faults_of_a_pass_are_found_at_once() {
+    let (_, findings) = read(&arm("<limit lower='a' upper='1e400' effort='nan' velocity='1,5'/>", "<mass/>"));
+    assert_eq!(findings.len(), 4, "{findings:#?}");
+}
+
+#[test]
+fn other_formats_are_recognised() {
+    let refused = |text: &str, code, message: &str| one(text, Severity::Error, 1, code, message);
+    refused("<sdf version='1.9'/>", "urdf::root", "SDF");
+    refused("<mujoco/>", "urdf::root", "MuJoCo");
+    refused("<robot name='a'><xacro:macro/></robot>", "urdf::xacro", "unexpanded xacro");
+    refused(
+        "<robot name='a' xmlns:xacro='http://ros.org/wiki/xacro'><xacro:m/></robot>",
+        "urdf::xacro",
+        "<xacro:m>",
+    );
+    refused("<robot name='a'><link name='${b}'/></robot>", "urdf::xacro", "name = \"${b}\"");
+    refused("<robot name='a'/>", "urdf::tree", "no link");
+    refused("", "xml::malformed", "no XML element");
+    good("<robot name='a' xmlns:xacro='http://ros.org/wiki/xacro'><link name='b'/></robot>");
+}
+
+#[test]
+fn text_cut_at_any_byte_never_panics() {
+    let whole = arm(&format!("{LIMIT}<origin rpy='0 0 1'/>"), &format!("é{INERTIAL}"));
+    for end in (0..whole.len()).filter(|&end| whole.is_char_boundary(end)) {
+        assert!(read(&whole[..end]).0.is_none(), "{end}");
+    }
+}

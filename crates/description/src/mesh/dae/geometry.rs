@@ -33,21 +33,16 @@ impl<'a, 'i> Reader<'a, 'i> {
             if !["triangles", "polylist", "polygons", "tristrips", "trifans"].contains(&name) {
                 continue;
             }
-            let Some(vertex) =
-                children(primitive, "input").find(|input| input.attribute("semantic") == Some("VERTEX"))
-            else {
-                return Err(fault(primitive, format!("<{name}> has no input VERTEX")));
-            };
+            let vertex = input(primitive, "VERTEX")?;
             let (id, vertices) = self.target(vertex, "source", "vertices")?;
-            let positions = match known.get(id) {
-                Some(positions) => *positions,
-                None => {
-                    let found = self.positions(vertices)?;
-                    let positions = Positions { first: part.vertices.len(), count: found.len() };
-                    part.vertices.extend(found);
-                    known.insert(id, positions);
-                    positions
-                }
+            let positions = if let Some(positions) = known.get(id) {
+                *positions
+            } else {
+                let found = self.positions(vertices)?;
+                let positions = Positions { first: part.vertices.len(), count: found.len() };
+                part.vertices.extend(found);
+                known.insert(id, positions);
+                positions
             };
             add_triangles(&mut part, primitive, &Corners::new(primitive, vertex, positions)?)?;
         }
@@ -55,12 +50,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     fn positions(&self, vertices: Node<'a, 'i>) -> Result<Vec<Point3<f64>>, MeshError> {
-        let Some(input) =
-            children(vertices, "input").find(|input| input.attribute("semantic") == Some("POSITION"))
-        else {
-            return Err(fault(vertices, "<vertices> has no input POSITION"));
-        };
-        let (_, source) = self.target(input, "source", "source")?;
+        let (_, source) = self.target(input(vertices, "POSITION")?, "source", "source")?;
         let accessor = child(source, "technique_common").and_then(|common| child(common, "accessor"));
         let Some(accessor) = accessor else { return Err(fault(source, "<source> has no <accessor>")) };
         let (_, array) = self.target(accessor, "source", "float_array")?;
@@ -83,6 +73,12 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         Ok(values[offset..].chunks_exact(stride).take(count).map(|p| Point3::new(p[0], p[1], p[2])).collect())
     }
+}
+
+/// The input of this meaning.
+fn input<'a, 'i>(parent: Node<'a, 'i>, semantic: &str) -> Result<Node<'a, 'i>, MeshError> {
+    let found = children(parent, "input").find(|input| input.attribute("semantic") == Some(semantic));
+    found.ok_or_else(|| fault(parent, format!("<{}> has no input {semantic}", parent.tag_name().name())))
 }
 
 /// An attribute that counts something.

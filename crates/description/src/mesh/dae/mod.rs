@@ -12,7 +12,7 @@ use nalgebra::{Matrix4, Point3, Rotation3, Unit, Vector3};
 use roxmltree::{Document, Node};
 
 use self::geometry::Part;
-use super::{MeshError, Triangles};
+use super::{MeshError, MeshFile};
 use crate::{units, xml};
 
 /// Nodes may instance nodes: without a bound a small file could ask for 2^60 of them.
@@ -20,7 +20,7 @@ const MOST_NODES: usize = 100_000;
 /// The same for their triangles.
 const MOST_TRIANGLES: usize = 20_000_000;
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Triangles, MeshError> {
+pub(super) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
     let text = std::str::from_utf8(bytes).map_err(|_| format_fault("COLLADA text is not UTF-8"))?;
     let text = text.trim_start_matches('\u{feff}');
     let document = xml::parse(text).map_err(|fault| format_fault(fault.message))?;
@@ -83,13 +83,13 @@ struct Reader<'a, 'i> {
     by_id: BTreeMap<&'a str, Node<'a, 'i>>,
     /// Geometries that have been read, by id.
     parts: BTreeMap<&'a str, Part>,
-    mesh: Triangles,
+    mesh: MeshFile,
 }
 
 impl<'a, 'i> Reader<'a, 'i> {
     fn new(document: &'a Document<'i>) -> Self {
         let by_id = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
-        Self { by_id, parts: BTreeMap::new(), mesh: Triangles::default() }
+        Self { by_id, parts: BTreeMap::new(), mesh: MeshFile::default() }
     }
 
     /// What the `key` of a node points to: `#id`, of an element called `name`.

@@ -81,7 +81,7 @@ fn a_mirrored_node_keeps_the_outside_out() {
 
 #[test]
 fn an_empty_scene_is_an_empty_mesh() {
-    assert_eq!(parse(document("", &one_triangle(), "<node/>").as_bytes()), Ok(Triangles::default()));
+    assert_eq!(parse(document("", &one_triangle(), "<node/>").as_bytes()), Ok(MeshFile::default()));
 }
 
 #[track_caller]

@@ -79,12 +79,14 @@ fn row(written: &Spanned<WrittenRow>, context: &Context<'_>, findings: &mut Find
 
 fn sign(row: &WrittenRow, findings: &mut Findings) -> Option<f64> {
     let Some(sign) = &row.sign else { return Some(1.0) };
-    if sign.get_ref().abs() == 1.0 {
-        return Some(*sign.get_ref());
+    match *sign.get_ref() {
+        value @ (1.0 | -1.0) => Some(value),
+        value => {
+            let message = format!("sign = {value} must be 1 or -1");
+            findings.push(Diagnostic::error("robot_file::sign", message).at(sign.span()));
+            None
+        }
     }
-    let message = format!("sign = {} must be 1 or -1", sign.get_ref());
-    findings.push(Diagnostic::error("robot_file::sign", message).at(sign.span()));
-    None
 }
 
 /// The joint of a row, which must be a moving one of the chain.
@@ -147,14 +149,12 @@ fn every_joint_has_a_row(
         return;
     }
     let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
-    let mut message = format!(
-        "table has {}, chain base -> tip has {}",
+    let message = format!(
+        "table has {}, chain base -> tip has {}: no row for {}",
         count(rows.len(), "row"),
-        count(context.chain.len(), "moving joint")
+        count(context.chain.len(), "moving joint"),
+        if missing.is_empty() { "any".to_owned() } else { missing.join(", ") }
     );
-    if !missing.is_empty() {
-        message += &format!(": no row for {}", missing.join(", "));
-    }
     findings
         .push(Diagnostic::error("robot_file::missing_row", message).at(first_line(dh.span(), context.text)));
 }
