@@ -35,7 +35,7 @@ pub struct RobotDescription {
     pub robot: Robot,
     /// The link that the model's base frame is declared in.
     pub base: LinkIndex,
-    /// The link that the model's last frame is declared in; it hangs below `base`.
+    /// The link that the model's last frame is declared in; it hangs below the body of `base`.
     pub tip: LinkIndex,
     /// The Denavit-Hartenberg table; `None` for a bare URDF.
     pub dh: Option<DhTable>,

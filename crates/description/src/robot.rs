@@ -235,12 +235,15 @@ impl Robot {
         self.coordinates[joint.0]
     }
 
-    /// The joints from link `base` down to link `tip`, fixed ones included; `None` where `tip`
-    /// does not hang below `base`.
+    /// The joints that move link `tip` against link `base`, fixed ones between them included, from
+    /// the first that leaves the body of `base`; `None` where `tip` does not hang below that body.
+    ///
+    /// `base` may stand aside, as the link `base` of a Universal Robots arm does: only its body counts.
     pub fn chain(&self, base: LinkIndex, tip: LinkIndex) -> Option<Vec<JointIndex>> {
+        let base_body = self.body(base);
         let mut joints = Vec::new();
         let mut link = tip;
-        while link != base {
+        while self.body(link) != base_body {
             let joint = self.parent_joint(link)?;
             joints.push(joint);
             link = self.joint(joint).parent;
