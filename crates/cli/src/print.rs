@@ -1,10 +1,13 @@
 //! The one place that writes to the terminal. Results go to standard output, findings to
 //! standard error.
 
-use std::io::{self, IsTerminal, Write};
+use std::{
+    fmt::Write as _,
+    io::{self, IsTerminal, Write},
+};
 
 use clap::ValueEnum;
-use congruent_description::{Diagnostic, Severity};
+use congruent_description::Diagnostic;
 use congruent_twin::report::Finding;
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
@@ -107,20 +110,18 @@ fn to_stderr(text: &str) {
 fn rendered(finding: &Diagnostic) -> String {
     let plain = !io::stderr().is_terminal();
     let theme = if plain { GraphicalTheme::unicode_nocolor() } else { GraphicalTheme::unicode() };
-    let mut text = String::new();
     let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
+    let mut text = String::new();
+    // Without a place in a text there is no snippet to carry the file's name.
+    if finding.line_column().is_none() {
+        if let Some(source) = &finding.source {
+            let _ = writeln!(text, "{}:", source.path.display());
+        }
+    }
     if handler.render_report(&mut text, finding).is_err() {
         // The renderer refuses spans outside the text; the message must not be lost with it.
-        text = format!("{}: {finding}\n", finding.code);
+        let _ = writeln!(text, "{}: {finding}", finding.code);
     }
-    let severity = match finding.severity {
-        Severity::Warning => "warning",
-        Severity::Error => "error",
-    };
-    let place = match (&finding.source, finding.line_column()) {
-        (Some(source), Some((line, column))) => format!("{}:{line}:{column}: ", source.path.display()),
-        (Some(source), None) => format!("{}: ", source.path.display()),
-        _ => String::new(),
-    };
-    format!("{severity}: {place}{finding}\n{text}")
+    text.push('\n');
+    text
 }
