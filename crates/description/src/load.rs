@@ -2,6 +2,7 @@
 
 use std::{
     collections::{BTreeMap, BTreeSet},
+    ops::Range,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -119,7 +120,8 @@ fn read_robot_file(path: &Path, text: &str, findings: &mut Findings) -> Option<R
             robot
         }
         Err(faults) => {
-            findings.extend(faults);
+            let urdf = written.urdf.as_ref().map_or(0..0, Spanned::span);
+            findings.extend(faults.into_iter().map(|fault| placed(fault, &urdf)));
             return None;
         }
     };
@@ -156,12 +158,15 @@ fn disabled_collisions(
             pairs
         }
         Err(fault) => {
-            // Without a text of its own the fault is shown where the file is named.
-            let is_placed = fault.source.is_some();
-            findings.push(if is_placed { fault } else { fault.at(srdf.span()) });
+            findings.push(placed(fault, &srdf.span()));
             BTreeSet::new()
         }
     }
+}
+
+/// A fault of a file without readable text is shown where the file is named.
+fn placed(fault: Diagnostic, named_at: &Range<usize>) -> Diagnostic {
+    if fault.source.is_some() { fault } else { fault.at(named_at.clone()) }
 }
 
 fn written_robot(path: &Path, text: &str, findings: &mut Findings) -> Option<(WrittenRobot, PathBuf)> {

@@ -1,6 +1,9 @@
 //! SRDF: the pairs of links whose collisions do not count.
 
-use std::{collections::BTreeSet, sync::Arc};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::Arc,
+};
 
 use crate::{
     Robot,
@@ -23,15 +26,16 @@ pub(crate) fn parse(
         Err(fault) => return (pairs, vec![fault.in_file(source)]),
     };
     let mut findings = Vec::new();
+    let links: BTreeMap<&str, LinkIndex> =
+        robot.link_indices().map(|index| (robot.link(index).name.as_str(), index)).collect();
     for node in document.descendants().filter(|node| node.has_tag_name("disable_collisions")) {
         let mut link = |key: &str| {
             let name = node.attribute(key).unwrap_or_default();
-            robot.find_link(name).or_else(|| {
+            links.get(name).copied().or_else(|| {
                 let message = format!("<disable_collisions>: {key} \"{name}\" is no link of the robot");
-                let links = robot.links().iter().map(|link| link.name.as_str());
                 let finding = Diagnostic::warning("srdf::unknown_link", message)
                     .at(node.range())
-                    .with_help(known_names(name, "links", links));
+                    .with_help(known_names(name, "links", links.keys().copied()));
                 findings.push(finding.in_file(source));
                 None
             })

@@ -23,20 +23,23 @@ use crate::{
 pub fn parse_toml<T: DeserializeOwned>(text: &str, findings: &mut Findings) -> Option<T> {
     let root = findings.keep(DeTable::parse(text).map_err(|error| diagnostic(&error)))?;
     let (span, mut root) = (root.span(), root.into_inner());
-    loop {
+    for _ in 0..MOST_UNKNOWN_KEYS {
         let attempt = toml::Spanned::new(span.clone(), root.clone());
         let error = match T::deserialize(Deserializer::from(attempt)) {
             Ok(value) => return Some(value),
             Err(error) => error,
         };
         findings.push(diagnostic(&error));
-        // Each turn takes one key out, so the loop ends.
         let unknown = error.span().filter(|_| error.message().starts_with(UNKNOWN_KEY))?;
         if !take_out(&mut root, &unknown) {
             return None;
         }
     }
+    None
 }
+
+/// So many are named in one run: every one costs another turn through the text.
+const MOST_UNKNOWN_KEYS: usize = 100;
 
 /// How serde begins its message about a key that no field has.
 const UNKNOWN_KEY: &str = "unknown field ";
@@ -138,6 +141,12 @@ mod tests {
                 "5:1: unknown key \"kinds\" (did you mean \"kind\"? known keys: kind)",
             ]
         );
+    }
+
+    #[test]
+    fn endless_unknown_keys_end() {
+        let text: String = (0..1000).map(|key| format!("x{key} = 1\n")).collect();
+        assert_eq!(read(&text).1.len(), MOST_UNKNOWN_KEYS);
     }
 
     #[test]

@@ -10,6 +10,9 @@ use nalgebra::{Point3, Vector3};
 
 pub(crate) use store::{FoundMesh, MeshStore};
 
+/// The furthest that a vertex may be from the origin of its shape.
+const FURTHEST_M: f64 = 1e6;
+
 /// What a mesh file holds, in metres and in the file's own axes.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct MeshFile {
@@ -44,6 +47,9 @@ pub(crate) enum MeshError {
     /// A coordinate is NaN or infinite.
     #[error("triangle {triangle} has a vertex that is not finite")]
     NotFinite { triangle: usize },
+    /// No machine is so large, and squares of such figures overflow.
+    #[error("a vertex is {furthest_m:.1e} m away from the origin, the limit is {FURTHEST_M:e} m")]
+    TooFar { furthest_m: f64 },
     /// Nothing to touch or to look at.
     #[error("no triangle has area")]
     NoArea,

@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
 use nalgebra::{Point3, Vector3};
 
-use super::{MeshFile, parse};
+use super::{FURTHEST_M, MeshError, MeshFile, parse};
 use crate::{diagnostic::Diagnostic, file::read_bytes, geometry::Mesh, packages::Packages};
 
 /// The largest mesh file that is read.
@@ -37,14 +37,14 @@ impl<'a> MeshStore<'a> {
         }
         let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
         let refused =
-            |error: super::MeshError| Diagnostic::error("mesh::invalid", format!("mesh \"{uri}\": {error}"));
+            |error: MeshError| Diagnostic::error("mesh::invalid", format!("mesh \"{uri}\": {error}"));
         // A format that is not read is not opened either.
         if !["stl", "obj", "dae"].contains(&extension.to_ascii_lowercase().as_str()) {
-            return Err(refused(super::MeshError::Unsupported { extension: format!(".{extension}") }));
+            return Err(refused(MeshError::Unsupported { extension: format!(".{extension}") }));
         }
         let triangles = parse(&extension, &read_bytes(&path, MESH_BYTES)?).map_err(refused)?;
         let warnings = self.warnings(uri, &path, &triangles);
-        let mesh = Arc::new(scaled(path, triangles, scale));
+        let mesh = Arc::new(scaled(path, triangles, scale).map_err(refused)?);
         self.read.insert(key, Arc::clone(&mesh));
         Ok(FoundMesh { mesh, warnings })
     }
@@ -66,17 +66,21 @@ impl<'a> MeshStore<'a> {
     }
 }
 
-fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Mesh {
-    let vertices_m =
+fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Result<Mesh, MeshError> {
+    let vertices_m: Vec<_> =
         mesh.vertices_m.iter().map(|vertex| Point3::from(vertex.coords.component_mul(&scale))).collect();
+    let furthest_m = vertices_m.iter().fold(0.0, |furthest: f64, vertex| furthest.max(vertex.coords.amax()));
+    if furthest_m > FURTHEST_M {
+        return Err(MeshError::TooFar { furthest_m });
+    }
     let mut triangles = mesh.triangles;
-    if scale.product() < 0.0 {
-        // A mirrored mesh would be inside out.
+    // A mirrored mesh would be inside out.
+    if scale.iter().filter(|factor| **factor < 0.0).count() % 2 == 1 {
         for corners in &mut triangles {
             corners.swap(1, 2);
         }
     }
-    Mesh { path, vertices_m, triangles }
+    Ok(Mesh { path, vertices_m, triangles })
 }
 
 #[cfg(test)]
@@ -97,6 +101,9 @@ mod tests {
         let mirrored = find(Vector3::new(-2.0, 1.0, 1.0));
         assert_eq!(mirrored.vertices_m[1], Point3::new(-2.0, 0.0, 0.0));
         assert_eq!(mirrored.triangles, [[0, 2, 1]]);
+        let far = store.find("a.obj", Vector3::repeat(1e300)).err().map(|fault| fault.message);
+        let expected = "mesh \"a.obj\": a vertex is 1.0e300 m away from the origin, the limit is 1e6 m";
+        assert_eq!(far.as_deref(), Some(expected));
     }
 
     #[test]

@@ -7,7 +7,7 @@ pub(crate) use check::{Declared, check, default_chain};
 pub(crate) use written::WrittenRobot;
 
 /// The largest robot file that is read.
-pub(crate) const ROBOT_FILE_BYTES: u64 = 16 << 20;
+pub(crate) const ROBOT_FILE_BYTES: u64 = 1 << 20;
 
 /// The name that a robot file has in a robot's folder.
 pub(crate) const ROBOT_FILE: &str = "robot.toml";

@@ -53,9 +53,7 @@ fn inertia(inertial: &urdf_rs::Inertial, node: Node<'_, '_>, shapes: &mut ShapeR
 }
 
 fn tensor_fault(mass_kg: f64, tensor_kg_m2: &Matrix3<f64>) -> Option<Diagnostic> {
-    let mut moments: [f64; 3] = SymmetricEigen::new(*tensor_kg_m2).eigenvalues.into();
-    moments.sort_by(f64::total_cmp);
-    let [least, middle, most] = moments;
+    let [least, middle, most] = principal_moments(tensor_kg_m2);
     let slack = MOMENT * most.abs();
     if least < -slack || most < 0.0 {
         let message =
@@ -76,6 +74,19 @@ fn tensor_fault(mass_kg: f64, tensor_kg_m2: &Matrix3<f64>) -> Option<Diagnostic>
         let message = format!("inertia is that of a body with a radius of gyration of {gyration_m:.1} m");
         Diagnostic::warning("urdf::inertia_size", message).with_help("kg mm^2 instead of kg m^2?")
     })
+}
+
+/// In ascending order.
+fn principal_moments(tensor_kg_m2: &Matrix3<f64>) -> [f64; 3] {
+    // Entries near the largest double overflow inside the solver, which then never ends.
+    let largest = tensor_kg_m2.amax();
+    if largest == 0.0 {
+        return [0.0; 3];
+    }
+    let mut moments: [f64; 3] =
+        SymmetricEigen::new(tensor_kg_m2.map(|entry| entry / largest)).eigenvalues.into();
+    moments.sort_by(f64::total_cmp);
+    moments.map(|moment| moment * largest)
 }
 
 #[cfg(test)]
@@ -102,6 +113,8 @@ mod tests {
         check(1.0, [-0.04, 0.01, 0.05], Some("urdf::inertia"));
         check(1.0, [-0.01, -0.01, -0.01], Some("urdf::inertia"));
         check(1.0, [0.05, 0.01, 0.01], Some("urdf::inertia"));
+        check(1.0, [1e-310, 1e-310, 1e-310], None);
+        check(1.0, [1e307, 1e307, 1e307], Some("urdf::inertia_size"));
         check(1.3, [10_000.0, 10_000.0, 400.0], Some("urdf::inertia_size"));
     }
 }

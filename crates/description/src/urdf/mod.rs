@@ -57,7 +57,7 @@ pub(crate) fn parse(text: &str, find_mesh: &mut FindMesh<'_>, findings: &mut Fin
     if findings.has_error() {
         return None;
     }
-    let urdf = findings.keep(urdf_rs::read_from_string(text).map_err(|error| {
+    let urdf = findings.keep(urdf_rs::read_from_string(&without_text(root)).map_err(|error| {
         // Whatever the grammar lets through and urdf-rs does not.
         Diagnostic::error("urdf::structure", format!("not a valid URDF: {error}")).at(tag(root))
     }))?;
@@ -67,6 +67,19 @@ pub(crate) fn parse(text: &str, find_mesh: &mut FindMesh<'_>, findings: &mut Fin
     }
     body::check(&robot, &spans(root, "link"), findings);
     Some(robot)
+}
+
+/// The document with every text between elements blanked: it means nothing in a URDF, real files
+/// hold some by accident, and `urdf-rs` refuses it in some places.
+fn without_text(root: Node<'_, '_>) -> String {
+    let text = root.document().input_text();
+    let mut blanked = String::with_capacity(text.len());
+    let mut copied = 0;
+    for node in root.descendants().filter(Node::is_text) {
+        blanked += &text[copied..node.range().start];
+        copied = node.range().end;
+    }
+    blanked + &text[copied..]
 }
 
 fn build(

@@ -15,6 +15,23 @@ pub(super) struct Part {
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
+impl Part {
+    /// Only the vertices that a triangle uses: the others would still count in a convex hull.
+    fn without_unused(self) -> Self {
+        let mut new_index = vec![None; self.vertices.len()];
+        let mut vertices = Vec::new();
+        let mut renumber = |corner: u32| {
+            *new_index[corner as usize].get_or_insert_with(|| {
+                vertices.push(self.vertices[corner as usize]);
+                // No more than there were.
+                u32::try_from(vertices.len() - 1).unwrap_or(u32::MAX)
+            })
+        };
+        let triangles = self.triangles.iter().map(|corners| corners.map(&mut renumber)).collect();
+        Self { vertices, triangles }
+    }
+}
+
 /// Where a list of positions stands among the vertices of a part.
 #[derive(Clone, Copy)]
 struct Positions {
@@ -46,7 +63,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             };
             add_triangles(&mut part, primitive, &Corners::new(primitive, vertex, positions)?)?;
         }
-        Ok(part)
+        Ok(part.without_unused())
     }
 
     fn positions(&self, vertices: Node<'a, 'i>) -> Result<Vec<Point3<f64>>, MeshError> {
@@ -117,11 +134,11 @@ impl Corners {
                 format!("<p> holds {} indices, which is no multiple of {}", indices.len(), self.stride);
             return Err(fault(p, what));
         }
+        let Positions { first, count } = self.positions;
         let vertex = |corner: &[usize]| {
             let index = corner[self.offset];
-            let vertex = u32::try_from(self.positions.first + index).ok();
-            vertex.filter(|_| index < self.positions.count).ok_or_else(|| {
-                let count = self.positions.count;
+            let vertex = (index < count).then(|| u32::try_from(first + index).ok()).flatten();
+            vertex.ok_or_else(|| {
                 fault(p, format!("vertex index {index} is out of range: there are {count} vertices"))
             })
         };
