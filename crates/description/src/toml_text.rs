@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn endless_unknown_keys_end() {
-        let text: String = (0..1000).map(|key| format!("x{key} = 1\n")).collect();
+        let text = (0..1000).map(|key| format!("x{key} = 1\n")).collect::<Vec<_>>().concat();
         assert_eq!(read(&text).1.len(), MOST_UNKNOWN_KEYS);
     }
 
