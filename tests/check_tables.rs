@@ -49,7 +49,7 @@ fn check(pairing: &Pairing<'_>, corpus: &Path) -> Answer {
 }
 
 fn robot_file(table: &Value, pairing: &Pairing<'_>, corpus: &Path) -> String {
-    let urdf = corpus.join("robots").join(pairing.urdf).join("robot.urdf");
+    let urdf = text(&corpus.join("robots").join(pairing.urdf).join("robot.urdf"));
     let convention = if table["convention"] == "classic" { "standard" } else { "modified" };
     let mut text = format!(
         "name = \"{}\"\nurdf = {:?}\nbase = \"{}\"\ntip = \"{}\"\n[tolerance]\nposition_m = 1e-9\norientation_rad = 1e-9\n\

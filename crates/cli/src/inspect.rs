@@ -16,6 +16,6 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let summary = inspect(&arguments.recording)
         .map_err(|error| congruent_description::Diagnostic::error("inspect::recording", error.to_string()))?;
-    printer.result(&summary, |summary| summary.to_string())?;
+    printer.result(&summary, ToString::to_string)?;
     Ok(0)
 }

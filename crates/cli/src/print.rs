@@ -113,10 +113,8 @@ fn rendered(finding: &Diagnostic) -> String {
     let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
     let mut text = String::new();
     // Without a place in a text there is no snippet to carry the file's name.
-    if finding.line_column().is_none() {
-        if let Some(source) = &finding.source {
-            let _ = writeln!(text, "{}:", source.path.display());
-        }
+    if let (None, Some(source)) = (finding.line_column(), &finding.source) {
+        let _ = writeln!(text, "{}:", source.path.display());
     }
     if handler.render_report(&mut text, finding).is_err() {
         // The renderer refuses spans outside the text; the message must not be lost with it.

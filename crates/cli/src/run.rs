@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, fmt::Write, path::PathBuf, sync::Mutex};
 use congruent_description::Diagnostic;
 use congruent_twin::{
     ExecuteError, Options, execute,
-    report::{OutputFolder, RunReport, junit, sentence, write_whole},
+    report::{OutputFolder, RunReport, sentence, write_junit},
     scenario::{Overrides, Scenario},
     verdict::{CheckResult, Expectation, Verdict},
 };
@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         }
     }
     if let Some(path) = &arguments.junit {
-        write_whole(path, junit(&reports).as_bytes()).map_err(unwritable)?;
+        write_junit(path, &reports).map_err(unwritable)?;
     }
     let text = |report: &RunReport, folder: &OutputFolder| described(report, folder);
     match (&reports[..], &folders[..]) {

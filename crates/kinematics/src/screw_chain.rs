@@ -1,6 +1,8 @@
 //! A serial chain as space screws and a home pose: the form in which two models are compared,
 //! whatever they were written as.
 
+use std::convert::Infallible;
+
 use congruent_description::{LinkIndex, Robot};
 
 use crate::{dh::DhChain, error::KinematicsError, pose::Pose, twist::Twist, urdf_tree::UrdfTree};
@@ -31,16 +33,21 @@ impl ScrewChain {
     /// `exp(h T_i)`, where `T_i` is its twist at `q0`; moving that back by the joints before it gives
     /// the twist at zero. For joints that follow screws this is exact, not a difference quotient.
     pub fn probe(n: usize, mut base_from_tip: impl FnMut(&[f64]) -> Pose) -> Self {
+        let Ok(chain) = Self::try_probe(n, |q| Ok::<_, Infallible>(base_from_tip(q)));
+        chain
+    }
+
+    fn try_probe<E>(n: usize, mut base_from_tip: impl FnMut(&[f64]) -> Result<Pose, E>) -> Result<Self, E> {
         // Not simple multiples of one another, none near a quarter turn.
         #[expect(clippy::cast_precision_loss, reason = "arms have few joints")]
         let q0: Vec<f64> = (0..n).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
-        let at_q0 = base_from_tip(&q0);
+        let at_q0 = base_from_tip(&q0)?;
         let mut q = q0.clone();
         let mut twists_in_base: Vec<Twist> = Vec::with_capacity(n);
         let mut before = Pose::identity();
         for joint in 0..n {
             q[joint] += PROBE_STEP;
-            let moved = base_from_tip(&q);
+            let moved = base_from_tip(&q)?;
             q[joint] = q0[joint];
             let step = Twist::log(&(moved * at_q0.inverse()));
             let at_q0 = Twist { angular: step.angular / PROBE_STEP, linear: step.linear / PROBE_STEP };
@@ -48,23 +55,21 @@ impl ScrewChain {
             before = before * at_zero.exp(q0[joint]);
             twists_in_base.push(at_zero);
         }
-        Self { twists_in_base, base_from_tip_at_zero: before.inverse() * at_q0 }
+        Ok(Self { twists_in_base, base_from_tip_at_zero: before.inverse() * at_q0 })
     }
 
     /// The chain that a table stands for, from link `base` to link `tip`; joints are its rows.
     ///
     /// # Errors
-    /// [`KinematicsError`] never comes for a table that [`DhChain::new`] has accepted.
+    /// [`KinematicsError::JointCount`] when `dof` is not that of the table's robot.
     pub fn from_dh(chain: &DhChain, dof: usize) -> Result<Self, KinematicsError> {
         let mut q = vec![0.0; dof];
-        chain.base_from_tip(&q)?; // the one thing that can be wrong is the length
-        let coordinates = chain.coordinates().to_vec();
-        Ok(Self::probe(coordinates.len(), |rows| {
-            for (&coordinate, &value) in coordinates.iter().zip(rows) {
+        Self::try_probe(chain.coordinates().len(), |rows| {
+            for (&coordinate, &value) in chain.coordinates().iter().zip(rows) {
                 q[coordinate] = value;
             }
-            chain.base_from_tip(&q).expect("the length was accepted before")
-        }))
+            chain.base_from_tip(&q)
+        })
     }
 
     /// The chain from link `base` to link `tip` of a robot; joints are its entries `coordinates` of
@@ -79,14 +84,13 @@ impl ScrewChain {
     ) -> Result<Self, KinematicsError> {
         let tree = UrdfTree::new(robot);
         let mut q = vec![0.0; robot.dof()];
-        tree.root_from_link(&q, tip)?;
-        Ok(Self::probe(coordinates.len(), |values| {
+        Self::try_probe(coordinates.len(), |values| {
             for (&coordinate, &value) in coordinates.iter().zip(values) {
                 q[coordinate] = value;
             }
-            let root_from = |link| tree.root_from_link(&q, link).expect("the length was accepted before");
-            root_from(base).inverse() * root_from(tip)
-        }))
+            let root_from_base = tree.root_from_link(&q, base)?;
+            Ok(root_from_base.inverse() * tree.root_from_link(&q, tip)?)
+        })
     }
 
     /// Number of joints.

@@ -2,7 +2,6 @@
 //! roboticstoolbox-python, trees against Pinocchio.
 
 #[path = "../../../tests/corpus.rs"]
-#[allow(unreachable_pub, clippy::print_stderr, reason = "it is shared with the tests of other crates")]
 mod corpus;
 #[path = "support/mod.rs"]
 mod support;

@@ -4,7 +4,6 @@
 #![expect(clippy::print_stdout, reason = "the worst figures, for those who run with --nocapture")]
 
 #[path = "../../../tests/corpus.rs"]
-#[allow(unreachable_pub, reason = "it is shared with the tests of other crates")]
 mod corpus;
 mod support;
 

@@ -141,25 +141,30 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
     }
     let comparisons: Vec<Comparison> =
         tallies.iter().map(|tally| tally.finish(description, &configurations)).collect();
-    let worst = comparisons
-        .iter()
-        .map(|comparison| &comparison.worst)
-        .max_by(|a, b| a.position_m.total_cmp(&b.position_m))
-        .expect("there are at least two comparisons")
-        .clone();
-    let orientation_rad = comparisons.iter().map(|each| each.worst.orientation_rad).fold(0.0, f64::max);
+    let worst = worst_of(&comparisons);
     let agree = comparisons.iter().all(|comparison| comparison.verdict == Agreement::Agree);
     let Tolerance { position_m, orientation_rad: angle } = description.tolerance;
     Ok(CheckReport {
         robot: robot.name().to_owned(),
         verdict: if agree { Agreement::Agree } else { Agreement::Disagree },
-        worst: Worst { orientation_rad, ..worst },
+        worst,
         tolerance: ReportedTolerance { position_m, orientation_rad: angle },
         configurations: configurations.len(),
         seed,
         comparisons,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     })
+}
+
+/// The largest difference of all comparisons, position and orientation each for itself.
+fn worst_of(comparisons: &[Comparison]) -> Worst {
+    let further = |a: Worst, b: &Comparison| {
+        let orientation_rad = larger(a.orientation_rad, b.worst.orientation_rad);
+        let furthest = if b.worst.position_m > a.position_m { b.worst.clone() } else { a };
+        Worst { orientation_rad, ..furthest }
+    };
+    let nowhere = Worst { position_m: -1.0, orientation_rad: 0.0, link: String::new(), at: Vec::new() };
+    comparisons.iter().fold(nowhere, further)
 }
 
 /// All poses at one configuration, by each witness.

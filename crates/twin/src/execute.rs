@@ -6,7 +6,7 @@ use crate::{
     model::PoseSource,
     monitor::Names,
     recorder::{NoRecorder, Recorder, RecordingError},
-    report::{OutputError, OutputFolder, RunReport, junit},
+    report::{OutputError, OutputFolder, RunReport, write_junit},
     run::{Run, RunError},
     scenario::Scenario,
 };
@@ -63,10 +63,8 @@ pub fn execute(
     } else if options.recording && cfg!(feature = "recording") {
         folder.publish(PARTIAL, "recording.rrd")?;
     }
-    let mut json = serde_json::to_vec_pretty(&report).expect("a report holds nothing that JSON cannot");
-    json.push(b'\n');
-    folder.write("report.json", &json)?;
-    folder.write("junit.xml", junit(std::slice::from_ref(&report)).as_bytes())?;
+    folder.write_json("report.json", &report)?;
+    write_junit(&folder.file("junit.xml"), std::slice::from_ref(&report))?;
     Ok((report, folder))
 }
 

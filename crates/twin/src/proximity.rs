@@ -44,12 +44,12 @@ impl Hulls {
     pub fn new(subject: &str, shapes: &[Shape]) -> Result<Self, ProximityError> {
         let mut hulls = Self { shapes: Vec::with_capacity(shapes.len()), radius_m: 0.0 };
         for shape in shapes {
-            let Some(Hull { shape_from_hull, hull, radius_m }) = hull(subject, &shape.geometry)? else {
+            let Some(Convex { shape_from_local, form, radius_m }) = convex(subject, &shape.geometry)? else {
                 continue;
             };
-            let link_from_hull = pose(&shape.link_from_shape) * shape_from_hull;
+            let link_from_hull = pose(&shape.link_from_shape) * shape_from_local;
             hulls.radius_m = hulls.radius_m.max(link_from_hull.translation.length() + radius_m);
-            hulls.shapes.push((link_from_hull, hull));
+            hulls.shapes.push((link_from_hull, form));
         }
         Ok(hulls)
     }
@@ -108,22 +108,22 @@ impl Hulls {
 }
 
 /// A convex shape with the radius of a ball about its own origin that contains it.
-struct Hull {
-    shape_from_hull: Pose,
-    hull: SharedShape,
+struct Convex {
+    shape_from_local: Pose,
+    form: SharedShape,
     radius_m: f64,
 }
 
-fn hull(subject: &str, geometry: &Geometry) -> Result<Option<Hull>, ProximityError> {
-    let mut shape_from_hull = Pose::IDENTITY;
-    let (hull, radius_m) = match geometry {
+fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Convex>, ProximityError> {
+    let mut shape_from_local = Pose::IDENTITY;
+    let (form, radius_m) = match geometry {
         Geometry::Box { size_m } => {
             let half = Vector::new(size_m.x / 2.0, size_m.y / 2.0, size_m.z / 2.0);
             (SharedShape::new(Cuboid::new(half)), half.length())
         }
         Geometry::Cylinder { radius_m, length_m } => {
             // parry's cylinder stands along y, the description's along z.
-            shape_from_hull =
+            shape_from_local =
                 Pose::from_parts(Vector::ZERO, Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2));
             let upright = SharedShape::new(Cylinder::new(length_m / 2.0, *radius_m));
             (upright, radius_m.hypot(length_m / 2.0))
@@ -138,7 +138,7 @@ fn hull(subject: &str, geometry: &Geometry) -> Result<Option<Hull>, ProximityErr
             (SharedShape::new(hull), radius_m)
         }
     };
-    Ok(Some(Hull { shape_from_hull, hull, radius_m }))
+    Ok(Some(Convex { shape_from_local, form, radius_m }))
 }
 
 fn vector(point: &Point3<f64>) -> Vector {

@@ -66,10 +66,13 @@ impl Names {
     }
 }
 
+/// Reads the section of a check; the robot gives names, limits and tolerances.
+type Parse = fn(Section<'_>, &RobotDescription) -> Result<Box<dyn Monitor>, Diagnostic>;
+
 /// How one kind of check is made from its section of a scenario file.
 struct Kind {
     name: &'static str,
-    parse: fn(Section<'_>, &RobotDescription) -> Result<Box<dyn Monitor>, Diagnostic>,
+    parse: Parse,
 }
 
 /// Every kind of check.
@@ -100,11 +103,9 @@ impl Check {
     ///
     /// # Errors
     /// A diagnostic at the section's kind or at the key that is wrong.
-    pub fn parse(section: Section<'_>, description: &RobotDescription) -> Result<Self, Diagnostic> {
+    pub fn parse(mut section: Section<'_>, description: &RobotDescription) -> Result<Self, Diagnostic> {
         let line = section.line();
-        let mut section = section;
-        let kind = section.select("check", KINDS.iter().map(|kind| kind.name))?;
-        let kind = KINDS.iter().find(|known| known.name == kind).expect("selected from the same list");
+        let kind = section.select("kind", "check", KINDS, |kind| kind.name)?;
         Ok(Self { kind: kind.name, line, monitor: (kind.parse)(section, description)? })
     }
 

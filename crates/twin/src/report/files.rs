@@ -6,6 +6,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use serde::Serialize;
+
 /// Why a result cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {}: {source}", .path.display())]
@@ -66,6 +68,17 @@ impl OutputFolder {
     /// [`OutputError`] where it cannot be written; the name then does not exist.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), OutputError> {
         write_whole(&self.file(name), contents)
+    }
+
+    /// Writes a document whole, as JSON.
+    ///
+    /// # Errors
+    /// [`OutputError`] where it cannot be written; the name then does not exist.
+    pub fn write_json<T: Serialize>(&self, name: &str, document: &T) -> Result<(), OutputError> {
+        let mut json =
+            serde_json::to_vec_pretty(document).map_err(|error| self.refused(name, error.into()))?;
+        json.push(b'\n');
+        self.write(name, &json)
     }
 
     /// Gives a file that was written under a temporary name its own.

@@ -1,15 +1,21 @@
 //! A report as JUnit XML: one test case for each check, judged against what the scenario expects.
 
+use std::{io, path::Path};
+
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-use super::RunReport;
+use super::{OutputError, RunReport, write_whole};
 use crate::verdict::{Bound, CheckResult, Expectation, Measure, Status, Verdict};
 
-/// All scenarios as one JUnit document.
-pub fn junit(reports: &[RunReport]) -> String {
+/// Writes all scenarios as one JUnit document.
+///
+/// # Errors
+/// [`OutputError`] where the file cannot be written.
+pub fn write_junit(path: &Path, reports: &[RunReport]) -> Result<(), OutputError> {
     let mut document = Report::new("congruent");
     document.add_test_suites(reports.iter().map(suite));
-    document.to_string().expect("a report in memory is always written")
+    let refused = |error| OutputError { path: path.to_owned(), source: io::Error::other(error) };
+    write_whole(path, document.to_string().map_err(refused)?.as_bytes())
 }
 
 fn suite(report: &RunReport) -> TestSuite {

@@ -7,7 +7,7 @@ use congruent_description::{Diagnostic, Severity};
 use serde::Serialize;
 
 pub use files::{OutputError, OutputFolder, write_whole};
-pub use junit::{junit, sentence};
+pub use junit::{sentence, write_junit};
 
 use crate::{
     model::PoseSource,

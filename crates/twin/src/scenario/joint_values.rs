@@ -29,6 +29,9 @@ pub(crate) struct JointValue {
     pub(crate) span: Range<usize>,
 }
 
+/// A figure of a file in the unit of the program.
+type ToSi = fn(Unit, f64) -> f64;
+
 impl JointValues {
     /// Resolves names and units.
     ///
@@ -37,21 +40,21 @@ impl JointValues {
     pub(crate) fn resolve(&self, robot: &Robot) -> Result<Vec<JointValue>, Vec<Diagnostic>> {
         let mut values: Vec<JointValue> = Vec::new();
         let mut errors = Vec::new();
-        let groups: [(&WrittenJoints, bool, fn(f64) -> f64); 4] = [
-            (&self.deg, true, |deg| Unit::Angle.convert(deg)),
-            (&self.rad, true, |rad| rad),
-            (&self.m, false, |m| m),
-            (&self.mm, false, |mm| Unit::Length.convert(mm)),
+        let groups: [(&WrittenJoints, Unit, ToSi); 4] = [
+            (&self.deg, Unit::Angle, Unit::convert),
+            (&self.rad, Unit::Angle, |_, rad| rad),
+            (&self.m, Unit::Length, |_, m| m),
+            (&self.mm, Unit::Length, Unit::convert),
         ];
-        for (written, is_angle, to_si) in groups {
+        for (written, unit, to_si) in groups {
             for (name, value) in written {
-                match joint_named(robot, name, is_angle) {
+                match joint_named(robot, name, unit) {
                     Ok(joint) if values.iter().any(|known| known.joint == joint) => {
                         errors.push(repeated(name));
                     }
                     Ok(joint) => values.push(JointValue {
                         joint,
-                        value: to_si(value.get_ref().get()),
+                        value: to_si(unit, value.get_ref().get()),
                         span: name.span().start..value.span().end,
                     }),
                     Err(error) => errors.push(error),
@@ -67,7 +70,7 @@ fn repeated(name: &Spanned<String>) -> Diagnostic {
     Diagnostic::error("scenario::joint_twice", message).at(name.span())
 }
 
-fn joint_named(robot: &Robot, name: &Spanned<String>, is_angle: bool) -> Result<JointIndex, Diagnostic> {
+fn joint_named(robot: &Robot, name: &Spanned<String>, unit: Unit) -> Result<JointIndex, Diagnostic> {
     let text = name.get_ref();
     let Some(index) = robot.find_joint(text).filter(|&joint| robot.coordinate(joint).is_some()) else {
         let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.as_str());
@@ -83,7 +86,7 @@ fn joint_named(robot: &Robot, name: &Spanned<String>, is_angle: bool) -> Result<
             .with_help("give the position of the joint that it mimics")
             .at(name.span()));
     }
-    if is_angle != joint.kind.is_angular() {
+    if joint.kind.is_angular() != matches!(unit, Unit::Angle) {
         return Err(wrong_unit(joint).at(name.span()));
     }
     Ok(index)

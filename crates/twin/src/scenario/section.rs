@@ -60,38 +60,27 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Takes the string under `kind` out and holds it against the known ones.
+    /// Takes the string under `key` out and gives the one of `known` that has this name.
     ///
     /// # Errors
-    /// A diagnostic at the unknown kind, or at the section where there is none.
-    pub fn select<'k>(
-        &mut self,
-        what: &str,
-        known: impl IntoIterator<Item = &'k str> + Clone,
-    ) -> Result<&'k str, Diagnostic> {
-        self.select_key("kind", what, known)
-    }
-
-    /// Like [`Section::select`], under another key.
-    ///
-    /// # Errors
-    /// As [`Section::select`].
-    pub fn select_key<'k>(
+    /// A diagnostic at the unknown name, or at the section where there is none.
+    pub fn select<'k, T>(
         &mut self,
         key: &str,
         what: &str,
-        known: impl IntoIterator<Item = &'k str> + Clone,
-    ) -> Result<&'k str, Diagnostic> {
+        known: &'k [T],
+        name: impl Fn(&T) -> &str,
+    ) -> Result<&'k T, Diagnostic> {
+        let names = || known.iter().map(&name).collect::<Vec<_>>();
         let Some(value) = self.table.get_mut().remove(key) else {
-            let help = known_names("", "ones", known);
             return Err(Diagnostic::error("scenario::no_kind", format!("the {what} has no `{key}`"))
-                .with_help(help)
+                .with_help(known_names("", "ones", names()))
                 .at(self.span()));
         };
         let found = value.get_ref().as_str().unwrap_or_default();
-        known.clone().into_iter().find(|&name| name == found).ok_or_else(|| {
+        known.iter().find(|known| name(known) == found).ok_or_else(|| {
             Diagnostic::error("scenario::unknown_kind", format!("unknown {what} \"{found}\""))
-                .with_help(known_names(found, "ones", known))
+                .with_help(known_names(found, "ones", names()))
                 .at(value.span())
         })
     }

@@ -44,6 +44,7 @@ struct Simulation {
 
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(clippy::struct_field_names, reason = "the keys of the file")]
 struct Start {
     #[serde(default)]
     joints_deg: WrittenJoints,
@@ -307,7 +308,8 @@ fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, D
                 controller_names().collect::<Vec<_>>().join(" | ")
             )));
     };
-    let kind = section.select("controller", controller_names())?.to_owned();
+    let known: Vec<&str> = controller_names().collect();
+    let kind = (*section.select("kind", "controller", &known, |name| name)?).to_owned();
     let written: Controller = section.read()?;
     let gains = Gains {
         stiffness: written.stiffness.map_or(0.0, NonNegative::get),
@@ -319,7 +321,7 @@ fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, D
 fn read_expect(section: Option<Section<'_>>) -> Result<Expectation, Diagnostic> {
     let Some(mut section) = section else { return Ok(Expectation::Pass) };
     let span = section.span();
-    let verdict = section.select_key("verdict", "expected verdict", ["pass", "fail"])?;
+    let verdict = *section.select("verdict", "expected verdict", &["pass", "fail"], |name| name)?;
     let Expect { checks } = section.read()?;
     for check in &checks {
         if !monitor::kinds().any(|kind| kind == check.get_ref()) {
