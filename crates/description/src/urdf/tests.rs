@@ -205,6 +205,12 @@ fn quaternions_need_version_1_1_and_keep_their_digits() {
 }
 
 #[test]
+fn escaped_names_arrive() {
+    let text = arm(LIMIT, INERTIAL).replace("\"tip\"", "\"a&lt;b&amp;&quot;&#x41;\"");
+    assert_eq!(good(&text).links()[1].name, "a<b&\"A");
+}
+
+#[test]
 fn shapes_are_checked() {
     let shape = |shape: &str| format!("<collision><geometry>{shape}</geometry></collision>");
     link_error(&shape(""), "urdf::geometry", "<geometry> has no shape");
