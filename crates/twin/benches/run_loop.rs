@@ -2,7 +2,7 @@
 //!
 //! 4 s divided by a time here is how many times faster than real time it runs.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use congruent_twin::{
     Run,
@@ -70,7 +70,7 @@ fn c_and_checks_and_clearance(bencher: divan::Bencher<'_, '_>) {
 #[divan::bench]
 fn d_and_recording(bencher: divan::Bencher<'_, '_>) {
     use congruent_twin::recording::RerunRecorder;
-    let path: PathBuf = std::env::temp_dir().join("congruent-bench.rrd");
+    let path = std::env::temp_dir().join("congruent-bench.rrd");
     bencher
         .with_inputs(|| {
             let mut scenario = scenario();
