@@ -1,3 +1,5 @@
+//! URDF documents with one fault each, and good ones that must not be blamed.
+
 #![expect(clippy::float_cmp, reason = "figures must arrive as they are written")]
 
 use std::f64::consts::FRAC_PI_2;

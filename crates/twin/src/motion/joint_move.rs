@@ -36,16 +36,7 @@ pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<M
     .resolve(context.robot)?;
     let mut to = context.from.to_vec();
     for target in targets {
-        let joint = context.robot.joint(target.joint);
-        if let Some((lower, upper)) = joint.position_range()
-            && !(lower..=upper).contains(&target.value)
-        {
-            let message = format!(
-                "joint \"{}\": target {} {} is outside [{lower}, {upper}]",
-                joint.name,
-                target.value,
-                joint.kind.unit()
-            );
+        if let Some(message) = target.beyond_limits(context.robot, "target") {
             context.warnings.push(Diagnostic::warning("scenario::target_limit", message).at(target.span));
         }
         let coordinate = context.robot.coordinate(target.joint).expect("resolved joints move");

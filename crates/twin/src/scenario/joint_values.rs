@@ -32,6 +32,17 @@ pub(crate) struct JointValue {
 /// A figure of a file in the unit of the program.
 type ToSi = fn(Unit, f64) -> f64;
 
+impl JointValue {
+    /// What is wrong where the position is beyond the joint's limits; `what` it is, in words.
+    pub(crate) fn beyond_limits(&self, robot: &Robot, what: &str) -> Option<String> {
+        let joint = robot.joint(self.joint);
+        let (lower, upper) = joint.position_range()?;
+        let (name, value, unit) = (&joint.name, self.value, joint.kind.unit());
+        (!(lower..=upper).contains(&value))
+            .then(|| format!("joint \"{name}\": {what} {value} {unit} is outside [{lower}, {upper}]"))
+    }
+}
+
 impl JointValues {
     /// Resolves names and units.
     ///

@@ -212,16 +212,7 @@ fn read_start(
     let mut q = vec![0.0; robot.dof()];
     let mut errors = Vec::new();
     for value in values {
-        let joint = robot.joint(value.joint);
-        if let Some((lower, upper)) = joint.position_range()
-            && !(lower..=upper).contains(&value.value)
-        {
-            let message = format!(
-                "joint \"{}\": start {} {} is outside [{lower}, {upper}]",
-                joint.name,
-                value.value,
-                joint.kind.unit()
-            );
+        if let Some(message) = value.beyond_limits(robot, "start") {
             errors.push(Diagnostic::error("scenario::start_limit", message).at(value.span));
         }
         q[robot.coordinate(value.joint).expect("resolved joints move")] = value.value;

@@ -1,3 +1,5 @@
+//! Small COLLADA documents, written out in each test.
+
 use super::*;
 
 /// A right triangle with legs of one unit along x and y, inside `scene`.

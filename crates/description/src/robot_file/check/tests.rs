@@ -1,3 +1,5 @@
+//! Robot files with one fault each.
+
 use std::f64::consts::FRAC_PI_2;
 
 use super::*;
