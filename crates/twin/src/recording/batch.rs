@@ -93,6 +93,7 @@ impl Batch {
             let orientations = errors().map(|error| error.orientation_rad);
             write_scalars(writer, &paths::orientation_error(link), &times, orientations)?;
         }
+        self.write_worst(writer, &times, links)?;
         for (index, joint) in names.joints.iter().enumerate() {
             let q = self.q.iter().skip(index).step_by(names.joints.len()).copied();
             write_scalars(writer, &paths::joint_position(joint), &times, q)?;
@@ -100,6 +101,23 @@ impl Batch {
         self.write_trail(writer, &times)?;
         self.clear();
         Ok(())
+    }
+
+    /// The largest errors as powers of ten: rounding and limit are many decades apart.
+    fn write_worst(
+        &self,
+        writer: &mut RrdWriter,
+        times: &[TimeColumn],
+        links: usize,
+    ) -> Result<(), RecordingError> {
+        let worst = |value: fn(&LinkError) -> f64| {
+            let rows = self.errors.chunks_exact(links.max(1));
+            rows.map(move |row| exponent(row.iter().map(value).fold(0.0, f64::max)))
+        };
+        let position = worst(|error| error.position_m);
+        write_scalars(writer, &paths::worst_of_links("position"), times, position)?;
+        let orientation = worst(|error| error.orientation_rad);
+        write_scalars(writer, &paths::worst_of_links("orientation"), times, orientation)
     }
 
     /// One piece of line for each row, from where the tool was at the row before.
@@ -119,6 +137,12 @@ impl Batch {
         self.q.clear();
         self.tool.clear();
     }
+}
+
+/// The power of ten of an error; below all rounding, there is no difference to no error at all.
+pub(super) fn exponent(error: f64) -> f64 {
+    const NOTHING: f64 = 1e-18;
+    error.max(NOTHING).log10()
 }
 
 /// Writes one scalar for each instant.

@@ -5,13 +5,14 @@ use congruent_description::{JointKind, RobotDescription};
 use rerun::external::re_sdk_types::{
     blueprint::{
         archetypes::{
-            Background, EyeControls3D, LineGrid3D, PanelBlueprint, PlotLegend, ScalarAxis,
+            Background, EyeControls3D, LineGrid3D, PanelBlueprint, PlotLegend, ScalarAxis, TextLogColumns,
             TimePanelBlueprint, ViewportBlueprint,
         },
         components::{
             AbsoluteTimeRange, AutoLayout, AutoViews, BackgroundKind, Corner2D, PanelState, PlayState,
-            RootContainer,
+            RootContainer, TextLogColumn,
         },
+        datatypes::{TextLogColumn as Column, TextLogColumnKind},
     },
     components::Range1D,
     datatypes::{AbsoluteTimeRange as Range, TimeInt},
@@ -30,6 +31,8 @@ use crate::{monitor::Names, recorder::RecordingError, report::RunReport};
 
 /// Lines of the grid, m.
 const GRID_M: f32 = 0.1;
+/// Distances are plotted up to so many times the largest that counts: above, nothing is near.
+const PLOTTED: f64 = 3.0;
 /// Length of the tool's trail, s.
 const TRAIL_S: f64 = 2.0;
 
@@ -42,6 +45,8 @@ pub(super) struct Layout<'a> {
     pub(super) names: &'a Names,
     /// What came out.
     pub(super) report: &'a RunReport,
+    /// Whether anything stands around.
+    pub(super) has_obstacles: bool,
     /// Where the camera stands.
     pub(super) camera: Camera,
     /// The smallest and the largest minimum distance; `None` where there is no pair.
@@ -74,17 +79,16 @@ impl Layout<'_> {
 
     fn root(&self) -> Node {
         let left = Node::Rows(vec![(5.0, self.scene()), (self.lanes_share(), lanes())]);
-        let mut plots = vec![(3.0, self.agreement())];
-        if self.clearance_m.is_some() {
-            plots.push((2.4, self.clearance()));
+        let mut right = vec![(2.6, self.agreement())];
+        if self.has_clearance() {
+            right.push((2.2, self.clearance()));
         }
         if let Some(joints) = self.joints() {
-            plots.push((2.0, joints));
+            right.push((2.0, joints));
         }
         let summary = View::new("TextDocument", "Summary", paths::summary());
-        let events = View::new("TextLog", "Events", paths::log());
-        let right = Node::Rows(vec![(2.6, summary.into()), (1.0, events.into())]);
-        Node::Columns(vec![(4.4, left), (3.0, Node::Rows(plots)), (2.6, right)])
+        right.push((3.2, Node::Columns(vec![(3.0, summary.into()), (2.0, events())])));
+        Node::Columns(vec![(1.0, left), (1.0, Node::Rows(right))])
     }
 
     fn scene(&self) -> Node {
@@ -109,35 +113,46 @@ impl Layout<'_> {
         0.5 + 0.25 * f32::from(lanes.min(8))
     }
 
-    /// Both errors behind each other, in front the one that says more.
+    /// Errors behind each other: in front the one that is outside its limit, or all in decades.
     fn agreement(&self) -> Node {
-        let view = |quantity: &str, unit: &str, fallback: f64| {
-            let measure = measures(self.report, "agreement").find(|measure| measure.quantity == quantity);
-            let limit = measure.map_or(fallback, |measure| measure.limit);
-            let worst = measure.and_then(|measure| measure.worst.as_ref()).map_or(0.0, |worst| worst.value);
-            let title = format!("Model against twin: {quantity} [{unit}]");
-            let view = View::new("TimeSeries", title, paths::path(&["agreement", quantity]));
-            plot(view, (0.0, limit.max(worst)), Corner2D::RightTop)
+        let of = |quantity: &'static str| {
+            measures(self.report, "agreement").find(move |measure| measure.quantity == quantity)
         };
+        let view = |quantity: &'static str, name: &str, fallback: f64| {
+            let limit = of(quantity).map_or(fallback, |measure| measure.limit);
+            let worst =
+                of(quantity).and_then(|measure| measure.worst.as_ref()).map_or(0.0, |worst| worst.value);
+            let view = View::new("TimeSeries", name, paths::path(&["agreement", quantity]));
+            plot(view, (0.0, limit.max(worst)))
+        };
+        let worst =
+            View::new("TimeSeries", "Largest errors [power of ten]", paths::path(&["agreement", "worst"]));
         let tolerance = self.description.tolerance;
-        let position = view("position", "m", tolerance.position_m);
-        let orientation = view("orientation", "rad", tolerance.orientation_rad);
-        let violated = |quantity: &str| {
-            measures(self.report, "agreement")
-                .any(|measure| measure.quantity == quantity && measure.first_violation.is_some())
-        };
-        if violated("orientation") && !violated("position") {
-            Node::Tabs(vec![orientation, position])
-        } else {
-            Node::Tabs(vec![position, orientation])
+        let mut tabs = vec![
+            worst.with("PlotLegend", &legend()).into(),
+            view("position", "Position errors [m]", tolerance.position_m),
+            view("orientation", "Orientation errors [rad]", tolerance.orientation_rad),
+        ];
+        let violated = ["position", "orientation"]
+            .into_iter()
+            .position(|quantity| of(quantity).is_some_and(|measure| measure.first_violation.is_some()));
+        if let Some(violated) = violated {
+            tabs[..=violated + 1].rotate_right(1);
         }
+        Node::Tabs(tabs)
+    }
+
+    /// Whether distances say anything: some are watched, and there is a limit or an obstacle.
+    fn has_clearance(&self) -> bool {
+        let is_checked = measures(self.report, "clearance").next().is_some();
+        self.clearance_m.is_some() && (is_checked || self.has_obstacles)
     }
 
     fn clearance(&self) -> Node {
         let (low, high) = self.clearance_m.unwrap_or((0.0, 1.0));
         let limit = measures(self.report, "clearance").map(|measure| measure.limit).fold(0.0, f64::max);
         let view = View::new("TimeSeries", "Clearance [m]", paths::path(&["clearance"]));
-        plot(view, (low.min(0.0), high.max(limit)), Corner2D::RightTop)
+        plot(view, (low.min(0.0), PLOTTED * high.max(limit)))
     }
 
     /// Joint positions, those in radians behind or before those in metres; `None` without joints.
@@ -153,7 +168,7 @@ impl Layout<'_> {
         let view = |unit: &str, joints: Vec<_>| {
             let title = format!("Joint positions [{unit}]");
             let view = View::new("TimeSeries", title, paths::path(&["joint", "position"])).only(joints);
-            view.with("PlotLegend", &legend(Corner2D::RightTop)).into()
+            view.with("PlotLegend", &legend()).into()
         };
         let mut views: Vec<Node> = [("rad", of_unit(false)), ("m", of_unit(true))]
             .into_iter()
@@ -172,19 +187,31 @@ fn lanes() -> Node {
     View::new("StateTimeline", "Checks", paths::path(&["status"])).into()
 }
 
-fn legend(corner: Corner2D) -> PlotLegend {
-    PlotLegend::new().with_corner(corner)
+fn events() -> Node {
+    let column = |kind: TextLogColumnKind, is_visible: bool| {
+        TextLogColumn(Column { visible: is_visible.into(), kind })
+    };
+    let columns = TextLogColumns::new().with_text_log_columns([
+        column(TextLogColumnKind::EntityPath, false),
+        column(TextLogColumnKind::LogLevel, false),
+        column(TextLogColumnKind::Body, true),
+    ]);
+    View::new("TextLog", "Events", paths::log()).with("TextLogColumns", &columns).into()
+}
+
+fn legend() -> PlotLegend {
+    PlotLegend::new().with_corner(Corner2D::RightTop)
 }
 
 /// A plot that shows this range, with some air.
-fn plot(view: View, (low, high): (f64, f64), corner: Corner2D) -> Node {
+fn plot(view: View, (low, high): (f64, f64)) -> Node {
     let air = 0.06 * (high - low);
     let range = if air.is_finite() && air > 0.0 {
         Range1D::new(low - air, high + air)
     } else {
         Range1D::new(0.0, 1.0)
     };
-    view.with("ScalarAxis", &ScalarAxis::new().with_range(range)).with("PlotLegend", &legend(corner)).into()
+    view.with("ScalarAxis", &ScalarAxis::new().with_range(range)).with("PlotLegend", &legend()).into()
 }
 
 /// The time from the first violation on: layouts cannot place the cursor, but playing it is a key.

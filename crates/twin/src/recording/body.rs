@@ -8,6 +8,9 @@ use rerun::{
     FillMode, Mesh3D, Quaternion, SerializedComponentBatch, TriangleIndices,
 };
 
+/// An inset takes at most this part of a shape's thickness.
+const THINNEST: f64 = 0.1;
+
 /// Shapes of one kind: where each stands in the body, its colour, its measures.
 #[derive(Debug)]
 struct Placed<M> {
@@ -56,8 +59,9 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// The body with these shapes; those without a colour get `default`.
-    pub(super) fn new(shapes: &[Shape], default: Color) -> Self {
+    /// The body with these shapes; those without a colour get `default`. Surfaces lie `inset_m`
+    /// deeper than they are: two bodies at one place must not flicker through each other.
+    pub(super) fn new(shapes: &[Shape], default: Color, inset_m: f64) -> Self {
         let mut body = Self {
             boxes: Placed::new(),
             cylinders: Placed::new(),
@@ -67,15 +71,19 @@ impl Body {
         for shape in shapes {
             let color = shape.color_rgba.map_or(default, color);
             let place = &shape.link_from_shape;
+            let inner = |half: f64| single(half - inset_m.min(half * THINNEST));
             match &shape.geometry {
-                Geometry::Box { size_m } => body.boxes.push(place, color, vector(&(size_m / 2.0))),
-                Geometry::Cylinder { radius_m, length_m } => {
-                    body.cylinders.push(place, color, (single(*radius_m), single(*length_m)));
+                Geometry::Box { size_m } => {
+                    body.boxes.push(place, color, (size_m / 2.0).map(inner).into());
                 }
-                Geometry::Sphere { radius_m } => body.spheres.push(place, color, single(*radius_m)),
+                Geometry::Cylinder { radius_m, length_m } => {
+                    let length = 2.0 * inner(length_m / 2.0);
+                    body.cylinders.push(place, color, (inner(*radius_m), length));
+                }
+                Geometry::Sphere { radius_m } => body.spheres.push(place, color, inner(*radius_m)),
                 Geometry::Mesh(mesh) if mesh.triangles.is_empty() => {}
                 Geometry::Mesh(mesh) => {
-                    body.meshes.push(PlacedMesh { archetype: triangles(mesh, place), color });
+                    body.meshes.push(PlacedMesh { archetype: triangles(mesh, place, inset_m), color });
                 }
             }
         }
@@ -151,7 +159,7 @@ fn mesh_path(body: &EntityPath, index: usize) -> EntityPath {
 
 /// The mesh in the body's frame, smoothly shaded: each vertex has the mean normal of the triangles
 /// that share it, weighted by their areas.
-fn triangles(mesh: &Mesh, body_from_mesh: &Isometry3<f64>) -> Mesh3D {
+fn triangles(mesh: &Mesh, body_from_mesh: &Isometry3<f64>, inset_m: f64) -> Mesh3D {
     let vertices: Vec<_> = mesh.vertices_m.iter().map(|vertex| body_from_mesh * vertex).collect();
     let mut normals = vec![Vector3::zeros(); vertices.len()];
     for &corners in &mesh.triangles {
@@ -161,9 +169,12 @@ fn triangles(mesh: &Mesh, body_from_mesh: &Isometry3<f64>) -> Mesh3D {
             normals[corner as usize] += twice_area;
         }
     }
-    let normals = normals.iter().map(|normal| vector(&normal.try_normalize(0.0).unwrap_or_else(Vector3::z)));
-    Mesh3D::new(vertices.iter().map(|vertex| vector(&vertex.coords)))
-        .with_vertex_normals(normals)
+    for normal in &mut normals {
+        *normal = normal.try_normalize(0.0).unwrap_or_else(Vector3::z);
+    }
+    let surface = vertices.iter().zip(&normals).map(|(vertex, normal)| vertex.coords - normal * inset_m);
+    Mesh3D::new(surface.map(|vertex| vector(&vertex)))
+        .with_vertex_normals(normals.iter().map(vector))
         .with_triangle_indices(mesh.triangles.iter().map(|&corners| TriangleIndices(corners.into())))
 }
 

@@ -1,7 +1,10 @@
 //! What shows a disagreement before it is read: links turn red, arrows lead from the twin's links
 //! to the model's in true length, and the worst link carries its error as a label.
 
-use rerun::{Arrows3D, EntityPath, Points3D, Radius, SerializedComponentColumn};
+use rerun::{
+    Arrows3D, Ellipsoids3D, EntityPath, FillMode, Points3D, Radius, SerializedComponentBatch,
+    SerializedComponentColumn,
+};
 
 use super::{
     body::{Body, Paint, vector},
@@ -18,8 +21,10 @@ use crate::{
 
 /// Thickness of an arrow, as wide on the screen at any distance.
 const ARROW_UI_POINTS: f32 = 2.5;
-/// The dot at the worst link, likewise.
-const DOT_UI_POINTS: f32 = 6.0;
+/// Radius of the ball around the worst link: it shows also where a link has no shape.
+const HALO_M: f32 = 0.05;
+/// The label stands above the ball.
+const LABEL_ABOVE_M: f32 = 0.07;
 
 /// From where on model and twin disagree.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -150,11 +155,13 @@ impl Disagreement {
             .with_colors([palette::OUTSIDE])
             .with_radii([Radius::new_ui_points(ARROW_UI_POINTS)]);
         writer.log_static(&paths::error_arrows(), &arrows)?;
-        let dot = Points3D::update_fields()
-            .with_colors([palette::OUTSIDE])
-            .with_radii([Radius::new_ui_points(DOT_UI_POINTS)])
+        let halo = Ellipsoids3D::update_fields().with_colors([palette::HALO]).with_fill_mode(FillMode::Solid);
+        writer.log_static(&paths::worst_error(), &halo)?;
+        let label = Points3D::update_fields()
+            .with_colors([palette::MINIMUM])
+            .with_radii([Radius::new_ui_points(0.0)])
             .with_show_labels(true);
-        writer.log_static(&paths::worst_error(), &dot)
+        writer.log_static(&paths::worst_error(), &label)
     }
 
     /// Writes all rows and forgets them.
@@ -172,7 +179,7 @@ impl Disagreement {
             let lengths = self.arrows.iter().map(|&arrows| arrows as usize);
             let arrows = Arrows3D::update_fields().with_origins(&self.origins).with_vectors(&self.vectors);
             writer.columns(&paths::error_arrows(), &times, arrows.columns(lengths).map_err(failed)?)?;
-            writer.columns(&paths::worst_error(), &times, self.dots(links)?)?;
+            writer.columns(&paths::worst_error(), &times, self.worst(links)?)?;
         }
         self.changes.clear();
         self.times.clear();
@@ -183,17 +190,21 @@ impl Disagreement {
         Ok(())
     }
 
-    fn dots(
+    fn worst(
         &self,
         links: &[String],
     ) -> Result<impl Iterator<Item = SerializedComponentColumn>, RecordingError> {
         let shown = || self.worst.iter().flatten();
-        let labels = shown().map(|worst| units::disagreement(&links[worst.link], &worst.error));
-        Points3D::update_fields()
-            .with_positions(shown().map(|worst| worst.origin_in_world))
-            .with_labels(labels)
-            .columns(self.worst.iter().map(|worst| usize::from(worst.is_some())))
-            .map_err(failed)
+        let lengths = || self.worst.iter().map(|worst| usize::from(worst.is_some()));
+        let above = |[x, y, z]: [f32; 3]| [x, y, z + LABEL_ABOVE_M];
+        let labels = Points3D::update_fields()
+            .with_positions(shown().map(|worst| above(worst.origin_in_world)))
+            .with_labels(shown().map(|worst| units::disagreement(&links[worst.link], &worst.error)));
+        let halos = Ellipsoids3D::update_fields()
+            .with_centers(shown().map(|worst| worst.origin_in_world))
+            .with_half_sizes(shown().map(|_| [HALO_M; 3]));
+        let labels = labels.columns(lengths()).map_err(failed)?;
+        Ok(labels.chain(halos.columns(lengths()).map_err(failed)?))
     }
 
     fn write_colors(
@@ -205,7 +216,7 @@ impl Disagreement {
     ) -> Result<(), RecordingError> {
         let mut times = Times::default();
         // One column for each colour component, whose pieces are the rows.
-        let mut columns: Vec<(EntityPath, Vec<Vec<rerun::SerializedComponentBatch>>)> = Vec::new();
+        let mut columns: Vec<(EntityPath, Vec<Vec<SerializedComponentBatch>>)> = Vec::new();
         for change in self.changes.iter().filter(|change| change.link == link) {
             times.push(change.instant);
             let paint = if change.is_outside { Paint::Plain(palette::OUTSIDE) } else { Paint::Own };
@@ -225,14 +236,12 @@ impl Disagreement {
 }
 
 /// Rows that all have the same components, as columns.
-fn stack(
-    rows: &[Vec<rerun::SerializedComponentBatch>],
-) -> Result<Vec<SerializedComponentColumn>, RecordingError> {
+fn stack(rows: &[Vec<SerializedComponentBatch>]) -> Result<Vec<SerializedComponentColumn>, RecordingError> {
     use rerun::external::arrow::{array::Array, compute::concat};
     let components = rows.first().map_or(0, Vec::len);
     let column = |index: usize| {
         let pieces: Vec<&dyn Array> = rows.iter().map(|row| row[index].array.as_ref()).collect();
-        let whole = rerun::SerializedComponentBatch {
+        let whole = SerializedComponentBatch {
             array: concat(&pieces).map_err(failed)?,
             descriptor: rows[0][index].descriptor.clone(),
         };

@@ -1,5 +1,5 @@
 //! Clearance over time: the smallest distance, exact at every recorded instant, and the pairs that
-//! have been the smallest.
+//! have been the smallest or came close to an obstacle.
 
 use std::collections::BTreeMap;
 
@@ -15,6 +15,9 @@ use crate::{clearance::Clearance, recorder::RecordingError};
 
 /// Pairs that get a line of their own: as many as a plot stays readable with.
 const MOST_PAIRS: usize = 8;
+
+/// From where on an obstacle is close enough to be followed.
+const NEAR_M: f64 = 0.1;
 
 /// Values of one line.
 #[derive(Debug, Default)]
@@ -69,18 +72,32 @@ pub(super) struct Distances {
 }
 
 impl Distances {
-    /// Adds a row; without pairs there is none.
-    pub(super) fn push(&mut self, instant: Instant, clearance: &mut Clearance) {
+    /// Adds a row; without pairs there is none. Subjects below `links` are links.
+    pub(super) fn push(&mut self, instant: Instant, clearance: &mut Clearance, links: usize) {
         let Some(nearest) = clearance.nearest() else { return };
         self.minimum.push(instant, nearest.distance_m);
-        let (low, high) = self.range_m.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
-        self.range_m = Some((low.min(nearest.distance_m), high.max(nearest.distance_m)));
-        let number = self.pairs.len();
-        if number < MOST_PAIRS {
-            self.pairs.entry(nearest.pair).or_insert_with(|| Line::numbered(number));
+        self.follow(nearest.pair);
+        // Two links that are always close to each other must not hide what the arm comes close to.
+        clearance.nearest_below(NEAR_M);
+        let to_obstacles = clearance.pairs().enumerate().filter(|(_, pair)| pair.b >= links);
+        let measured = to_obstacles.filter_map(|(pair, _)| Some((pair, clearance.current_m(pair)?)));
+        let closest =
+            measured.filter(|&(_, distance_m)| distance_m < NEAR_M).min_by(|(_, a), (_, b)| a.total_cmp(b));
+        if let Some((pair, _)) = closest {
+            self.follow(pair);
         }
         for (&pair, line) in &mut self.pairs {
             line.push(instant, clearance.measure(pair));
+        }
+        let (low, high) = self.range_m.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
+        self.range_m = Some((low.min(nearest.distance_m), high.max(nearest.distance_m)));
+    }
+
+    /// Gives a pair a line of its own from now on.
+    fn follow(&mut self, pair: usize) {
+        let number = self.pairs.len();
+        if number < MOST_PAIRS {
+            self.pairs.entry(pair).or_insert_with(|| Line::numbered(number));
         }
     }
 

@@ -26,7 +26,7 @@ use std::path::Path;
 
 use congruent_description::RobotDescription;
 use congruent_simulation::Obstacle;
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Isometry3, Point3};
 use rerun::{StoreId, StoreKind};
 
 pub use read::{EntitySummary, InspectError, RecordingSummary, ScalarSummary, TimelineSummary, inspect};
@@ -35,7 +35,7 @@ use self::{
     batch::Batch,
     blueprint::Layout,
     body::Body,
-    camera::{Bounds, Camera},
+    camera::{Bounds, Camera, Thinned},
     disagreement::{AgreementLimits, Disagreement},
     distances::Distances,
     times::Instant,
@@ -69,14 +69,12 @@ pub struct RerunRecorder {
     disagreement: Disagreement,
     distances: Distances,
     seen: Bounds,
-    /// Sum over all rows, for the middle of the tool's way.
-    tool_in_world: Vector3<f64>,
-    rows: u32,
+    tool_way: Thinned,
 }
 
 impl std::fmt::Debug for RerunRecorder {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("RerunRecorder").field("rows", &self.rows).finish_non_exhaustive()
+        f.debug_struct("RerunRecorder").finish_non_exhaustive()
     }
 }
 
@@ -101,9 +99,9 @@ impl RerunRecorder {
             orientation_rad: tolerance.orientation_rad,
         });
         let mut writer = RrdWriter::create(path, identity::store(scenario, StoreKind::Recording))?;
-        let bodies = scene::bodies(scenario);
+        let bodies = scene::bodies(&description.robot, 0.0);
         scene::write(&mut writer, scenario, &bodies)?;
-        scene::write_styles(&mut writer, names, sources)?;
+        scene::write_styles(&mut writer, &description.robot, names, sources)?;
         writer.flush()?;
         Ok(Self {
             writer,
@@ -119,8 +117,7 @@ impl RerunRecorder {
             disagreement: Disagreement::new(names.links.len(), limits),
             distances: Distances::default(),
             seen: Bounds::nothing(),
-            tool_in_world: Vector3::zeros(),
-            rows: 0,
+            tool_way: Thinned::default(),
         })
     }
 
@@ -141,12 +138,12 @@ impl RerunRecorder {
         self.write_batch()?;
         outcome::write(&mut self.writer, report)?;
         summary::write(&mut self.writer, report)?;
-        let middle = Point3::from(self.tool_in_world / f64::from(self.rows.max(1)));
         let layout = Layout {
             description: &self.description,
             names: &self.names,
             report,
-            camera: Camera::framing(self.seen, &self.obstacles, &middle),
+            has_obstacles: !self.obstacles.is_empty(),
+            camera: Camera::framing(self.seen, &self.obstacles, self.tool_way.points()),
             clearance_m: self.distances.range_m,
         };
         self.writer.open_store(self.layout)?;
@@ -180,11 +177,10 @@ impl Recorder for RerunRecorder {
             self.seen.include(&Point3::from(model.translation));
         }
         self.seen.include(&tool_in_world);
-        self.tool_in_world += tool_in_world.coords;
-        self.rows += 1;
+        self.tool_way.push(tool_in_world);
         self.batch.push(instant, sample, &tool_in_world);
         self.disagreement.push(instant, sample);
-        self.distances.push(instant, sample.clearance);
+        self.distances.push(instant, sample.clearance, sample.twin.len());
         Ok(())
     }
 }

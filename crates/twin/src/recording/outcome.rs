@@ -4,7 +4,7 @@ use rerun::{
     Color, EntityPath, Scalars, SeriesLines, StateChange, StateConfiguration, TextLog, TextLogLevel,
 };
 
-use super::{palette, paths, times::Instant, units, writer::RrdWriter};
+use super::{batch::exponent, palette, paths, times::Instant, units, writer::RrdWriter};
 use crate::{
     recorder::RecordingError,
     report::RunReport,
@@ -61,6 +61,11 @@ fn write_limits(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
         for measure in &check.measures {
             if let Some((path, name)) = plotted(check.check, measure.quantity) {
                 write_line(writer, report, &path, (name, measure.limit))?;
+            }
+            if check.check == "agreement" {
+                let name = format!("{} tolerance", measure.quantity);
+                let path = paths::worst_of_links(&name);
+                write_line(writer, report, &path, (&name, exponent(measure.limit)))?;
             }
         }
     }

@@ -24,6 +24,8 @@ pub(super) const LIMIT: Color = rgb([0xff, 0x5c, 0x5c]);
 pub(super) const OUTSIDE: Color = rgb([0xff, 0x2d, 0x2d]);
 /// The model's ghost: a hue that robots rarely have, see-through.
 pub(super) const GHOST: Color = rgba([0x2e, 0xe6, 0xd6], 0x48);
+/// Around the link that is off most.
+pub(super) const HALO: Color = rgba([0xff, 0x2d, 0x2d], 0x60);
 /// Where the tool has been.
 pub(super) const TRAIL: Color = rgb([0xff, 0xdc, 0x50]);
 /// The smallest of all distances.
@@ -46,7 +48,7 @@ pub(super) fn link(index: usize) -> Color {
 
 /// The colour of an obstacle.
 pub(super) fn obstacle(index: usize) -> Color {
-    rgb(OBSTACLES[index % OBSTACLES.len()])
+    rgba(OBSTACLES[index % OBSTACLES.len()], 0xd8)
 }
 
 const fn rgb([r, g, b]: [u8; 3]) -> Color {

@@ -53,6 +53,11 @@ pub(super) fn orientation_error(link: &str) -> EntityPath {
     path(&["agreement", "orientation", link])
 }
 
+/// The largest error of all links at an instant, as a power of ten.
+pub(super) fn worst_of_links(quantity: &str) -> EntityPath {
+    path(&["agreement", "worst", quantity])
+}
+
 /// Position of a joint, rad or m.
 pub(super) fn joint_position(joint: &str) -> EntityPath {
     path(&["joint", "position", joint])

@@ -1,5 +1,6 @@
 //! What a recording says once: shapes, names and colours.
 
+use congruent_description::{Link, Robot, Shape};
 use rerun::{Color, EntityPath, LineStrips3D, Radius, SeriesLines, TimePoint, ViewCoordinates};
 
 use super::{
@@ -13,14 +14,17 @@ use crate::{model::PoseSource, monitor::Names, recorder::RecordingError, scenari
 /// Thickness of the tool's trail on the screen.
 const TRAIL_UI_POINTS: f32 = 1.5;
 
+/// How far the ghost lies below the twin's surface: where they agree, only the twin is seen, and
+/// the ghost comes out where they do not.
+const GHOST_INSET_M: f64 = 5e-4;
+
 /// The robot's links with their shapes; a link without visuals shows what touches.
-pub(super) fn bodies(scenario: &Scenario) -> Vec<Body> {
-    let links = scenario.description.robot.links().iter().enumerate();
-    let body = |(index, link): (usize, &congruent_description::Link)| {
+pub(super) fn bodies(robot: &Robot, inset_m: f64) -> Vec<Body> {
+    let body = |(index, link): (usize, &Link)| {
         let shapes = if link.visuals.is_empty() { &link.collisions } else { &link.visuals };
-        Body::new(shapes, palette::link(index))
+        Body::new(shapes, palette::link(index), inset_m)
     };
-    links.map(body).collect()
+    robot.links().iter().enumerate().map(body).collect()
 }
 
 /// Writes shapes. The twin's links have no colour yet: it follows their error.
@@ -30,17 +34,18 @@ pub(super) fn write(
     bodies: &[Body],
 ) -> Result<(), RecordingError> {
     writer.log_static(&paths::world(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
-    for (link, body) in scenario.description.robot.links().iter().zip(bodies) {
-        write_body(writer, body, &paths::twin(&link.name), None)?;
-        write_body(writer, body, &paths::model(&link.name), Some(Paint::Plain(palette::GHOST)))?;
+    let robot = &scenario.description.robot;
+    for ((link, twin), ghost) in robot.links().iter().zip(bodies).zip(self::bodies(robot, GHOST_INSET_M)) {
+        write_body(writer, twin, &paths::twin(&link.name), None)?;
+        write_body(writer, &ghost, &paths::model(&link.name), Some(Paint::Plain(palette::GHOST)))?;
     }
     for (index, obstacle) in scenario.obstacles.iter().enumerate() {
-        let shape = congruent_description::Shape {
+        let shape = Shape {
             link_from_shape: obstacle.world_from_obstacle,
             geometry: obstacle.geometry.clone(),
             color_rgba: None,
         };
-        let body = Body::new(&[shape], palette::obstacle(index));
+        let body = Body::new(&[shape], palette::obstacle(index), 0.0);
         write_body(writer, &body, &paths::obstacle(&obstacle.name), Some(Paint::Own))?;
     }
     let trail = LineStrips3D::update_fields()
@@ -69,6 +74,7 @@ fn write_body(
 /// where a table places others: there, model and URDF are the same thing.
 pub(super) fn write_styles(
     writer: &mut RrdWriter,
+    robot: &Robot,
     names: &Names,
     sources: &[PoseSource],
 ) -> Result<(), RecordingError> {
@@ -79,8 +85,14 @@ pub(super) fn write_styles(
         writer.log_static(&paths::position_error(link), &style)?;
         writer.log_static(&paths::orientation_error(link), &style)?;
     }
-    for (index, joint) in names.joints.iter().enumerate() {
-        writer.log_static(&paths::joint_position(joint), &style(joint, palette::link(index)))?;
+    for (name, &joint) in names.joints.iter().zip(robot.movable_joints()) {
+        // A joint has the colour of the link that it carries.
+        let color = palette::link(robot.joint(joint).child.get());
+        writer.log_static(&paths::joint_position(name), &style(name, color))?;
+    }
+    for (quantity, index) in [("position", 0), ("orientation", 1)] {
+        let style = style(quantity, palette::link(index));
+        writer.log_static(&paths::worst_of_links(quantity), &style)?;
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ use super::{paths, units, writer::RrdWriter};
 use crate::{
     recorder::RecordingError,
     report::RunReport,
-    verdict::{CheckResult, Expectation, Verdict},
+    verdict::{CheckResult, Expectation, Moment, Status, Verdict},
 };
 
 /// Writes both.
@@ -44,12 +44,8 @@ fn properties(report: &RunReport) -> AnyValues {
 
 /// The verdict in a sentence.
 pub(super) fn verdict(report: &RunReport) -> String {
-    let failed: Vec<_> = report
-        .checks
-        .iter()
-        .filter(|check| check.status == crate::verdict::Status::Fail)
-        .map(|check| check.check)
-        .collect();
+    let failed: Vec<_> =
+        report.checks.iter().filter(|check| check.status == Status::Fail).map(|check| check.check).collect();
     let failed = failed.join(", ");
     match (report.verdict, &report.expected) {
         (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
@@ -68,49 +64,45 @@ fn command(report: &RunReport) -> String {
 }
 
 fn markdown(report: &RunReport) -> String {
-    let mut text = format!("# {}\n\n**{}**\n\n", escaped(&report.scenario), escaped(&verdict(report)));
+    let mut text = format!("### {}: {}\n\n", escaped(&report.scenario), escaped(&verdict(report)));
     if let Some(error) = &report.error {
         let _ = writeln!(text, "{}\n", escaped(error));
     }
-    text.push_str("| check | worst | limit | where | at |\n|---|---|---|---|---|\n");
     for check in &report.checks {
-        push_rows(&mut text, check);
+        push_check(&mut text, check);
     }
-    for note in report.checks.iter().flat_map(|check| &check.notes) {
-        let _ = writeln!(text, "\n{}", escaped(note));
-    }
-    let clock = report.simulation;
-    let _ = write!(
+    let (clock, versions) = (report.simulation, report.versions);
+    let _ = writeln!(
         text,
-        "\n| run | |\n|---|---|\n| robot | {} |\n| time | {} steps of {} s |\n| seed | {} |\n",
+        "\n{}, {} steps of {} s, seed {}, trajectory `{}`, by congruent {} on {}\n",
         escaped(&report.robot),
         clock.steps,
         clock.step_s,
         report.seed,
+        report.trajectory_sha256.get(..12).unwrap_or_default(),
+        escaped(versions.congruent),
+        escaped(versions.physics),
     );
-    let versions = report.versions;
-    let by = format!("congruent {}, {}", versions.congruent, versions.physics);
-    let _ = writeln!(text, "| by | {} |", escaped(&by));
-    let hash = report.trajectory_sha256.get(..12).unwrap_or(&report.trajectory_sha256);
-    let _ = write!(text, "| trajectory | `{hash}` |\n\n```\n{}\n```\n", command(report).replace("```", ""));
+    let _ = writeln!(text, "```\n{}\n```", command(report).replace("```", ""));
     text
 }
 
-/// One row for each quantity; the first carries the name of the check.
-fn push_rows(text: &mut String, check: &CheckResult) {
-    let status = check.status.word();
-    if check.measures.is_empty() {
-        let _ = writeln!(text, "| **{}** {status} | | | | |", check.check);
-    }
-    for (index, measure) in check.measures.iter().enumerate() {
-        let name = if index == 0 { format!("**{}** {status}", check.check) } else { String::new() };
-        let (worst, place, time) = measure.worst.as_ref().map_or_else(Default::default, |worst| {
-            let value = units::quantity(worst.value, measure.unit);
-            (value, escaped(&worst.subject), format!("{:.3} s", worst.time_s))
-        });
+/// A check with its worst values: prose, which wraps where a table would be cut off.
+fn push_check(text: &mut String, check: &CheckResult) {
+    let _ = writeln!(text, "- **{} {}**", check.check, check.status.word());
+    for measure in &check.measures {
+        let quantity = measure.quantity.replace('_', " ");
         let limit = units::limit(measure);
-        let quantity = measure.quantity;
-        let _ = writeln!(text, "| {name} | {quantity} {worst} | {limit} | {place} | {time} |");
+        let _ = match &measure.worst {
+            None => writeln!(text, "  - {quantity}: nothing seen, {limit}"),
+            Some(Moment { time_s, subject, value, .. }) => {
+                let value = units::quantity(*value, measure.unit);
+                writeln!(text, "  - {quantity} **{value}**, {limit}, {} at {time_s:.3} s", escaped(subject))
+            }
+        };
+    }
+    for note in &check.notes {
+        let _ = writeln!(text, "  - {}", escaped(note));
     }
 }
 

@@ -3,6 +3,8 @@
 
 mod content;
 mod frames;
+mod payload;
+mod shield;
 mod summary;
 
 use std::{
@@ -12,13 +14,13 @@ use std::{
 };
 
 use rerun::external::{
-    re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, ToApplication},
+    re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHeader, ToApplication},
     re_log_types::LogMsg,
 };
 
 pub use summary::{EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary};
 
-use self::{content::Content, frames::Extent};
+use self::{content::Content, frames::Extent, shield::shielded};
 
 /// Why a file cannot be read as a recording.
 #[derive(Debug, thiserror::Error)]
@@ -60,8 +62,6 @@ pub enum InspectError {
     },
 }
 
-/// LZ4 packs no tighter than this; a message that claims to is not unpacked.
-const TIGHTEST_PACKING: u64 = 255;
 /// Faults that are told one by one; a spoilt file may have thousands.
 const MOST_PROBLEMS: usize = 20;
 
@@ -87,7 +87,7 @@ pub fn inspect(path: &Path) -> Result<RecordingSummary, InspectError> {
         .map_err(|reason| InspectError::NotARecording { path: path.to_owned(), reason })?;
     file.seek(SeekFrom::Start(0)).map_err(refused)?;
     let mut content = Content::default();
-    read_messages(file.take(extent.readable), &extent, &mut content);
+    read_messages(file.take(extent.readable), &mut content);
     let mut summary = content.summary().ok_or_else(|| InspectError::NoRecording { path: path.to_owned() })?;
     summary.bytes = kind.len();
     summary.complete = extent.is_whole();
@@ -95,26 +95,20 @@ pub fn inspect(path: &Path) -> Result<RecordingSummary, InspectError> {
     Ok(summary)
 }
 
-fn read_messages(file: io::Take<BufReader<File>>, extent: &Extent, content: &mut Content) {
+fn read_messages(file: io::Take<BufReader<File>>, content: &mut Content) {
     let mut applications = CachingApplicationIdInjector::default();
-    let largest = extent.readable.saturating_mul(TIGHTEST_PACKING);
     let mut faults = 0_usize;
-    for message in DecoderTransport::decode_lazy(BufReader::new(file)) {
-        let read = message.map_err(|error| error.to_string()).and_then(|message| {
-            if message.byte_size_uncompressed() > largest {
-                return Err("a message claims an impossible size".to_owned());
-            }
-            message.to_application((&mut applications, None)).map_err(|error| error.to_string())
+    // Each message has a header: there cannot be more of them.
+    let most = file.limit() / MessageHeader::ENCODED_SIZE_BYTES as u64;
+    let most = usize::try_from(most).unwrap_or(usize::MAX);
+    for message in DecoderTransport::decode_lazy(file).take(most) {
+        let taken = message.map_err(|error| error.to_string()).and_then(|message| {
+            payload::check(&message)?;
+            shielded(|| {
+                let message = message.to_application((&mut applications, None));
+                add(content, message.map_err(|error| error.to_string())?)
+            })
         });
-        let taken = match read {
-            Ok(LogMsg::SetStoreInfo(info)) => {
-                content.add_store(&info.info.store_id);
-                Ok(())
-            }
-            Ok(LogMsg::ArrowMsg(store, message)) => content.add_chunk(&store, &message),
-            Ok(LogMsg::BlueprintActivationCommand(_)) => Ok(()),
-            Err(error) => Err(error),
-        };
         if let Err(error) = taken {
             faults += 1;
             if faults <= MOST_PROBLEMS {
@@ -125,4 +119,13 @@ fn read_messages(file: io::Take<BufReader<File>>, extent: &Extent, content: &mut
     if faults > MOST_PROBLEMS {
         content.add_problem(format!("{faults} messages cannot be read in all"));
     }
+}
+
+fn add(content: &mut Content, message: LogMsg) -> Result<(), String> {
+    match message {
+        LogMsg::SetStoreInfo(info) => content.add_store(&info.info.store_id),
+        LogMsg::ArrowMsg(store, message) => content.add_chunk(&store, &message)?,
+        LogMsg::BlueprintActivationCommand(_) => {}
+    }
+    Ok(())
 }
