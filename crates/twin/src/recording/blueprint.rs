@@ -1,5 +1,5 @@
 //! How a recording looks when it is opened: the robot on the left with the lanes of verdicts
-//! below, the plots in the middle, what came out on the right.
+//! below, the plots on the right, below them what came out.
 
 use congruent_description::{JointKind, RobotDescription};
 use rerun::external::re_sdk_types::{
@@ -199,8 +199,9 @@ fn events() -> Node {
     View::new("TextLog", "Events", paths::log()).with("TextLogColumns", &columns).into()
 }
 
+/// On the left, where runs begin and least happens.
 fn legend() -> PlotLegend {
-    PlotLegend::new().with_corner(Corner2D::RightTop)
+    PlotLegend::new().with_corner(Corner2D::LeftTop)
 }
 
 /// A plot that shows this range, with some air.

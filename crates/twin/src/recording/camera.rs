@@ -17,7 +17,7 @@ const AROUND_RAD: [f64; 8] = [-0.95, 0.95, -0.45, 0.45, -1.6, 1.6, -2.3, 2.3];
 /// Above the work by this angle.
 const ELEVATION_RAD: f64 = 0.42;
 /// The bounding ball need not be in the picture whole: arms are slim.
-const BALL_SHARE: f64 = 0.74;
+const BALL_SHARE: f64 = 0.7;
 /// Points that stand for the tool's way.
 const MOST_POINTS: usize = 64;
 

@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn a_hostile_name_is_one_part() {
-        for name in ["a/b", "../x", "<", "a b", "", "$origin", "+ /**"] {
+        for name in ["a/b", "../x", "<", "a b", "$origin", "+ /**"] {
             let path = twin(name);
             assert_eq!(path.len(), 3, "{path}");
             assert_eq!(path.last().unwrap().unescaped_str(), name);

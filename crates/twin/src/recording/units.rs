@@ -63,7 +63,7 @@ mod tests {
         assert_eq!(length(1.2345), "1.234 m");
         assert_eq!(length(0.005), "5.00 mm");
         assert_eq!(length(-0.000_012), "-12.00 um");
-        assert_eq!(length(3.25e-16), "3.2e-16 m");
+        assert_eq!(length(3.21e-16), "3.2e-16 m");
         assert_eq!(quantity(0.0, "m"), "0 m");
         assert_eq!(quantity(0.25, ""), "0.2500");
         let error = LinkError { position_m: 0.005, orientation_rad: 0.0 };

@@ -240,3 +240,31 @@ fn first_value(array: &dyn Array) -> Option<Value> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rerun::external::arrow::array::{FixedSizeListArray, Float32Array, ListArray};
+
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_is_found_in_nested_lists() {
+        let points = [Some([1.0, f32::NAN, 3.0]), Some([f32::NAN, f32::INFINITY, 0.0]), None];
+        let points = points.map(|point| point.map(|point| point.map(Some)));
+        let list = FixedSizeListArray::from_iter_primitive::<Float32Type, _, _>(points, 3);
+        assert_eq!(count_nan(&list, 0), 2);
+        let rows = [Some(vec![Some(f64::NAN), None]), None];
+        assert_eq!(count_nan(&ListArray::from_iter_primitive::<Float64Type, _, _>(rows), 0), 1);
+        assert_eq!(count_nan(&Float32Array::from(vec![f32::NAN]), DEEPEST + 1), 0, "not deeper than that");
+    }
+
+    #[test]
+    fn statistics_leave_out_what_is_no_number() {
+        let mut scalar = Scalar::default();
+        for (time, value) in [(0, 2.0), (2, -1.0), (1, f64::NAN)] {
+            scalar.add(time, value);
+        }
+        assert_eq!((scalar.count, scalar.nan), (3, 1));
+        assert_eq!((scalar.min, scalar.max, scalar.last), (Some(-1.0), Some(2.0), Some((2, -1.0))));
+    }
+}

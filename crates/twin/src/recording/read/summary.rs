@@ -85,6 +85,14 @@ impl TimelineSummary {
     }
 }
 
+/// What the components belong to, each once; they are ordered by it.
+fn archetypes(components: &[String]) -> Vec<&str> {
+    let mut archetypes: Vec<_> =
+        components.iter().map(|name| name.split(':').next().unwrap_or(name)).collect();
+    archetypes.dedup();
+    archetypes
+}
+
 impl fmt::Display for RecordingSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "application {}, recording {}", self.application_id, self.recording_id)?;
@@ -97,6 +105,9 @@ impl fmt::Display for RecordingSummary {
         for problem in &self.problems {
             writeln!(f, "problem: {problem}")?;
         }
+        for (name, value) in &self.properties {
+            writeln!(f, "property {name}: {value}")?;
+        }
         for timeline in &self.timelines {
             if timeline.kind == "duration" {
                 let (first, last) = timeline.seconds();
@@ -107,9 +118,9 @@ impl fmt::Display for RecordingSummary {
         }
         let longest = |paths: &mut dyn Iterator<Item = &String>| paths.map(|path| path.chars().count()).max();
         let width = longest(&mut self.entities.iter().map(|entity| &entity.path)).unwrap_or(0).min(60);
-        writeln!(f, "\n{:<width$}  {:>7}  components", "entity", "rows")?;
+        writeln!(f, "\n{:<width$}  {:>7}  kinds", "entity", "rows")?;
         for EntitySummary { path, components, rows, .. } in &self.entities {
-            writeln!(f, "{path:<width$}  {rows:>7}  {}", components.join(", "))?;
+            writeln!(f, "{path:<width$}  {rows:>7}  {}", archetypes(components).join(", "))?;
         }
         let width = longest(&mut self.scalars.iter().map(|scalar| &scalar.path)).unwrap_or(0).min(60);
         let number =
