@@ -1,7 +1,7 @@
 //! What a caller of the kinematics can get wrong. Wrong robots are refused where they are read.
 
 /// Why figures were refused.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KinematicsError {
     /// The configuration vector has another length than the robot has moving joints.
@@ -27,6 +27,16 @@ pub enum KinematicsError {
         index: usize,
         /// The table's last frame.
         last: usize,
+    },
+    /// A joint's range is no closed interval of finite positions.
+    #[error("joint {joint} has the range {lower} to {upper}")]
+    JointRange {
+        /// The joint, from 0.
+        joint: usize,
+        /// Where the range begins.
+        lower: f64,
+        /// Where it ends.
+        upper: f64,
     },
 }
 

@@ -7,6 +7,7 @@
 //!
 //! Units are metres and radians; `a_from_b` is the pose of frame b in frame a.
 
+mod agreement;
 mod dh;
 mod error;
 mod pose;
@@ -21,6 +22,7 @@ mod urdf_tree;
 #[path = "../tests/support/mod.rs"]
 mod support;
 
+pub use agreement::{Bracket, Budget, Certificate, certify};
 pub use dh::{DhChain, DhFrames, ModifiedDh, StandardDh};
 pub use error::KinematicsError;
 pub use pose::Pose;

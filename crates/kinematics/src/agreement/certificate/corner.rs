@@ -1,0 +1,56 @@
+//! Corners of a polygon around what a joint's features run through: an arc of the unit circle for
+//! a turn, a segment for a shift.
+
+use std::f64::consts::{FRAC_PI_3, TAU};
+
+/// One corner: where a joint's pair of features is taken, on the curve or outside of it.
+///
+/// | field | unit | meaning |
+/// |---|---|---|
+/// | `features` | 1, or m | `(cos, sin)` of the turn, or `(q, 0)` of the shift, on or off the curve |
+/// | `position` | rad or m | joint position whose true features are near |
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Corner {
+    pub(super) features: [f64; 2],
+    pub(super) position: f64,
+}
+
+/// A closed interval of joint positions, rad or m.
+pub(super) type Interval = (f64, f64);
+
+/// Features of the turn by `rate * position`, stretched by `radius`.
+pub(super) fn on_circle(rate: f64, position: f64, radius: f64) -> Corner {
+    let (sin, cos) = (rate * position).sin_cos();
+    Corner { features: [radius * cos, radius * sin], position }
+}
+
+/// Features of a shift: a segment is its own hull.
+pub(super) fn on_line(position: f64) -> Corner {
+    Corner { features: [position, 0.0], position }
+}
+
+/// How far out the corners of [`around_arc`] lie: 1 for an arc of no length, at most 2.
+pub(super) fn outermost_radius(rate: f64, (lower, upper): Interval) -> f64 {
+    let half_angle = rate * (upper - lower) / 2.0;
+    if half_angle < FRAC_PI_3 { half_angle.cos().recip() } else { 2.0 }
+}
+
+/// A triangle that contains the arc: its ends and the point where the tangents at the ends meet;
+/// beyond a third of a turn the triangle around the whole circle, which starts as large.
+pub(super) fn around_arc(rate: f64, interval: Interval) -> [Corner; 3] {
+    let (lower, upper) = interval;
+    let middle = f64::midpoint(lower, upper);
+    let radius = outermost_radius(rate, interval);
+    if rate * (upper - lower) / 2.0 < FRAC_PI_3 {
+        return [on_circle(rate, lower, 1.0), on_circle(rate, middle, radius), on_circle(rate, upper, 1.0)];
+    }
+    [-1.0, 0.0, 1.0].map(|thirds| {
+        let corner = on_circle(rate, middle + thirds * TAU / (3.0 * rate), radius);
+        Corner { position: corner.position.clamp(lower, upper), ..corner }
+    })
+}
+
+/// Both ends of a shift.
+pub(super) fn around_segment((lower, upper): Interval) -> [Corner; 2] {
+    [on_line(lower), on_line(upper)]
+}

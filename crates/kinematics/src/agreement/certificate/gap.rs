@@ -1,0 +1,214 @@
+//! The difference of two chains as a function that is affine in each joint's features, and its
+//! largest norm over a box of joint positions.
+//!
+//! A joint's motion is `constant + x first + y second` with `(x, y) = (cos, sin)` of its turn or
+//! `(q, 0)` of its shift. So the difference of two products of motions is affine in the features of
+//! each joint when those of the others are held, its norm is convex in them, and over a product of
+//! polygons it is largest at corners. Polygons around short arcs exceed them by the square of
+//! their length, times the part of the *difference* that depends on this joint: small faults are
+//! bounded as tightly as large ones.
+
+use nalgebra::{Matrix4, Vector4};
+
+use super::corner::{Corner, Interval, around_arc, around_segment, on_circle, on_line, outermost_radius};
+
+/// Rounding of one motion and its product with a vector, in units of the largest vector: entries of
+/// the motion are a dozen roundings of numbers up to its size (their norm at most three times that
+/// of an entry), the product has four. Kind: rounding; the bound is 56 / 2 for the unit roundoff.
+const ROUNDING_PER_MOTION: f64 = 32.0 * f64::EPSILON;
+/// The same for each radian of the largest turn, whose angle is a product of three roundings.
+const ROUNDING_PER_RADIAN: f64 = 6.0 * f64::EPSILON;
+
+/// One joint's motion in one chain.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Motion {
+    pub(super) constant: Matrix4<f64>,
+    pub(super) first: Matrix4<f64>,
+    pub(super) second: Matrix4<f64>,
+    /// How far the origin is carried for each unit of the features' distance from `(1, 0)` for a
+    /// turn, from `(0, 0)` for a shift; in metres, or 1.
+    pub(super) carries: f64,
+}
+
+impl Motion {
+    /// The motion of a joint that does not move here.
+    pub(super) fn none() -> Self {
+        let (identity, zeros) = (Matrix4::identity(), Matrix4::zeros());
+        Self { constant: identity, first: zeros, second: zeros, carries: 0.0 }
+    }
+
+    fn at(&self, [x, y]: [f64; 2]) -> Matrix4<f64> {
+        self.constant + self.first * x + self.second * y
+    }
+}
+
+/// Features that both chains share, and what they do in each.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Slot {
+    /// Which joint position drives it.
+    pub(super) joint: usize,
+    /// Turn per unit of the position; a shift has none.
+    pub(super) rate: Option<f64>,
+    /// Of the first chain and of the second.
+    pub(super) motions: [Motion; 2],
+}
+
+impl Slot {
+    fn corner(&self, position: f64) -> Corner {
+        self.rate.map_or_else(|| on_line(position), |rate| on_circle(rate, position, 1.0))
+    }
+
+    /// Largest stretch of a vector, largest shift of the origin for each metre that the motion
+    /// carries, and rounding of one product.
+    fn growth(&self, interval: Interval) -> (f64, f64, f64) {
+        let furthest = interval.0.abs().max(interval.1.abs());
+        match self.rate {
+            Some(rate) => {
+                let radius = outermost_radius(rate, interval);
+                (radius, 1.0 + radius, ROUNDING_PER_MOTION + ROUNDING_PER_RADIAN * rate * furthest)
+            }
+            None => (1.0, furthest, ROUNDING_PER_MOTION),
+        }
+    }
+}
+
+/// `|A_1(q) ... A_n(q) a - B_1(q) ... B_n(q) b|`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Gap {
+    /// Base to tip.
+    pub(super) slots: Vec<Slot>,
+    /// The vectors at the end of the two chains.
+    pub(super) tips: [Vector4<f64>; 2],
+}
+
+/// A bound over a box, and what it says about where to look.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Enclosure {
+    /// No configuration of the box has a larger gap.
+    pub(super) bound: f64,
+    /// The joint whose division promises most.
+    pub(super) divide: usize,
+}
+
+/// Room that [`Gap::enclose`] uses again and again.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Room {
+    corners: Vec<Vec<Corner>>,
+    pairs: Vec<[Vector4<f64>; 2]>,
+    next_pairs: Vec<[Vector4<f64>; 2]>,
+    best: Vec<Corner>,
+}
+
+impl Gap {
+    /// The gap at joint positions `q`.
+    pub(super) fn at(&self, q: &[f64]) -> f64 {
+        self.at_corners(self.slots.iter().map(|slot| slot.corner(q[slot.joint])))
+    }
+
+    /// Number of corners of a box.
+    pub(super) fn corner_count(&self) -> u64 {
+        self.slots.iter().fold(1, |count: u64, slot| {
+            count.saturating_mul(if slot.rate.is_some() { 3 } else { 2 })
+        })
+    }
+
+    /// Bounds the gap over a box; `nearest` receives the configuration of the box that is next to
+    /// the worst corner, where a large gap is likely.
+    pub(super) fn enclose(&self, cell: &[Interval], room: &mut Room, nearest: &mut [f64]) -> Enclosure {
+        self.spread_corners(cell, room);
+        self.multiply_out(room);
+        let squared = |[a, b]: &[Vector4<f64>; 2]| (a - b).norm_squared();
+        let (mut worst, mut largest) = (0, -1.0);
+        for (index, pair) in room.pairs.iter().enumerate() {
+            let gap = squared(pair);
+            if gap > largest {
+                (worst, largest) = (index, gap);
+            }
+        }
+        room.best.clear();
+        for corners in &room.corners[..self.slots.len()] {
+            room.best.push(corners[worst % corners.len()]);
+            worst /= corners.len();
+        }
+        for (slot, corner) in self.slots.iter().zip(&room.best) {
+            nearest[slot.joint] = corner.position;
+        }
+        let bound = largest.sqrt() + self.rounding(cell);
+        Enclosure { bound, divide: self.most_promising(cell, &room.best) }
+    }
+
+    fn at_corners(&self, corners: impl DoubleEndedIterator<Item = Corner> + ExactSizeIterator) -> f64 {
+        let [mut a, mut b] = self.tips;
+        for (slot, corner) in self.slots.iter().zip(corners).rev() {
+            a = slot.motions[0].at(corner.features) * a;
+            b = slot.motions[1].at(corner.features) * b;
+        }
+        (a - b).norm()
+    }
+
+    fn spread_corners(&self, cell: &[Interval], room: &mut Room) {
+        room.corners.resize_with(self.slots.len(), Vec::new);
+        for (slot, corners) in self.slots.iter().zip(&mut room.corners) {
+            corners.clear();
+            match slot.rate {
+                Some(rate) => corners.extend(around_arc(rate, cell[slot.joint])),
+                None => corners.extend(around_segment(cell[slot.joint])),
+            }
+        }
+    }
+
+    /// Carries the tips through every choice of corners, from the tip to the base: the last digit
+    /// of an index is the corner of the first slot.
+    fn multiply_out(&self, room: &mut Room) {
+        room.pairs.clear();
+        room.pairs.push(self.tips);
+        for (slot, corners) in self.slots.iter().zip(&room.corners).rev() {
+            let at = |corner: &Corner| [0, 1].map(|chain| slot.motions[chain].at(corner.features));
+            let mut motions = [[Matrix4::zeros(); 2]; 3];
+            for (motion, corner) in motions.iter_mut().zip(corners) {
+                *motion = at(corner);
+            }
+            room.next_pairs.clear();
+            for [a, b] in &room.pairs {
+                room.next_pairs.extend(motions[..corners.len()].iter().map(|[by_a, by_b]| [by_a * a, by_b * b]));
+            }
+            std::mem::swap(&mut room.pairs, &mut room.next_pairs);
+        }
+    }
+
+    /// The joint whose corner lies outside of its arc by most, measured in the gap; where no corner
+    /// does, the joint that can turn or shift furthest.
+    fn most_promising(&self, cell: &[Interval], worst: &[Corner]) -> usize {
+        let here = self.at_corners(worst.iter().copied());
+        let (mut divide, mut most) = (None, 0.0);
+        for (index, slot) in self.slots.iter().enumerate() {
+            let pulled_in = worst.iter().enumerate().map(|(at, &corner)| {
+                if at == index { slot.corner(corner.position) } else { corner }
+            });
+            let drop = here - self.at_corners(pulled_in);
+            if drop > most {
+                (divide, most) = (Some(slot.joint), drop);
+            }
+        }
+        let width = |slot: &&Slot| slot.rate.unwrap_or(1.0) * (cell[slot.joint].1 - cell[slot.joint].0);
+        let widest = || self.slots.iter().max_by(|a, b| width(a).total_cmp(&width(b)));
+        divide.or_else(|| widest().map(|slot| slot.joint)).unwrap_or(0)
+    }
+
+    /// What rounding can take from the largest gap that [`Gap::enclose`] finds.
+    ///
+    /// A step's own rounding is its share of the vector that it gives, and all later steps stretch
+    /// both alike: so the sum of the shares times the largest vector at the base covers them all.
+    pub(super) fn rounding(&self, cell: &[Interval]) -> f64 {
+        let mut sizes = self.tips.map(|tip| tip.norm());
+        let mut shares = ROUNDING_PER_MOTION;
+        for slot in self.slots.iter().rev() {
+            let (stretch, shift, share) = slot.growth(cell[slot.joint]);
+            for (size, motion) in sizes.iter_mut().zip(&slot.motions) {
+                *size = stretch * *size + shift * motion.carries;
+            }
+            shares += share;
+        }
+        shares * (sizes[0] + sizes[1])
+    }
+}

@@ -1,0 +1,116 @@
+//! From below: configurations with a large gap, by climbing from many starts. No randomness: the
+//! starts are a lattice, so the same chains give the same configuration.
+
+use super::{corner::Interval, gap::Gap};
+
+/// Number of starts besides the middle of the ranges.
+const STARTS: u32 = 16;
+/// A climb starts with steps of this part of a range and ends below [`LAST_STEP`].
+const FIRST_STEP: f64 = 0.25;
+/// Where a climb ends: near a maximum the gap is flat, so its error is the square of this.
+const LAST_STEP: f64 = 1e-8;
+/// Most rounds over all joints in one climb.
+const MOST_ROUNDS: u32 = 200;
+
+/// A move must widen the gap by this part of it: what is less is no news, or rounding.
+const LEAST_GAIN: f64 = 1e-9;
+
+/// A configuration and its gap.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Attained {
+    pub(super) gap: f64,
+    pub(super) at: Vec<f64>,
+}
+
+impl Attained {
+    /// The gap at `at`.
+    pub(super) fn new(gap: &Gap, at: Vec<f64>) -> Self {
+        Self { gap: gap.at(&at), at }
+    }
+
+    /// The best of climbs from all starts.
+    pub(super) fn search(gap: &Gap, ranges: &[Interval]) -> Self {
+        let mut best = Self::new(gap, ranges.iter().map(|range| f64::midpoint(range.0, range.1)).collect());
+        best.climb(gap, ranges);
+        for start in starts(ranges) {
+            let mut found = Self::new(gap, start);
+            found.climb(gap, ranges);
+            if found.gap > best.gap {
+                best = found;
+            }
+        }
+        best
+    }
+
+    /// Moves one joint at a time, as long as that widens the gap, in ever smaller steps.
+    pub(super) fn climb(&mut self, gap: &Gap, ranges: &[Interval]) {
+        let mut step = FIRST_STEP;
+        let noise = gap.rounding(&self.at.iter().map(|&q| (q, q)).collect::<Vec<_>>());
+        for _ in 0..MOST_ROUNDS {
+            if step < LAST_STEP {
+                return;
+            }
+            let mut improved = false;
+            for (joint, &(lower, upper)) in ranges.iter().enumerate() {
+                let reach = step * (upper - lower);
+                let before = self.at[joint];
+                improved |= [reach, -reach].iter().any(|by| {
+                    self.moves(gap, (joint, (before + by).clamp(lower, upper)), noise)
+                });
+            }
+            if !improved {
+                step /= 2.0;
+            }
+        }
+    }
+
+    /// Moves one joint there if that widens the gap by more than noise.
+    fn moves(&mut self, gap: &Gap, (joint, position): (usize, f64), noise: f64) -> bool {
+        let before = std::mem::replace(&mut self.at[joint], position);
+        let wider = gap.at(&self.at);
+        let improves = wider > self.gap * (1.0 + LEAST_GAIN) + noise;
+        if improves {
+            self.gap = wider;
+        } else {
+            self.at[joint] = before;
+        }
+        improves
+    }
+
+    /// Comes back towards the middle of the ranges until the gap is `ceiling`: it is continuous, so
+    /// where it is beyond here and below there, it is met between.
+    pub(super) fn descend_to(&mut self, ceiling: f64, gap: &Gap, ranges: &[Interval]) {
+        const HALVINGS: u32 = 60;
+        let far = self.at.clone();
+        let middle: Vec<f64> = ranges.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
+        let between = |part: f64| far.iter().zip(&middle).map(move |(far, middle)| middle + part * (far - middle));
+        let (mut inside, mut outside) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let part = f64::midpoint(inside, outside);
+            *self = Self::new(gap, between(part).collect());
+            if self.gap > ceiling {
+                outside = part;
+            } else {
+                inside = part;
+            }
+        }
+    }
+}
+
+/// A lattice that fills the ranges evenly for any number of joints.
+///
+/// Source: Roberts, *The unreasonable effectiveness of quasirandom sequences* (2018): steps are
+/// powers of the root of `x^(n + 1) = x + 1`.
+fn starts(ranges: &[Interval]) -> impl Iterator<Item = Vec<f64>> {
+    const ITERATIONS: u32 = 60;
+    let root_power = 1.0 / f64::from(u32::try_from(ranges.len()).unwrap_or(u32::MAX).saturating_add(1));
+    let root = (0..ITERATIONS).fold(2.0_f64, |x, _| (1.0 + x).powf(root_power));
+    (1..=STARTS).map(move |start| {
+        let mut step = 1.0;
+        let place = |&(lower, upper): &Interval| {
+            step /= root;
+            lower + (upper - lower) * (0.5 + f64::from(start) * step).fract()
+        };
+        ranges.iter().map(place).collect()
+    })
+}

@@ -1,0 +1,296 @@
+//! The certificate: closed forms, and laws on random chains.
+
+mod support;
+
+use std::f64::consts::PI;
+
+use congruent_description::DhConvention;
+use congruent_kinematics::{
+    Bracket, Budget, Certificate, DhChain, KinematicsError, Pose, ScrewChain, Twist, certify,
+};
+use nalgebra::{Isometry3, Vector3};
+use proptest::prelude::*;
+use support::{RowFigures, TableFigures};
+
+/// Bounds against closed forms where nothing is left to divide. Unit: m or rad; kind: rounding, which
+/// the certificate adds from the sizes of the chain, doubled for each joint of a box of full turns;
+/// worst seen 1.4e-11.
+const ROUNDING: f64 = 4e-11;
+/// Rounding of the forward kinematics that samples are compared with; worst seen: none beyond.
+const SAMPLE_ROUNDING: f64 = 1e-13;
+const TURN: (f64, f64) = (-PI, PI);
+
+/// An arm with the lengths of a `UR5e`.
+fn arm() -> TableFigures {
+    TableFigures::new(
+        DhConvention::Standard,
+        &[
+            RowFigures::revolute(0.0, 90.0, 0.1625),
+            RowFigures::revolute(-0.425, 0.0, 0.0),
+            RowFigures::revolute(-0.3922, 0.0, 0.0),
+            RowFigures::revolute(0.0, 90.0, 0.1333),
+            RowFigures::revolute(0.0, -90.0, 0.0997),
+            RowFigures::revolute(0.0, 0.0, 0.0996),
+        ],
+    )
+}
+
+fn planar(second_m: f64) -> TableFigures {
+    TableFigures::new(
+        DhConvention::Standard,
+        &[RowFigures::revolute(0.6, 0.0, 0.0), RowFigures::revolute(second_m, 0.0, 0.0)],
+    )
+}
+
+fn chain(figures: &TableFigures) -> ScrewChain {
+    let robot = figures.robot();
+    ScrewChain::from_dh(&DhChain::new(&figures.table(&robot), &robot), robot.dof()).unwrap()
+}
+
+fn changed(figures: &TableFigures, change: impl FnOnce(&mut TableFigures)) -> TableFigures {
+    let mut figures = figures.clone();
+    change(&mut figures);
+    figures
+}
+
+fn certificate(a: &TableFigures, b: &TableFigures) -> Certificate {
+    let ranges = vec![TURN; a.rows.len()];
+    certify(&chain(a), &chain(b), &ranges, Budget::default()).unwrap()
+}
+
+#[track_caller]
+fn assert_exact(bracket: &Bracket, expected: f64) {
+    assert!(support::within((bracket.attained - expected).abs(), ROUNDING), "{bracket:?}, not {expected}");
+    assert!(support::within((bracket.certified - expected).abs(), ROUNDING), "{bracket:?}, not {expected}");
+}
+
+/// Attained is right, and certified is not far above it.
+#[track_caller]
+fn assert_close(bracket: &Bracket, expected: f64) {
+    /// Climbing ends where steps of 1e-8 of a turn change nothing; relative, worst seen 3e-9.
+    const CLIMB: f64 = 1e-6;
+    assert!((bracket.attained - expected).abs() <= CLIMB * expected, "{bracket:?}, not {expected}");
+    assert!(bracket.attained <= bracket.certified);
+    assert!(bracket.is_within(Budget::default().relative_gap), "{bracket:?}");
+}
+
+#[test]
+fn equal_chains_are_zero_apart() {
+    let certificate = certificate(&arm(), &arm());
+    assert_eq!(certificate.position_m.certified, 0.0);
+    assert_eq!(certificate.orientation_rad.certified, 0.0);
+}
+
+#[test]
+fn one_robot_written_twice_is_certified_at_rounding_level() {
+    let robot = arm().robot();
+    let (base, tip) = (robot.root(), robot.find_link("tip").unwrap());
+    let urdf = ScrewChain::from_urdf(&robot, (base, tip), &[0, 1, 2, 3, 4, 5]).unwrap();
+    let certificate = certify(&chain(&arm()), &urdf, &[TURN; 6], Budget::default()).unwrap();
+    /// Sum of six screws' rounding times the reach and half a turn; worst seen 4.0e-14.
+    const PROBED: f64 = 1e-12;
+    assert!(support::within(certificate.position_m.certified, PROBED));
+    assert!(support::within(certificate.orientation_rad.certified, PROBED));
+    assert_eq!((certificate.position_m.cells, certificate.orientation_rad.cells), (0, 0));
+}
+
+#[test]
+fn a_tool_offset_is_its_length_everywhere() {
+    let off = changed(&arm(), |arm| arm.dhn_from_tip = Isometry3::translation(0.003, 0.0, 0.004));
+    let certificate = certificate(&off, &arm());
+    assert_exact(&certificate.position_m, 0.005);
+    assert!(certificate.orientation_rad.certified <= ROUNDING);
+}
+
+#[test]
+fn a_shifted_base_is_its_shift_everywhere() {
+    let off = changed(&arm(), |arm| arm.base_from_dh0 = Isometry3::translation(0.0, 0.002, 0.0));
+    assert_exact(&certificate(&off, &arm()).position_m, 0.002);
+}
+
+#[test]
+fn a_link_length_is_the_same_everywhere() {
+    let off = changed(&arm(), |arm| arm.rows[2].a_m += 0.001);
+    assert_exact(&certificate(&off, &arm()).position_m, 0.001);
+}
+
+#[test]
+fn a_zero_offset_of_a_planar_arm_is_worst_at_full_reach() {
+    let offset_rad = 1_f64.to_radians();
+    let off = changed(&planar(0.4), |arm| arm.rows[0].theta_rad += offset_rad);
+    let certificate = certificate(&off, &planar(0.4));
+    assert_close(&certificate.position_m, 2.0 * (offset_rad / 2.0).sin());
+    assert_exact(&certificate.orientation_rad, offset_rad);
+}
+
+#[test]
+fn limits_count() {
+    // The elbow never comes straighter than a right angle: the reach is the diagonal.
+    let off = changed(&planar(0.4), |arm| arm.rows[0].theta_rad += 0.01);
+    let ranges = [TURN, (PI / 2.0, PI)];
+    let certificate = certify(&chain(&off), &chain(&planar(0.4)), &ranges, Budget::default()).unwrap();
+    assert_close(&certificate.position_m, 2.0 * (0.01_f64 / 2.0).sin() * 0.52_f64.sqrt());
+    assert!(certificate.position_m.at[1] >= PI / 2.0);
+}
+
+#[test]
+fn a_turned_base_is_worst_at_full_reach() {
+    // The arm stretched across the tilt's axis.
+    let tilt = Isometry3::rotation(Vector3::new(0.01, 0.0, 0.0));
+    let off = changed(&planar(0.4), |arm| arm.base_from_dh0 = tilt);
+    let certificate = certificate(&off, &planar(0.4));
+    assert_close(&certificate.position_m, 2.0 * (0.01_f64 / 2.0).sin());
+    assert_exact(&certificate.orientation_rad, 0.01);
+}
+
+#[test]
+fn a_flipped_joint_is_half_a_turn_off_and_no_more() {
+    let off = changed(&planar(0.4), |arm| arm.rows[1].sign = -1.0);
+    let certificate = certificate(&off, &planar(0.4));
+    assert_close(&certificate.position_m, 0.8);
+    assert_exact(&certificate.orientation_rad, PI);
+}
+
+#[test]
+fn a_joint_that_moves_twice_as_far() {
+    // One joint at distance 1: the gap is the chord of q, which is 2 at half a turn.
+    let turn = |rate: f64| ScrewChain {
+        twists_in_base: vec![Twist { angular: Vector3::z() * rate, linear: Vector3::zeros() }],
+        base_from_tip_at_zero: Pose { translation: Vector3::x(), ..Pose::identity() },
+    };
+    let certificate = certify(&turn(1.0), &turn(2.0), &[TURN], Budget::default()).unwrap();
+    assert_close(&certificate.position_m, 2.0);
+    assert_exact(&certificate.orientation_rad, PI);
+    let small = certify(&turn(1.0), &turn(1.0 + 1e-6), &[TURN], Budget::default()).unwrap();
+    assert_close(&small.position_m, 1e-6 * PI);
+}
+
+#[test]
+fn a_sliding_joint_is_exact() {
+    let slide = |x: f64| ScrewChain {
+        twists_in_base: vec![Twist { angular: Vector3::zeros(), linear: Vector3::new(x, 0.0, 1.0) }],
+        base_from_tip_at_zero: Pose::identity(),
+    };
+    let certificate = certify(&slide(0.0), &slide(0.01), &[(-0.1, 0.5)], Budget::default()).unwrap();
+    assert_exact(&certificate.position_m, 0.005);
+    assert_eq!(certificate.position_m.at, [0.5]);
+}
+
+#[test]
+fn more_than_one_turn_repeats_itself() {
+    let off = changed(&planar(0.4), |arm| arm.rows[1].theta_rad += 0.01);
+    let ranges = [(-2.0 * PI, 2.0 * PI), (-9.0, 12.0)];
+    let certificate = certify(&chain(&off), &chain(&planar(0.4)), &ranges, Budget::default()).unwrap();
+    assert_close(&certificate.position_m, 2.0 * (0.01_f64 / 2.0).sin() * 0.4);
+}
+
+#[test]
+fn a_small_budget_leaves_a_wide_bound_that_holds() {
+    let off = changed(&arm(), |arm| arm.base_from_dh0 = Isometry3::rotation(Vector3::new(0.01, 0.02, 0.0)));
+    let (a, b) = (chain(&off), chain(&arm()));
+    let budget = Budget { corners: 10, ..Budget::default() };
+    let position_m = certify(&a, &b, &[TURN; 6], budget).unwrap().position_m;
+    assert!(position_m.certified.is_finite() && !position_m.is_within(budget.relative_gap));
+    let enough = certify(&a, &b, &[TURN; 6], Budget::default()).unwrap().position_m;
+    assert!(enough.attained <= position_m.certified);
+}
+
+#[test]
+fn wrong_figures_are_refused() {
+    let (two, six) = (chain(&planar(0.4)), chain(&arm()));
+    let refused = |ranges: &[(f64, f64)]| certify(&two, &two, ranges, Budget::default()).unwrap_err();
+    assert_eq!(refused(&[TURN]), KinematicsError::JointCount { expected: 2, found: 1 });
+    let unlimited = refused(&[TURN, (f64::NEG_INFINITY, 0.0)]);
+    assert!(matches!(unlimited, KinematicsError::JointRange { joint: 1, .. }), "{unlimited}");
+    assert!(matches!(refused(&[(0.0, f64::NAN), TURN]), KinematicsError::JointRange { joint: 0, .. }));
+    assert!(matches!(refused(&[(1.0, -1.0), TURN]), KinematicsError::JointRange { joint: 0, .. }));
+    let unequal = certify(&two, &six, &[TURN; 2], Budget::default()).unwrap_err();
+    assert_eq!(unequal, KinematicsError::JointCount { expected: 2, found: 6 });
+}
+
+/// Many configurations, none further apart than certified.
+fn assert_holds(a: &ScrewChain, b: &ScrewChain, ranges: &[(f64, f64)]) -> Result<(), TestCaseError> {
+    const SAMPLES: u32 = 1000;
+    const SQUARE_ROOTS: [f64; 7] = [1.4142, 1.7321, 2.2361, 2.6458, 3.3166, 3.6056, 4.1231];
+    let budget = Budget { relative_gap: 0.05, corners: 100_000 };
+    let Certificate { position_m, orientation_rad } = certify(a, b, ranges, budget).unwrap();
+    prop_assert!(position_m.attained <= position_m.certified);
+    prop_assert!(orientation_rad.attained <= orientation_rad.certified);
+    for (bracket, at_m) in [(&position_m, true), (&orientation_rad, false)] {
+        let q = &bracket.at;
+        prop_assert!(q.iter().zip(ranges).all(|(q, range)| (range.0..=range.1).contains(q)));
+        let (a, b) = (a.base_from_tip(q).unwrap(), b.base_from_tip(q).unwrap());
+        let there = if at_m { a.distance_m(&b) } else { a.angle_rad(&b) };
+        prop_assert!((there.min(bracket.certified) - bracket.attained).abs() <= SAMPLE_ROUNDING);
+    }
+    for sample in 0..SAMPLES {
+        let place = |(range, root): (&(f64, f64), f64)| {
+            range.0 + (range.1 - range.0) * (f64::from(sample) * root).fract()
+        };
+        let q: Vec<f64> = ranges.iter().zip(SQUARE_ROOTS).map(place).collect();
+        let (a, b) = (a.base_from_tip(&q).unwrap(), b.base_from_tip(&q).unwrap());
+        prop_assert!(a.distance_m(&b) <= position_m.certified + SAMPLE_ROUNDING);
+        prop_assert!(a.angle_rad(&b) <= orientation_rad.certified + SAMPLE_ROUNDING);
+    }
+    Ok(())
+}
+
+fn ranges() -> impl Strategy<Value = Vec<(f64, f64)>> {
+    let range = (-PI..PI, 0.0..2.0 * PI).prop_map(|(lower, width)| (lower, lower + width));
+    proptest::collection::vec(range, 7)
+}
+
+fn any_chain() -> impl Strategy<Value = ScrewChain> {
+    let twist = (support::vector(), support::vector(), 0..3).prop_map(|(angular, linear, kind)| match kind {
+        0 => Twist { angular: Vector3::zeros(), linear },
+        1 => Twist { angular, linear: angular.cross(&linear) },
+        _ => Twist { angular, linear },
+    });
+    (proptest::collection::vec(twist, 3), support::isometry()).prop_map(|(twists_in_base, home)| ScrewChain {
+        twists_in_base,
+        base_from_tip_at_zero: Pose::from(home),
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..support::cases() })]
+
+    #[test]
+    fn no_configuration_of_a_changed_table_exceeds_the_certificate(
+        figures in support::table_figures(),
+        changes in proptest::collection::vec(support::dh_figures(), 7),
+        exponent in -12.0..0.0,
+        ranges in ranges(),
+    ) {
+        let scale = 10_f64.powf(exponent);
+        let other = changed(&figures, |other| {
+            for (row, [a, alpha, d, theta]) in other.rows.iter_mut().zip(changes) {
+                row.a_m += scale * a;
+                row.alpha_rad += scale * alpha;
+                row.d_m += scale * d;
+                row.theta_rad += scale * theta;
+            }
+        });
+        assert_holds(&chain(&figures), &chain(&other), &ranges[..figures.rows.len()])?;
+    }
+
+    #[test]
+    fn no_configuration_of_unlike_chains_exceeds_the_certificate(
+        a in any_chain(), b in any_chain(), ranges in ranges(),
+    ) {
+        assert_holds(&a, &b, &ranges[..3])?;
+    }
+
+    #[test]
+    fn moving_both_bases_moves_nothing(figures in support::table_figures(), base in support::isometry()) {
+        let other = changed(&figures, |other| other.rows[0].alpha_rad += 0.01);
+        let moved = |figures: &TableFigures| changed(figures, |it| it.base_from_dh0 = base * it.base_from_dh0);
+        let ranges = vec![(-1.0, 1.0); figures.rows.len()];
+        let certified = |a: &TableFigures, b: &TableFigures| {
+            certify(&chain(a), &chain(b), &ranges, Budget { relative_gap: 0.05, corners: 100_000 }).unwrap()
+        };
+        let (here, there) = (certified(&figures, &other), certified(&moved(&figures), &moved(&other)));
+        prop_assert!(here.position_m.attained <= there.position_m.certified + SAMPLE_ROUNDING);
+        prop_assert!(there.position_m.attained <= here.position_m.certified + SAMPLE_ROUNDING);
+    }
+}
