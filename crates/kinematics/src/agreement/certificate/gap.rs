@@ -107,9 +107,9 @@ impl Gap {
 
     /// Number of corners of a box.
     pub(super) fn corner_count(&self) -> u64 {
-        self.slots.iter().fold(1, |count: u64, slot| {
-            count.saturating_mul(if slot.rate.is_some() { 3 } else { 2 })
-        })
+        self.slots
+            .iter()
+            .fold(1, |count: u64, slot| count.saturating_mul(if slot.rate.is_some() { 3 } else { 2 }))
     }
 
     /// Bounds the gap over a box; `nearest` receives the configuration of the box that is next to
@@ -170,7 +170,8 @@ impl Gap {
             }
             room.next_pairs.clear();
             for [a, b] in &room.pairs {
-                room.next_pairs.extend(motions[..corners.len()].iter().map(|[by_a, by_b]| [by_a * a, by_b * b]));
+                room.next_pairs
+                    .extend(motions[..corners.len()].iter().map(|[by_a, by_b]| [by_a * a, by_b * b]));
             }
             std::mem::swap(&mut room.pairs, &mut room.next_pairs);
         }
@@ -182,9 +183,10 @@ impl Gap {
         let here = self.at_corners(worst.iter().copied());
         let (mut divide, mut most) = (None, 0.0);
         for (index, slot) in self.slots.iter().enumerate() {
-            let pulled_in = worst.iter().enumerate().map(|(at, &corner)| {
-                if at == index { slot.corner(corner.position) } else { corner }
-            });
+            let pulled_in = worst
+                .iter()
+                .enumerate()
+                .map(|(at, &corner)| if at == index { slot.corner(corner.position) } else { corner });
             let drop = here - self.at_corners(pulled_in);
             if drop > most {
                 (divide, most) = (Some(slot.joint), drop);

@@ -224,8 +224,7 @@ impl Screw {
     /// `cos + sin n` of half the angle, as a matrix that multiplies `(w, x, y, z)` from the left.
     fn turn_of_quaternions(&self) -> Motion {
         let [x, y, z] = self.axis.into();
-        let second =
-            Matrix4::new(0.0, -x, -y, -z, x, 0.0, -z, y, y, z, 0.0, -x, z, -y, x, 0.0);
+        let second = Matrix4::new(0.0, -x, -y, -z, x, 0.0, -z, y, y, z, 0.0, -x, z, -y, x, 0.0);
         Motion { constant: Matrix4::zeros(), first: Matrix4::identity(), second, carries: 0.0 }
     }
 }

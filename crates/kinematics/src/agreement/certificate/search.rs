@@ -54,9 +54,9 @@ impl Attained {
             for (joint, &(lower, upper)) in ranges.iter().enumerate() {
                 let reach = step * (upper - lower);
                 let before = self.at[joint];
-                improved |= [reach, -reach].iter().any(|by| {
-                    self.moves(gap, (joint, (before + by).clamp(lower, upper)), noise)
-                });
+                improved |= [reach, -reach]
+                    .iter()
+                    .any(|by| self.moves(gap, (joint, (before + by).clamp(lower, upper)), noise));
             }
             if !improved {
                 step /= 2.0;
@@ -83,7 +83,8 @@ impl Attained {
         const HALVINGS: u32 = 60;
         let far = self.at.clone();
         let middle: Vec<f64> = ranges.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
-        let between = |part: f64| far.iter().zip(&middle).map(move |(far, middle)| middle + part * (far - middle));
+        let between =
+            |part: f64| far.iter().zip(&middle).map(move |(far, middle)| middle + part * (far - middle));
         let (mut inside, mut outside) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let part = f64::midpoint(inside, outside);
