@@ -130,3 +130,24 @@ fn the_resolved_scenario_runs_to_the_same_end() {
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     assert_eq!(answer.json()["trajectory_sha256"], first["trajectory_sha256"]);
 }
+
+#[test]
+#[cfg(feature = "recording")]
+fn a_recording_holds_the_verdict_of_its_report() {
+    let out = tempfile::tempdir().unwrap();
+    let answer = congruent(&["run", "scenarios/ur5e_into_table.toml", "--out", &text(out.path())]);
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+    let folder = out.path().join("ur5e_into_table");
+    for file in ["report.json", "junit.xml", "recording.rrd", "scenario.resolved.toml"] {
+        assert!(folder.join(file).is_file(), "no {file}");
+    }
+    let inspected = congruent_json(&["inspect", &text(&folder.join("recording.rrd"))]);
+    assert_eq!(inspected.code, 0, "{}", inspected.stderr);
+    let summary = inspected.json();
+    assert_eq!(summary["verdict"], "as_expected");
+    let entities: Vec<&str> =
+        summary["entities"].as_array().unwrap().iter().filter_map(|entity| entity["path"].as_str()).collect();
+    for entity in ["/summary", "/status/clearance", "/agreement/position/tool0", "/clearance/minimum"] {
+        assert!(entities.contains(&entity), "no {entity} in {entities:?}");
+    }
+}

@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, fmt::Write, path::PathBuf, sync::Mutex};
 use congruent_description::Diagnostic;
 use congruent_twin::{
     ExecuteError, Options, execute,
-    report::{OutputFolder, RunReport, sentence, write_junit},
+    report::{OutputError, OutputFolder, RunReport, sentence, write_junit},
     scenario::{Overrides, Scenario},
     verdict::{CheckResult, Expectation, Verdict},
 };
@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         }
     }
     if let Some(path) = &arguments.junit {
-        write_junit(path, &reports).map_err(unwritable)?;
+        write_junit(path, &reports).map_err(|error| unwritable(&error))?;
     }
     let text = |report: &RunReport, folder: &OutputFolder| described(report, folder);
     match (&reports[..], &folders[..]) {
@@ -140,7 +140,8 @@ fn run_one(scenario: Scenario, options: &Options, bars: Option<&MultiProgress>) 
         bar.finish_and_clear();
     }
     result.map_err(|error| match error {
-        ExecuteError::Output(error) => unwritable(error),
+        ExecuteError::Output(error) => unwritable(&error),
+        ExecuteError::Recording(error) => Failure::Machine(error.to_string()),
         error => Diagnostic::error("run::cannot_run", error.to_string()).into(),
     })
 }
@@ -151,7 +152,10 @@ fn progress_bar(scenario: &Scenario) -> ProgressBar {
     ProgressBar::new(scenario.simulation.steps).with_style(style).with_prefix(scenario.name.clone())
 }
 
-fn unwritable(error: impl std::fmt::Display) -> Failure {
+fn unwritable(error: &OutputError) -> Failure {
+    if error.is_full() {
+        return Failure::Machine(error.to_string());
+    }
     Diagnostic::error("run::output", error.to_string())
         .with_help("choose a folder that can be written with --out")
         .into()

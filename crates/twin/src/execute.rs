@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use crate::{
-    model::PoseSource,
-    monitor::Names,
+    monitor::Check,
     recorder::{NoRecorder, Recorder, RecordingError},
     report::{OutputError, OutputFolder, RunReport, write_junit},
     run::{Run, RunError},
@@ -27,6 +26,9 @@ pub enum ExecuteError {
     /// Results cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// The recording cannot be begun.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
     /// The robot cannot be simulated as the scenario asks.
     #[error("scenario \"{scenario}\" cannot run: {source}")]
     CannotRun {
@@ -54,12 +56,13 @@ pub fn execute(
     let cannot_run = |source: RunError| ExecuteError::CannotRun { scenario: scenario.name.clone(), source };
     let run = Run::new(&scenario).map_err(cannot_run)?;
     let sources = run.model().sources().to_vec();
-    let mut recording = Recording::start(options, &folder, &scenario, run.names(), &sources)
-        .map_err(|error| cannot_run(error.into()))?;
+    let mut recording = Recording::start(options, &folder, &run, (&scenario, &checks))?;
     let (outcome, result) = run.finish(&mut checks, recording.recorder(), progress);
     let mut report = RunReport::new(&scenario, &sources, outcome.clone(), result.as_ref().err());
     if let Err(error) = recording.finish(&report) {
         report = RunReport::new(&scenario, &sources, outcome, Some(&error.into()));
+        // On a full disk it stands in the way of the report, which matters more.
+        folder.remove(PARTIAL)?;
     } else if options.recording && cfg!(feature = "recording") {
         folder.publish(PARTIAL, "recording.rrd")?;
     }
@@ -83,15 +86,15 @@ impl Recording {
     fn start(
         options: &Options,
         folder: &OutputFolder,
-        scenario: &Scenario,
-        names: &Names,
-        sources: &[PoseSource],
+        run: &Run<'_>,
+        (scenario, checks): (&Scenario, &[Check]),
     ) -> Result<Self, RecordingError> {
         #[cfg(feature = "recording")]
         if options.recording {
             let path = folder.file(PARTIAL);
+            let (names, sources) = (run.names(), run.model().sources());
             let recorder = crate::recording::RerunRecorder::create(&path, scenario, names, sources)?;
-            return Ok(Self::Rerun(Box::new(recorder)));
+            return Ok(Self::Rerun(Box::new(recorder.with_limits_of(checks))));
         }
         Ok(Self::None(NoRecorder))
     }

@@ -1,4 +1,4 @@
-//! Checks of a scenario. A new one is a file here and a line in [`KINDS`].
+//! Checks of a scenario. A new one is a file here and a line in `KINDS`.
 
 mod agreement;
 mod clearance;

@@ -1,5 +1,5 @@
 //! What the arm is asked to do: motions one after another, in joint space. A new kind of motion is
-//! a file here and a line in [`KINDS`].
+//! a file here and a line in `KINDS`.
 
 mod joint_move;
 mod profile;

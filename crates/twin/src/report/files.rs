@@ -18,6 +18,13 @@ pub struct OutputError {
     pub source: io::Error,
 }
 
+impl OutputError {
+    /// Whether the machine is at fault, and not the choice of the folder.
+    pub fn is_full(&self) -> bool {
+        matches!(self.source.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
+    }
+}
+
 /// The folder that holds one scenario's results.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutputFolder {
@@ -41,14 +48,7 @@ impl OutputFolder {
     pub fn create(out: &Path, scenario: &str) -> Result<Self, OutputError> {
         let folder = Self { path: Self::path_for(out, scenario) };
         fs::create_dir_all(&folder.path).map_err(|source| folder.refused("", source))?;
-        for name in RESULTS {
-            match fs::remove_file(folder.file(name)) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                    return Err(folder.refused(name, error));
-                }
-                _ => {}
-            }
-        }
+        RESULTS.iter().try_for_each(|name| folder.remove(name))?;
         Ok(folder)
     }
 
@@ -79,6 +79,17 @@ impl OutputFolder {
             serde_json::to_vec_pretty(document).map_err(|error| self.refused(name, error.into()))?;
         json.push(b'\n');
         self.write(name, &json)
+    }
+
+    /// Removes a file, unless there is none.
+    ///
+    /// # Errors
+    /// [`OutputError`] where it cannot be removed.
+    pub fn remove(&self, name: &str) -> Result<(), OutputError> {
+        match fs::remove_file(self.file(name)) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(self.refused(name, error)),
+            _ => Ok(()),
+        }
     }
 
     /// Gives a file that was written under a temporary name its own.
