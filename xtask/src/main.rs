@@ -5,14 +5,11 @@
 use std::process::{Command, ExitCode};
 
 fn main() -> ExitCode {
-    let chore = std::env::args().nth(1);
-    match chore.as_deref() {
-        Some("tidy") => tidy(),
-        _ => {
-            eprintln!("usage: xtask tidy    keeps the architecture's arrows and its map true");
-            ExitCode::from(2)
-        }
+    if std::env::args().nth(1).as_deref() == Some("tidy") {
+        return tidy();
     }
+    eprintln!("usage: xtask tidy    keeps the architecture's arrows and its map true");
+    ExitCode::from(2)
 }
 
 /// Formats the sources and runs the tests of `tests/tidy.rs`.
