@@ -1,6 +1,7 @@
 //! The command `congruent`: arguments, printing, exit codes. What it prints is computed in
 //! `congruent-twin`. A new command is a file here, a variant of [`Command`] and a line in [`main`].
 
+mod calibrate;
 mod check;
 mod clearance;
 mod failure;
@@ -37,6 +38,7 @@ enum Command {
     Check(check::Arguments),
     Fk(fk::Arguments),
     Clearance(clearance::Arguments),
+    Calibrate(calibrate::Arguments),
     #[cfg(feature = "recording")]
     Inspect(inspect::Arguments),
 }
@@ -48,6 +50,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments, &printer),
         Command::Check(arguments) => check::run(&arguments, &printer),
         Command::Fk(arguments) => fk::run(&arguments, &printer),
+        Command::Calibrate(arguments) => calibrate::run(&arguments, &printer),
         Command::Clearance(arguments) => clearance::run(&arguments, &printer),
         #[cfg(feature = "recording")]
         Command::Inspect(arguments) => inspect::run(&arguments, &printer),

@@ -223,7 +223,7 @@ fn sine_lag_ratio(x: f64) -> f64 {
 }
 
 /// `(1 - (x/2) cot(x/2)) / x^2`, 1/12 at 0.
-fn log_ratio(x: f64) -> f64 {
+pub(crate) fn log_ratio(x: f64) -> f64 {
     let xx = x * x;
     if x < SERIES_BELOW_RAD {
         let tail = 1.0 / 1_209_600.0 + xx / 47_900_160.0;

@@ -1,6 +1,6 @@
 //! Configurations at which two models are held against each other without motion.
 
-use congruent_description::{Joint, JointKind, Robot};
+use congruent_description::{Joint, JointIndex, JointKind, Robot};
 use rand_chacha::{
     ChaCha8Rng,
     rand_core::{RngCore, SeedableRng},
@@ -21,14 +21,7 @@ pub fn probe_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Vec<
         q[coordinate] = if joint.kind == JointKind::Prismatic { AXIS_STEP_M } else { AXIS_STEP_RAD };
         configurations.push(q);
     }
-    let mut generator = ChaCha8Rng::seed_from_u64(seed);
-    for _ in 0..random {
-        let draw = |joint: &&Joint| {
-            let (lower, upper) = range(joint);
-            lower + (upper - lower) * unit_interval(&mut generator)
-        };
-        configurations.push(joints.iter().map(draw).collect());
-    }
+    configurations.extend(random_configurations(robot, seed, random));
     let middle: Vec<f64> = joints.iter().map(|joint| f64::midpoint(range(joint).0, range(joint).1)).collect();
     for (coordinate, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.mimic.is_none()) {
         let (lower, upper) = range(joint);
@@ -44,6 +37,21 @@ pub fn probe_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Vec<
         robot.apply_mimic(q);
     }
     configurations
+}
+
+/// Seeded draws within the limits; mimic joints follow their masters.
+pub fn random_configurations(robot: &Robot, seed: u64, count: usize) -> Vec<Vec<f64>> {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    let mut draw = |&joint: &JointIndex| {
+        let (lower, upper) = range(robot.joint(joint));
+        lower + (upper - lower) * unit_interval(&mut generator)
+    };
+    let mut configuration = || {
+        let mut q: Vec<f64> = robot.movable_joints().iter().map(&mut draw).collect();
+        robot.apply_mimic(&mut q);
+        q
+    };
+    (0..count).map(|_| configuration()).collect()
 }
 
 /// The limits of a joint, or one turn where it has none.

@@ -1,9 +1,10 @@
 //! Runs a robot's analytical model and its physics twin side by side, compares them at every
 //! sample, checks clearances and limits, reports and records.
 
+mod batch;
+pub mod calibration;
 pub mod check;
 pub mod clearance;
-mod batch;
 mod configurations;
 pub mod distances;
 mod execute;
@@ -22,7 +23,7 @@ pub mod scenario;
 pub mod verdict;
 
 pub use batch::{configuration, read_configurations};
-pub use configurations::probe_configurations;
+pub use configurations::{probe_configurations, random_configurations};
 pub use execute::{ExecuteError, Options, execute};
 pub use run::{Outcome, Run, RunError};
 pub use sample::{LinkError, Sample};

@@ -1,0 +1,258 @@
+//! From figures to the report.
+
+use std::collections::BTreeMap;
+
+use congruent_description::DhRow;
+use congruent_kinematics::calibration::{Entry, Fit, Frozen, Loss, Noise, ParameterUnit, Residual};
+
+use super::{
+    Computed,
+    report::{
+        CalibrationReport, Estimate, Estimation, Explanation, FrozenParameter, HeldOutError, Identifiability,
+        NextPose, Recommendation, Remainder, RowResidual, TableEntry,
+    },
+    statements,
+};
+
+/// A correction of fewer standard deviations is not significant: 95 % of normal noise.
+const SIGNIFICANT_SIGMAS: f64 = 2.0;
+/// How many standard deviations of chi-squared the residuals may exceed a stated noise by.
+const NOISE_EXCESS_SIGMAS: f64 = 4.0;
+
+/// The whole report.
+pub(super) fn report(computed: &Computed<'_>) -> CalibrationReport {
+    let robot = &computed.description.robot;
+    let tip = &robot.link(computed.description.tip).name;
+    let measured_frame = if computed.description.tip_from_tcp.is_some() { "tcp" } else { tip };
+    let nothing = vec![0.0; computed.chain.parameters().len()];
+    let nominal = residuals(computed, &nothing);
+    let held_out = held_out(computed, &nominal);
+    let verdict = explanation(computed, held_out.as_ref());
+    let recommended = match verdict {
+        Explanation::NothingIdentified | Explanation::NoImprovement => Recommendation::Nominal,
+        _ => computed.best().1,
+    };
+    let row_residuals = rows(computed, &nominal);
+    let mut report = CalibrationReport {
+        robot: robot.name().to_owned(),
+        model: if computed.nominal.table.is_some() { "dh" } else { "urdf" },
+        measured_frame: measured_frame.to_owned(),
+        rows: computed.rows.len(),
+        components: computed
+            .measurements
+            .iter()
+            .map(|each| each.position_count() + each.orientation_count())
+            .sum(),
+        verdict,
+        recommended,
+        statements: Vec::new(),
+        parameters: estimates(computed),
+        frozen: computed.identification.frozen.iter().map(|each| frozen(computed, each)).collect(),
+        identifiability: Identifiability {
+            threshold: computed.options.threshold,
+            singular_values: computed.identification.singular_values.clone(),
+            kept_ratio: computed.identification.kept_ratio,
+        },
+        nominal: remainder(&nominal),
+        least_squares: estimation(&computed.least_squares),
+        robust: estimation(&computed.robust.fit),
+        loss: match computed.options.loss {
+            Loss::Huber => "huber",
+            Loss::Cauchy => "cauchy",
+            Loss::Tukey => "tukey",
+        },
+        held_out,
+        outliers: computed.robust.outliers.iter().map(|&row| row_residuals[row]).collect(),
+        row_residuals,
+        covariance: computed
+            .least_squares
+            .covariance
+            .row_iter()
+            .map(|row| row.iter().copied().collect())
+            .collect(),
+        next: next(computed),
+    };
+    report.statements = statements::statements(&report);
+    report
+}
+
+fn residuals(computed: &Computed<'_>, corrections: &[f64]) -> Vec<Residual> {
+    let residual = |each: &congruent_kinematics::calibration::Measurement| {
+        each.residual(&computed.chain.base_from_tip(&each.q, corrections))
+    };
+    computed.measurements.iter().map(residual).collect()
+}
+
+fn remainder(residuals: &[Residual]) -> Remainder {
+    let sum = |of: fn(&Residual) -> f64| residuals.iter().map(|each| of(each).powi(2)).sum::<f64>();
+    let worst = |of: fn(&Residual) -> f64| residuals.iter().map(of).fold(0.0, f64::max);
+    #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 rows")]
+    let count = residuals.len().max(1) as f64;
+    let (cost_m2, cost_rad2) = (sum(distance), sum(angle));
+    Remainder {
+        cost_m2,
+        cost_rad2,
+        rms_m: (cost_m2 / count).sqrt(),
+        rms_rad: (cost_rad2 / count).sqrt(),
+        worst_m: worst(distance),
+        worst_rad: worst(angle),
+    }
+}
+
+fn distance(residual: &Residual) -> f64 {
+    residual.position_m.norm()
+}
+
+fn angle(residual: &Residual) -> f64 {
+    residual.orientation_rad.norm()
+}
+
+fn estimation(fit: &Fit) -> Estimation {
+    let Noise { position_m, orientation_rad } = fit.noise;
+    Estimation {
+        left: remainder(&fit.residuals),
+        noise_m: position_m,
+        noise_rad: orientation_rad,
+        converged: fit.converged,
+        iterations: fit.iterations,
+    }
+}
+
+fn held_out(computed: &Computed<'_>, nominal: &[Residual]) -> Option<HeldOutError> {
+    let held_out = computed.held_out.as_ref()?;
+    let fits = |residuals: &[Residual]| -> Vec<Residual> {
+        let rows = residuals.iter().enumerate();
+        rows.filter(|(row, _)| !computed.robust.outliers.contains(row)).map(|(_, each)| *each).collect()
+    };
+    let (left, before) = (remainder(&fits(&held_out.residuals)), remainder(&fits(nominal)));
+    Some(HeldOutError {
+        folds: held_out.folds,
+        rms_m: left.rms_m,
+        rms_rad: left.rms_rad,
+        nominal_rms_m: before.rms_m,
+        nominal_rms_rad: before.rms_rad,
+    })
+}
+
+fn explanation(computed: &Computed<'_>, held_out: Option<&HeldOutError>) -> Explanation {
+    if computed.identification.kept.is_empty() {
+        return Explanation::NothingIdentified;
+    }
+    if !computed.robust.outliers.is_empty() {
+        return Explanation::UnexplainedRows;
+    }
+    if computed.options.noise.is_some() && exceeds_noise(computed) {
+        return Explanation::NoiseExceeded;
+    }
+    let Noise { position_m, orientation_rad } = computed.least_squares.noise;
+    let size = |m: f64, rad: f64| (m / position_m).powi(2) + (rad / orientation_rad).powi(2);
+    match held_out {
+        Some(error)
+            if size(error.rms_m, error.rms_rad) < size(error.nominal_rms_m, error.nominal_rms_rad) =>
+        {
+            Explanation::Explained
+        }
+        _ => Explanation::NoImprovement,
+    }
+}
+
+/// Chi-squared of least squares against its degrees of freedom.
+fn exceeds_noise(computed: &Computed<'_>) -> bool {
+    let Noise { position_m, orientation_rad } = computed.least_squares.noise;
+    let left = remainder(&computed.least_squares.residuals);
+    let chi_squared = left.cost_m2 / position_m.powi(2) + left.cost_rad2 / orientation_rad.powi(2);
+    let components: usize =
+        computed.measurements.iter().map(|each| each.position_count() + each.orientation_count()).sum();
+    #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 components")]
+    let freedom = components.saturating_sub(computed.identification.kept.len()) as f64;
+    chi_squared > freedom + NOISE_EXCESS_SIGMAS * (2.0 * freedom).sqrt()
+}
+
+fn estimates(computed: &Computed<'_>) -> Vec<Estimate> {
+    let (best, _) = computed.best();
+    let (plain, robust) = (&computed.least_squares, &computed.robust.fit);
+    let estimate = |&at: &usize| {
+        let parameter = &computed.chain.parameters()[at];
+        let significant = best.corrections[at].abs() > SIGNIFICANT_SIGMAS * best.standard_deviations[at];
+        Estimate {
+            name: parameter.name.clone(),
+            unit: unit(parameter.unit()),
+            correction: plain.corrections[at],
+            standard_deviation: plain.standard_deviations[at],
+            robust_correction: robust.corrections[at],
+            robust_standard_deviation: robust.standard_deviations[at],
+            significant,
+            in_table: in_table(computed, &parameter.name, (parameter.entry, best.corrections[at])),
+        }
+    };
+    computed.identification.kept.iter().map(estimate).collect()
+}
+
+pub(super) fn unit(unit: ParameterUnit) -> &'static str {
+    match unit {
+        ParameterUnit::Angle => "rad",
+        ParameterUnit::Length => "m",
+    }
+}
+
+/// The entry of the table that a correction changes, if it changes one alone: table entries do, and
+/// zeros, by the row's sign.
+fn in_table(computed: &Computed<'_>, name: &str, (entry, correction): (Entry, f64)) -> Option<TableEntry> {
+    let (joint, word) = name.rsplit_once('.')?;
+    let (table, _) = computed.nominal.table.as_ref()?;
+    let row: &DhRow = table.rows.iter().find(|row| computed.nominal.robot.joint(row.joint).name == joint)?;
+    let revolute = computed.nominal.robot.joint(row.joint).kind.is_angular();
+    let (entry, found, correction) = match (entry, word) {
+        (Entry::Zero, _) if revolute => ("theta", row.theta_rad, row.sign * correction),
+        (Entry::Zero, _) => ("d", row.d_m, row.sign * correction),
+        (_, "theta") => ("theta", row.theta_rad, correction),
+        (_, "d") => ("d", row.d_m, correction),
+        (_, "a") => ("a", row.a_m, correction),
+        (_, "alpha") => ("alpha", row.alpha_rad, correction),
+        _ => return None,
+    };
+    Some(TableEntry { entry, found, corrected: found + correction, line: row.line })
+}
+
+fn frozen(computed: &Computed<'_>, frozen: &Frozen) -> FrozenParameter {
+    let parameters = computed.chain.parameters();
+    let terms: Vec<(&str, f64, &'static str)> = frozen
+        .looks_like
+        .iter()
+        .map(|&(at, factor)| (parameters[at].name.as_str(), factor, unit(parameters[at].unit())))
+        .collect();
+    let own = &parameters[frozen.parameter];
+    FrozenParameter {
+        name: own.name.clone(),
+        looks_like: terms.iter().map(|(name, factor, _)| ((*name).to_owned(), *factor)).collect(),
+        reason: statements::why_frozen(unit(own.unit()), &terms),
+    }
+}
+
+fn rows(computed: &Computed<'_>, nominal: &[Residual]) -> Vec<RowResidual> {
+    let row = |(at, measured): (usize, &super::MeasuredRow)| {
+        let (plain, robust) = (&computed.least_squares.residuals[at], &computed.robust.fit.residuals[at]);
+        RowResidual {
+            row: at + 1,
+            line: measured.line,
+            nominal_m: distance(&nominal[at]),
+            nominal_rad: angle(&nominal[at]),
+            least_squares_m: distance(plain),
+            least_squares_rad: angle(plain),
+            robust_m: distance(robust),
+            robust_rad: angle(robust),
+            weight: computed.robust.weights[at],
+        }
+    };
+    computed.rows.iter().enumerate().map(row).collect()
+}
+
+fn next(computed: &Computed<'_>) -> Vec<NextPose> {
+    let names = computed.nominal.joint_names();
+    let pose = |suggestion: &congruent_kinematics::calibration::Suggestion| {
+        let q = computed.nominal.of_configuration(&computed.candidates[suggestion.candidate]);
+        let q: BTreeMap<String, f64> = names.iter().map(|&name| name.to_owned()).zip(q).collect();
+        NextPose { q, gain_bits: suggestion.gain_bits }
+    };
+    computed.next.iter().map(pose).collect()
+}

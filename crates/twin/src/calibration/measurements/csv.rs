@@ -1,0 +1,210 @@
+//! Measurements as a table: a header that names joints and quantities with their units, one
+//! configuration in each row.
+
+use std::{collections::BTreeMap, ops::Range};
+
+use congruent_description::{Diagnostic, Robot, line_column};
+use csv::{ByteRecord, ReaderBuilder};
+
+use super::{
+    MeasuredRow,
+    columns::{Column, Quantity},
+    from_quaternion_wxyz, from_rpy_rad, missing_joints,
+};
+
+/// Faults after this many are not listed: one wrong column spoils every row.
+const MOST_FAULTS: usize = 20;
+
+/// A record with the places of its cells in the text.
+struct Record<'a> {
+    line: usize,
+    span: Range<usize>,
+    cells: Vec<(&'a str, Range<usize>)>,
+}
+
+/// Parses a whole file.
+pub(super) fn parse(
+    text: &str,
+    robot: &Robot,
+    needed: &[usize],
+) -> Result<Vec<MeasuredRow>, Vec<Diagnostic>> {
+    let mut records = records(text)?.into_iter();
+    let header = records.next().ok_or_else(|| vec![super::no_rows()])?;
+    let columns = columns(&header, robot, needed)?;
+    let (mut rows, mut faults) = (Vec::new(), Vec::new());
+    for record in records {
+        match row(&record, &header, &columns, robot) {
+            Ok(row) => rows.push(row),
+            Err(fault) => faults.push(fault),
+        }
+        if faults.len() >= MOST_FAULTS {
+            break;
+        }
+    }
+    if faults.is_empty() { Ok(rows) } else { Err(faults) }
+}
+
+fn records(text: &str) -> Result<Vec<Record<'_>>, Vec<Diagnostic>> {
+    let mut reader = ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let (mut records, mut record) = (Vec::new(), ByteRecord::new());
+    loop {
+        match reader.read_byte_record(&mut record) {
+            Ok(true) => records.push(cells(text, &record, offset(reader.position().byte()))),
+            Ok(false) => return Ok(records),
+            Err(fault) => return Err(vec![Diagnostic::error("measurements::csv", fault.to_string())]),
+        }
+    }
+}
+
+fn offset(byte: u64) -> usize {
+    usize::try_from(byte).unwrap_or(usize::MAX)
+}
+
+/// The cells as they stand in the text. A quoted cell, which is longer there than its contents, and
+/// those behind it get the place of the whole record.
+fn cells<'a>(text: &'a str, record: &ByteRecord, end: usize) -> Record<'a> {
+    let start = offset(record.position().map_or(0, csv::Position::byte));
+    let raw = &text[start.min(end)..end];
+    // Comments and blank lines before the record belong to what the reader skipped.
+    let skipped: usize = raw
+        .split_inclusive('\n')
+        .take_while(|line| line.starts_with('#') || line.trim_end_matches(['\r', '\n']).is_empty())
+        .map(str::len)
+        .sum();
+    let start = start + skipped;
+    let span = start..start + text[start..end].trim_end_matches(['\r', '\n']).len();
+    let mut from = start;
+    let mut cells = Vec::with_capacity(record.len());
+    for cell in record {
+        let to = (from + cell.len()).min(text.len());
+        let plain = text.get(from..to).filter(|raw| raw.as_bytes() == cell);
+        let trimmed = plain.map(|raw| (raw.trim(), from + raw.len() - raw.trim_start().len()));
+        cells.push(match trimmed {
+            Some((trimmed, at)) => (trimmed, at..at + trimmed.len()),
+            None => ("", span.clone()),
+        });
+        from = to + 1;
+    }
+    Record { line: line_column(text, start).0, span, cells }
+}
+
+fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<Column>, Vec<Diagnostic>> {
+    let (mut columns, mut faults) = (Vec::new(), Vec::new());
+    let mut places: BTreeMap<Quantity, usize> = BTreeMap::new();
+    for (at, (name, span)) in header.cells.iter().enumerate() {
+        match Column::parse(name, robot) {
+            Ok(column) => {
+                if let Some(first) = places.insert(column.quantity, at) {
+                    let message = format!("columns {} and {} give the same quantity", first + 1, at + 1);
+                    faults.push(Diagnostic::error("measurements::repeated_column", message).at(span.clone()));
+                }
+                columns.push(column);
+            }
+            Err(fault) => faults.push(fault.at(span.clone())),
+        }
+    }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let has = |quantity| places.contains_key(&quantity);
+    if let Some(missing) = missing_joints(robot, needed, |coordinate| has(Quantity::Joint(coordinate))) {
+        let message = format!("no column for {missing}");
+        faults
+            .push(Diagnostic::error("measurements::missing_joint", message).with_help(
+                "every joint of the chain needs a column, <joint>_rad or <joint>_deg (_m or _mm)",
+            ));
+    }
+    let positions = (0..3).filter(|&at| has(Quantity::Position(at))).count();
+    let quaternion = (0..4).filter(|&at| has(Quantity::Quaternion(at))).count();
+    let rpy = (0..3).filter(|&at| has(Quantity::Rpy(at))).count();
+    if positions == 0 && quaternion == 0 && rpy == 0 {
+        faults.push(
+            Diagnostic::error("measurements::nothing_measured", "no column says where the tip was seen")
+                .with_help(
+                    "add x_m, y_m, z_m (or _mm), and qw, qx, qy, qz where the orientation was measured",
+                ),
+        );
+    }
+    if ![0, 4].contains(&quaternion) || ![0, 3].contains(&rpy) || (quaternion > 0 && rpy > 0) {
+        faults.push(
+            Diagnostic::error("measurements::orientation", "the orientation is not complete or given twice")
+                .with_help("give qw, qx, qy, qz, or roll, pitch, yaw, or neither"),
+        );
+    }
+    let placed = |fault: Diagnostic| fault.at(header.span.clone());
+    if faults.is_empty() { Ok(columns) } else { Err(faults.into_iter().map(placed).collect()) }
+}
+
+fn row(
+    record: &Record<'_>,
+    header: &Record<'_>,
+    columns: &[Column],
+    robot: &Robot,
+) -> Result<MeasuredRow, Diagnostic> {
+    if record.cells.len() != columns.len() {
+        let message =
+            format!("line {}: {} cells for {} columns", record.line, record.cells.len(), columns.len());
+        return Err(Diagnostic::error("measurements::cells", message).at(record.span.clone()));
+    }
+    let mut row = MeasuredRow {
+        line: record.line,
+        q: vec![0.0; robot.dof()],
+        tip_in_base_m: [None; 3],
+        base_from_tip: None,
+    };
+    let (mut quaternion, mut rpy) = ([None; 4], [None; 3]);
+    for ((column, (cell, span)), (name, _)) in columns.iter().zip(&record.cells).zip(&header.cells) {
+        let figure = figure(cell, span, (name, record.line))?.map(|figure| column.to_si(figure));
+        match column.quantity {
+            Quantity::Joint(coordinate) => {
+                row.q[coordinate] = figure.ok_or_else(|| {
+                    let message = format!("line {}, column \"{name}\": no position", record.line);
+                    Diagnostic::error("measurements::empty_cell", message).at(record.span.clone())
+                })?;
+            }
+            Quantity::Position(at) => row.tip_in_base_m[at] = figure,
+            Quantity::Quaternion(at) => quaternion[at] = figure,
+            Quantity::Rpy(at) => rpy[at] = figure,
+        }
+    }
+    robot.apply_mimic(&mut row.q);
+    let fault = |message: String| {
+        Diagnostic::error("measurements::orientation", format!("line {}: {message}", record.line))
+            .at(record.span.clone())
+    };
+    row.base_from_tip = match (complete(quaternion), complete(rpy)) {
+        (Some(Ok(quaternion)), _) => Some(from_quaternion_wxyz(quaternion).map_err(fault)?),
+        (None, Some(Ok(rpy))) => Some(from_rpy_rad(rpy)),
+        (None, None) => None,
+        (Some(Err(())), _) | (None, Some(Err(()))) => {
+            return Err(fault("the orientation is not complete".to_owned()));
+        }
+    };
+    Ok(row)
+}
+
+/// All figures, nothing, or a fault where some are missing.
+fn complete<const N: usize>(figures: [Option<f64>; N]) -> Option<Result<[f64; N], ()>> {
+    match figures.iter().flatten().count() {
+        0 => None,
+        count if count == N => Some(Ok(figures.map(Option::unwrap_or_default))),
+        _ => Some(Err(())),
+    }
+}
+
+fn figure(cell: &str, span: &Range<usize>, (name, line): (&str, usize)) -> Result<Option<f64>, Diagnostic> {
+    if cell.is_empty() {
+        return Ok(None);
+    }
+    match cell.parse::<f64>() {
+        Ok(figure) if figure.is_finite() => Ok(Some(figure)),
+        _ => {
+            let message = format!("line {line}, column \"{name}\": \"{cell}\" is no finite number");
+            Err(Diagnostic::error("measurements::number", message).at(span.clone()))
+        }
+    }
+}
