@@ -43,7 +43,12 @@ pub enum KinematicsError {
 impl KinematicsError {
     /// Compares lengths once, so that the loops behind need no further care.
     pub(crate) fn check_joints(expected: usize, q: &[f64]) -> Result<(), Self> {
-        if q.len() == expected { Ok(()) } else { Err(Self::JointCount { expected, found: q.len() }) }
+        Self::check_joint_count(expected, q.len())
+    }
+
+    /// Compares two numbers of joints.
+    pub(crate) fn check_joint_count(expected: usize, found: usize) -> Result<(), Self> {
+        if found == expected { Ok(()) } else { Err(Self::JointCount { expected, found }) }
     }
 
     /// Compares the length of a buffer for poses.

@@ -23,7 +23,7 @@ mod urdf_tree;
 #[path = "../tests/support/mod.rs"]
 mod support;
 
-pub use agreement::{Bracket, Budget, Certificate, certify};
+pub use agreement::{Bracket, Budget, Certificate, certify, certify_driven};
 pub use dh::{DhChain, DhFrames, ModifiedDh, StandardDh};
 pub use error::KinematicsError;
 pub use pose::Pose;

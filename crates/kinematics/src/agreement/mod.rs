@@ -2,4 +2,4 @@
 
 mod certificate;
 
-pub use certificate::{Bracket, Budget, Certificate, certify};
+pub use certificate::{Bracket, Budget, Certificate, certify, certify_driven};

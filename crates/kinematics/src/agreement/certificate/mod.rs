@@ -115,23 +115,66 @@ pub fn certify(
     ranges: &[(f64, f64)],
     budget: Budget,
 ) -> Result<Certificate, KinematicsError> {
-    KinematicsError::check_joints(a.joint_count(), &vec![0.0; b.joint_count()])?;
+    KinematicsError::check_joint_count(a.joint_count(), ranges.len())?;
+    let each_its_own: Vec<usize> = (0..a.joint_count()).collect();
+    certify_driven((a, b), &each_its_own, ranges, budget)
+}
+
+/// The same where one position may drive several joints: `drivers` has, for each joint of the
+/// chains, the index of its position in `ranges`. So joints that mimic others are held, and chains
+/// whose joints stand in different orders: either then has joints that do not move.
+///
+/// # Errors
+/// As [`certify`]; [`KinematicsError::JointCount`] also for a driver that has no range.
+/// # Examples
+/// Two joints in a row that follow one position turn twice as far as one:
+/// ```
+/// use congruent_kinematics::{Budget, Pose, ScrewChain, Twist, certify_driven};
+/// use nalgebra::Vector3;
+/// let (still, turn) = (Vector3::zeros(), Vector3::z());
+/// let chain = |turns: [Vector3<f64>; 2]| ScrewChain {
+///     twists_in_base: turns.map(|angular| Twist { angular, linear: still }).to_vec(),
+///     base_from_tip_at_zero: Pose::identity(),
+/// };
+/// let (once, twice) = (chain([turn, still]), chain([turn, turn]));
+/// let certificate = certify_driven((&once, &twice), &[0, 0], &[(0.0, 0.5)], Budget::default())?;
+/// assert!((certificate.orientation_rad.attained - 0.5).abs() < 1e-7);
+/// # Ok::<(), congruent_kinematics::KinematicsError>(())
+/// ```
+pub fn certify_driven(
+    (a, b): (&ScrewChain, &ScrewChain),
+    drivers: &[usize],
+    ranges: &[(f64, f64)],
+    budget: Budget,
+) -> Result<Certificate, KinematicsError> {
+    KinematicsError::check_joint_count(a.joint_count(), b.joint_count())?;
+    KinematicsError::check_joint_count(a.joint_count(), drivers.len())?;
+    check_ranges(drivers, ranges)?;
+    let rest: Vec<f64> = ranges.iter().map(|&(lower, upper)| 0.0_f64.clamp(lower, upper)).collect();
+    let ranges_of_joints: Vec<Interval> = drivers.iter().map(|&driver| ranges[driver]).collect();
+    let first = Telescope::new(a, b, &ranges_of_joints);
+    let tidied = Tidied::new((a, b), drivers, ranges);
+    let problem = Problem { tidied: &tidied, rest: &rest, budget };
+    let mut position_m = problem.bracket(&POSITION, first.total_m());
+    let mut orientation_rad = problem.bracket(&ORIENTATION, first.total_rad());
+    let at = |chain: &ScrewChain, positions: &[f64]| {
+        chain.base_from_tip(&drivers.iter().map(|&driver| positions[driver]).collect::<Vec<_>>())
+    };
+    position_m.attain(at(a, &position_m.at)?.distance_m(&at(b, &position_m.at)?));
+    orientation_rad.attain(at(a, &orientation_rad.at)?.angle_rad(&at(b, &orientation_rad.at)?));
+    Ok(Certificate { position_m, orientation_rad })
+}
+
+/// Every driver has a range, and every range is a closed interval.
+fn check_ranges(drivers: &[usize], ranges: &[Interval]) -> Result<(), KinematicsError> {
+    let driven = drivers.iter().max().map_or(0, |last| last + 1);
+    KinematicsError::check_joint_count(driven.max(ranges.len()), ranges.len())?;
     for (joint, &(lower, upper)) in ranges.iter().enumerate() {
         if !(lower.is_finite() && upper.is_finite() && lower <= upper) {
             return Err(KinematicsError::JointRange { joint, lower, upper });
         }
     }
-    let rest: Vec<f64> = ranges.iter().map(|&(lower, upper)| 0.0_f64.clamp(lower, upper)).collect();
-    a.base_from_tip(&rest)?;
-    let tidied = Tidied::new(a, b, ranges);
-    let first = Telescope::new(a, b, ranges);
-    let problem = Problem { tidied: &tidied, rest: &rest, budget };
-    let mut position_m = problem.bracket(&POSITION, first.total_m());
-    let mut orientation_rad = problem.bracket(&ORIENTATION, first.total_rad());
-    let at = |chain: &ScrewChain, q: &[f64]| chain.base_from_tip(q);
-    position_m.attain(at(a, &position_m.at)?.distance_m(&at(b, &position_m.at)?));
-    orientation_rad.attain(at(a, &orientation_rad.at)?.angle_rad(&at(b, &orientation_rad.at)?));
-    Ok(Certificate { position_m, orientation_rad })
+    Ok(())
 }
 
 impl Bracket {
@@ -178,7 +221,7 @@ impl Problem<'_> {
         if telescoped <= ROUNDING_LEVEL {
             return Bracket { attained: 0.0, certified: telescoped, at: self.rest.to_vec(), cells: 0 };
         }
-        let ranges: &[Interval] = &self.tidied.ranges;
+        let ranges: &[Interval] = &self.tidied.positions;
         let whole = (measure.reduce)(self.tidied, ROUNDING_LEVEL);
         let found = Attained::search(&whole.gap, ranges);
         let allowance = (ALLOWANCE * (measure.of_gap)(found.gap)).max(ROUNDING_LEVEL);

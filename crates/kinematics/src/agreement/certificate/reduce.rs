@@ -27,8 +27,12 @@ const NOISE: f64 = 1e-12;
 pub(super) struct Tidied {
     pub(super) a: ScrewChain,
     pub(super) b: ScrewChain,
-    /// At most one turn of a joint that only turns.
-    pub(super) ranges: Vec<Interval>,
+    /// For each joint, the position that drives it.
+    pub(super) drivers: Vec<usize>,
+    /// Range of each position; at most one turn where it drives one joint that only turns.
+    pub(super) positions: Vec<Interval>,
+    /// The same for each joint.
+    ranges: Vec<Interval>,
     /// How far the tidied chains may be from the given ones, together.
     pub(super) price_m: f64,
     /// Likewise.
@@ -44,30 +48,34 @@ pub(super) struct Reduced {
 
 impl Tidied {
     /// Removes turns, pitches and differences of rate that are noise.
-    pub(super) fn new(a: &ScrewChain, b: &ScrewChain, ranges: &[Interval]) -> Self {
+    pub(super) fn new((a, b): (&ScrewChain, &ScrewChain), drivers: &[usize], positions: &[Interval]) -> Self {
         let (mut tidy_a, mut tidy_b) = (a.clone(), b.clone());
-        let mut one_turn = ranges.to_vec();
+        let mut one_turn = positions.to_vec();
         let twists = tidy_a.twists_in_base.iter_mut().zip(&mut tidy_b.twists_in_base);
-        for ((a, b), range) in twists.zip(&mut one_turn) {
-            let furthest = furthest(*range);
+        for ((a, b), &driver) in twists.zip(drivers) {
+            let furthest = furthest(positions[driver]);
             *a = without_noise(a, furthest);
             *b = without_noise(b, furthest);
             let (rate_a, rate_b) = (a.angular.norm(), b.angular.norm());
             if rate_b > 0.0 && (rate_a - rate_b).abs() * furthest <= NOISE {
                 let scale = rate_b / rate_a;
                 *a = Twist { angular: a.angular * scale, linear: a.linear * scale };
-                let pitch = |twist: &Twist| Screw::new(twist).shift != Vector3::zeros();
-                if !pitch(a) && !pitch(b) {
-                    *range = within_one_turn(*range, rate_b);
+                let repeats = [*a, *b].iter().all(|twist| Screw::new(twist).shift == Vector3::zeros());
+                let alone = drivers.iter().filter(|&&other| other == driver).count() == 1;
+                if repeats && alone {
+                    one_turn[driver] = within_one_turn(positions[driver], rate_b);
                 }
             }
         }
-        let price_a = Telescope::new(a, &tidy_a, ranges);
-        let price_b = Telescope::new(b, &tidy_b, ranges);
+        let whole: Vec<Interval> = drivers.iter().map(|&driver| positions[driver]).collect();
+        let price_a = Telescope::new(a, &tidy_a, &whole);
+        let price_b = Telescope::new(b, &tidy_b, &whole);
         Self {
             a: tidy_a,
             b: tidy_b,
-            ranges: one_turn,
+            drivers: drivers.to_vec(),
+            ranges: drivers.iter().map(|&driver| one_turn[driver]).collect(),
+            positions: one_turn,
             price_m: price_a.total_m() + price_b.total_m(),
             price_rad: price_a.total_rad() + price_b.total_rad(),
         }
@@ -119,7 +127,7 @@ impl Tidied {
         }
         let slots = (first..last).flat_map(|joint| self.quaternion_slots(joint)).collect();
         let mut gap = Gap { slots, tips: homes.map(|home| Vector4::from(quaternion_of(&home))) };
-        let middle: Vec<f64> = self.ranges.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
+        let middle: Vec<f64> = self.positions.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
         // A quaternion and its negative are one orientation: the nearer one.
         if gap.at(&middle) > 2.0_f64.sqrt() {
             gap.tips[1] = -gap.tips[1];
@@ -139,7 +147,7 @@ impl Tidied {
     }
 
     fn point_slots(&self, joint: usize) -> Vec<Slot> {
-        let screws = self.screws(joint);
+        let (screws, joint) = (self.screws(joint), self.drivers[joint]);
         let mut slots = turns(joint, &screws, Screw::turn_of_points);
         if screws.iter().any(|screw| screw.shift != Vector3::zeros()) {
             slots.push(Slot { joint, rate: None, motions: screws.each_ref().map(Screw::shift_of_points) });
@@ -148,7 +156,7 @@ impl Tidied {
     }
 
     fn quaternion_slots(&self, joint: usize) -> Vec<Slot> {
-        let mut slots = turns(joint, &self.screws(joint), Screw::turn_of_quaternions);
+        let mut slots = turns(self.drivers[joint], &self.screws(joint), Screw::turn_of_quaternions);
         for slot in &mut slots {
             slot.rate = slot.rate.map(|rate| rate / 2.0);
         }
