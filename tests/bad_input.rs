@@ -72,7 +72,10 @@ impl Workbench {
         let here = |finding: &&serde_json::Value| {
             finding["file"].as_str().is_some_and(|path| path.ends_with(file)) && finding["line"] == line
         };
-        assert!(line == 0 || findings.iter().any(|finding| here(&finding)), "{file}:{line} not in {document:#}");
+        assert!(
+            line == 0 || findings.iter().any(|finding| here(&finding)),
+            "{file}:{line} not in {document:#}"
+        );
     }
 }
 
@@ -174,7 +177,11 @@ fn a_table_without_a_convention() {
 fn a_scenario_that_does_not_exist() {
     let answer = congruent(&["run", "scenarios/nowhere.toml"]);
     assert_eq!(answer.code, 2, "{}", answer.stderr);
-    assert!(answer.stderr.contains("nowhere.toml") && answer.stderr.contains("not exist"), "{}", answer.stderr);
+    assert!(
+        answer.stderr.contains("nowhere.toml") && answer.stderr.contains("not exist"),
+        "{}",
+        answer.stderr
+    );
 }
 
 #[test]
@@ -192,7 +199,11 @@ fn two_scenarios_that_write_to_one_folder() {
         (text(&bench.path("scenario.toml")), text(&bench.path("other.toml")), text(&bench.path("out")));
     let answer = congruent(&["run", &a, &b, "--no-recording", "--out", &out]);
     assert_eq!(answer.code, 2, "{}", answer.stderr);
-    assert!(answer.stderr.contains("other.toml") && answer.stderr.contains("would both write"), "{}", answer.stderr);
+    assert!(
+        answer.stderr.contains("other.toml") && answer.stderr.contains("would both write"),
+        "{}",
+        answer.stderr
+    );
 }
 
 #[test]

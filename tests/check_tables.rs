@@ -77,6 +77,23 @@ fn agrees(pairing: &Pairing<'_>, at_most_m: f64) {
     assert_eq!(report["verdict"], "agree");
     let worst_m = report["worst"]["position_m"].as_f64().unwrap();
     assert!(worst_m <= at_most_m, "{worst_m:e} m");
+    assert_certified(&report);
+}
+
+/// The certificate holds for what was sampled, and is narrow: 5 %, or rounding.
+#[track_caller]
+fn assert_certified(report: &Value) {
+    /// Probing and proving on an arm of 1.5 m or an angle; worst seen 7.3e-13.
+    const ROUNDING: f64 = 2e-12;
+    let sampled = &report["comparisons"][0];
+    assert_eq!(sampled["name"], "model_urdf");
+    for unit in ["position_m", "orientation_rad"] {
+        let bracket = &report["certificate_bracket"][unit];
+        let [attained, certified] = ["attained", "certified"].map(|side| bracket[side].as_f64().unwrap());
+        assert_eq!(report["certificate"][unit].as_f64(), Some(certified));
+        assert!(sampled["worst"][unit].as_f64().unwrap() <= certified, "{unit}: {report:#}");
+        assert!(certified <= 1.05 * attained + ROUNDING, "{unit}: {attained:e} and {certified:e}");
+    }
 }
 
 /// The study's figure is the worst of 200 random configurations of its own: ours may differ by
@@ -90,6 +107,7 @@ fn disagrees(pairing: &Pairing<'_>, by_m: f64, give_or_take_m: f64) {
     assert_eq!(report["verdict"], "disagree");
     let worst_m = report["worst"]["position_m"].as_f64().unwrap();
     assert!((worst_m - by_m).abs() <= give_or_take_m, "{worst_m} m");
+    assert_certified(&report);
 }
 
 #[test]
@@ -127,6 +145,7 @@ fn a_toolboxs_panda_has_a_tool_of_its_own() {
 
 #[test]
 fn a_ur5_is_no_ur5e() {
-    let pairing = Pairing { table: "ur5_rtb", urdf: "ur5e", base: "base", tip: "tool0", joints: &UR5E_JOINTS };
+    let pairing =
+        Pairing { table: "ur5_rtb", urdf: "ur5e", base: "base", tip: "tool0", joints: &UR5E_JOINTS };
     disagrees(&pairing, 94.8e-3, 0.2e-3);
 }

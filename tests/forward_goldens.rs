@@ -18,7 +18,8 @@ fn check_source(source: &str) {
     let Some(corpus) = corpus() else { return };
     let folder = tempfile::tempdir().unwrap();
     let mut robots = 0;
-    for entry in fs::read_dir(corpus.join("robots")).unwrap().flatten().filter(|entry| entry.path().is_dir()) {
+    for entry in fs::read_dir(corpus.join("robots")).unwrap().flatten().filter(|entry| entry.path().is_dir())
+    {
         let robot = entry.path();
         let golden = Golden::load(&robot);
         let configurations = golden.configurations(&["zero", "axis", "random"]);

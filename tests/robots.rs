@@ -16,9 +16,18 @@ fn every_robot_agrees_with_its_own_table() {
         assert_eq!(answer.code, 0, "{}: {}{}", place.display(), answer.stdout, answer.stderr);
         let report = answer.json();
         assert_eq!(report["verdict"], "agree");
-        assert!(report["warnings"].as_array().unwrap().is_empty(), "{}: {}", place.display(), report["warnings"]);
-        let names: Vec<&str> =
-            report["comparisons"].as_array().unwrap().iter().filter_map(|each| each["name"].as_str()).collect();
+        assert!(
+            report["warnings"].as_array().unwrap().is_empty(),
+            "{}: {}",
+            place.display(),
+            report["warnings"]
+        );
+        let names: Vec<&str> = report["comparisons"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter_map(|each| each["name"].as_str())
+            .collect();
         assert_eq!(names, ["model_urdf", "poe_urdf", "urdf_simulation"]);
         robots += 1;
     }

@@ -106,7 +106,8 @@ fn the_same_scenario_gives_the_same_bytes_at_any_number_of_jobs() {
     for (folder, jobs) in out.iter().zip(["1", "2"]) {
         let folder = text(folder.path());
         let scenarios = ["scenarios/rrr_arm_wave.toml", "scenarios/ur5e_tool_5mm_off.toml"];
-        let arguments = ["run", scenarios[0], scenarios[1], "--jobs", jobs, "--no-recording", "--out", &folder];
+        let arguments =
+            ["run", scenarios[0], scenarios[1], "--jobs", jobs, "--no-recording", "--out", &folder];
         assert_eq!(congruent(&arguments).code, 0);
     }
     for scenario in ["rrr_arm_wave", "ur5e_tool_5mm_off"] {
@@ -126,7 +127,8 @@ fn the_resolved_scenario_runs_to_the_same_end() {
     let resolved = resolved.replacen("robot = \"../robots/ur5e\"", &robot, 1);
     let path = out.path().join("resolved.toml");
     fs::write(&path, resolved).unwrap();
-    let answer = congruent_json(&["run", &text(&path), "--no-recording", "--out", &text(&out.path().join("again"))]);
+    let answer =
+        congruent_json(&["run", &text(&path), "--no-recording", "--out", &text(&out.path().join("again"))]);
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     assert_eq!(answer.json()["trajectory_sha256"], first["trajectory_sha256"]);
 }

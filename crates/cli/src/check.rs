@@ -3,7 +3,10 @@
 use std::{fmt::Write, path::PathBuf};
 
 use congruent_description::{Diagnostic, load_robot};
-use congruent_twin::check::{Agreement, CheckReport, Comparison, check};
+use congruent_twin::{
+    certificate::{Brackets, ReportedBracket},
+    check::{Agreement, CheckReport, Comparison, check},
+};
 
 use crate::{failure::Failure, print::Printer};
 
@@ -59,7 +62,34 @@ fn text(report: &CheckReport) -> String {
             report.worst.at.iter().map(|named| format!("{} {:.4}", named.joint, named.value)).collect();
         let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, at.join(", "));
     }
+    if let Some(brackets) = &report.certificate_bracket {
+        certified(&mut text, report.verdict, brackets);
+    }
     text
+}
+
+/// What holds over the whole joint range: a proof, not a sample.
+fn certified(text: &mut String, verdict: Agreement, Brackets { position_m, orientation_rad }: &Brackets) {
+    if verdict == Agreement::Agree {
+        let (position, orientation) = (length(position_m.certified), angle(orientation_rad.certified));
+        let _ = writeln!(
+            text,
+            "  certified: table and URDF at most {position} and {orientation} apart over the whole joint range"
+        );
+        return;
+    }
+    let mut line = |what: &str, bracket: &ReportedBracket, figure: fn(f64) -> String| {
+        let at: Vec<String> = bracket.at.iter().map(|named| format!("{:.4}", named.value)).collect();
+        let _ = writeln!(
+            text,
+            "  worst {what} disagreement {} at q = ({}), certified below {} over the whole joint range",
+            figure(bracket.attained),
+            at.join(", "),
+            figure(bracket.certified)
+        );
+    };
+    line("position", position_m, length);
+    line("orientation", orientation_rad, angle);
 }
 
 fn compared(text: &mut String, comparison: &Comparison) {

@@ -12,7 +12,7 @@ use crate::{configurations::range, sample::LinkError, verdict::NamedValue};
 /// How far a probed chain may be from what it was probed from, for each metre of its screws'
 /// moments and of its home pose (and as an angle). Kind: rounding; a logarithm over half a unit and
 /// three products for each joint, some 20 eps; worst seen 6 eps.
-const PROBE_ROUNDING: f64 = 128.0 * f64::EPSILON;
+const PROBE_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// No configuration is further apart than this.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -47,10 +47,7 @@ pub struct Brackets {
 impl Brackets {
     /// The bounds alone.
     pub fn bounds(&self) -> Bounds {
-        Bounds {
-            position_m: self.position_m.certified,
-            orientation_rad: self.orientation_rad.certified,
-        }
+        Bounds { position_m: self.position_m.certified, orientation_rad: self.orientation_rad.certified }
     }
 }
 
@@ -65,7 +62,8 @@ pub fn certificate(description: &RobotDescription) -> Result<Option<Brackets>, K
     let Some(joints) = robot.chain(description.base, description.tip) else { return Ok(None) };
     let by_urdf: Vec<usize> = joints.iter().filter_map(|&joint| robot.coordinate(joint)).collect();
     let pair = Pair::new(description, &by_table, &by_urdf)?;
-    let ranges: Vec<(f64, f64)> = robot.movable_joints().iter().map(|&joint| range(robot.joint(joint))).collect();
+    let ranges: Vec<(f64, f64)> =
+        robot.movable_joints().iter().map(|&joint| range(robot.joint(joint))).collect();
     if pair.drivers.iter().any(|&driver| !(ranges[driver].0.is_finite() && ranges[driver].1.is_finite())) {
         return Ok(None);
     }
@@ -86,7 +84,8 @@ pub fn certificate(description: &RobotDescription) -> Result<Option<Brackets>, K
         let certified = bracket.certified + rounding;
         let attained = measure(LinkError::of(&by_table.base_from_tip(&q)?, &base_from_tip)).min(certified);
         let name = |index: usize| robot.joint(robot.movable_joints()[index]).name.clone();
-        let at = q.iter().enumerate().map(|(index, &value)| NamedValue { joint: name(index), value }).collect();
+        let at =
+            q.iter().enumerate().map(|(index, &value)| NamedValue { joint: name(index), value }).collect();
         Ok(ReportedBracket { attained, certified, at })
     };
     Ok(Some(Brackets {
@@ -123,9 +122,7 @@ impl Pair {
         let table = ScrewChain::from_dh(by_table, robot.dof())?;
         let urdf = ScrewChain::from_urdf(robot, (description.base, description.tip), by_urdf)?;
         let ties: Vec<Tie> = places.iter().map(|place| Tie::of(robot, place.coordinate)).collect();
-        let spread = |chain: &ScrewChain, has: fn(&Place) -> bool| {
-            tied(&ties, chain, places.iter().map(has))
-        };
+        let spread = |chain: &ScrewChain, has: fn(&Place) -> bool| tied(&ties, chain, places.iter().map(has));
         Ok(Self {
             table: spread(&table, |place| place.in_table),
             urdf: spread(&urdf, |place| place.in_urdf),
@@ -190,8 +187,7 @@ fn tied(ties: &[Tie], chain: &ScrewChain, has: impl Iterator<Item = bool>) -> Sc
         let twist = twist.seen_from(&moved);
         moved = twist.exp(tie.offset) * moved;
         let Twist { angular, linear } = twist;
-        twists_in_base
-            .push(Twist { angular: angular * tie.multiplier, linear: linear * tie.multiplier });
+        twists_in_base.push(Twist { angular: angular * tie.multiplier, linear: linear * tie.multiplier });
     }
     ScrewChain { twists_in_base, base_from_tip_at_zero: moved * chain.base_from_tip_at_zero }
 }
@@ -209,6 +205,34 @@ mod tests {
         assert_eq!(of(|_| true), expected);
         assert_eq!(of(|place| place.in_table), table);
         assert_eq!(of(|place| place.in_urdf), urdf);
+    }
+
+    /// The allowance for probing is kept by every robot of the workspace.
+    #[test]
+    fn probed_chains_are_what_they_were_probed_from() {
+        let robots = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
+        let mut worst = 0.0_f64;
+        for folder in std::fs::read_dir(robots).unwrap().flatten() {
+            let description = congruent_description::load_robot(&folder.path()).unwrap();
+            let robot = &description.robot;
+            let by_table = DhChain::new(description.dh.as_ref().unwrap(), robot);
+            let tree = UrdfTree::new(robot);
+            let joints = robot.chain(description.base, description.tip).unwrap();
+            let by_urdf: Vec<usize> = joints.iter().filter_map(|&joint| robot.coordinate(joint)).collect();
+            let pair = Pair::new(&description, &by_table, &by_urdf).unwrap();
+            for q in crate::configurations::probe_configurations(robot, 0, 50) {
+                let driven: Vec<f64> = pair.drivers.iter().map(|&driver| q[driver]).collect();
+                let root_from = |link| tree.root_from_link(&q, link).unwrap();
+                let by_tree = root_from(description.base).inverse() * root_from(description.tip);
+                for (chain, pose) in
+                    [(&pair.table, by_table.base_from_tip(&q).unwrap()), (&pair.urdf, by_tree)]
+                {
+                    let error = LinkError::of(&chain.base_from_tip(&driven).unwrap(), &pose);
+                    worst = worst.max(error.position_m.max(error.orientation_rad) / pair.rounding());
+                }
+            }
+        }
+        assert!(worst <= 0.5, "{worst} of the allowance for both, by one");
     }
 
     #[test]

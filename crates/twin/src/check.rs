@@ -7,6 +7,7 @@ use nalgebra::Isometry3;
 use serde::Serialize;
 
 use crate::{
+    certificate::{Bounds, Brackets, certificate},
     configurations::probe_configurations,
     model::{Model, PoseSource},
     report::Finding,
@@ -95,6 +96,10 @@ pub struct CheckReport {
     pub seed: u64,
     /// Two witnesses at a time.
     pub comparisons: Vec<Comparison>,
+    /// How far table and URDF are apart at most, over the whole joint range; of a robot with a table.
+    pub certificate: Option<Bounds>,
+    /// The same with configurations that come near.
+    pub certificate_bracket: Option<Brackets>,
     /// What was suspicious in the input.
     pub warnings: Vec<Finding>,
 }
@@ -143,6 +148,7 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
         tallies.iter().map(|tally| tally.finish(description, &configurations)).collect();
     let worst = worst_of(&comparisons);
     let agree = comparisons.iter().all(|comparison| comparison.verdict == Agreement::Agree);
+    let brackets = certificate(description)?;
     let Tolerance { position_m, orientation_rad: angle } = description.tolerance;
     Ok(CheckReport {
         robot: robot.name().to_owned(),
@@ -152,6 +158,8 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
         configurations: configurations.len(),
         seed,
         comparisons,
+        certificate: brackets.as_ref().map(Brackets::bounds),
+        certificate_bracket: brackets,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     })
 }
@@ -308,6 +316,6 @@ fn named(description: &RobotDescription, q: &[f64]) -> Vec<NamedValue> {
     robot.movable_joints().iter().zip(q).map(value).collect()
 }
 
-fn as_map<S: serde::Serializer>(values: &[NamedValue], serializer: S) -> Result<S::Ok, S::Error> {
+pub(crate) fn as_map<S: serde::Serializer>(values: &[NamedValue], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(values.iter().map(|named| (&named.joint, named.value)))
 }

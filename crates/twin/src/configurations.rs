@@ -55,7 +55,7 @@ pub fn random_configurations(robot: &Robot, seed: u64, count: usize) -> Vec<Vec<
 }
 
 /// The limits of a joint, or one turn where it has none.
-fn range(joint: &Joint) -> (f64, f64) {
+pub(crate) fn range(joint: &Joint) -> (f64, f64) {
     joint.position_range().unwrap_or((-std::f64::consts::PI, std::f64::consts::PI))
 }
 

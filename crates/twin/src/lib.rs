@@ -3,6 +3,7 @@
 
 mod batch;
 pub mod calibration;
+pub mod certificate;
 pub mod check;
 pub mod clearance;
 mod configurations;
