@@ -64,7 +64,7 @@ const FAULTS: [Fault; 7] = [
     ("a of row 2, 1 mm", |arm| arm.rows[1].a_m += 1e-3),
     ("zero of joint 2, 1 deg", |arm| arm.rows[1].theta_rad += 1_f64.to_radians()),
     ("base, 1 mm and 1 deg", |arm| {
-        arm.base_from_dh0 = Isometry3::new(Vector3::x() * 1e-3, Vector3::x() * 0.017)
+        arm.base_from_dh0 = Isometry3::new(Vector3::x() * 1e-3, Vector3::x() * 0.017);
     }),
     ("tool, 5 mm", |arm| arm.dhn_from_tip = Isometry3::translation(0.005, 0.0, 0.0)),
     ("every figure", |arm| {

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use congruent_description::DhConvention;
 use congruent_kinematics::{
-    Bracket, Budget, Certificate, DhChain, KinematicsError, Pose, ScrewChain, Twist, certify,
+    Bracket, Budget, Certificate, DhChain, KinematicsError, Pose, ScrewChain, Twist, certify, certify_driven,
 };
 use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
@@ -183,6 +183,29 @@ fn more_than_one_turn_repeats_itself() {
     let ranges = [(-2.0 * PI, 2.0 * PI), (-9.0, 12.0)];
     let certificate = certify(&chain(&off), &chain(&planar(0.4)), &ranges, Budget::default()).unwrap();
     assert_close(&certificate.position_m, 2.0 * (0.01_f64 / 2.0).sin() * 0.4);
+}
+
+#[test]
+fn parallel_joints_in_another_order_agree_in_orientation() {
+    // The same two lengths, the joints exchanged: shoulder and elbow trade their parts.
+    let still = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
+    let arm = chain(&planar(0.4));
+    let [first, second] = [arm.twists_in_base[0], arm.twists_in_base[1]];
+    let with = |twists_in_base: Vec<Twist>| ScrewChain { twists_in_base, ..arm.clone() };
+    let (a, b) = (with(vec![first, second, still]), with(vec![still, first, second]));
+    let certificate = certify_driven((&a, &b), &[0, 1, 0], &[TURN, (-0.5, 0.5)], Budget::default()).unwrap();
+    assert_exact(&certificate.orientation_rad, 0.0);
+    let apart = |q: [f64; 2]| {
+        let tip = |q1: f64, q2: f64| {
+            0.6 * Vector3::new(q1.cos(), q1.sin(), 0.0)
+                + 0.4 * Vector3::new((q1 + q2).cos(), (q1 + q2).sin(), 0.0)
+        };
+        (tip(q[0], q[1]) - tip(q[1], q[0])).norm()
+    };
+    let steps = (-100..=100).flat_map(|i| (-20..=20).map(move |j| (i, j)));
+    let sampled =
+        steps.map(|(i, j)| apart([f64::from(i) * PI / 100.0, f64::from(j) * 0.025])).fold(0.0, f64::max);
+    assert_close(&certificate.position_m, sampled);
 }
 
 #[test]

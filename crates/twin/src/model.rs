@@ -101,6 +101,8 @@ impl DhModel {
         for link in robot.link_indices() {
             let Some(frame) = frame_that_carries(robot, description, link) else { continue };
             let declared = link == description.tip;
+            // The tip is declared in the last frame, whatever row its joint stands in.
+            let frame = if declared { chain.joint_count() } else { frame };
             let dhk_from_link = if declared {
                 table.dhn_from_tip.into()
             } else {

@@ -7,6 +7,10 @@
 //! polygons it is largest at corners. Polygons around short arcs exceed them by the square of
 //! their length, times the part of the *difference* that depends on this joint: small faults are
 //! bounded as tightly as large ones.
+//!
+//! A position that drives two slots takes the same corner in both, as long as the difference stays
+//! affine in it: where each chain moves in one of them. Otherwise the slots are taken for independent,
+//! which is wider and holds as well.
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -51,9 +55,36 @@ pub(super) struct Slot {
     pub(super) rate: Option<f64>,
     /// Of the first chain and of the second.
     pub(super) motions: [Motion; 2],
+    /// The later slot whose corner it takes.
+    pub(super) like: Option<usize>,
 }
 
 impl Slot {
+    pub(super) fn new(joint: usize, rate: Option<f64>, motions: [Motion; 2]) -> Self {
+        Self { joint, rate, motions, like: None }
+    }
+
+    /// Whether both have the same features, and no chain moves in both.
+    fn shares_corners(&self, other: &Self) -> bool {
+        let same_rate = match (self.rate, other.rate) {
+            // Rates of one joint in two chains, each the norm of a twist: rounding.
+            (Some(rate), Some(other)) => (rate - other).abs() <= 8.0 * f64::EPSILON * rate,
+            (None, None) => true,
+            _ => false,
+        };
+        let still = Motion::none();
+        let apart = self.motions.iter().zip(&other.motions).all(|(one, two)| *one == still || *two == still);
+        self.joint == other.joint && same_rate && apart
+    }
+
+    fn motions_at(&self, corners: &[Corner]) -> [[Matrix4<f64>; 2]; 3] {
+        let mut motions = [[Matrix4::zeros(); 2]; 3];
+        for (motion, corner) in motions.iter_mut().zip(corners) {
+            *motion = [self.motions[0].at(corner.features), self.motions[1].at(corner.features)];
+        }
+        motions
+    }
+
     fn corner(&self, position: f64) -> Corner {
         self.rate.map_or_else(|| on_line(position), |rate| on_circle(rate, position, 1.0))
     }
@@ -76,9 +107,9 @@ impl Slot {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Gap {
     /// Base to tip.
-    pub(super) slots: Vec<Slot>,
+    slots: Vec<Slot>,
     /// The vectors at the end of the two chains.
-    pub(super) tips: [Vector4<f64>; 2],
+    tips: [Vector4<f64>; 2],
 }
 
 /// A bound over a box, and what it says about where to look.
@@ -100,6 +131,27 @@ pub(super) struct Room {
 }
 
 impl Gap {
+    /// Pairs slots of one position where they can share their corners.
+    pub(super) fn new(mut slots: Vec<Slot>, tips: [Vector4<f64>; 2]) -> Self {
+        for index in 0..slots.len() {
+            let taken =
+                |later: usize| slots[later].like.is_some() || slots.iter().any(|it| it.like == Some(later));
+            let free = |&later: &usize| !taken(later) && slots[index].shares_corners(&slots[later]);
+            slots[index].like = if taken(index) { None } else { (index + 1..slots.len()).find(free) };
+        }
+        Self { slots, tips }
+    }
+
+    /// The same with the other sign of the second chain.
+    pub(super) fn negated(self) -> Self {
+        Self { tips: [self.tips[0], -self.tips[1]], ..self }
+    }
+
+    /// Whether the gap depends on a joint position.
+    pub(super) fn depends_on(&self, joint: usize) -> bool {
+        self.slots.iter().any(|slot| slot.joint == joint)
+    }
+
     /// The gap at joint positions `q`.
     pub(super) fn at(&self, q: &[f64]) -> f64 {
         self.at_corners(self.slots.iter().map(|slot| slot.corner(q[slot.joint])))
@@ -118,18 +170,14 @@ impl Gap {
         self.spread_corners(cell, room);
         self.multiply_out(room);
         let squared = |[a, b]: &[Vector4<f64>; 2]| (a - b).norm_squared();
-        let (mut worst, mut largest) = (0, -1.0);
+        let (mut worst, mut largest) = (0, -1.0_f64);
         for (index, pair) in room.pairs.iter().enumerate() {
             let gap = squared(pair);
             if gap > largest {
                 (worst, largest) = (index, gap);
             }
         }
-        room.best.clear();
-        for corners in &room.corners[..self.slots.len()] {
-            room.best.push(corners[worst % corners.len()]);
-            worst /= corners.len();
-        }
+        self.decode(worst, room);
         for (slot, corner) in self.slots.iter().zip(&room.best) {
             nearest[slot.joint] = corner.position;
         }
@@ -160,20 +208,44 @@ impl Gap {
     /// Carries the tips through every choice of corners, from the tip to the base: the last digit
     /// of an index is the corner of the first slot.
     fn multiply_out(&self, room: &mut Room) {
-        room.pairs.clear();
-        room.pairs.push(self.tips);
-        for (slot, corners) in self.slots.iter().zip(&room.corners).rev() {
-            let at = |corner: &Corner| [0, 1].map(|chain| slot.motions[chain].at(corner.features));
-            let mut motions = [[Matrix4::zeros(); 2]; 3];
-            for (motion, corner) in motions.iter_mut().zip(corners) {
-                *motion = at(corner);
+        let Room { corners, pairs, next_pairs, .. } = room;
+        pairs.clear();
+        pairs.push(self.tips);
+        for (index, slot) in self.slots.iter().enumerate().rev() {
+            if let Some(like) = slot.like {
+                let motions = slot.motions_at(&corners[like]);
+                let own = index + 1..like;
+                let stride: usize =
+                    own.filter(|&at| self.slots[at].like.is_none()).map(|at| corners[at].len()).product();
+                for (number, [a, b]) in pairs.iter_mut().enumerate() {
+                    let [by_a, by_b] = &motions[number / stride % corners[like].len()];
+                    (*a, *b) = (by_a * *a, by_b * *b);
+                }
+                continue;
             }
-            room.next_pairs.clear();
-            for [a, b] in &room.pairs {
-                room.next_pairs
-                    .extend(motions[..corners.len()].iter().map(|[by_a, by_b]| [by_a * a, by_b * b]));
+            let motions = slot.motions_at(&corners[index]);
+            next_pairs.clear();
+            for [a, b] in pairs.iter() {
+                let here = &motions[..corners[index].len()];
+                next_pairs.extend(here.iter().map(|[by_a, by_b]| [by_a * a, by_b * b]));
             }
-            std::mem::swap(&mut room.pairs, &mut room.next_pairs);
+            std::mem::swap(pairs, next_pairs);
+        }
+    }
+
+    /// The corners that an index of [`Gap::multiply_out`] stands for.
+    fn decode(&self, mut index: usize, room: &mut Room) {
+        room.best.clear();
+        for (slot, corners) in self.slots.iter().zip(&room.corners) {
+            // A slot that takes another's corner has no digit; its corner is filled in below.
+            let count = if slot.like.is_none() { corners.len() } else { 1 };
+            room.best.push(corners[index % count]);
+            index /= count;
+        }
+        for (at, slot) in self.slots.iter().enumerate() {
+            if let Some(like) = slot.like {
+                room.best[at] = room.best[like];
+            }
         }
     }
 

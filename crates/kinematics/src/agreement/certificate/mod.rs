@@ -238,7 +238,7 @@ impl Problem<'_> {
 
     /// Joints that the gap does not depend on go to where they rest.
     fn at_rest_elsewhere(&self, gap: &Gap, at: &[f64]) -> Vec<f64> {
-        let matters = |joint| gap.slots.iter().any(|slot| slot.joint == joint);
-        (0..at.len()).map(|joint| if matters(joint) { at[joint] } else { self.rest[joint] }).collect()
+        let place = |joint: usize| if gap.depends_on(joint) { at[joint] } else { self.rest[joint] };
+        (0..at.len()).map(place).collect()
     }
 }

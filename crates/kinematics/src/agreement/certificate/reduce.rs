@@ -2,7 +2,7 @@
 //! the tip does not change how far they are apart. What is shared only almost is exchanged, and
 //! the exchange is paid for by the telescoped bound.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{SQRT_2, TAU};
 
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
@@ -101,7 +101,7 @@ impl Tidied {
             last -= 1;
         }
         let slots = (first..last).flat_map(|joint| self.point_slots(joint)).collect();
-        Reduced { gap: Gap { slots, tips: tips.map(|tip| tip.push(1.0)) }, price }
+        Reduced { gap: Gap::new(slots, tips.map(|tip| tip.push(1.0))), price }
     }
 
     /// The gap between the tips' unit quaternions, `2 sin(angle / 4)` along the way from the middle of
@@ -126,12 +126,10 @@ impl Tidied {
             last -= 1;
         }
         let slots = (first..last).flat_map(|joint| self.quaternion_slots(joint)).collect();
-        let mut gap = Gap { slots, tips: homes.map(|home| Vector4::from(quaternion_of(&home))) };
+        let gap = Gap::new(slots, homes.map(|home| Vector4::from(quaternion_of(&home))));
         let middle: Vec<f64> = self.positions.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
         // A quaternion and its negative are one orientation: the nearer one.
-        if gap.at(&middle) > 2.0_f64.sqrt() {
-            gap.tips[1] = -gap.tips[1];
-        }
+        let gap = if gap.at(&middle) > SQRT_2 { gap.negated() } else { gap };
         Reduced { gap, price }
     }
 
@@ -150,7 +148,7 @@ impl Tidied {
         let (screws, joint) = (self.screws(joint), self.drivers[joint]);
         let mut slots = turns(joint, &screws, Screw::turn_of_points);
         if screws.iter().any(|screw| screw.shift != Vector3::zeros()) {
-            slots.push(Slot { joint, rate: None, motions: screws.each_ref().map(Screw::shift_of_points) });
+            slots.push(Slot::new(joint, None, screws.each_ref().map(Screw::shift_of_points)));
         }
         slots
     }
@@ -170,7 +168,7 @@ fn turns(joint: usize, screws: &[Screw; 2], motion: fn(&Screw) -> Motion) -> Vec
     // Tidied rates differ by rounding or by more than noise.
     let alike = (a.rate - b.rate).abs() <= 8.0 * f64::EPSILON * b.rate;
     let shared = if alike { b.rate } else { a.rate.min(b.rate) };
-    let slot = |rate: f64, motions| Slot { joint, rate: Some(rate), motions };
+    let slot = |rate: f64, motions| Slot::new(joint, Some(rate), motions);
     let mut slots = Vec::new();
     if shared > 0.0 {
         slots.push(slot(shared, [motion(a), motion(b)]));
