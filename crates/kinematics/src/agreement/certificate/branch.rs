@@ -13,6 +13,10 @@ use super::{
 /// What a box costs besides its corners, in corners: time for its motions, and memory.
 const CORNERS_PER_CELL: u64 = 256;
 
+/// Most corners of one box: beyond, and that is beyond ten joints that matter, the telescoped sum has
+/// to do.
+const MOST_CORNERS_OF_CELL: u64 = 1 << 20;
+
 /// What came of it: `attained.gap <= certified`, as far as rounding lets one tell.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Outcome {
@@ -61,6 +65,8 @@ struct Search<'a> {
     room: Room,
     nearest: Vec<f64>,
     cells: u64,
+    /// In corners.
+    spent: u64,
 }
 
 impl Search<'_> {
@@ -74,6 +80,7 @@ impl Search<'_> {
             self.attained = found;
         }
         self.cells += 1;
+        self.spent += enclosure.corners + CORNERS_PER_CELL;
         let bound = enclosure.bound.min(parent);
         Cell { bound, number: self.cells, intervals, divide: enclosure.divide }
     }
@@ -96,12 +103,12 @@ pub(super) fn bracket(
     attained: Attained,
     (ceiling, budget): (f64, Budget),
 ) -> Outcome {
-    let price = gap.corner_count().saturating_add(CORNERS_PER_CELL);
     let nearest = attained.at.clone();
-    let mut search = Search { gap, ranges, attained, room: Room::default(), nearest, cells: 0 };
-    if price > budget.corners {
-        return Outcome { attained: search.attained, certified: f64::INFINITY, cells: 0 };
+    let most = gap.most_corners();
+    if most > MOST_CORNERS_OF_CELL || most.saturating_add(CORNERS_PER_CELL) > budget.corners {
+        return Outcome { attained, certified: f64::INFINITY, cells: 0 };
     }
+    let mut search = Search { gap, ranges, attained, room: Room::default(), nearest, cells: 0, spent: 0 };
     let mut open = BinaryHeap::from([search.bound(ranges.to_vec(), f64::INFINITY)]);
     let certified = loop {
         let Some(cell) = open.pop() else { unreachable!("a box that is taken leaves two behind") };
@@ -113,7 +120,7 @@ pub(super) fn bracket(
         let (lower, upper) = cell.intervals.get(cell.divide).copied().unwrap_or_default();
         let middle = f64::midpoint(lower, upper);
         let divisible = lower < middle && middle < upper;
-        let spent = (search.cells + 2).saturating_mul(price) > budget.corners;
+        let spent = search.spent >= budget.corners;
         if cell.bound <= enough || spent || !divisible {
             break cell.bound;
         }

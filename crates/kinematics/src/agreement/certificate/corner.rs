@@ -1,7 +1,7 @@
 //! Corners of a polygon around what a joint's features run through: an arc of the unit circle for
 //! a turn, a segment for a shift.
 
-use std::f64::consts::{FRAC_PI_3, TAU};
+use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
 /// One corner: where a joint's pair of features is taken, on the curve or outside of it.
 ///
@@ -29,25 +29,39 @@ pub(super) fn on_line(position: f64) -> Corner {
     Corner { features: [position, 0.0], position }
 }
 
-/// How far out the corners of [`around_arc`] lie: 1 for an arc of no length, at most 2.
+/// Most corners that one joint has.
+pub(super) const MOST_CORNERS: usize = 4;
+
+/// How far out the corners of [`around_arc`] lie: 1 for an arc of no length, at most the square root
+/// of 2.
 pub(super) fn outermost_radius(rate: f64, (lower, upper): Interval) -> f64 {
-    let half_angle = rate * (upper - lower) / 2.0;
-    if half_angle < FRAC_PI_3 { half_angle.cos().recip() } else { 2.0 }
+    let angle = rate * (upper - lower);
+    let between_tangents = if angle <= 2.0 * FRAC_PI_4 { angle / 2.0 } else { angle / 4.0 };
+    if between_tangents < FRAC_PI_4 { between_tangents.cos().recip() } else { SQRT_2 }
 }
 
-/// A triangle that contains the arc: its ends and the point where the tangents at the ends meet;
-/// beyond a third of a turn the triangle around the whole circle, which starts as large.
-pub(super) fn around_arc(rate: f64, interval: Interval) -> [Corner; 3] {
+/// Corners around an arc: its ends and the point where the tangents at the ends meet; beyond a
+/// quarter of a turn also the tangent in the middle; beyond half a turn the square around the circle.
+pub(super) fn around_arc(rate: f64, interval: Interval, corners: &mut Vec<Corner>) {
     let (lower, upper) = interval;
     let middle = f64::midpoint(lower, upper);
     let radius = outermost_radius(rate, interval);
-    if rate * (upper - lower) / 2.0 < FRAC_PI_3 {
-        return [on_circle(rate, lower, 1.0), on_circle(rate, middle, radius), on_circle(rate, upper, 1.0)];
+    let angle = rate * (upper - lower);
+    if angle > PI {
+        corners.extend([-3.0, -1.0, 1.0, 3.0].map(|eighths| {
+            let corner = on_circle(rate, middle + eighths * FRAC_PI_4 / rate, radius);
+            Corner { position: corner.position.clamp(lower, upper), ..corner }
+        }));
+        return;
     }
-    [-1.0, 0.0, 1.0].map(|thirds| {
-        let corner = on_circle(rate, middle + thirds * TAU / (3.0 * rate), radius);
-        Corner { position: corner.position.clamp(lower, upper), ..corner }
-    })
+    corners.push(on_circle(rate, lower, 1.0));
+    if angle <= 2.0 * FRAC_PI_4 {
+        corners.push(on_circle(rate, middle, radius));
+    } else {
+        let quarter = (upper - lower) / 4.0;
+        corners.extend([middle - quarter, middle + quarter].map(|at| on_circle(rate, at, radius)));
+    }
+    corners.push(on_circle(rate, upper, 1.0));
 }
 
 /// Both ends of a shift.

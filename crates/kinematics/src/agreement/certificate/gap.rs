@@ -14,7 +14,9 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use super::corner::{Corner, Interval, around_arc, around_segment, on_circle, on_line, outermost_radius};
+use super::corner::{
+    Corner, Interval, MOST_CORNERS, around_arc, around_segment, on_circle, on_line, outermost_radius,
+};
 
 /// Rounding of one motion and its product with a vector, in units of the largest vector: entries of
 /// the motion are a dozen roundings of numbers up to its size (their norm at most three times that
@@ -77,8 +79,8 @@ impl Slot {
         self.joint == other.joint && same_rate && apart
     }
 
-    fn motions_at(&self, corners: &[Corner]) -> [[Matrix4<f64>; 2]; 3] {
-        let mut motions = [[Matrix4::zeros(); 2]; 3];
+    fn motions_at(&self, corners: &[Corner]) -> [[Matrix4<f64>; 2]; MOST_CORNERS] {
+        let mut motions = [[Matrix4::zeros(); 2]; MOST_CORNERS];
         for (motion, corner) in motions.iter_mut().zip(corners) {
             *motion = [self.motions[0].at(corner.features), self.motions[1].at(corner.features)];
         }
@@ -119,6 +121,8 @@ pub(super) struct Enclosure {
     pub(super) bound: f64,
     /// The joint whose division promises most.
     pub(super) divide: usize,
+    /// Number of corners that were evaluated.
+    pub(super) corners: u64,
 }
 
 /// Room that [`Gap::enclose`] uses again and again.
@@ -157,11 +161,10 @@ impl Gap {
         self.at_corners(self.slots.iter().map(|slot| slot.corner(q[slot.joint])))
     }
 
-    /// Number of corners of a box.
-    pub(super) fn corner_count(&self) -> u64 {
-        self.slots
-            .iter()
-            .fold(1, |count: u64, slot| count.saturating_mul(if slot.rate.is_some() { 3 } else { 2 }))
+    /// Most corners that a box has.
+    pub(super) fn most_corners(&self) -> u64 {
+        let own = self.slots.iter().filter(|slot| slot.like.is_none());
+        own.fold(1, |count, _| count.saturating_mul(MOST_CORNERS as u64))
     }
 
     /// Bounds the gap over a box; `nearest` receives the configuration of the box that is next to
@@ -182,7 +185,7 @@ impl Gap {
             nearest[slot.joint] = corner.position;
         }
         let bound = largest.sqrt() + self.rounding(cell);
-        Enclosure { bound, divide: self.most_promising(cell, &room.best) }
+        Enclosure { bound, divide: self.most_promising(cell, &room.best), corners: room.pairs.len() as u64 }
     }
 
     fn at_corners(&self, corners: impl DoubleEndedIterator<Item = Corner> + ExactSizeIterator) -> f64 {
@@ -199,7 +202,7 @@ impl Gap {
         for (slot, corners) in self.slots.iter().zip(&mut room.corners) {
             corners.clear();
             match slot.rate {
-                Some(rate) => corners.extend(around_arc(rate, cell[slot.joint])),
+                Some(rate) => around_arc(rate, cell[slot.joint], corners),
                 None => corners.extend(around_segment(cell[slot.joint])),
             }
         }

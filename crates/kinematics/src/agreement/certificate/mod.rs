@@ -39,7 +39,7 @@ const ALLOWANCE: f64 = 1e-4;
 pub struct Budget {
     /// The bracket is narrow enough when `certified <= attained (1 + relative_gap)`.
     pub relative_gap: f64,
-    /// Most corners that are evaluated for each of the two brackets, some 20 ns each; a box counts
+    /// Most corners that are evaluated for each of the two brackets, some 10 ns each; a box counts
     /// for 256 more than it has.
     pub corners: u64,
 }
