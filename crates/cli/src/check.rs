@@ -79,7 +79,8 @@ fn certified(text: &mut String, verdict: Agreement, Brackets { position_m, orien
         return;
     }
     let mut line = |what: &str, bracket: &ReportedBracket, figure: fn(f64) -> String| {
-        let at: Vec<String> = bracket.at.iter().map(|named| format!("{:.4}", named.value)).collect();
+        let at: Vec<String> =
+            bracket.at.iter().map(|named| format!("{} {:.4}", named.joint, named.value)).collect();
         let _ = writeln!(
             text,
             "  worst {what} disagreement {} at q = ({}), certified below {} over the whole joint range",

@@ -30,7 +30,7 @@ pub struct ReportedBracket {
     pub attained: f64,
     /// The bound; m or rad.
     pub certified: f64,
-    /// A configuration that attains it: every movable joint, rad or m.
+    /// A configuration that attains it: the joints that move the tip, rad or m.
     #[serde(serialize_with = "crate::check::as_map")]
     pub at: Vec<NamedValue>,
 }
@@ -84,8 +84,8 @@ pub fn certificate(description: &RobotDescription) -> Result<Option<Brackets>, K
         let certified = bracket.certified + rounding;
         let attained = measure(LinkError::of(&by_table.base_from_tip(&q)?, &base_from_tip)).min(certified);
         let name = |index: usize| robot.joint(robot.movable_joints()[index]).name.clone();
-        let at =
-            q.iter().enumerate().map(|(index, &value)| NamedValue { joint: name(index), value }).collect();
+        let driving = q.iter().enumerate().filter(|(index, _)| pair.drivers.contains(index));
+        let at = driving.map(|(index, &value)| NamedValue { joint: name(index), value }).collect();
         Ok(ReportedBracket { attained, certified, at })
     };
     Ok(Some(Brackets {
