@@ -3,6 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
 
+mod calibration;
 mod bad_input;
 mod check_tables;
 mod clearance_goldens;
