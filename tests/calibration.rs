@@ -83,7 +83,13 @@ fn measured(robot: &str, joints: &[&str], rows: usize, (noise_m, noise_rad): (f6
     let configuration = |random: &mut Random| -> BTreeMap<String, f64> {
         // Within the limits of every robot here; the Panda's fourth joint bends one way only.
         let draw = |joint: &&str| {
-            let centre = if *joint == "panda_joint4" { -1.5 } else if *joint == "panda_joint6" { 1.5 } else { 0.0 };
+            let centre = if *joint == "panda_joint4" {
+                -1.5
+            } else if *joint == "panda_joint6" {
+                1.5
+            } else {
+                0.0
+            };
             ((*joint).to_owned(), centre + 2.6 * (random.uniform() - 0.5))
         };
         joints.iter().map(draw).collect()
@@ -101,7 +107,12 @@ fn measured(robot: &str, joints: &[&str], rows: usize, (noise_m, noise_rad): (f6
         // A small turn on the left of the quaternion, to first order; the reader normalises it.
         let [w, x, y, z] = [0, 1, 2, 3].map(|at| figure("quaternion_wxyz", at));
         let [a, b, c] = [0; 3].map(|_| noise_rad * random.normal() / 2.0);
-        let turned = [w - a * x - b * y - c * z, x + a * w + b * z - c * y, y + b * w + c * x - a * z, z + c * w + a * y - b * x];
+        let turned = [
+            w - a * x - b * y - c * z,
+            x + a * w + b * z - c * y,
+            y + b * w + c * x - a * z,
+            z + c * w + a * y - b * x,
+        ];
         json!({ "q": asked["q"], "translation_m": translation, "quaternion_wxyz": turned })
     };
     configurations.iter().zip(answer["results"].as_array().unwrap()).map(&mut row).collect()
@@ -138,8 +149,14 @@ const UR5E: [&str; 6] = [
 
 /// Known errors of a UR5e: four zeros, two lengths and a twist.
 const UR5E_ERRORS: [(&str, &str); 4] = [
-    ("a_m = -0.425\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = 0.0", "a_m = -0.4262\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = 0.35"),
-    ("a_m = -0.3922\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = 0.0", "a_m = -0.3922\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = -0.6"),
+    (
+        "a_m = -0.425\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = 0.0",
+        "a_m = -0.4262\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = 0.35",
+    ),
+    (
+        "a_m = -0.3922\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = 0.0",
+        "a_m = -0.3922\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = -0.6",
+    ),
     ("alpha_deg = 90.0\nd_m = 0.1333\ntheta_deg = 0.0", "alpha_deg = 90.12\nd_m = 0.1333\ntheta_deg = 0.2"),
     ("d_m = 0.0997\ntheta_deg = 0.0", "d_m = 0.1005\ntheta_deg = -0.15"),
 ];
@@ -167,7 +184,10 @@ fn case_04_zero_offset_of_the_planar_arm() {
     let file = bench.write("points.csv", CASE_04);
     let report = calibrate(&["robots/planar_2r", &file, "--free", "joint_1.zero"]);
     let offset = parameter(&report, "joint_1.zero");
-    assert!((number(&offset["correction"]).to_degrees() - 1.019_128_690_972_2).abs() < DIGITS_DEG, "{offset}");
+    assert!(
+        (number(&offset["correction"]).to_degrees() - 1.019_128_690_972_2).abs() < DIGITS_DEG,
+        "{offset}"
+    );
     assert!((number(&report["least_squares"]["cost_m2"]) - 0.016_334_185_292_229).abs() < DIGITS_M2);
     assert!((number(&report["nominal"]["cost_m2"]) - 0.017_794_112_276).abs() < 5e-13);
     assert_eq!(report["verdict"], "unexplained_rows");
@@ -208,8 +228,12 @@ fn without_noise_the_table_comes_back_to_rounding() {
     // Along parallel axes only the sum of the shifts shows, and it is frozen, not spread.
     let frozen = names(&report["frozen"]);
     assert!(frozen.contains(&"elbow_joint.d") && frozen.contains(&"wrist_1_joint.d"), "{frozen:?}");
-    let elbow = report["frozen"].as_array().unwrap().iter().find(|each| each["name"] == "elbow_joint.d").unwrap();
-    assert_eq!(elbow["reason"], "cannot be told from shoulder_lift_joint.d: only their sum can be identified");
+    let elbow =
+        report["frozen"].as_array().unwrap().iter().find(|each| each["name"] == "elbow_joint.d").unwrap();
+    assert_eq!(
+        elbow["reason"],
+        "cannot be told from shoulder_lift_joint.d: only their sum can be identified"
+    );
 }
 
 #[test]
@@ -249,7 +273,12 @@ fn planted_outliers_are_named_and_do_not_bend_the_robust_estimate() {
         *figure = json!(number(figure) + if turn % 2 == 0 { 0.02 } else { -0.004 });
     }
     let file = bench.write("poses.json", &Value::from(rows).to_string());
-    let report = calibrate(&["robots/ur5e", &file, "--free", "zero-offsets,shoulder_lift_joint.a,wrist_1_joint.alpha,wrist_2_joint.d"]);
+    let report = calibrate(&[
+        "robots/ur5e",
+        &file,
+        "--free",
+        "zero-offsets,shoulder_lift_joint.a,wrist_1_joint.alpha,wrist_2_joint.d",
+    ]);
     let found: Vec<usize> = report["outliers"]
         .as_array()
         .unwrap()
@@ -268,18 +297,30 @@ fn planted_outliers_are_named_and_do_not_bend_the_robust_estimate() {
 #[test]
 fn panda_zeros_from_points_alone() {
     const JOINTS: [&str; 7] = [
-        "panda_joint1", "panda_joint2", "panda_joint3", "panda_joint4", "panda_joint5", "panda_joint6", "panda_joint7",
+        "panda_joint1",
+        "panda_joint2",
+        "panda_joint3",
+        "panda_joint4",
+        "panda_joint5",
+        "panda_joint6",
+        "panda_joint7",
     ];
     let bench = Bench::new();
-    let robot = bench.robot("panda", &[
-        ("alpha_deg = 90.0\nd_m = 0.316\ntheta_deg = 0.0", "alpha_deg = 90.0\nd_m = 0.316\ntheta_deg = 0.4"),
-    ]);
-    let mut csv = JOINTS.iter().fold(String::new(), |header, joint| header + joint + "_rad,") + "x_mm,y_mm,z_mm\n";
+    let robot = bench.robot(
+        "panda",
+        &[(
+            "alpha_deg = 90.0\nd_m = 0.316\ntheta_deg = 0.0",
+            "alpha_deg = 90.0\nd_m = 0.316\ntheta_deg = 0.4",
+        )],
+    );
+    let mut csv =
+        JOINTS.iter().fold(String::new(), |header, joint| header + joint + "_rad,") + "x_mm,y_mm,z_mm\n";
     for row in measured(&robot, &JOINTS, 30, (5e-5, 0.0)) {
         for joint in JOINTS {
             let _ = write!(csv, "{},", row["q"][joint]);
         }
-        let mm: Vec<String> = (0..3).map(|at| (number(&row["translation_m"][at]) * 1e3).to_string()).collect();
+        let mm: Vec<String> =
+            (0..3).map(|at| (number(&row["translation_m"][at]) * 1e3).to_string()).collect();
         csv += &(mm.join(",") + "\n");
     }
     let file = bench.write("points.csv", &csv);
@@ -292,7 +333,10 @@ fn panda_zeros_from_points_alone() {
     let reason = |name: &str| {
         frozen.iter().find(|each| each["name"] == name).map(|each| each["reason"].as_str().unwrap())
     };
-    assert_eq!(reason("base.yaw"), Some("cannot be told from panda_joint1.zero: only their sum can be identified"));
+    assert_eq!(
+        reason("base.yaw"),
+        Some("cannot be told from panda_joint1.zero: only their sum can be identified")
+    );
     for name in ["tool.roll", "tool.pitch", "tool.yaw"] {
         assert_eq!(reason(name), Some("has no effect on these measurements"), "{frozen:?}");
     }
@@ -301,7 +345,13 @@ fn panda_zeros_from_points_alone() {
 #[test]
 fn a_bare_urdf_is_calibrated_by_its_axes() {
     let bench = Bench::new();
-    let robot = bench.robot("ur5e", &[("d_m = 0.0997\ntheta_deg = 0.0", "d_m = 0.0997\ntheta_deg = 0.5"), ("xyz_m = [0.0, 0.0, 0.05]", "xyz_m = [0.0, 0.0, 0.0]")]);
+    let robot = bench.robot(
+        "ur5e",
+        &[
+            ("d_m = 0.0997\ntheta_deg = 0.0", "d_m = 0.0997\ntheta_deg = 0.5"),
+            ("xyz_m = [0.0, 0.0, 0.05]", "xyz_m = [0.0, 0.0, 0.0]"),
+        ],
+    );
     let rows = measured(&robot, &UR5E, 30, (1e-5, 1e-5));
     let file = bench.write("poses.json", &Value::from(rows).to_string());
     let urdf = text(&Path::new(&workspace()).join("robots/ur5e/ur5e.urdf"));
@@ -340,7 +390,11 @@ fn bad_measurements_are_refused_with_their_place() {
     refuse("joint_1_deg,joint_2_deg,x_m,x_mm\n0,1,0,0\n", 1, &["same quantity"]);
     refuse("joint_1_deg,joint_2_deg,x_m,qw\n0,1,0,0\n", 1, &["orientation"]);
     refuse("joint_1_deg,joint_2_deg,x_m,y_m\n", 1, &["no measurement"]);
-    refuse("[{\"q\": {\"joint_1\": 0, \"joint_2\": 0}, \"translation_m\": [1, 0]},\n {\"q\": {\"joint_1\": 0}}]", 2, &["measurement 2", "joint_2"]);
+    refuse(
+        "[{\"q\": {\"joint_1\": 0, \"joint_2\": 0}, \"translation_m\": [1, 0]},\n {\"q\": {\"joint_1\": 0}}]",
+        2,
+        &["measurement 2", "joint_2"],
+    );
     refuse("[{\"q\": {\"joint_1\": 0, \"joint_2\": 0}, \"position\": [1, 0]}]", 1, &["position"]);
     refuse("[{\"q\": {\"joint_1\": 0, \"joint_2\": 0}, \"translation_m\": [1]}]", 1, &["x, y"]);
     let bench = Bench::new();

@@ -3,8 +3,8 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
 
-mod calibration;
 mod bad_input;
+mod calibration;
 mod check_tables;
 mod clearance_goldens;
 mod command;

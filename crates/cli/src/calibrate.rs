@@ -4,11 +4,14 @@ use std::{fmt::Write, path::PathBuf};
 
 use clap::ValueEnum;
 use congruent_description::Diagnostic;
-use congruent_twin::calibration::{
-    CalibrationOptions, Loss, Noise, calibrate,
-    measurements::read_measurements,
-    needed_coordinates,
-    report::{CalibrationReport, Estimate, Estimation, Explanation, Recommendation, Remainder},
+use congruent_twin::{
+    calibration::{
+        CalibrationOptions, Loss, Noise, calibrate,
+        measurements::read_measurements,
+        needed_coordinates, plot,
+        report::{CalibrationReport, Estimate, Estimation, Explanation, Recommendation, Remainder},
+    },
+    report::write_whole,
 };
 
 use crate::{failure::Failure, input::RobotArgument, print::Printer};
@@ -49,6 +52,9 @@ pub(crate) struct Arguments {
     /// Number of configurations that are suggested for the next measurements.
     #[arg(long, default_value_t = 5)]
     next: usize,
+    /// Draws the cost over the most significant correction and the residual of each row, as SVG.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
     /// Seed of the configurations among which those are chosen.
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -81,6 +87,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let has_orientation = rows.iter().any(|row| row.base_from_tip.is_some());
     let options = arguments.options(has_orientation)?;
     let report = calibrate(&description, &rows, &options)?;
+    if let Some(path) = &arguments.plot {
+        let figure = plot::svg(&report).map_err(|error| Failure::Machine(error.to_string()))?;
+        write_whole(path, figure.as_bytes()).map_err(|error| Failure::Machine(error.to_string()))?;
+    }
     printer.result(&report, text)?;
     Ok(if report.verdict == Explanation::NothingIdentified { NOTHING } else { 0 })
 }

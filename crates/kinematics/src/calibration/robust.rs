@@ -38,10 +38,41 @@ impl Loss {
     /// assert_eq!(Loss::Tukey.weight(5.0), 0.0);
     /// ```
     pub fn weight(self, distance: f64) -> f64 {
+        let ratio = distance / self.bend();
         match self {
-            Self::Huber => (1.345 / distance).min(1.0),
-            Self::Cauchy => 1.0 / (1.0 + (distance / 2.385).powi(2)),
-            Self::Tukey => (1.0 - (distance / 4.685).powi(2)).max(0.0).powi(2),
+            Self::Huber => (1.0 / ratio).min(1.0),
+            Self::Cauchy => 1.0 / (1.0 + ratio.powi(2)),
+            Self::Tukey => (1.0 - ratio.powi(2)).max(0.0).powi(2),
+        }
+    }
+
+    /// What a row costs at a distance: its square where that is small.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::calibration::Loss;
+    /// assert_eq!(Loss::Huber.cost(1.0), 1.0);
+    /// assert_eq!(Loss::Huber.cost(2.69), 3.0 * 1.345 * 1.345);
+    /// assert_eq!(Loss::Tukey.cost(5.0), Loss::Tukey.cost(50.0));
+    /// ```
+    pub fn cost(self, distance: f64) -> f64 {
+        let bend = self.bend();
+        let ratio = distance / bend;
+        let in_bends = match self {
+            Self::Huber if ratio <= 1.0 => ratio.powi(2),
+            Self::Huber => 2.0 * ratio - 1.0,
+            Self::Cauchy => ratio.powi(2).ln_1p(),
+            Self::Tukey => (1.0 - (1.0 - ratio.powi(2)).max(0.0).powi(3)) / 3.0,
+        };
+        in_bends * bend * bend
+    }
+
+    /// The distance at which the loss bends away from the square.
+    fn bend(self) -> f64 {
+        match self {
+            Self::Huber => 1.345,
+            Self::Cauchy => 2.385,
+            Self::Tukey => 4.685,
         }
     }
 }
@@ -53,6 +84,8 @@ pub struct RobustFit {
     pub fit: Fit,
     /// Weight of each row, in 0 to 1.
     pub weights: Vec<f64>,
+    /// The noise by which the weights were given: that of the half of the rows which agree best.
+    pub scale: Noise,
     /// Rows that by chance would be as far off once in 10,000, if the noise were normal.
     pub outliers: Vec<usize>,
 }
@@ -81,16 +114,16 @@ pub fn fit_robustly(
     };
     let components = as_f64(problem.component_count());
     let redundancy = (components - as_f64(kept.len())).max(1.0);
-    let noise = found(&fit, 1.0 + 5.0 / redundancy);
+    let scale = found(&fit, 1.0 + 5.0 / redundancy);
     let mut weights = vec![1.0; problem.measurements.len()];
     let mut settled = false;
     for _ in 0..MOST_ROUNDS {
         let rows = problem.measurements.iter().zip(&fit.residuals);
         for (weight, (measurement, residual)) in weights.iter_mut().zip(rows) {
-            *weight = loss.weight(distance(measurement, residual, &noise));
+            *weight = loss.weight(distance(measurement, residual, &scale));
         }
         let before = fit.corrections.clone();
-        fit = weighted_fit(problem, kept, before.clone(), &Weighting { noise, rows: &weights });
+        fit = weighted_fit(problem, kept, before.clone(), &Weighting { noise: scale, rows: &weights });
         let moved = before.iter().zip(&fit.corrections).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         if moved <= MOVE {
             settled = true;
@@ -107,12 +140,12 @@ pub fn fit_robustly(
         residual.whitened_squared(&fit.noise).sqrt() > outlying_norm(components)
     };
     let outliers = (0..weights.len()).filter(outlies).collect();
-    RobustFit { fit, weights, outliers }
+    RobustFit { fit, weights, scale, outliers }
 }
 
 /// Norm of a row in units of the noise, scaled so that half of normal rows are within 0.6745, as of
 /// one normal component.
-fn distance(measurement: &Measurement, residual: &Residual, noise: &Noise) -> f64 {
+pub(super) fn distance(measurement: &Measurement, residual: &Residual, noise: &Noise) -> f64 {
     let components = measurement.position_count() + measurement.orientation_count();
     residual.whitened_squared(noise).sqrt() * median_norm(1) / median_norm(components)
 }

@@ -3,13 +3,15 @@
 use std::collections::BTreeMap;
 
 use congruent_description::DhRow;
-use congruent_kinematics::calibration::{Entry, Fit, Frozen, Loss, Noise, ParameterUnit, Residual};
+use congruent_kinematics::calibration::{
+    Entry, Fit, Frozen, Loss, Measurement, Noise, ParameterUnit, Problem, Residual, Suggestion, cost_curve,
+};
 
 use super::{
     Computed,
     report::{
-        CalibrationReport, Estimate, Estimation, Explanation, FrozenParameter, HeldOutError, Identifiability,
-        NextPose, Recommendation, Remainder, RowResidual, TableEntry,
+        CalibrationReport, CostCurve, Estimate, Estimation, Explanation, FrozenParameter, HeldOutError,
+        Identifiability, NextPose, Recommendation, Remainder, RowResidual, TableEntry,
     },
     statements,
 };
@@ -70,6 +72,7 @@ pub(super) fn report(computed: &Computed<'_>) -> CalibrationReport {
             .row_iter()
             .map(|row| row.iter().copied().collect())
             .collect(),
+        cost_curve: curve(computed),
         next: next(computed),
     };
     report.statements = statements::statements(&report);
@@ -77,9 +80,7 @@ pub(super) fn report(computed: &Computed<'_>) -> CalibrationReport {
 }
 
 fn residuals(computed: &Computed<'_>, corrections: &[f64]) -> Vec<Residual> {
-    let residual = |each: &congruent_kinematics::calibration::Measurement| {
-        each.residual(&computed.chain.base_from_tip(&each.q, corrections))
-    };
+    let residual = |each: &Measurement| each.residual(&computed.chain.base_from_tip(&each.q, corrections));
     computed.measurements.iter().map(residual).collect()
 }
 
@@ -247,9 +248,36 @@ fn rows(computed: &Computed<'_>, nominal: &[Residual]) -> Vec<RowResidual> {
     computed.rows.iter().enumerate().map(row).collect()
 }
 
+/// The cost over the most significant correction, from a few deviations below to a few above
+/// both estimates and nominal.
+fn curve(computed: &Computed<'_>) -> Option<CostCurve> {
+    const MARGIN_SIGMAS: f64 = 2.5;
+    const STEPS: u32 = 160;
+    let (best, _) = computed.best();
+    let significance = |at: usize| best.corrections[at].abs() / best.standard_deviations[at];
+    let kept = computed.identification.kept.iter().enumerate();
+    let (index, &parameter) =
+        kept.max_by(|a, b| significance(*a.1).total_cmp(&significance(*b.1)).then(b.0.cmp(&a.0)))?;
+    let (plain, robust) = (&computed.least_squares, &computed.robust);
+    let marked = [0.0, plain.corrections[parameter], robust.fit.corrections[parameter]];
+    let sigma = plain.standard_deviations[parameter].max(robust.fit.standard_deviations[parameter]);
+    let margin = MARGIN_SIGMAS * if sigma.is_finite() { sigma } else { 0.0 };
+    let lower = marked.into_iter().fold(f64::INFINITY, f64::min) - margin;
+    let upper = marked.into_iter().fold(f64::NEG_INFINITY, f64::max) + margin;
+    let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
+    let values = (0..=STEPS).map(|step| lower + (upper - lower) * f64::from(step) / f64::from(STEPS));
+    let points = cost_curve(&problem, (plain, robust, computed.options.loss), parameter, values);
+    Some(CostCurve {
+        parameter: index,
+        values: points.iter().map(|point| point.value).collect(),
+        least_squares_m2: points.iter().map(|point| point.least_squares_m2).collect(),
+        robust_m2: points.iter().map(|point| point.robust_m2).collect(),
+    })
+}
+
 fn next(computed: &Computed<'_>) -> Vec<NextPose> {
     let names = computed.nominal.joint_names();
-    let pose = |suggestion: &congruent_kinematics::calibration::Suggestion| {
+    let pose = |suggestion: &Suggestion| {
         let q = computed.nominal.of_configuration(&computed.candidates[suggestion.candidate]);
         let q: BTreeMap<String, f64> = names.iter().map(|&name| name.to_owned()).zip(q).collect();
         NextPose { q, gain_bits: suggestion.gain_bits }

@@ -4,6 +4,7 @@ mod assemble;
 mod chain;
 mod free;
 pub mod measurements;
+pub mod plot;
 pub mod report;
 mod statements;
 

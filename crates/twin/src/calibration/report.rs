@@ -45,8 +45,23 @@ pub struct CalibrationReport {
     pub row_residuals: Vec<RowResidual>,
     /// Covariance of the estimated parameters by least squares, in their order.
     pub covariance: Vec<Vec<f64>>,
+    /// The cost over the most significant correction; `null` where none is estimated.
+    pub cost_curve: Option<CostCurve>,
     /// Configurations that would tell most, the best first.
     pub next: Vec<NextPose>,
+}
+
+/// The cost over one correction, the others as estimated.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CostCurve {
+    /// Index of the correction among `parameters`.
+    pub parameter: usize,
+    /// Values of it, rad or m.
+    pub values: Vec<f64>,
+    /// Squared residuals; those of orientations weighted by the noise.
+    pub least_squares_m2: Vec<f64>,
+    /// The same through the robust loss.
+    pub robust_m2: Vec<f64>,
 }
 
 /// Whether the corrected model explains the measurements.
