@@ -6,9 +6,13 @@ use congruent_description::{Diagnostic, load_robot};
 use congruent_twin::{
     certificate::{Brackets, ReportedBracket},
     check::{Agreement, CheckReport, Comparison, check},
+    ladder::{Blame, Ladder, ReportedCause},
 };
 
-use crate::{failure::Failure, print::Printer};
+use crate::{
+    failure::Failure,
+    print::{Printer, rendered},
+};
 
 /// Whether a robot's table, its URDF and its physics twin are the same robot.
 ///
@@ -65,6 +69,9 @@ fn text(report: &CheckReport) -> String {
     if let Some(brackets) = &report.certificate_bracket {
         certified(&mut text, report.verdict, brackets);
     }
+    if let Some(ladder) = report.ladders.iter().find(|ladder| !ladder.diagnosis.is_empty()) {
+        diagnosed(&mut text, ladder);
+    }
     text
 }
 
@@ -91,6 +98,49 @@ fn certified(text: &mut String, verdict: Agreement, Brackets { position_m, orien
     };
     line("position", position_m, length);
     line("orientation", orientation_rad, angle);
+}
+
+/// The first cause as a compiler shows it, then what cannot be told from it and what comes next.
+fn diagnosed(text: &mut String, ladder: &Ladder) {
+    /// Alternatives shown to people; programs get all.
+    const SHOWN: usize = 6;
+    let _ = writeln!(text, "\n  {}: {}", ladder.title, cause(&ladder.diagnosis[0]));
+    for finding in &ladder.findings {
+        text.push_str(&rendered(finding));
+    }
+    if ladder.findings.is_empty() {
+        for difference in &ladder.invariants {
+            let _ = writeln!(
+                text,
+                "    {:14} {:24} found {:12.6} expected {:12.6}",
+                difference.invariant, difference.joint, difference.found, difference.expected
+            );
+        }
+    }
+    for alternative in ladder.indistinguishable.iter().take(SHOWN) {
+        let _ = writeln!(text, "  the same: {} ({})", cause(&alternative.cause), alternative.reason);
+    }
+    if let Some(more) = ladder.indistinguishable.len().checked_sub(SHOWN + 1) {
+        let _ = writeln!(text, "  and {} more that leave as little", more + 1);
+    }
+    for next in &ladder.diagnosis[1..] {
+        let _ = writeln!(text, "  next best: {}", cause(next));
+    }
+}
+
+/// One line for a cause.
+fn cause(cause: &ReportedCause) -> String {
+    let one = |blame: &Blame| {
+        let joints = blame.joint.iter().chain(&blame.joints).cloned().collect::<Vec<_>>().join(", ");
+        let words = [blame.cause, blame.parameter.as_deref().unwrap_or_default(), &joints];
+        words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+    };
+    let what = if cause.parts.is_empty() {
+        one(&cause.blame)
+    } else {
+        cause.parts.iter().map(one).collect::<Vec<_>>().join(" and ")
+    };
+    format!("{what}, leaves {} and {}", length(cause.residual_m), angle(cause.residual_rad))
 }
 
 fn compared(text: &mut String, comparison: &Comparison) {

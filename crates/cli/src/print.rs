@@ -107,7 +107,7 @@ fn to_stderr(text: &str) {
 }
 
 /// A finding with the line it is about, as a compiler shows it.
-fn rendered(finding: &Diagnostic) -> String {
+pub(crate) fn rendered(finding: &Diagnostic) -> String {
     let plain = !io::stderr().is_terminal();
     let theme = if plain { GraphicalTheme::unicode_nocolor() } else { GraphicalTheme::unicode() };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);

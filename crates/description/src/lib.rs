@@ -36,4 +36,5 @@ pub use joint::{Joint, JointIndex, JointKind, JointLimit, Mimic};
 pub use link::{Link, LinkIndex};
 pub use load::load_robot;
 pub use robot::{JointParts, Robot, RobotError};
+pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey};
 pub use written_transform::WrittenTransform;

@@ -7,7 +7,7 @@
 //!
 //! Units are metres and radians; `a_from_b` is the pose of frame b in frame a.
 
-mod agreement;
+pub mod agreement;
 pub mod calibration;
 mod dh;
 mod error;

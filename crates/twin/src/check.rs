@@ -1,4 +1,5 @@
-//! Model against URDF against twin, without motion: are they the same robot?
+//! Model against URDF against twin, without motion: are they the same robot? Why they are not is the
+//! business of `ladder/`.
 
 use congruent_description::{RobotDescription, Tolerance};
 use congruent_kinematics::{KinematicsError, Pose, ScrewTree, UrdfTree};
@@ -9,6 +10,7 @@ use serde::Serialize;
 use crate::{
     certificate::{Bounds, Brackets, certificate},
     configurations::probe_configurations,
+    ladder::{Ladder, ReportedAlternative, ReportedCause, climb},
     model::{Model, PoseSource},
     report::Finding,
     sample::LinkError,
@@ -100,6 +102,13 @@ pub struct CheckReport {
     pub certificate: Option<Bounds>,
     /// The same with configurations that come near.
     pub certificate_bracket: Option<Brackets>,
+    /// The likeliest cause of a disagreement, then what comes next and leaves more: that of the
+    /// first ladder that has one.
+    pub diagnosis: Vec<ReportedCause>,
+    /// Causes that leave as little as the first.
+    pub indistinguishable: Vec<ReportedAlternative>,
+    /// The agreement ladder between two models of the chain at a time.
+    pub ladders: Vec<Ladder>,
     /// What was suspicious in the input.
     pub warnings: Vec<Finding>,
 }
@@ -147,6 +156,8 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
     let comparisons: Vec<Comparison> =
         tallies.iter().map(|tally| tally.finish(description, &configurations)).collect();
     let worst = worst_of(&comparisons);
+    let ladders = climb(description, &mut witnesses.world, &configurations)?;
+    let named = ladders.iter().find(|ladder| !ladder.diagnosis.is_empty());
     let agree = comparisons.iter().all(|comparison| comparison.verdict == Agreement::Agree);
     let brackets = certificate(description)?;
     let Tolerance { position_m, orientation_rad: angle } = description.tolerance;
@@ -160,6 +171,9 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
         comparisons,
         certificate: brackets.as_ref().map(Brackets::bounds),
         certificate_bracket: brackets,
+        diagnosis: named.map(|ladder| ladder.diagnosis.clone()).unwrap_or_default(),
+        indistinguishable: named.map(|ladder| ladder.indistinguishable.clone()).unwrap_or_default(),
+        ladders,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     })
 }

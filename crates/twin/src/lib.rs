@@ -10,6 +10,7 @@ mod configurations;
 pub mod distances;
 mod execute;
 pub mod forward;
+pub mod ladder;
 pub mod model;
 pub mod monitor;
 pub mod motion;

@@ -121,14 +121,15 @@ fn table(written: &Spanned<WrittenDh>, context: &Context<'_>, findings: &mut Fin
     let base_from_dh0 = transform(&dh.base_from_dh0, findings);
     let dhn_from_tip = transform(&dh.dhn_from_tip, findings);
     let rows = rows::check(written, context, findings);
-    let convention = findings.keep(dh.convention.ok_or_else(|| {
-        Diagnostic::error("robot_file::convention", "[dh] has no convention")
-            .at(first_line(written.span(), context.text))
-            .with_help(
-                "convention = \"standard\" is Rz(theta) Tz(d) Tx(a) Rx(alpha); \"modified\" (Craig) is \
+    let convention =
+        findings.keep(dh.convention.as_ref().map(|written| *written.get_ref()).ok_or_else(|| {
+            Diagnostic::error("robot_file::convention", "[dh] has no convention")
+                .at(first_line(written.span(), context.text))
+                .with_help(
+                    "convention = \"standard\" is Rz(theta) Tz(d) Tx(a) Rx(alpha); \"modified\" (Craig) is \
                  Rx(alpha) Tx(a) Rz(theta) Tz(d): the same table means two robots",
-            )
-    }));
+                )
+        }));
     Some(DhTable {
         convention: convention?.into(),
         source: dh.source.clone(),

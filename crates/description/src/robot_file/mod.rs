@@ -1,9 +1,11 @@
 //! The robot file `robot.toml`: which URDF, which chain, which analytical model.
 
 mod check;
+mod places;
 mod written;
 
 pub(crate) use check::{Declared, check, default_chain};
+pub use places::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey};
 pub(crate) use written::WrittenRobot;
 
 /// The largest robot file that is read.

@@ -29,7 +29,7 @@ pub(crate) struct WrittenRobot {
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenDh {
     /// Optional here so that its absence gets a message of its own.
-    pub(crate) convention: Option<WrittenConvention>,
+    pub(crate) convention: Option<Spanned<WrittenConvention>>,
     pub(crate) source: Option<String>,
     #[serde(default)]
     pub(crate) base_from_dh0: WrittenTransform,

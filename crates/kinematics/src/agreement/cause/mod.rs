@@ -1,0 +1,41 @@
+//! The catalogue of causes: one file for each family, and one list. A new cause is a file here and
+//! a line in [`FAMILIES`].
+
+mod axis;
+mod constants;
+mod convention;
+mod exchange;
+mod fixed_joint;
+mod order;
+mod parameter;
+mod ratio;
+mod rounding;
+mod rpy;
+mod units;
+mod zero;
+
+use super::hypothesis::{Case, Hypothesis};
+
+/// The hypotheses of one family about a case.
+type Family = fn(&Case) -> Vec<Hypothesis>;
+
+/// All families.
+const FAMILIES: [Family; 12] = [
+    axis::hypotheses,
+    convention::hypotheses,
+    order::hypotheses,
+    units::hypotheses,
+    exchange::hypotheses,
+    rpy::hypotheses,
+    fixed_joint::hypotheses,
+    rounding::hypotheses,
+    zero::hypotheses,
+    constants::hypotheses,
+    parameter::hypotheses,
+    ratio::hypotheses,
+];
+
+/// Everything that may be wrong with a case.
+pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
+    FAMILIES.iter().flat_map(|family| family(case)).collect()
+}

@@ -1,0 +1,93 @@
+//! What the ladder answers: explanations, the simplest first, and what cannot be told from it.
+
+use super::{
+    gauge::Gauge,
+    hypothesis::{Case, Cause, Place},
+    invariants::JointDifference,
+    suspect::Parameter,
+};
+
+/// What is held to be the same, and where a residual is measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// Largest distance of the tips that counts as none.
+    pub position_m: f64,
+    /// Largest angle between the tips that counts as none.
+    pub orientation_rad: f64,
+    /// Configurations at which residuals are measured, in the order of the reference's joints.
+    pub configurations: Vec<Vec<f64>>,
+}
+
+/// The worst difference of the tips over the configurations of a [`Question`].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Residual {
+    /// Distance of the origins.
+    pub position_m: f64,
+    /// Angle between the orientations.
+    pub orientation_rad: f64,
+}
+
+/// One fault of an explanation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// What is wrong.
+    pub cause: Cause,
+    /// Where.
+    pub place: Place,
+    /// The numbers that were fitted.
+    pub free: Vec<Parameter>,
+}
+
+/// Faults that together explain a difference, or part of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Explanation {
+    /// The faults: one, or several; none where nothing explains the difference.
+    pub parts: Vec<Part>,
+    /// Both models with the faults undone.
+    pub mended: Case,
+    /// What is left then.
+    pub residual: Residual,
+}
+
+impl Explanation {
+    /// The cause's name: that of the only part, `several`, or `unexplained`.
+    pub fn cause(&self) -> Cause {
+        match &self.parts[..] {
+            [] => Cause::Unexplained,
+            [part] => part.cause,
+            _ => Cause::Several,
+        }
+    }
+}
+
+/// The answer of the ladder.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// The simplest explanation that reaches the tolerance, or `unexplained`; then what comes next
+    /// and leaves more.
+    pub explanations: Vec<Explanation>,
+    /// Explanations that leave as little as the first: the models cannot tell them apart, and why.
+    pub indistinguishable: Vec<(Explanation, Gauge)>,
+    /// Where the screws differ, in the order in which quantities survive a change of frames.
+    pub differences: Vec<JointDifference>,
+}
+
+impl Case {
+    /// The worst difference of the tips over the question's configurations.
+    pub fn residual(&self, question: &Question) -> Residual {
+        let mut worst = Residual::default();
+        for q in &question.configurations {
+            let (found, expected) = (self.suspect.base_from_tip(q), self.reference.base_from_tip(q));
+            worst.position_m = worst.position_m.max(found.distance_m(&expected));
+            worst.orientation_rad = worst.orientation_rad.max(found.angle_rad(&expected));
+        }
+        worst
+    }
+}
+
+impl Question {
+    /// Whether a residual counts as none.
+    pub fn accepts(&self, residual: &Residual) -> bool {
+        residual.position_m <= self.position_m && residual.orientation_rad <= self.orientation_rad
+    }
+}

@@ -1,0 +1,109 @@
+//! Least squares on screws and tip: the free numbers of a hypothesis, by Levenberg and Marquardt.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{
+    snapshot::{Snapshot, Viewpoint},
+    suspect::{Parameter, Suspect, Walk},
+};
+
+/// A loop bound, not a quality: fits that reach zero take some six steps.
+const MOST_STEPS: usize = 60;
+/// A step that gains less than this share of the norm has met the bottom of another valley.
+const LEAST_GAIN: f64 = 1e-3;
+/// Norm, without unit, at which rounding is all that is left of some fifty numbers.
+const ROUNDING: f64 = 3e-16;
+
+/// A suspect with its free numbers fitted.
+#[derive(Debug, Clone)]
+pub(super) struct Fit {
+    pub(super) suspect: Suspect,
+    /// Root of the sum of squares that is left, without unit.
+    pub(super) norm: f64,
+}
+
+/// What is fitted to: the reference's screws and tip, seen from a viewpoint.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Target<'a> {
+    pub(super) viewpoint: &'a Viewpoint,
+    pub(super) snapshot: &'a Snapshot,
+}
+
+impl Target<'_> {
+    /// How far a suspect is from the target as it stands.
+    pub(super) fn norm(&self, suspect: &Suspect) -> f64 {
+        norm(&self.difference(suspect, &suspect.walk(&self.viewpoint.q)))
+    }
+
+    fn difference(&self, suspect: &Suspect, walk: &Walk) -> Vec<f64> {
+        self.viewpoint.difference(suspect, walk, self.snapshot)
+    }
+
+    /// Fits `free` from where the suspect stands.
+    ///
+    /// Source: Marquardt (1963), the damping scaled by the diagonal, which mixes rad and m safely.
+    pub(super) fn refit(&self, suspect: &Suspect, free: &[Parameter]) -> Fit {
+        let mut walk = suspect.walk(&self.viewpoint.q);
+        let mut difference = self.difference(suspect, &walk);
+        let mut best = Fit { suspect: suspect.clone(), norm: norm(&difference) };
+        let mut damping = 1e-6;
+        for _ in 0..MOST_STEPS {
+            if best.norm < ROUNDING || free.is_empty() {
+                break;
+            }
+            let Some(step) = self.step(&best.suspect, (&walk, &difference), free, damping) else { break };
+            let mut moved = best.suspect.clone();
+            for (&parameter, &by) in free.iter().zip(step.iter()) {
+                moved.shift(parameter, by);
+            }
+            let moved_walk = moved.walk(&self.viewpoint.q);
+            let moved_difference = self.difference(&moved, &moved_walk);
+            let left = norm(&moved_difference);
+            if left < best.norm {
+                let gain = 1.0 - left / best.norm;
+                best = Fit { suspect: moved, norm: left };
+                (walk, difference) = (moved_walk, moved_difference);
+                damping = (damping * 0.1_f64).max(1e-12);
+                if gain < LEAST_GAIN {
+                    break;
+                }
+            } else {
+                damping *= 100.0;
+                if damping > 1e4 {
+                    break;
+                }
+            }
+        }
+        best
+    }
+
+    fn step(
+        &self,
+        suspect: &Suspect,
+        (walk, difference): (&Walk, &[f64]),
+        free: &[Parameter],
+        damping: f64,
+    ) -> Option<DVector<f64>> {
+        let column = |&parameter: &Parameter| {
+            let influence = suspect.influence(parameter, &self.viewpoint.q, walk)?;
+            Some(self.viewpoint.derivative(suspect, walk, &influence))
+        };
+        let columns: Vec<Vec<f64>> = free.iter().map(column).collect::<Option<_>>()?;
+        let count = columns.len();
+        let mut normal = DMatrix::from_fn(count, count, |row, column| dot(&columns[row], &columns[column]));
+        let right = DVector::from_fn(count, |row, _| -dot(&columns[row], difference));
+        for at in 0..count {
+            // The second term keeps a number that changes nothing where it is.
+            normal[(at, at)] += damping * normal[(at, at)] + 1e-15;
+        }
+        Some(normal.cholesky()?.solve(&right))
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm(numbers: &[f64]) -> f64 {
+    dot(numbers, numbers).sqrt()
+}

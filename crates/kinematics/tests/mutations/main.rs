@@ -1,0 +1,111 @@
+//! The mutation benchmark: every cause, several magnitudes, every robot at hand, against its own
+//! unmutated model. A reduced grid runs with the tests; the full one prints its confusion matrix:
+//! `cargo test --release -p congruent-kinematics --test mutations -- --ignored --nocapture`.
+
+#![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
+
+mod faults;
+mod matrix;
+mod robots;
+
+use congruent_kinematics::agreement::{Case, Question, diagnose};
+use rand_chacha::{
+    ChaCha8Rng,
+    rand_core::{RngCore, SeedableRng},
+};
+
+use faults::Fault;
+use matrix::{Matrix, Outcome};
+
+/// The tolerance of robot files, as they are written by default.
+const TOLERANCE: f64 = 1e-9;
+/// Of 100 pairs so many must be told.
+const PAIRS_TOLD: f64 = 0.95;
+
+/// Configurations within three radians and half a metre.
+fn question(joints: usize) -> Question {
+    let mut generator = ChaCha8Rng::seed_from_u64(3);
+    #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
+    let mut unit = || (generator.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
+    let configurations = (0..16).map(|_| (0..joints).map(|_| 2.9 * unit()).collect()).collect();
+    Question { position_m: TOLERANCE, orientation_rad: TOLERANCE, configurations }
+}
+
+/// Injects faults and judges what is named; `None` where they change nothing.
+fn judge(case: &Case, faults: &[&Fault]) -> Option<Outcome> {
+    let question = question(case.reference.joint_count());
+    let mut mutated = case.clone();
+    for fault in faults {
+        fault.inject(&mut mutated);
+    }
+    if question.accepts(&mutated.residual(&question)) {
+        return None;
+    }
+    Some(Outcome::of(&diagnose(&mutated, &question), faults))
+}
+
+/// Every `stride`th single fault of every robot.
+fn singles(stride: usize) -> Matrix {
+    let mut matrix = Matrix::default();
+    for (name, case) in robots::all() {
+        for fault in faults::all(&case).iter().step_by(stride) {
+            if let Some(outcome) = judge(&case, &[fault]) {
+                matrix.count(&name, &[fault], &outcome);
+            }
+        }
+    }
+    matrix
+}
+
+/// Seeded pairs of faults, so many for every robot.
+fn pairs(each: usize) -> Matrix {
+    let mut matrix = Matrix::default();
+    let mut generator = ChaCha8Rng::seed_from_u64(7);
+    for (name, case) in robots::all() {
+        let faults = faults::all(&case);
+        let mut any = || {
+            let index = generator.next_u64() % u64::try_from(faults.len()).unwrap();
+            &faults[usize::try_from(index).unwrap()]
+        };
+        for _ in 0..each {
+            let pair = [any(), any()];
+            if let Some(outcome) = judge(&case, &pair) {
+                matrix.count(&name, &pair, &outcome);
+            }
+        }
+    }
+    matrix
+}
+
+#[test]
+fn unmutated_pairs_raise_no_alarm() {
+    for (name, case) in robots::all() {
+        let question = question(case.reference.joint_count());
+        let diagnosis = diagnose(&case, &question);
+        assert!(diagnosis.explanations.is_empty(), "{name}: {:?}", case.residual(&question));
+    }
+}
+
+#[test]
+fn every_single_fault_is_named() {
+    let matrix = singles(7);
+    assert!(matrix.missed().is_empty(), "{matrix}");
+}
+
+#[test]
+fn nearly_every_pair_is_named() {
+    let matrix = pairs(1);
+    assert!(matrix.told() >= PAIRS_TOLD, "{matrix}");
+}
+
+#[test]
+#[ignore = "the full grid takes a minute"]
+#[expect(clippy::print_stdout, reason = "the matrix is what one runs it for")]
+fn the_full_grid() {
+    let matrix = singles(1);
+    println!("single faults\n{matrix}");
+    assert!(matrix.missed().is_empty());
+    let matrix = pairs(20);
+    println!("pairs\n{matrix}");
+    assert!(matrix.told() >= PAIRS_TOLD);
+}

@@ -1,0 +1,350 @@
+//! One fault in words: the line of the robot file, what stands there, what should.
+
+use std::ops::Range;
+
+use congruent_description::{ConstantKey, ConstantPart, DhConvention, RowKey, line_column};
+use congruent_kinematics::{
+    Pose,
+    agreement::{Case, Cause, Entry, Part, Place, Suspect},
+    rotation_log,
+};
+
+use super::{
+    Names,
+    figures::{Figure, short, transform},
+    report::Blame,
+};
+
+/// A fault, as programs read it and in words.
+pub(super) struct Accusation {
+    pub(super) blame: Blame,
+    pub(super) message: String,
+    pub(super) span: Option<Range<usize>>,
+    cause: Cause,
+}
+
+impl Accusation {
+    /// The finding's stable code.
+    pub(super) fn code(&self) -> &'static str {
+        match self.cause {
+            Cause::AxisFlipped => "check::axis_flipped",
+            Cause::ConventionSwapped => "check::convention_swapped",
+            Cause::JointsSwapped => "check::joints_swapped",
+            Cause::DegreesAsRadians => "check::degrees_as_radians",
+            Cause::RadiansAsDegrees => "check::radians_as_degrees",
+            Cause::MillimetresAsMetres => "check::millimetres_as_metres",
+            Cause::ParametersExchanged => "check::parameters_exchanged",
+            Cause::RpyOrder => "check::rpy_order",
+            Cause::FixedJointDropped => "check::fixed_joint_dropped",
+            Cause::ZeroOffset => "check::zero_offset",
+            Cause::Tool => "check::tool",
+            Cause::Base => "check::base",
+            Cause::Parameter => "check::parameter",
+            Cause::Ratio => "check::ratio",
+            Cause::Several => "check::several",
+            Cause::Unexplained => "check::unexplained",
+        }
+    }
+}
+
+/// Both models before and after a fault is undone, with their names.
+struct Witness<'a> {
+    part: &'a Part,
+    before: &'a Case,
+    after: &'a Case,
+    names: &'a Names<'a>,
+}
+
+/// Says what a part of an explanation accuses.
+pub(super) fn accuse(part: &Part, before: &Case, after: &Case, names: &Names<'_>) -> Accusation {
+    let witness = Witness { part, before, after, names };
+    let (mut blame, message, span) = match &part.place {
+        Place::Model => witness.model(),
+        Place::Rows(rows) => witness.rows(rows),
+        Place::Entries(entry, rows) => witness.entries(*entry, rows),
+        Place::Column(entries) => witness.column(entries),
+        Place::Base => witness.constant(ConstantKey::BaseFromDh0),
+        Place::Tool => witness.constant(ConstantKey::DhnFromTip),
+        Place::ReferenceJoints(joints) => witness.reference_joints(joints),
+    };
+    blame.cause = part.cause.name();
+    let line = |span: &Range<usize>| {
+        names.places.as_ref().map(|places| line_column(&places.source().text, span.start).0)
+    };
+    blame.line = span.as_ref().and_then(line);
+    Accusation { blame, message, span, cause: part.cause }
+}
+
+/// What is said, and where it stands.
+type Said = (Blame, String, Option<Range<usize>>);
+
+impl Witness<'_> {
+    fn model(&self) -> Said {
+        let span = self.names.places.as_ref().and_then(congruent_description::RobotFilePlaces::convention);
+        if self.part.cause != Cause::ConventionSwapped {
+            let suggestion = "write all lengths in metres, or under keys that end in _mm".to_owned();
+            let message = "all lengths of the model are in another unit than their keys say".to_owned();
+            return (Blame { suggestion, ..Blame::default() }, message, span);
+        }
+        let word = |suspect: &Suspect| match suspect.convention {
+            Some(DhConvention::Modified) => "modified",
+            _ => "standard",
+        };
+        let (found, expected) = (word(&self.before.suspect), word(&self.after.suspect));
+        let blame = Blame {
+            found: Some(Figure::Text(found.to_owned())),
+            expected: Some(Figure::Text(expected.to_owned())),
+            suggestion: format!("write convention = \"{expected}\""),
+            ..Blame::default()
+        };
+        (blame, format!("the table is read as {found}, its figures are {expected}"), span)
+    }
+
+    fn rows(&self, rows: &[usize]) -> Said {
+        let names: Vec<String> = rows.iter().map(|&row| self.joint(row)).collect();
+        let listed = names.join("\", \"");
+        let joint = if let [name] = &names[..] { Some(name.clone()) } else { None };
+        let rate = |case: &Case| case.suspect.rows[rows[0]].rate;
+        let (found, expected) = (rate(self.before), rate(self.after));
+        let ratio = |blame: Blame| Blame {
+            value: Some(found / expected),
+            found: Some(Figure::Number(found)),
+            expected: Some(Figure::Number(expected)),
+            ..blame
+        };
+        let named =
+            Blame { joints: if joint.is_some() { Vec::new() } else { names }, joint, ..Blame::default() };
+        let (blame, message, suggestion) = match self.part.cause {
+            Cause::AxisFlipped => (
+                ratio(named),
+                format!(
+                    "joint \"{listed}\" moves the other way: sign is {}, it should be {}",
+                    short(found),
+                    short(expected)
+                ),
+                format!("write sign = {}, or turn the joint's axis round", short(expected)),
+            ),
+            Cause::Ratio => (
+                ratio(named),
+                format!("joint \"{listed}\" moves {} times as far as it should", short(found / expected)),
+                "check the joint's gear ratio and unit".to_owned(),
+            ),
+            Cause::JointsSwapped => {
+                let (what, how) =
+                    if self.figures_moved(rows) { ("rows", "rows") } else { ("names", "joint names") };
+                (
+                    named,
+                    format!("the {what} of joints \"{listed}\" are exchanged"),
+                    format!("exchange the two {how}"),
+                )
+            }
+            Cause::ParametersExchanged => self.lengths_exchanged(named, rows[0]),
+            _ => (
+                ratio(named),
+                format!("the position of joint \"{listed}\" is taken in another unit"),
+                "give joint positions in rad".to_owned(),
+            ),
+        };
+        let key = if self.part.cause == Cause::AxisFlipped { RowKey::Sign } else { RowKey::Joint };
+        (Blame { suggestion, ..blame }, message, self.span(rows[0], key))
+    }
+
+    fn lengths_exchanged(&self, named: Blame, row: usize) -> (Blame, String, String) {
+        let pair = |case: &Case| {
+            let figure = |entry| short(case.suspect.entry(row, entry).unwrap_or_default());
+            format!("a_m = {}, d_m = {}", figure(Entry::A), figure(Entry::D))
+        };
+        let (found, expected) = (pair(self.before), pair(self.after));
+        let blame = Blame {
+            parameter: Some("a, d".to_owned()),
+            found: Some(Figure::Text(found.clone())),
+            expected: Some(Figure::Text(expected.clone())),
+            ..named
+        };
+        let message =
+            format!("a and d of joint \"{}\" stand in each other's place: {found}", self.joint(row));
+        (blame, message, format!("write {expected}"))
+    }
+
+    fn entries(&self, entry: Entry, rows: &[usize]) -> Said {
+        let row = rows[0];
+        let value = |case: &Case, row: usize| case.suspect.entry(row, entry).unwrap_or_default();
+        let (found, expected) = (value(self.before, row), value(self.after, row));
+        let parameter = Some(entry_name(entry).to_owned());
+        if let &[first, second] = rows {
+            let joints = vec![self.joint(first), self.joint(second)];
+            let message =
+                format!("alpha of joints \"{}\" stand in each other's place", joints.join("\", \""));
+            let suggestion = format!(
+                "exchange them: {} and {}",
+                self.written(first, entry, expected),
+                self.written(second, entry, value(self.after, second))
+            );
+            let blame = Blame { joints, parameter, suggestion, ..Blame::default() };
+            return (blame, message, self.span(second, row_key(entry)));
+        }
+        let joint = self.joint(row);
+        let message = format!(
+            "joint \"{joint}\": {} stands there, it should be {}",
+            self.written(row, entry, found),
+            self.written(row, entry, expected)
+        );
+        let blame = Blame {
+            joint: Some(joint),
+            parameter,
+            value: Some(off(entry, found, expected)),
+            found: Some(Figure::Number(found)),
+            expected: Some(Figure::Number(expected)),
+            suggestion: format!("write {}", self.written(row, entry, expected)),
+            ..Blame::default()
+        };
+        (blame, message, self.span(row, row_key(entry)))
+    }
+
+    fn column(&self, entries: &[Entry]) -> Said {
+        let listed = entries.iter().map(|&entry| entry_name(entry)).collect::<Vec<_>>().join(", ");
+        let differs = |&row: &usize| {
+            entries
+                .iter()
+                .any(|&entry| self.before.suspect.entry(row, entry) != self.after.suspect.entry(row, entry))
+        };
+        let row = (0..self.before.suspect.rows.len()).find(differs).unwrap_or_default();
+        let keys = |suffix| {
+            entries
+                .iter()
+                .map(|&entry| format!("{}_{suffix}", entry_name(entry)))
+                .collect::<Vec<_>>()
+                .join(" and ")
+        };
+        let suggestion = match self.part.cause {
+            Cause::DegreesAsRadians => format!("the figures are degrees: write them under {}", keys("deg")),
+            Cause::RadiansAsDegrees => format!("the figures are radians: write them under {}", keys("rad")),
+            _ => "metres go under keys that end in _m, millimetres under _mm".to_owned(),
+        };
+        let message = format!("{listed} of the whole table are in another unit than their keys say");
+        let span = self.span(row, row_key(entries[0]));
+        (Blame { parameter: Some(listed), suggestion, ..Blame::default() }, message, span)
+    }
+
+    fn constant(&self, key: ConstantKey) -> Said {
+        let (name, pose): (_, fn(&Case) -> Pose) = match key {
+            ConstantKey::BaseFromDh0 => ("base_from_dh0", |case| case.suspect.base.pose),
+            ConstantKey::DhnFromTip => ("dhn_from_tip", |case| case.suspect.tool.pose),
+        };
+        let (found, expected) = (pose(self.before), pose(self.after));
+        let shift = found.translation - expected.translation;
+        let turn = rotation_log(&(expected.rotation.transpose() * found.rotation));
+        let how = match self.part.cause {
+            Cause::RpyOrder => "has its roll, pitch and yaw in another order".to_owned(),
+            Cause::Tool | Cause::Base => {
+                format!(
+                    "is off by {} mm and {} deg",
+                    short(shift.norm() * 1e3),
+                    short(turn.norm().to_degrees())
+                )
+            }
+            _ => "is in another unit than its keys say".to_owned(),
+        };
+        let blame = Blame {
+            found: Some(Figure::Text(transform(&found))),
+            expected: Some(Figure::Text(transform(&expected))),
+            translation_m: Some(shift.into()),
+            rotation_rad: Some(turn.into()),
+            suggestion: format!("write {name} = {}", transform(&expected)),
+            ..Blame::default()
+        };
+        let part = if shift.norm() > turn.norm() { ConstantPart::Shift } else { ConstantPart::Turn };
+        let span = self.names.places.as_ref().map(|places| places.constant(key, part));
+        (blame, format!("the declared transform {name} {how}"), span)
+    }
+
+    fn reference_joints(&self, joints: &[usize]) -> Said {
+        let names: Vec<String> = joints.iter().map(|&joint| self.names.chain_joint(joint)).collect();
+        let listed = names.join("\", \"");
+        let rotation = |case: &Case, joint: usize| case.reference.joints[joint].parent_from_joint.rotation;
+        let turn = |joint: usize| {
+            rotation_log(&(rotation(self.after, joint).transpose() * rotation(self.before, joint))).norm()
+        };
+        let most = joints.iter().map(|&joint| turn(joint)).fold(0.0, f64::max);
+        let mut blame = Blame::default();
+        let (message, suggestion) = match self.part.cause {
+            Cause::FixedJointDropped => (
+                format!("the model leaves out the fixed joint \"{listed}\" of the URDF"),
+                format!("put the origin of \"{listed}\" into the model"),
+            ),
+            Cause::RpyOrder => (
+                format!("the rpy of joint \"{listed}\" is in another order in the URDF than in the model"),
+                format!("check the rpy of joint \"{listed}\": R = Rz(yaw) Ry(pitch) Rx(roll)"),
+            ),
+            _ => {
+                blame.parameter = Some("rpy".to_owned());
+                blame.value = Some(most);
+                (
+                    format!(
+                        "the URDF writes quarter turns of joints \"{listed}\" with too few digits, off by up to {most:.1e} rad"
+                    ),
+                    "write pi/2 as 1.5707963267948966 in the URDF".to_owned(),
+                )
+            }
+        };
+        match <[String; 1]>::try_from(names) {
+            Ok([name]) => blame.joint = Some(name),
+            Err(names) => blame.joints = names,
+        }
+        (Blame { suggestion, ..blame }, message, None)
+    }
+
+    fn joint(&self, row: usize) -> String {
+        self.names.moving_joint(self.before.suspect.rows[row].joint)
+    }
+
+    fn span(&self, row: usize, key: RowKey) -> Option<Range<usize>> {
+        Some(self.names.places.as_ref()?.figure(row, key)?.span)
+    }
+
+    /// Whether the figures have changed places with the names.
+    fn figures_moved(&self, rows: &[usize]) -> bool {
+        self.before.suspect.rows[rows[0]].link != self.after.suspect.rows[rows[0]].link
+    }
+
+    /// A figure of a row as the file writes it, in the unit of its key there.
+    fn written(&self, row: usize, entry: Entry, value: f64) -> String {
+        let place = self.names.places.as_ref().and_then(|places| places.figure(row, row_key(entry)));
+        match place {
+            Some(place) if place.is_handy && is_angle(entry) => {
+                format!("{} = {}", place.key, short(value.to_degrees()))
+            }
+            Some(place) if place.is_handy => format!("{} = {}", place.key, short(value * 1e3)),
+            Some(place) => format!("{} = {}", place.key, short(value)),
+            None => format!("{} = {}", entry_name(entry), short(value)),
+        }
+    }
+}
+
+/// Found less expected; of angles within half a turn.
+fn off(entry: Entry, found: f64, expected: f64) -> f64 {
+    let off = found - expected;
+    if is_angle(entry) { off.sin().atan2(off.cos()) } else { off }
+}
+
+fn is_angle(entry: Entry) -> bool {
+    matches!(entry, Entry::Alpha | Entry::Theta)
+}
+
+fn entry_name(entry: Entry) -> &'static str {
+    match entry {
+        Entry::A => "a",
+        Entry::Alpha => "alpha",
+        Entry::D => "d",
+        Entry::Theta => "theta",
+    }
+}
+
+fn row_key(entry: Entry) -> RowKey {
+    match entry {
+        Entry::A => RowKey::A,
+        Entry::Alpha => RowKey::Alpha,
+        Entry::D => RowKey::D,
+        Entry::Theta => RowKey::Theta,
+    }
+}

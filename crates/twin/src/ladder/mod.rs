@@ -1,0 +1,113 @@
+//! The agreement ladder for a description: the model against its URDF and against the physics, the
+//! latter probed as a black box. What is found is told in names, lines and figures of the robot file.
+
+mod blame;
+mod figures;
+mod report;
+
+use congruent_description::{JointIndex, RobotDescription, RobotFilePlaces};
+use congruent_kinematics::{
+    Pose, ScrewChain,
+    agreement::{Case, Constant, Question, Reference, Suspect, diagnose},
+};
+use congruent_simulation::{SimulationError, World};
+
+pub use figures::Figure;
+pub use report::{Blame, Ladder, ReportedAlternative, ReportedCause, ReportedDifference};
+
+/// Which two models a ladder stands between.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Title {
+    pub(crate) name: &'static str,
+    pub(crate) title: &'static str,
+}
+
+const MODEL_URDF: Title = Title { name: "model_urdf", title: "DH table against URDF chain" };
+const MODEL_SIMULATION: Title = Title { name: "model_simulation", title: "DH table against physics, probed" };
+const URDF_SIMULATION: Title = Title { name: "urdf_simulation", title: "URDF chain against physics, probed" };
+
+/// What names and places the numbers of a case have.
+pub(crate) struct Names<'a> {
+    pub(crate) description: &'a RobotDescription,
+    /// Moving joints of the chain, base to tip: what a case numbers.
+    pub(crate) moving: Vec<JointIndex>,
+    /// All joints of the chain.
+    pub(crate) chain: Vec<JointIndex>,
+    pub(crate) places: Option<RobotFilePlaces>,
+}
+
+/// Climbs the ladder wherever two models of the chain from base to tip differ.
+///
+/// `configurations` are those of the whole robot at which residuals are measured.
+///
+/// # Errors
+/// [`SimulationError`] when the physics refuses a configuration.
+pub fn climb(
+    description: &RobotDescription,
+    world: &mut World,
+    configurations: &[Vec<f64>],
+) -> Result<Vec<Ladder>, SimulationError> {
+    let robot = &description.robot;
+    let Some((urdf, chain)) = Reference::from_urdf(robot, description.base, description.tip) else {
+        return Ok(Vec::new());
+    };
+    let moving: Vec<JointIndex> =
+        chain.iter().copied().filter(|&joint| robot.joint(joint).kind.is_movable()).collect();
+    let coordinates: Vec<usize> = moving.iter().filter_map(|&joint| robot.coordinate(joint)).collect();
+    let places = description.dh.as_ref().and_then(|_| RobotFilePlaces::read(&description.path));
+    let physics = Reference::from_screws(&probe(description, world, &coordinates)?);
+    let of_chain = |q: &Vec<f64>| coordinates.iter().map(|&coordinate| q[coordinate]).collect();
+    let question = Question {
+        position_m: description.tolerance.position_m,
+        orientation_rad: description.tolerance.orientation_rad,
+        configurations: configurations.iter().map(of_chain).collect(),
+    };
+    let names = Names { description, moving, chain, places };
+    let cases = if let Some(suspect) = suspect(&names) {
+        let against_physics = Case { suspect: suspect.clone(), reference: physics };
+        vec![(MODEL_URDF, Case { suspect, reference: urdf }), (MODEL_SIMULATION, against_physics)]
+    } else {
+        let suspect = Suspect::from_screws(&urdf.screws());
+        vec![(URDF_SIMULATION, Case { suspect, reference: physics })]
+    };
+    let ladder =
+        |(title, case): &(Title, Case)| report::ladder(*title, case, &diagnose(case, &question), &names);
+    Ok(cases.iter().map(ladder).collect())
+}
+
+/// The table, with the roll, pitch and yaw of its declared transforms as they are written.
+fn suspect(names: &Names<'_>) -> Option<Suspect> {
+    use congruent_description::ConstantKey::{BaseFromDh0, DhnFromTip};
+    let suspect = Suspect::from_table(names.description.dh.as_ref()?, &names.moving)?;
+    let written = |constant: Constant, key| Constant {
+        written_rpy_rad: names.places.as_ref().and_then(|places| places.rpy_rad(key)),
+        ..constant
+    };
+    Some(Suspect {
+        base: written(suspect.base, BaseFromDh0),
+        tool: written(suspect.tool, DhnFromTip),
+        ..suspect
+    })
+}
+
+/// The physics as a black box: `q -> base_from_tip`, all other joints at zero.
+fn probe(
+    description: &RobotDescription,
+    world: &mut World,
+    coordinates: &[usize],
+) -> Result<ScrewChain, SimulationError> {
+    let mut q = vec![0.0; description.robot.dof()];
+    let at_rest = q.clone();
+    let mut refused = None;
+    let chain = ScrewChain::probe(coordinates.len(), |values| {
+        for (&coordinate, &value) in coordinates.iter().zip(values) {
+            q[coordinate] = value;
+        }
+        if let Err(error) = world.set_state(&q, &at_rest) {
+            refused = Some(error);
+        }
+        let root_from = |link| Pose::from(world.root_from_link(link));
+        root_from(description.base).inverse() * root_from(description.tip)
+    });
+    refused.map_or(Ok(chain), Err)
+}
