@@ -117,6 +117,12 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
+impl From<Diagnostic> for Vec<Diagnostic> {
+    fn from(finding: Diagnostic) -> Self {
+        vec![finding]
+    }
+}
+
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)

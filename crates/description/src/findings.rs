@@ -24,6 +24,12 @@ impl Findings {
         result.map_err(|finding| self.push(finding)).ok()
     }
 
+    /// Changes every finding.
+    #[must_use]
+    pub fn map(self, change: impl FnMut(Diagnostic) -> Diagnostic) -> Self {
+        Self(self.0.into_iter().map(change).collect())
+    }
+
     /// Whether anything found so far stops the work.
     pub fn has_error(&self) -> bool {
         self.0.iter().any(|finding| finding.severity == Severity::Error)

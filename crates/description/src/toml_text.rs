@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use serde::de::DeserializeOwned;
 use toml::{
-    Deserializer,
+    Deserializer, Spanned,
     de::{DeTable, DeValue, Error},
 };
 
@@ -22,9 +22,14 @@ use crate::{
 /// check the rest and report everything at once.
 pub fn parse_toml<T: DeserializeOwned>(text: &str, findings: &mut Findings) -> Option<T> {
     let root = findings.keep(DeTable::parse(text).map_err(|error| diagnostic(&error)))?;
-    let (span, mut root) = (root.span(), root.into_inner());
+    read_table(root, findings)
+}
+
+/// The same for a table that is parsed already.
+pub fn read_table<T: DeserializeOwned>(table: Spanned<DeTable<'_>>, findings: &mut Findings) -> Option<T> {
+    let (span, mut root) = (table.span(), table.into_inner());
     for _ in 0..MOST_UNKNOWN_KEYS {
-        let attempt = toml::Spanned::new(span.clone(), root.clone());
+        let attempt = Spanned::new(span.clone(), root.clone());
         let error = match T::deserialize(Deserializer::from(attempt)) {
             Ok(value) => return Some(value),
             Err(error) => error,
@@ -40,6 +45,9 @@ pub fn parse_toml<T: DeserializeOwned>(text: &str, findings: &mut Findings) -> O
 
 /// So many are named in one run: every one costs another turn through the text.
 const MOST_UNKNOWN_KEYS: usize = 100;
+
+/// The code of a finding about a key that no field has.
+pub const UNKNOWN_KEY_CODE: &str = "toml::unknown_key";
 
 /// How serde begins its message about a key that no field has.
 const UNKNOWN_KEY: &str = "unknown field ";
@@ -68,7 +76,7 @@ pub fn diagnostic(error: &Error) -> Diagnostic {
     let known: Vec<&str> = names.collect();
     let known_help = |what: &str| known_names(first, what, known.iter().copied());
     let found = if text.starts_with(UNKNOWN_KEY) {
-        Diagnostic::error("toml::unknown_key", format!("unknown key \"{first}\""))
+        Diagnostic::error(UNKNOWN_KEY_CODE, format!("unknown key \"{first}\""))
             .with_help(known_help("keys"))
     } else if text.starts_with("unknown variant ") {
         Diagnostic::error("toml::unknown_value", format!("unknown value \"{first}\""))

@@ -7,6 +7,7 @@ use toml::Spanned;
 
 use crate::{
     diagnostic::Diagnostic,
+    fixed_array::{fixed_array, fixed_matrix},
     units::{Unit, check_finite},
 };
 
@@ -21,16 +22,22 @@ const ORTHONORMAL: f64 = 1e-9;
 #[serde(deny_unknown_fields)]
 pub struct WrittenTransform {
     /// Translation in metres.
+    #[serde(default, deserialize_with = "fixed_array")]
     pub xyz_m: Option<Spanned<[f64; 3]>>,
     /// Translation in millimetres.
+    #[serde(default, deserialize_with = "fixed_array")]
     pub xyz_mm: Option<Spanned<[f64; 3]>>,
     /// Turns about the fixed axes x, then y, then z, in radians.
+    #[serde(default, deserialize_with = "fixed_array")]
     pub rpy_rad: Option<Spanned<[f64; 3]>>,
     /// Turns about the fixed axes x, then y, then z, in degrees.
+    #[serde(default, deserialize_with = "fixed_array")]
     pub rpy_deg: Option<Spanned<[f64; 3]>>,
     /// Unit quaternion, scalar first.
+    #[serde(default, deserialize_with = "fixed_array")]
     pub quaternion_wxyz: Option<Spanned<[f64; 4]>>,
     /// Homogeneous matrix by rows, in metres; excludes all other keys.
+    #[serde(default, deserialize_with = "fixed_matrix")]
     pub matrix: Option<Spanned<[[f64; 4]; 4]>>,
 }
 
@@ -163,6 +170,25 @@ mod tests {
         let error = read(text).expect_err(text);
         assert!(error.message.contains(message), "{}", error.message);
         assert!(error.span.is_some());
+    }
+
+    #[track_caller]
+    fn unreadable(text: &str, message: &str) {
+        let mut findings = Findings::default();
+        assert!(parse_toml::<WrittenTransform>(text, &mut findings).is_none(), "{text}");
+        let found = findings.into_vec();
+        assert!(found[0].message.contains(message), "{}", found[0].message);
+        let span = found[0].span.clone().unwrap();
+        assert!(text[span.clone()].starts_with('['), "{text}: {span:?}");
+    }
+
+    #[test]
+    fn an_entry_too_many_is_not_dropped() {
+        unreadable("xyz_m = [1, 2, 3, 4]", "expected an array of 3, found 4");
+        unreadable("rpy_deg = [1, 2]", "expected an array of 3, found 2");
+        unreadable("quaternion_wxyz = [1, 0, 0, 0, 0]", "expected an array of 4, found 5");
+        unreadable("matrix = [[1, 0, 0, 0, 9], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]", "of 4, found 5");
+        unreadable("matrix = [[1, 0, 0, 0]]", "expected an array of 4, found 1");
     }
 
     #[test]

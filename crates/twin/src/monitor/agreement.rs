@@ -30,7 +30,7 @@ struct Agreement {
 pub(super) fn parse(
     section: Section<'_>,
     description: &RobotDescription,
-) -> Result<Box<dyn Monitor>, Diagnostic> {
+) -> Result<Box<dyn Monitor>, Vec<Diagnostic>> {
     let written: Written = section.read()?;
     let dof = description.robot.dof();
     let position_m = written.position_m.map_or(description.tolerance.position_m, Positive::get);

@@ -27,7 +27,7 @@ struct Clearance {
 pub(super) fn parse(
     section: Section<'_>,
     description: &RobotDescription,
-) -> Result<Box<dyn Monitor>, Diagnostic> {
+) -> Result<Box<dyn Monitor>, Vec<Diagnostic>> {
     let Written { minimum_m } = section.read()?;
     let minimum_m = minimum_m.get();
     let distance = Watch::new("distance", "m", Bound::AtLeast, minimum_m, description.robot.dof());

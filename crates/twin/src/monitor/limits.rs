@@ -34,7 +34,7 @@ struct Limits {
 pub(super) fn parse(
     section: Section<'_>,
     description: &RobotDescription,
-) -> Result<Box<dyn Monitor>, Diagnostic> {
+) -> Result<Box<dyn Monitor>, Vec<Diagnostic>> {
     let Written {} = section.read()?;
     let robot = &description.robot;
     let range = |(coordinate, &joint): (usize, _)| {

@@ -67,7 +67,7 @@ impl Names {
 }
 
 /// Reads the section of a check; the robot gives names, limits and tolerances.
-type Parse = fn(Section<'_>, &RobotDescription) -> Result<Box<dyn Monitor>, Diagnostic>;
+type Parse = fn(Section<'_>, &RobotDescription) -> Result<Box<dyn Monitor>, Vec<Diagnostic>>;
 
 /// How one kind of check is made from its section of a scenario file.
 struct Kind {
@@ -102,8 +102,8 @@ impl Check {
     /// Makes the check that a `[[check]]` section asks for.
     ///
     /// # Errors
-    /// A diagnostic at the section's kind or at the key that is wrong.
-    pub fn parse(mut section: Section<'_>, description: &RobotDescription) -> Result<Self, Diagnostic> {
+    /// Diagnostics at the section's kind or at the keys that are wrong.
+    pub fn parse(mut section: Section<'_>, description: &RobotDescription) -> Result<Self, Vec<Diagnostic>> {
         let line = section.line();
         let kind = section.select("kind", "check", KINDS, |kind| kind.name)?;
         Ok(Self { kind: kind.name, line, monitor: (kind.parse)(section, description)? })

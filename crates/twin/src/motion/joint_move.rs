@@ -26,7 +26,7 @@ struct Written {
 }
 
 pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<Motion, Vec<Diagnostic>> {
-    let written: Written = section.read().map_err(|error| vec![error])?;
+    let written: Written = section.read()?;
     let targets = JointValues {
         deg: written.move_joints_deg,
         rad: written.move_joints_rad,

@@ -5,6 +5,7 @@ mod number;
 mod obstacle;
 mod resolved;
 mod section;
+mod simulation;
 mod written;
 
 use std::path::{Path, PathBuf};
@@ -79,8 +80,6 @@ pub struct Scenario {
     pub expect: Expectation,
     /// What is suspicious in the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
-    /// The robot, as the file names it.
-    robot_as_written: String,
 }
 
 /// What the command line may change in a scenario.
@@ -104,18 +103,21 @@ impl Scenario {
             findings.into_iter().map(|finding| finding.in_file(&source)).collect()
         };
         let document = written::Document::parse(&source.text).map_err(in_file)?;
-        let robot_path = document.robot_path(path);
-        let description = load_robot(&robot_path).map_err(|mut findings| {
-            findings.push(document.robot_refused().in_file(&source));
-            findings
-        })?;
+        let description = match load_robot(&document.robot_path(path)) {
+            Ok(description) => description,
+            Err(mut findings) => {
+                findings.extend(in_file(document.robot_refused()));
+                return Err(findings);
+            }
+        };
         let mut scenario = document.check(path, description, overrides).map_err(in_file)?;
         scenario.warnings = in_file(std::mem::take(&mut scenario.warnings));
         debug_assert!(scenario.warnings.iter().all(|finding| finding.severity == Severity::Warning));
         Ok(scenario)
     }
 
-    /// The scenario as TOML with every default written out.
+    /// The scenario as TOML with every default written out; it names the robot by its whole path,
+    /// so that it runs from wherever it lies.
     pub fn resolved(&self) -> String {
         resolved::toml(self)
     }

@@ -1,12 +1,16 @@
 //! `[[obstacle]]`: what stands around the robot, in the root link's frame.
 
-use congruent_description::{Diagnostic, Geometry, WrittenTransform};
+use congruent_description::{Diagnostic, Geometry, Robot, WrittenTransform, fixed_array};
 use congruent_simulation::Obstacle;
 use nalgebra::{Isometry3, Vector3};
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::{number::Positive, section::Section};
+
+/// Largest size and coordinate of an obstacle: beyond it, rounding is no longer small against the
+/// accuracy of distances, and far beyond it products overflow.
+const LARGEST_M: f64 = 1e5;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -19,36 +23,76 @@ struct Cylinder {
 #[serde(deny_unknown_fields)]
 struct Written {
     name: Spanned<String>,
-    box_m: Option<[Positive; 3]>,
+    #[serde(default, deserialize_with = "fixed_array")]
+    box_m: Option<Spanned<[Positive; 3]>>,
     sphere_radius_m: Option<Positive>,
     cylinder: Option<Cylinder>,
+    #[serde(default, deserialize_with = "fixed_array")]
     xyz_m: Option<Spanned<[f64; 3]>>,
+    #[serde(default, deserialize_with = "fixed_array")]
     xyz_mm: Option<Spanned<[f64; 3]>>,
+    #[serde(default, deserialize_with = "fixed_array")]
     rpy_deg: Option<Spanned<[f64; 3]>>,
+    #[serde(default, deserialize_with = "fixed_array")]
     rpy_rad: Option<Spanned<[f64; 3]>>,
 }
 
-/// Reads all obstacles; names are unique.
-pub(super) fn read(sections: Vec<Section<'_>>) -> Result<Vec<Obstacle>, Vec<Diagnostic>> {
+/// Reads all obstacles; no other obstacle and no link of the robot has its name.
+pub(super) fn read(sections: Vec<Section<'_>>, robot: &Robot) -> Result<Vec<Obstacle>, Vec<Diagnostic>> {
     let mut obstacles: Vec<Obstacle> = Vec::new();
     let mut errors = Vec::new();
     for section in sections {
         let span = section.span();
-        match section.read::<Written>().and_then(|written| check(written, span.clone())) {
+        match read_one(section) {
             Ok(obstacle) if obstacles.iter().any(|known| known.name == obstacle.name) => {
                 let message = format!("two obstacles are named \"{}\"", obstacle.name);
                 errors.push(Diagnostic::error("scenario::obstacle_twice", message).at(span));
             }
+            Ok(obstacle) if robot.find_link(&obstacle.name).is_some() => {
+                let message = format!("obstacle \"{}\" is named as a link of the robot", obstacle.name);
+                errors.push(Diagnostic::error("scenario::obstacle_is_link", message).at(span));
+            }
             Ok(obstacle) => obstacles.push(obstacle),
-            Err(error) => errors.push(error),
+            Err(found) => errors.extend(found),
         }
     }
     if errors.is_empty() { Ok(obstacles) } else { Err(errors) }
 }
 
+fn read_one(section: Section<'_>) -> Result<Obstacle, Vec<Diagnostic>> {
+    section.require_table("cylinder")?;
+    let span = section.span();
+    let obstacle = check(section.read()?, span.clone())?;
+    let furthest_m = obstacle.world_from_obstacle.translation.vector.amax().max(largest_size_m(&obstacle));
+    if furthest_m > LARGEST_M {
+        let message = format!("obstacle \"{}\" is {furthest_m:e} m large or far", obstacle.name);
+        return Err(Diagnostic::error("scenario::obstacle_size", message)
+            .with_help(format!("sizes and coordinates are at most {LARGEST_M} m"))
+            .at(span)
+            .into());
+    }
+    Ok(obstacle)
+}
+
+fn largest_size_m(obstacle: &Obstacle) -> f64 {
+    match &obstacle.geometry {
+        Geometry::Box { size_m } => size_m.amax(),
+        Geometry::Cylinder { radius_m, length_m } => radius_m.max(*length_m),
+        Geometry::Sphere { radius_m } => *radius_m,
+        Geometry::Mesh(_) => unreachable!("scenarios have no mesh obstacles"),
+    }
+}
+
 fn check(written: Written, span: std::ops::Range<usize>) -> Result<Obstacle, Diagnostic> {
+    if written.name.get_ref().trim().is_empty() {
+        return Err(Diagnostic::error("scenario::obstacle_name", "the obstacle's name is empty")
+            .with_help("reports name it when something comes too close")
+            .at(written.name.span()));
+    }
     let geometry = match (written.box_m, written.sphere_radius_m, written.cylinder) {
-        (Some(size), None, None) => Geometry::Box { size_m: Vector3::from(size.map(Positive::get)) },
+        (Some(size), None, None) => {
+            Geometry::Box { size_m: Vector3::from(size.into_inner().map(Positive::get)) }
+        }
         (None, Some(radius), None) => Geometry::Sphere { radius_m: radius.get() },
         (None, None, Some(Cylinder { radius_m, length_m })) => {
             Geometry::Cylinder { radius_m: radius_m.get(), length_m: length_m.get() }

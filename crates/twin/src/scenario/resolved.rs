@@ -1,5 +1,7 @@
 //! A scenario written back as TOML, with every default spelt out.
 
+use std::path::Path;
+
 use congruent_description::{Geometry, JointKind, Robot};
 use congruent_simulation::Obstacle;
 use nalgebra::Isometry3;
@@ -10,11 +12,12 @@ use crate::{motion::Motion, verdict::Expectation};
 
 pub(super) fn toml(scenario: &Scenario) -> String {
     let robot = &scenario.description.robot;
+    let seed = i64::try_from(scenario.seed).expect("seeds of scenarios fit into TOML");
     let mut top = table([
         ("schema_version", Value::Integer(1)),
         ("name", scenario.name.as_str().into()),
-        ("robot", scenario.robot_as_written.as_str().into()),
-        ("seed", seed(scenario.seed)),
+        ("robot", robot_path(&scenario.description.path).into()),
+        ("seed", Value::Integer(seed)),
     ]);
     let simulation = &scenario.simulation;
     insert(
@@ -62,9 +65,10 @@ fn numbers(values: &[f64]) -> Value {
     Value::Array(values.iter().map(|&value| value.into()).collect())
 }
 
-/// TOML integers are signed.
-fn seed(seed: u64) -> Value {
-    i64::try_from(seed).map_or_else(|_| Value::String(seed.to_string()), Value::Integer)
+/// The robot's file without links and `..`.
+fn robot_path(path: &Path) -> String {
+    let whole = path.canonicalize().or_else(|_| std::path::absolute(path));
+    whole.unwrap_or_else(|_| path.to_owned()).display().to_string()
 }
 
 /// Positions of all joints that follow no other, by name, in radians and metres.

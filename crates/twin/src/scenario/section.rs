@@ -1,16 +1,19 @@
 //! One table of a scenario file, on its way to the module that knows what it means.
 
-use congruent_description::{Diagnostic, known_names, line_column, toml_text};
+use std::rc::Rc;
+
+use congruent_description::{Diagnostic, Findings, known_names, toml_text};
 use serde::de::DeserializeOwned;
 use toml::{
     Spanned,
-    de::{DeTable, DeValue, Deserializer},
+    de::{DeTable, DeValue},
 };
 
 /// A table with its place in the text.
 #[derive(Debug, Clone)]
 pub struct Section<'a> {
-    text: &'a str,
+    /// Where each line of the whole text starts.
+    line_starts: Rc<[usize]>,
     table: Spanned<DeTable<'a>>,
 }
 
@@ -21,12 +24,14 @@ impl<'a> Section<'a> {
     /// A diagnostic where the text is no TOML.
     pub fn document(text: &'a str) -> Result<Self, Diagnostic> {
         let table = DeTable::parse(text).map_err(|error| toml_text::diagnostic(&error))?;
-        Ok(Self { text, table })
+        let after_breaks = text.match_indices('\n').map(|(line_break, _)| line_break + 1);
+        Ok(Self { line_starts: std::iter::once(0).chain(after_breaks).collect(), table })
     }
 
     /// Line of the section, from 1.
     pub fn line(&self) -> usize {
-        line_column(self.text, self.table.span().start).0
+        let start = self.table.span().start;
+        self.line_starts.partition_point(|&line_start| line_start <= start)
     }
 
     /// The section's place in the text.
@@ -45,6 +50,19 @@ impl<'a> Section<'a> {
     /// A diagnostic where the key holds something else.
     pub fn take_table(&mut self, key: &str) -> Result<Option<Self>, Diagnostic> {
         self.table.get_mut().remove(key).map(|value| self.as_section(key, value)).transpose()
+    }
+
+    /// Refuses something else than a table under `key`: serde would read an array into a struct.
+    ///
+    /// # Errors
+    /// A diagnostic where the key holds something else.
+    pub fn require_table(&self, key: &str) -> Result<(), Diagnostic> {
+        match self.table.get_ref().get(key) {
+            Some(value) if !value.get_ref().is_table() => {
+                Err(wrong_type(key, "a table", value.get_ref().type_str()).at(value.span()))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Takes an array of tables out of this one; empty where the key is absent.
@@ -77,7 +95,11 @@ impl<'a> Section<'a> {
                 .with_help(known_names("", "ones", names()))
                 .at(self.span()));
         };
-        let found = value.get_ref().as_str().unwrap_or_default();
+        let Some(found) = value.get_ref().as_str() else {
+            return Err(wrong_type(key, "a string", value.get_ref().type_str())
+                .with_help(known_names("", "ones", names()))
+                .at(value.span()));
+        };
         known.iter().find(|known| name(known) == found).ok_or_else(|| {
             Diagnostic::error("scenario::unknown_kind", format!("unknown {what} \"{found}\""))
                 .with_help(known_names(found, "ones", names()))
@@ -88,20 +110,26 @@ impl<'a> Section<'a> {
     /// Reads the section into a value; unknown keys are errors where the type denies them.
     ///
     /// # Errors
-    /// A diagnostic at the key or value that is wrong.
-    pub fn read<T: DeserializeOwned>(self) -> Result<T, Diagnostic> {
-        let span = self.span();
-        T::deserialize(Deserializer::from(self.table)).map_err(|error| {
-            let mut diagnostic = toml_text::diagnostic(&error);
-            diagnostic.span.get_or_insert(span);
-            diagnostic
-        })
+    /// A diagnostic at every unknown key and at the first value that is wrong.
+    pub fn read<T: DeserializeOwned>(self) -> Result<T, Vec<Diagnostic>> {
+        let mut findings = Findings::default();
+        match self.read_into(&mut findings) {
+            Some(value) if !findings.has_error() => Ok(value),
+            _ => Err(findings.into_vec()),
+        }
+    }
+
+    /// Like [`Section::read`], but gives a value as well where the only faults are unknown keys.
+    pub fn read_into<T: DeserializeOwned>(self, findings: &mut Findings) -> Option<T> {
+        toml_text::read_table(self.table, findings)
     }
 
     fn as_section(&self, key: &str, value: Spanned<DeValue<'a>>) -> Result<Self, Diagnostic> {
         let span = value.span();
         match value.into_inner() {
-            DeValue::Table(table) => Ok(Self { text: self.text, table: Spanned::new(span, table) }),
+            DeValue::Table(table) => {
+                Ok(Self { line_starts: Rc::clone(&self.line_starts), table: Spanned::new(span, table) })
+            }
             other => Err(wrong_type(key, "a table", other.type_str()).at(span)),
         }
     }

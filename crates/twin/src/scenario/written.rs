@@ -2,27 +2,23 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{Diagnostic, Findings, RobotDescription};
+use congruent_description::{Diagnostic, Findings, RobotDescription, known_names, toml_text};
 use congruent_simulation::{Gains, controller_names};
-use nalgebra::Vector3;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::{
-    ControllerSettings, Overrides, Scenario, SimulationSettings,
+    ControllerSettings, Overrides, Scenario,
     joint_values::{JointValues, WrittenJoints},
-    number::{Finite, NonNegative, Positive},
+    number::NonNegative,
     obstacle,
     section::Section,
+    simulation,
 };
 use crate::{monitor, motion::Trajectory, verdict::Expectation};
 
 /// The one version of the format that exists.
 const SCHEMA_VERSION: u32 = 1;
-/// Longest step: beyond it no arm in `robots/` is stable.
-const LONGEST_STEP_S: f64 = 0.01;
-/// Most steps of one run: about an hour of computing.
-const MOST_STEPS: f64 = 1e8;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -30,16 +26,7 @@ struct Top {
     schema_version: Spanned<u32>,
     name: Spanned<String>,
     robot: Spanned<String>,
-    #[serde(default)]
-    seed: u64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Simulation {
-    step_s: Option<Spanned<Positive>>,
-    duration_s: Option<Spanned<Positive>>,
-    gravity_m_s2: Option<[Finite; 3]>,
+    seed: Option<Spanned<u64>>,
 }
 
 #[derive(Default, Deserialize)]
@@ -80,6 +67,8 @@ pub(super) struct Document<'a> {
     obstacles: Vec<Section<'a>>,
     checks: Vec<Section<'a>>,
     expect: Option<Section<'a>>,
+    /// What is wrong so far; the sections are checked all the same.
+    findings: Findings,
 }
 
 /// The sections that [`Document::parse`] takes out of the top.
@@ -87,21 +76,20 @@ const SECTIONS: [&str; 7] = ["simulation", "start", "controller", "motion", "obs
 
 impl<'a> Document<'a> {
     pub(super) fn parse(text: &'a str) -> Result<Self, Vec<Diagnostic>> {
-        Self::take_apart(text).map_err(|error| vec![error])
-    }
-
-    fn take_apart(text: &'a str) -> Result<Self, Diagnostic> {
         let mut document = Section::document(text)?;
-        Ok(Self {
-            simulation: document.take_table("simulation")?,
-            start: document.take_table("start")?,
-            controller: document.take_table("controller")?,
-            motions: document.take_tables("motion")?,
-            obstacles: document.take_tables("obstacle")?,
-            checks: document.take_tables("check")?,
-            expect: document.take_table("expect")?,
-            top: document.read().map_err(name_sections)?,
-        })
+        let simulation = document.take_table("simulation")?;
+        let start = document.take_table("start")?;
+        let controller = document.take_table("controller")?;
+        let motions = document.take_tables("motion")?;
+        let obstacles = document.take_tables("obstacle")?;
+        let checks = document.take_tables("check")?;
+        let expect = document.take_table("expect")?;
+        let mut findings = Findings::default();
+        let top = document.read_into(&mut findings);
+        let mut findings = findings.map(name_sections);
+        let Some(top) = top else { return Err(findings.into_vec()) };
+        findings.keep(check_top(&top));
+        Ok(Self { top, simulation, start, controller, motions, obstacles, checks, expect, findings })
     }
 
     /// The robot's path, relative to the scenario's folder.
@@ -110,14 +98,16 @@ impl<'a> Document<'a> {
         folder.join(self.top.robot.get_ref())
     }
 
-    /// Points from the scenario at a robot that was refused.
-    pub(super) fn robot_refused(&self) -> Diagnostic {
+    /// What is wrong with a scenario whose robot was refused.
+    pub(super) fn robot_refused(mut self) -> Vec<Diagnostic> {
         let message = format!("robot \"{}\" cannot be used", self.top.robot.get_ref());
-        Diagnostic::error("scenario::robot", message)
+        let refused = Diagnostic::error("scenario::robot", message)
             .with_help(
                 "`robot` is a folder with robot.toml, a robot file or a .urdf, relative to the scenario file",
             )
-            .at(self.top.robot.span())
+            .at(self.top.robot.span());
+        self.findings.push(refused);
+        self.findings.into_vec()
     }
 
     pub(super) fn check(
@@ -126,8 +116,8 @@ impl<'a> Document<'a> {
         description: RobotDescription,
         overrides: Overrides,
     ) -> Result<Scenario, Vec<Diagnostic>> {
-        let mut found = Findings::default();
-        found.keep(check_top(&self.top));
+        let mut found = self.findings;
+        let seed = found.keep(read_seed(overrides, self.top.seed.as_ref()));
         let start = keep_all(&mut found, read_start(self.start, &description));
         let start = start.unwrap_or_else(|| vec![0.0; description.robot.dof()]);
         let mut warnings = start_warnings(&start, &description);
@@ -136,35 +126,41 @@ impl<'a> Document<'a> {
         let trajectory =
             keep_all(&mut found, Trajectory::parse(self.motions, &description.robot, &start, &mut warnings));
         let motions_s = trajectory.as_ref().map_or(0.0, Trajectory::duration_s);
-        let simulation = found.keep(read_simulation(self.simulation, motions_s));
-        let controller = found.keep(read_controller(self.controller));
-        let obstacles = keep_all(&mut found, obstacle::read(self.obstacles));
+        let simulation = keep_all(&mut found, simulation::read(self.simulation, motions_s, &mut warnings));
+        let controller = keep_all(&mut found, read_controller(self.controller));
+        let obstacles = keep_all(&mut found, obstacle::read(self.obstacles, &description.robot));
+        let written_checks = self.checks.len();
         let checks: Vec<_> = self
             .checks
             .into_iter()
-            .filter_map(|section| found.keep(monitor::Check::parse(section, &description)))
+            .filter_map(|section| keep_all(&mut found, monitor::Check::parse(section, &description)))
             .collect();
-        let expect = found.keep(read_expect(self.expect));
-        match (!found.has_error(), trajectory, simulation, controller, obstacles, expect) {
-            (true, Some(trajectory), Some(simulation), Some(controller), Some(obstacles), Some(expect)) => {
-                Ok(Scenario {
-                    path: path.to_owned(),
-                    name: self.top.name.into_inner(),
-                    seed: overrides.seed.unwrap_or(self.top.seed),
-                    robot_as_written: self.top.robot.into_inner(),
-                    description,
-                    simulation,
-                    start,
-                    controller,
-                    trajectory,
-                    obstacles,
-                    checks,
-                    expect,
-                    warnings,
-                })
-            }
-            _ => Err(found.into_vec()),
+        let all_checks = (checks.len() == written_checks).then_some(&checks[..]);
+        let expect = keep_all(&mut found, read_expect(self.expect, all_checks));
+        let parts = (seed, trajectory, simulation, controller, obstacles, expect);
+        let (Some(seed), Some(trajectory), Some(simulation), Some(controller), Some(obstacles), Some(expect)) =
+            parts
+        else {
+            return Err(found.into_vec());
+        };
+        if found.has_error() {
+            return Err(found.into_vec());
         }
+        let (path, name) = (path.to_owned(), self.top.name.into_inner());
+        Ok(Scenario {
+            path,
+            name,
+            seed,
+            description,
+            simulation,
+            start,
+            controller,
+            trajectory,
+            obstacles,
+            checks,
+            expect,
+            warnings,
+        })
     }
 }
 
@@ -175,6 +171,9 @@ fn keep_all<T>(findings: &mut Findings, result: Result<T, Vec<Diagnostic>>) -> O
 
 /// An unknown key at the top may be a misspelt section.
 fn name_sections(error: Diagnostic) -> Diagnostic {
+    if error.code != toml_text::UNKNOWN_KEY_CODE {
+        return error;
+    }
     let help = error.help.clone().unwrap_or_default();
     let sections = SECTIONS.map(|section| format!("[{section}]")).join(", ");
     error.with_help(format!("{help}; sections: {sections}").trim_start_matches("; ").to_owned())
@@ -201,7 +200,7 @@ fn read_start(
     description: &RobotDescription,
 ) -> Result<Vec<f64>, Vec<Diagnostic>> {
     let robot = &description.robot;
-    let written: Start = section.map_or(Ok(Start::default()), Section::read).map_err(|error| vec![error])?;
+    let written: Start = section.map_or(Ok(Start::default()), Section::read)?;
     let values = JointValues {
         deg: written.joints_deg,
         rad: written.joints_rad,
@@ -252,52 +251,23 @@ fn move_inside_limits(start: &mut [f64], description: &RobotDescription) {
     robot.apply_mimic(start);
 }
 
-fn read_simulation(section: Option<Section<'_>>, motions_s: f64) -> Result<SimulationSettings, Diagnostic> {
-    let written = match section {
-        Some(section) => section.read()?,
-        None => Simulation { step_s: None, duration_s: None, gravity_m_s2: None },
-    };
-    let step_s = written.step_s.as_ref().map_or(0.001, |step| step.get_ref().get());
-    let duration_s = written.duration_s.as_ref().map_or(motions_s, |duration| duration.get_ref().get());
-    let at_step = |error: Diagnostic| match &written.step_s {
-        Some(step) => error.at(step.span()),
-        None => error,
-    };
-    if step_s > LONGEST_STEP_S {
-        let message = format!("step_s = {step_s} is outside (0, {LONGEST_STEP_S}]");
-        return Err(at_step(
-            Diagnostic::error("scenario::step", message).with_help("0.001 suits every robot in robots/"),
-        ));
+fn read_seed(overrides: Overrides, written: Option<&Spanned<u64>>) -> Result<u64, Diagnostic> {
+    let seed = overrides.seed.or(written.map(|seed| *seed.get_ref())).unwrap_or(0);
+    if i64::try_from(seed).is_ok() {
+        return Ok(seed);
     }
-    if duration_s <= 0.0 {
-        return Err(Diagnostic::error("scenario::duration", "the run has no duration")
-            .with_help("give `duration_s` under [simulation], or a [[motion]]"));
-    }
-    if step_s > duration_s {
-        let message = format!("step_s = {step_s} is longer than the run ({duration_s} s)");
-        return Err(at_step(Diagnostic::error("scenario::step", message)));
-    }
-    let steps = (duration_s / step_s).round();
-    if steps > MOST_STEPS {
-        let message = format!("{duration_s} s in steps of {step_s} s are {steps:e} steps");
-        return Err(at_step(
-            Diagnostic::error("scenario::steps", message)
-                .with_help(format!("at most {MOST_STEPS:e} steps are run at once")),
-        ));
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 < steps <= 1e8")]
-    let steps = steps as u64;
-    let gravity = written.gravity_m_s2.map_or([0.0, 0.0, -9.81], |gravity| gravity.map(Finite::get));
-    Ok(SimulationSettings { step_s, steps, gravity_in_world: Vector3::from(gravity) })
+    let message = format!("seed = {seed} is above {}, the largest integer of TOML", i64::MAX);
+    Err(Diagnostic::error("scenario::seed", message).at(written.map_or(0..0, Spanned::span)))
 }
 
-fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, Diagnostic> {
+fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, Vec<Diagnostic>> {
     let Some(mut section) = section else {
         return Err(Diagnostic::error("scenario::no_controller", "the scenario has no [controller]")
             .with_help(format!(
                 "add one with kind = {}",
                 controller_names().collect::<Vec<_>>().join(" | ")
-            )));
+            ))
+            .into());
     };
     let known: Vec<&str> = controller_names().collect();
     let kind = (*section.select("kind", "controller", &known, |name| name)?).to_owned();
@@ -309,25 +279,38 @@ fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, D
     Ok(ControllerSettings { kind, gains })
 }
 
-fn read_expect(section: Option<Section<'_>>) -> Result<Expectation, Diagnostic> {
+/// `checks` are all of the scenario, where all could be read.
+fn read_expect(
+    section: Option<Section<'_>>,
+    checks: Option<&[monitor::Check]>,
+) -> Result<Expectation, Vec<Diagnostic>> {
     let Some(mut section) = section else { return Ok(Expectation::Pass) };
     let span = section.span();
     let verdict = *section.select("verdict", "expected verdict", &["pass", "fail"], |name| name)?;
-    let Expect { checks } = section.read()?;
-    for check in &checks {
-        if !monitor::kinds().any(|kind| kind == check.get_ref()) {
-            let message = format!("unknown kind of check \"{}\"", check.get_ref());
-            return Err(Diagnostic::error("scenario::unknown_kind", message)
-                .with_help(congruent_description::known_names(check.get_ref(), "kinds", monitor::kinds()))
-                .at(check.span()));
-        }
+    let Expect { checks: named } = section.read()?;
+    for name in &named {
+        expects_a_check(name.get_ref(), checks).map_err(|error| error.at(name.span()))?;
     }
-    let checks: Vec<String> = checks.into_iter().map(Spanned::into_inner).collect();
-    match (verdict, checks.is_empty()) {
-        ("fail", _) => Ok(Expectation::Fail { checks }),
+    match (verdict, named.is_empty()) {
+        ("fail", _) => Ok(Expectation::Fail { checks: named.into_iter().map(Spanned::into_inner).collect() }),
         (_, true) => Ok(Expectation::Pass),
         (_, false) => Err(Diagnostic::error("scenario::expect", "`checks` names the checks that must fail")
             .with_help("it goes with verdict = \"fail\"")
-            .at(span)),
+            .at(span)
+            .into()),
     }
+}
+
+/// A check that is expected to fail must be one of the scenario's.
+fn expects_a_check(name: &str, checks: Option<&[monitor::Check]>) -> Result<(), Diagnostic> {
+    if !monitor::kinds().any(|kind| kind == name) {
+        return Err(Diagnostic::error("scenario::unknown_kind", format!("unknown kind of check \"{name}\""))
+            .with_help(known_names(name, "kinds", monitor::kinds())));
+    }
+    if checks.is_some_and(|checks| checks.iter().all(|check| check.kind != name)) {
+        let message = format!("check \"{name}\" is expected to fail, but the scenario has none");
+        return Err(Diagnostic::error("scenario::expect", message)
+            .with_help(format!("add a [[check]] with kind = \"{name}\"")));
+    }
+    Ok(())
 }
