@@ -95,6 +95,49 @@ fn an_unknown_key() {
 }
 
 #[test]
+fn every_unknown_key_in_one_run() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "[simulation]\nduration_s", "sed = 1\n[simulation]\ndurration_s");
+    bench.edit("scenario.toml", "kind = \"passive\"", "kind = \"passive\"\nstifness = 1.0");
+    bench.edit("scenario.toml", "kind = \"agreement\"", "kind = \"agreement\"\nposition = 1.0");
+    let words = ["\"sed\"", "\"durration_s\"", "\"stifness\"", "\"position\""];
+    for line in [4, 6, 9, 15] {
+        bench.refused("scenario.toml", line, &words);
+    }
+}
+
+#[test]
+fn an_array_with_an_entry_too_many() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "[controller]", "gravity_m_s2 = [0, 0, 0, -9.81]\n[controller]");
+    bench.refused("scenario.toml", 6, &["an array of 3, found 4"]);
+}
+
+#[test]
+fn an_obstacle_that_cannot_be() {
+    for (keys, words) in [
+        ("name = \"a\"\ncylinder = [1, 2]", "`cylinder` is a table"),
+        ("name = \"a\"\nbox_m = [1, 1, 1e308]", "1e308 m large"),
+        ("name = \"a\"\nsphere_radius_m = 1\nxyz_m = [0, 1e9, 0]", "1e9 m large or far"),
+        ("name = \"\"\nsphere_radius_m = 1", "name is empty"),
+        ("name = \"link_1\"\nsphere_radius_m = 1", "named as a link"),
+        ("name = \"a\"", "exactly one shape"),
+    ] {
+        let bench = Workbench::new();
+        bench.edit("scenario.toml", "[[check]]", &format!("[[obstacle]]\n{keys}\n[[check]]"));
+        bench.refused("scenario.toml", 0, &[words]);
+    }
+}
+
+#[test]
+fn an_expectation_of_a_check_that_is_not_there() {
+    let bench = Workbench::new();
+    let scenario = format!("{SCENARIO}[expect]\nverdict = \"fail\"\nchecks = [\"clearance\"]\n");
+    bench.write("scenario.toml", &scenario);
+    bench.refused("scenario.toml", 15, &["clearance", "has none"]);
+}
+
+#[test]
 fn an_unknown_section() {
     let bench = Workbench::new();
     bench.edit("scenario.toml", "[simulation]", "[simulaton]");
@@ -204,6 +247,40 @@ fn two_scenarios_that_write_to_one_folder() {
         "{}",
         answer.stderr
     );
+}
+
+#[test]
+fn one_that_cannot_run_leaves_the_others_in_one_document() {
+    let bench = Workbench::new();
+    bench.write("other.toml", &SCENARIO.replacen("bench", "other", 1));
+    fs::create_dir(bench.path("out")).unwrap();
+    bench.write("out/other", "a file where a folder should be");
+    let [a, b, out, junit] =
+        ["scenario.toml", "other.toml", "out", "new/folder/junit.xml"].map(|name| text(&bench.path(name)));
+    let answer =
+        congruent_json(&["run", &a, &b, "--jobs", "2", "--no-recording", "--out", &out, "--junit", &junit]);
+    assert_eq!(answer.code, 2, "{}{}", answer.stdout, answer.stderr);
+    let document = answer.json();
+    assert_eq!(document[0]["verdict"], "as_expected");
+    assert_eq!(document[1]["findings"][0]["code"], "run::output");
+    assert!(fs::read_to_string(&junit).unwrap().contains("testsuite name=\"bench\""));
+}
+
+#[test]
+fn a_run_that_ends_before_its_motions_says_so() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "duration_s = 0.01\n[controller]", "duration_s = 0.005\n[controller]");
+    let (scenario, out) = (text(&bench.path("scenario.toml")), text(&bench.path("out")));
+    let answer = congruent_json(&["run", &scenario, "--no-recording", "--out", &out]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    assert_eq!(answer.json()["warnings"][0]["code"], "scenario::cut_short");
+}
+
+#[test]
+fn a_joint_that_is_given_twice() {
+    let answer = congruent(&["fk", "robots/ur5e", "--at", "elbow_joint=1.0", "--at", "elbow_joint=2.0"]);
+    assert_eq!(answer.code, 2);
+    assert!(answer.stderr.contains("given as 1 already"), "{}", answer.stderr);
 }
 
 #[test]

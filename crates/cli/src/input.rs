@@ -43,7 +43,10 @@ impl ConfigurationArguments {
         let mut values = BTreeMap::new();
         for assignment in &self.at {
             let (joint, value) = parse(assignment)?;
-            values.insert(joint, value);
+            if let Some(before) = values.insert(joint, value) {
+                let message = format!("--at {assignment}: the joint is given as {before} already");
+                return Err(Diagnostic::error("cli::at", message).into());
+            }
         }
         Ok(vec![configuration(&values, robot)?])
     }

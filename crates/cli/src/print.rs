@@ -31,9 +31,36 @@ pub(crate) struct Printer {
 
 /// What stands on standard output when a command has no answer.
 #[derive(Serialize)]
-struct Refusal<'a> {
+pub(crate) struct Refusal<'a> {
     error: &'a str,
     findings: Vec<Finding>,
+    /// How many more there are.
+    #[serde(skip_serializing_if = "is_zero")]
+    left_out: usize,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes fields by reference")]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
+/// So many findings are shown: whoever mends these sees the next.
+const MOST_FINDINGS: usize = 100;
+/// Longest piece of a file, message or help that is shown to people, in bytes.
+const MOST_SHOWN: usize = 2000;
+
+impl<'a> From<&'a Failure> for Refusal<'a> {
+    fn from(failure: &'a Failure) -> Self {
+        let (error, findings) = match failure {
+            Failure::Input(findings) => ("bad input", findings.as_slice()),
+            Failure::Machine(message) => (message.as_str(), [].as_slice()),
+        };
+        Self {
+            error,
+            findings: findings.iter().take(MOST_FINDINGS).map(Finding::from).collect(),
+            left_out: findings.len().saturating_sub(MOST_FINDINGS),
+        }
+    }
 }
 
 impl Printer {
@@ -74,20 +101,25 @@ impl Printer {
 
     /// Why there is no result.
     pub(crate) fn failure(&self, failure: &Failure) {
-        let (message, findings) = match failure {
-            Failure::Input(findings) => ("bad input", findings.as_slice()),
-            Failure::Machine(message) => (message.as_str(), [].as_slice()),
-        };
-        for finding in findings {
-            to_stderr(&rendered(finding));
-        }
-        if findings.is_empty() {
-            to_stderr(&format!("error: {message}\n"));
-        }
+        self.explain(failure);
         if self.format == Format::Json {
-            let refusal = Refusal { error: message, findings: findings.iter().map(Finding::from).collect() };
             // Standard output may be gone; the exit code and standard error still tell.
-            let _ = self.result(&refusal, |_| String::new());
+            let _ = self.result(&Refusal::from(failure), |_| String::new());
+        }
+    }
+
+    /// Why a part of the result is missing: on standard error only.
+    pub(crate) fn explain(&self, failure: &Failure) {
+        match failure {
+            Failure::Machine(message) => to_stderr(&format!("error: {message}\n")),
+            Failure::Input(findings) => {
+                for finding in findings.iter().take(MOST_FINDINGS) {
+                    to_stderr(&rendered(finding));
+                }
+                if let Some(more) = findings.len().checked_sub(MOST_FINDINGS).filter(|&more| more > 0) {
+                    to_stderr(&format!("and {more} more\n"));
+                }
+            }
         }
     }
 
@@ -112,8 +144,9 @@ pub(crate) fn rendered(finding: &Diagnostic) -> String {
     let theme = if plain { GraphicalTheme::unicode_nocolor() } else { GraphicalTheme::unicode() };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
     let mut text = String::new();
+    let finding = &shortened(finding);
     // Without a place in a text there is no snippet to carry the file's name.
-    if let (None, Some(source)) = (finding.line_column(), &finding.source) {
+    if let (None, Some(source)) = (&finding.span, &finding.source) {
         let _ = writeln!(text, "{}:", source.path.display());
     }
     if handler.render_report(&mut text, finding).is_err() {
@@ -122,4 +155,79 @@ pub(crate) fn rendered(finding: &Diagnostic) -> String {
     }
     text.push('\n');
     text
+}
+
+/// The finding without what would fill the terminal: the snippet where the text in question is
+/// long, the ends of its words.
+fn shortened(finding: &Diagnostic) -> Diagnostic {
+    let mut shortened = finding.clone();
+    clip(&mut shortened.message);
+    shortened.help.as_mut().map(clip);
+    if let (Some(source), Some(span), Some((line, column))) =
+        (&finding.source, &finding.span, finding.line_column())
+        && snippet_bytes(&source.text, span) > MOST_SHOWN
+    {
+        let _ = write!(shortened.message, " ({}:{line}:{column})", source.path.display());
+        (shortened.source, shortened.span) = (None, None);
+    }
+    shortened
+}
+
+/// Length of the lines that a snippet would show.
+fn snippet_bytes(text: &str, span: &std::ops::Range<usize>) -> usize {
+    let bytes = text.as_bytes();
+    let is_break = |&byte: &u8| byte == b'\n';
+    let (start, end) = (span.start.min(bytes.len()), span.end.min(bytes.len()));
+    let before = bytes[..start].iter().rev().position(is_break).unwrap_or(start);
+    let after = bytes[end..].iter().position(is_break).unwrap_or(bytes.len() - end);
+    before + end.saturating_sub(start) + after
+}
+
+fn clip(text: &mut String) {
+    if text.len() > MOST_SHOWN {
+        let end = (0..=MOST_SHOWN).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
+        text.truncate(end);
+        text.push_str("...");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use congruent_description::SourceFile;
+
+    use super::*;
+
+    fn finding(text: &str, span: std::ops::Range<usize>) -> Diagnostic {
+        let source = Arc::new(SourceFile { path: "some.toml".into(), text: text.to_owned() });
+        Diagnostic::error("a::fault", "this is wrong").at(span).in_file(&source)
+    }
+
+    #[test]
+    fn a_finding_shows_its_line() {
+        let text = rendered(&finding("a = 1\nb = 2\n", 6..7));
+        assert!(text.contains("some.toml:2:1") && text.contains("b = 2"), "{text}");
+    }
+
+    #[test]
+    fn a_long_line_is_not_shown_but_its_place_is() {
+        let long = format!("a = 1\nb = \"{}\"\n", "x".repeat(1_000_000));
+        let text = rendered(&finding(&long, 6..7));
+        assert!(text.contains("some.toml:2:1") && text.len() < 1000, "{} bytes", text.len());
+    }
+
+    #[test]
+    fn long_words_end() {
+        let mut long = finding("a", 0..1);
+        long.message = "\u{e9}".repeat(1_000_000);
+        assert!(rendered(&long.clone().with_help(long.message.clone())).len() < 10 * MOST_SHOWN);
+    }
+
+    #[test]
+    fn so_many_findings_are_counted_not_told() {
+        let failure = Failure::Input(vec![finding("a", 0..1); MOST_FINDINGS + 7]);
+        let refusal = Refusal::from(&failure);
+        assert_eq!((refusal.findings.len(), refusal.left_out), (MOST_FINDINGS, 7));
+    }
 }

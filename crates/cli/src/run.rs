@@ -1,6 +1,12 @@
 //! `congruent run`: scenarios, headless.
 
-use std::{collections::BTreeMap, fmt::Write, path::PathBuf, sync::Mutex};
+use std::{
+    collections::BTreeMap,
+    fmt::Write,
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::{Path, PathBuf},
+    sync::Mutex,
+};
 
 use congruent_description::Diagnostic;
 use congruent_twin::{
@@ -11,7 +17,12 @@ use congruent_twin::{
 };
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
-use crate::{failure::Failure, print::Printer};
+use serde::Serialize;
+
+use crate::{
+    failure::{BROKEN, Failure},
+    print::{Printer, Refusal},
+};
 
 /// Runs scenario files and writes report, JUnit and recording of each to its own folder.
 #[derive(Debug, clap::Args)]
@@ -26,7 +37,7 @@ pub(crate) struct Arguments {
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: u16,
     /// Use this seed instead of the scenario's.
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX.unsigned_abs()))]
     seed: Option<u64>,
     /// Write no recording.
     #[arg(long)]
@@ -37,40 +48,94 @@ pub(crate) struct Arguments {
 }
 
 /// What became of one scenario.
-type Finished = Result<(RunReport, OutputFolder), Failure>;
+enum Finished {
+    /// It ran; its results are in the folder.
+    Ran(Box<RunReport>, OutputFolder),
+    /// It ran, but its results are nowhere but here.
+    Lost(Box<RunReport>, Failure),
+    /// It could not run.
+    Refused(Failure),
+}
+
+/// One scenario in the document that stands for several.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Entry<'a> {
+    Report(&'a RunReport),
+    Refusal(Refusal<'a>),
+}
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    if let Some(path) = &arguments.junit {
+        // Shows now whether it can be written, and leaves nothing of an earlier run.
+        write_junit(path, &[]).map_err(|error| unwritable(&error, "choose another file with --junit"))?;
+    }
     let scenarios = load(arguments, printer)?;
-    let finished = run_all(scenarios, arguments, printer);
-    let mut code = 0;
-    let mut reports = Vec::new();
-    let mut folders = Vec::new();
-    for result in finished {
-        match result {
-            Ok((report, folder)) => {
-                code = worse(code, report.exit_code);
-                reports.push(report);
-                folders.push(folder);
-            }
-            // One scenario that cannot run takes nothing from the others.
-            Err(failure) => {
-                printer.failure(&failure);
-                code = worse(code, failure.exit_code());
-            }
+    let mut finished = run_all(scenarios, arguments, printer);
+    let mut code = finished.iter().map(Finished::exit_code).fold(0, worse);
+    if let Some(path) = &arguments.junit {
+        let reports: Vec<RunReport> = finished.iter().filter_map(Finished::report).cloned().collect();
+        if let Err(error) = write_junit(path, &reports) {
+            printer.explain(&Failure::Machine(error.to_string()));
+            code = BROKEN;
         }
     }
-    if let Some(path) = &arguments.junit {
-        write_junit(path, &reports).map_err(|error| unwritable(&error))?;
+    if let [Finished::Refused(_)] = finished[..]
+        && let Some(Finished::Refused(failure)) = finished.pop()
+    {
+        return Err(failure);
     }
-    let text = |report: &RunReport, folder: &OutputFolder| described(report, folder);
-    match (&reports[..], &folders[..]) {
-        ([], _) => {}
-        ([report], [folder]) => printer.result(report, |report| text(report, folder))?,
-        (reports, folders) => printer.result(&reports, |reports| {
-            reports.iter().zip(folders).map(|(report, folder)| text(report, folder)).collect()
-        })?,
+    for failure in finished.iter().filter_map(Finished::failure) {
+        printer.explain(failure);
+    }
+    match &finished[..] {
+        [one] => printer.result(&one.entry(), |_| one.described())?,
+        all => {
+            let entries: Vec<Entry<'_>> = all.iter().map(Finished::entry).collect();
+            printer.result(&entries, |_| all.iter().map(Finished::described).collect())?;
+        }
     }
     Ok(code)
+}
+
+impl Finished {
+    fn report(&self) -> Option<&RunReport> {
+        match self {
+            Self::Ran(report, _) | Self::Lost(report, _) => Some(report),
+            Self::Refused(_) => None,
+        }
+    }
+
+    fn failure(&self) -> Option<&Failure> {
+        match self {
+            Self::Ran(..) => None,
+            Self::Lost(_, failure) | Self::Refused(failure) => Some(failure),
+        }
+    }
+
+    fn exit_code(&self) -> u8 {
+        match self {
+            Self::Ran(report, _) => report.exit_code,
+            Self::Lost(_, failure) | Self::Refused(failure) => failure.exit_code(),
+        }
+    }
+
+    fn entry(&self) -> Entry<'_> {
+        match self {
+            Self::Ran(report, _) | Self::Lost(report, _) => Entry::Report(report),
+            Self::Refused(failure) => Entry::Refusal(failure.into()),
+        }
+    }
+
+    fn described(&self) -> String {
+        match self {
+            Self::Ran(report, folder) => {
+                format!("{}  results in {}\n", described(report), folder.path().display())
+            }
+            Self::Lost(report, _) => format!("{}  results are not all on disk\n", described(report)),
+            Self::Refused(_) => String::new(),
+        }
+    }
 }
 
 /// Reads all scenarios before the first one runs, so that a slip in the last is known at once.
@@ -96,7 +161,7 @@ fn load(arguments: &Arguments, printer: &Printer) -> Result<Vec<Scenario>, Failu
     if findings.is_empty() { Ok(scenarios) } else { Err(findings.into()) }
 }
 
-fn same_folder(folder: &std::path::Path, a: &std::path::Path, b: &std::path::Path) -> Diagnostic {
+fn same_folder(folder: &Path, a: &Path, b: &Path) -> Diagnostic {
     let message =
         format!("scenarios {} and {} would both write to {}", a.display(), b.display(), folder.display());
     Diagnostic::error("run::same_output", message).with_help("give them different names")
@@ -131,19 +196,32 @@ fn run_one(scenario: Scenario, options: &Options, bars: Option<&MultiProgress>) 
     /// Steps between two looks at the progress bar.
     const STEPS_A_TICK: u64 = 256;
     let bar = bars.map(|bars| bars.add(progress_bar(&scenario)));
-    let result = execute(scenario, options, |steps| {
+    let name = scenario.name.clone();
+    let progress = |steps| {
         if let Some(bar) = bar.as_ref().filter(|_| steps % STEPS_A_TICK == 0) {
             bar.set_position(steps);
         }
-    });
+    };
+    // A fault in one scenario must not take the results of the others with it.
+    let result = catch_unwind(AssertUnwindSafe(|| execute(scenario, options, progress)));
     if let Some(bar) = bar {
         bar.finish_and_clear();
     }
-    result.map_err(|error| match error {
-        ExecuteError::Output(error) => unwritable(&error),
-        ExecuteError::Recording(error) => Failure::Machine(error.to_string()),
-        error => Diagnostic::error("run::cannot_run", error.to_string()).into(),
-    })
+    match result {
+        Ok(Ok((report, folder))) => Finished::Ran(Box::new(report), folder),
+        Ok(Err(ExecuteError::Lost { report, source })) => {
+            Finished::Lost(report, Failure::Machine(source.to_string()))
+        }
+        Ok(Err(ExecuteError::Output(error))) => {
+            Finished::Refused(unwritable(&error, "choose a folder that can be written with --out"))
+        }
+        Ok(Err(ExecuteError::Recording(error))) => Finished::Refused(Failure::Machine(error.to_string())),
+        Ok(Err(error)) => Finished::Refused(Diagnostic::error("run::cannot_run", error.to_string()).into()),
+        Err(_) => {
+            let message = format!("scenario \"{name}\" met a fault of this program; please report it");
+            Finished::Refused(Failure::Machine(message))
+        }
+    }
 }
 
 fn progress_bar(scenario: &Scenario) -> ProgressBar {
@@ -152,13 +230,12 @@ fn progress_bar(scenario: &Scenario) -> ProgressBar {
     ProgressBar::new(scenario.simulation.steps).with_style(style).with_prefix(scenario.name.clone())
 }
 
-fn unwritable(error: &OutputError) -> Failure {
+/// A place that cannot be written is the user's to change, a full disk is the machine's failure.
+fn unwritable(error: &OutputError, help: &str) -> Failure {
     if error.is_full() {
         return Failure::Machine(error.to_string());
     }
-    Diagnostic::error("run::output", error.to_string())
-        .with_help("choose a folder that can be written with --out")
-        .into()
+    Diagnostic::error("run::output", error.to_string()).with_help(help).into()
 }
 
 /// Of two exit codes the one that is told: a broken run before bad input before a failed check.
@@ -168,7 +245,7 @@ fn worse(a: u8, b: u8) -> u8 {
     if rank(b) > rank(a) { b } else { a }
 }
 
-fn described(report: &RunReport, folder: &OutputFolder) -> String {
+fn described(report: &RunReport) -> String {
     let mut text = String::new();
     let verdict = match (report.verdict, &report.expected) {
         (Verdict::AsExpected, Expectation::Pass) => "pass",
@@ -189,7 +266,6 @@ fn described(report: &RunReport, folder: &OutputFolder) -> String {
     for check in &report.checks {
         checked(&mut text, check);
     }
-    let _ = writeln!(text, "  results in {}", folder.path().display());
     text
 }
 

@@ -76,8 +76,7 @@ pub fn diagnostic(error: &Error) -> Diagnostic {
     let known: Vec<&str> = names.collect();
     let known_help = |what: &str| known_names(first, what, known.iter().copied());
     let found = if text.starts_with(UNKNOWN_KEY) {
-        Diagnostic::error(UNKNOWN_KEY_CODE, format!("unknown key \"{first}\""))
-            .with_help(known_help("keys"))
+        Diagnostic::error(UNKNOWN_KEY_CODE, format!("unknown key \"{first}\"")).with_help(known_help("keys"))
     } else if text.starts_with("unknown variant ") {
         Diagnostic::error("toml::unknown_value", format!("unknown value \"{first}\""))
             .with_help(known_help("values"))

@@ -41,7 +41,7 @@ pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, 
         serde_json::from_str(&source.text).map_err(|error| refused(&error).in_file(&source))?;
     let vector = |(index, entry): (usize, &Written)| {
         for group in [&entry.v, &entry.tau, &entry.a] {
-            place(group, robot).map_err(|error| at_index(error, index))?;
+            place(group, robot).map_err(|error| at_index(error, index).in_file(&source))?;
         }
         configuration(&entry.q, robot).map_err(|error| at_index(error, index).in_file(&source))
     };

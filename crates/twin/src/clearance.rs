@@ -246,3 +246,6 @@ fn are_neighbours(robot: &Robot, a: LinkIndex, b: LinkIndex) -> bool {
     };
     hangs_on(a, b) || hangs_on(b, a)
 }
+
+#[cfg(test)]
+mod tests;

@@ -23,12 +23,20 @@ pub struct Options {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExecuteError {
-    /// Results cannot be written.
+    /// Results could not be written, as was found before the run.
     #[error(transparent)]
     Output(#[from] OutputError),
     /// The recording cannot be begun.
     #[error(transparent)]
     Recording(#[from] RecordingError),
+    /// Results cannot be written, now that they are there: the report is here instead.
+    #[error("results of scenario \"{}\" are lost: {source}", .report.scenario)]
+    Lost {
+        /// What was found.
+        report: Box<RunReport>,
+        /// Why it is not on disk.
+        source: OutputError,
+    },
     /// The robot cannot be simulated as the scenario asks.
     #[error("scenario \"{scenario}\" cannot run: {source}")]
     CannotRun {
@@ -59,16 +67,26 @@ pub fn execute(
     let mut recording = Recording::start(options, &folder, &run, (&scenario, &checks))?;
     let (outcome, result) = run.finish(&mut checks, recording.recorder(), progress);
     let mut report = RunReport::new(&scenario, &sources, outcome.clone(), result.as_ref().err());
+    let mut published = Ok(());
     if let Err(error) = recording.finish(&report) {
-        report = RunReport::new(&scenario, &sources, outcome, Some(&error.into()));
+        // What broke the run comes before what breaks with it.
+        let first = result.err().unwrap_or(error.into());
+        report = RunReport::new(&scenario, &sources, outcome, Some(&first));
         // On a full disk it stands in the way of the report, which matters more.
-        folder.remove(PARTIAL)?;
+        published = folder.remove(PARTIAL);
     } else if options.recording && cfg!(feature = "recording") {
-        folder.publish(PARTIAL, "recording.rrd")?;
+        published = folder.publish(PARTIAL, "recording.rrd");
     }
-    folder.write_json("report.json", &report)?;
-    write_junit(&folder.file("junit.xml"), std::slice::from_ref(&report))?;
-    Ok((report, folder))
+    // Each is tried, whatever became of the others.
+    let written = [
+        published,
+        folder.write_json("report.json", &report),
+        write_junit(&folder.file("junit.xml"), std::slice::from_ref(&report)),
+    ];
+    match written.into_iter().collect() {
+        Ok(()) => Ok((report, folder)),
+        Err(source) => Err(ExecuteError::Lost { report: Box::new(report), source }),
+    }
 }
 
 /// A recording under its temporary name.

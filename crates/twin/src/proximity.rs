@@ -16,7 +16,9 @@ use parry3d_f64::{
 #[non_exhaustive]
 pub enum ProximityError {
     /// All vertices lie in a plane, on a line or in a point.
-    #[error("{subject}: the mesh has no volume, so it has no convex hull")]
+    #[error(
+        "{subject}: the mesh has no volume, so it has no convex hull; give it a thickness or leave it out"
+    )]
     Flat {
         /// The link or obstacle.
         subject: String,
@@ -151,4 +153,139 @@ fn pose(isometry: &Isometry3<f64>) -> Pose {
         Vector::new(shift.x, shift.y, shift.z),
         Rotation::from_xyzw(turn.x, turn.y, turn.z, turn.w),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+    use congruent_description::Mesh;
+    use nalgebra::{Translation3, UnitQuaternion, Vector3};
+
+    use super::*;
+
+    /// Kind: solver stop. Bound: what `clearance.rs` subtracts, 1e-7 m; worst seen here 1.5e-8 m.
+    const DISTANCE_M: f64 = 1e-7;
+
+    fn hulls(geometry: Geometry) -> Hulls {
+        let shape = Shape { link_from_shape: Isometry3::identity(), geometry, color_rgba: None };
+        Hulls::new("test", &[shape]).unwrap()
+    }
+
+    fn ball(radius_m: f64) -> Hulls {
+        hulls(Geometry::Sphere { radius_m })
+    }
+
+    fn cuboid(x: f64, y: f64, z: f64) -> Hulls {
+        hulls(Geometry::Box { size_m: Vector3::new(x, y, z) })
+    }
+
+    fn can(radius_m: f64, length_m: f64) -> Hulls {
+        hulls(Geometry::Cylinder { radius_m, length_m })
+    }
+
+    /// The corners of a cuboid, as a mesh.
+    fn cuboid_mesh(x: f64, y: f64, z: f64) -> Hulls {
+        let corner = |index: u32| {
+            let sign = |bit: u32| if index >> bit & 1 == 0 { -0.5 } else { 0.5 };
+            Point3::new(x * sign(0), y * sign(1), z * sign(2))
+        };
+        let vertices_m = (0..8).map(corner).collect();
+        hulls(Geometry::Mesh(Mesh { path: "corners".into(), vertices_m, triangles: vec![[0, 1, 2]] }.into()))
+    }
+
+    fn at(x: f64, y: f64, z: f64) -> Isometry3<f64> {
+        Isometry3::translation(x, y, z)
+    }
+
+    fn turned(axis: Vector3<f64>, place: Isometry3<f64>) -> Isometry3<f64> {
+        place * UnitQuaternion::new(axis)
+    }
+
+    /// Both ways round: distances do not depend on who asks.
+    #[track_caller]
+    fn apart(a: &Hulls, b: &Hulls, a_from_b: Isometry3<f64>, expected_m: f64) {
+        for found_m in [a.distance_m(b, &a_from_b), b.distance_m(a, &a_from_b.inverse())] {
+            assert!((found_m - expected_m).abs() < DISTANCE_M, "{found_m} is not {expected_m}");
+        }
+        let signed_m = a.signed_distance_m(b, &a_from_b);
+        assert!((signed_m - expected_m).abs() < DISTANCE_M, "{signed_m} is not {expected_m}");
+    }
+
+    #[track_caller]
+    fn overlap(a: &Hulls, b: &Hulls, a_from_b: Isometry3<f64>, depth_m: f64) {
+        assert_eq!((a.distance_m(b, &a_from_b), b.distance_m(a, &a_from_b.inverse())), (0.0, 0.0));
+        let signed_m = a.signed_distance_m(b, &a_from_b);
+        assert!((signed_m + depth_m).abs() < DISTANCE_M, "{signed_m} is not -{depth_m}");
+    }
+
+    #[test]
+    fn shapes_apart() {
+        apart(&ball(0.5), &ball(0.25), at(3.0, 4.0, 0.0), 4.25);
+        apart(&ball(0.1), &cuboid(1.0, 1.0, 1.0), at(0.5 + 0.3 + 0.1, 0.2, 0.0), 0.3);
+        // Corner to centre: half a diagonal of a unit cube away.
+        apart(&ball(0.1), &cuboid(1.0, 1.0, 1.0), at(1.0, 1.0, 1.0), 0.75_f64.sqrt() - 0.1);
+        apart(&cuboid(1.0, 2.0, 3.0), &cuboid(1.0, 1.0, 1.0), at(0.0, 0.0, 2.0 + 1e-3), 1e-3);
+        // On its edge, the cube reaches half a diagonal of its face towards the other.
+        let on_edge = turned(Vector3::z() * FRAC_PI_4, at(2.0, 0.0, 0.0));
+        apart(&cuboid(1.0, 1.0, 1.0), &cuboid(1.0, 1.0, 1.0), on_edge, 1.5 - 0.5_f64.sqrt());
+        // Two crossed cans: axis to axis less both radii.
+        let crossed = turned(Vector3::x() * FRAC_PI_2, at(1.0, 0.0, 0.0));
+        apart(&can(0.2, 2.0), &can(0.3, 2.0), crossed, 0.5);
+        // End to end, and rim to rim across a corner.
+        apart(&can(0.2, 1.0), &can(0.3, 1.0), at(0.0, 0.0, 1.25), 0.25);
+        apart(&can(0.2, 1.0), &can(0.3, 1.0), at(0.8, 0.0, 1.4), 0.5);
+        apart(&ball(0.1), &can(0.2, 1.0), at(0.0, 0.7, 0.4), 0.4);
+    }
+
+    #[test]
+    fn a_mesh_is_its_hull() {
+        let turn = turned(Vector3::new(0.3, -0.4, 1.1), at(1.3, 0.4, -0.9));
+        let (solid, mesh) = (cuboid(0.4, 0.6, 0.8), cuboid_mesh(0.4, 0.6, 0.8));
+        for other in [ball(0.2), cuboid(0.5, 0.3, 0.2), can(0.2, 0.7), cuboid_mesh(0.5, 0.3, 0.2)] {
+            apart(&mesh, &other, turn, solid.distance_m(&other, &turn));
+        }
+        assert!((mesh.radius_m() - solid.radius_m()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn touching_and_overlapping() {
+        apart(&ball(0.5), &ball(0.25), at(0.75, 0.0, 0.0), 0.0);
+        apart(&cuboid(1.0, 1.0, 1.0), &cuboid(1.0, 1.0, 1.0), at(1.0, 0.25, 0.0), 0.0);
+        overlap(&ball(0.5), &ball(0.25), at(0.7, 0.0, 0.0), 0.05);
+        overlap(&cuboid(1.0, 1.0, 1.0), &cuboid(1.0, 1.0, 1.0), at(0.1, 0.2, 0.9), 0.1);
+        overlap(&cuboid_mesh(1.0, 1.0, 1.0), &cuboid(1.0, 1.0, 1.0), at(0.1, 0.2, 0.9), 0.1);
+        // A ball inside a box, 0.1 m off its middle: out through the nearest face.
+        overlap(&cuboid(1.0, 1.0, 1.0), &ball(0.1), at(0.1, 0.0, 0.0), 0.4 + 0.1);
+        // A small mesh inside a large one.
+        overlap(&cuboid_mesh(2.0, 2.0, 2.0), &cuboid_mesh(0.2, 0.2, 0.2), at(0.5, 0.0, 0.0), 0.5 + 0.1);
+    }
+
+    #[test]
+    fn every_shape_is_inside_the_ball_of_its_radius() {
+        let place = turned(Vector3::x() * 0.7, at(0.1, 0.2, 0.3));
+        let shape = |geometry| Shape { link_from_shape: place, geometry, color_rgba: None };
+        let shapes = [
+            shape(Geometry::Sphere { radius_m: 0.1 }),
+            shape(Geometry::Cylinder { radius_m: 0.1, length_m: 0.9 }),
+            shape(Geometry::Box { size_m: Vector3::new(0.3, 0.2, 0.5) }),
+        ];
+        for one in &shapes {
+            let hulls = Hulls::new("test", std::slice::from_ref(one)).unwrap();
+            // From far away, the nearest point is at least this near the far side of that ball.
+            for axis in
+                [Vector3::x(), Vector3::y(), Vector3::z(), -Vector3::x(), -Vector3::y(), -Vector3::z()]
+            {
+                let far = Isometry3::from(Translation3::from(axis * 100.0));
+                let reach_m = 100.0 - 1.0 - hulls.distance_m(&ball(1.0), &far);
+                assert!(reach_m <= hulls.radius_m() + DISTANCE_M, "{reach_m} {}", hulls.radius_m());
+            }
+        }
+    }
+
+    #[test]
+    fn a_mesh_without_triangles_is_nothing() {
+        let empty = Mesh { path: "empty".into(), vertices_m: Vec::new(), triangles: Vec::new() };
+        assert!(hulls(Geometry::Mesh(empty.into())).is_empty());
+    }
 }

@@ -113,16 +113,22 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(".tmp");
     let temporary = PathBuf::from(temporary);
-    fs::write(&temporary, contents)
-        .and_then(|()| fs::rename(&temporary, path))
-        .map_err(|source| OutputError { path: path.to_owned(), source })
+    let written = fs::write(&temporary, contents).and_then(|()| fs::rename(&temporary, path));
+    written.map_err(|source| {
+        // What is left of it is of no use; the first error is the one to tell.
+        let _ = fs::remove_file(&temporary);
+        OutputError { path: path.to_owned(), source }
+    })
 }
 
 /// A scenario's name as a folder name: what is not a letter, a digit, `_`, `-` or `.` becomes `_`.
 fn file_name(scenario: &str) -> String {
-    const LONGEST: usize = 100;
+    const MOST_BYTES: usize = 100;
     let safe = |c: char| if c.is_alphanumeric() || matches!(c, '_' | '-' | '.') { c } else { '_' };
-    let name: String = scenario.chars().take(LONGEST).map(safe).collect();
+    let mut name: String = scenario.chars().take(MOST_BYTES).map(safe).collect();
+    while name.len() > MOST_BYTES {
+        name.pop();
+    }
     // A name of dots alone would be the folder itself or the one above.
     if name.chars().all(|c| c == '.') { "_".repeat(name.len().max(1)) } else { name }
 }
@@ -133,11 +139,23 @@ mod tests {
 
     #[test]
     fn names_stay_inside_the_output_folder() {
-        let path = |name| OutputFolder::path_for(Path::new("out"), name);
+        let path = |name: &str| OutputFolder::path_for(Path::new("out"), name);
         assert_eq!(path("ur5e_pick"), Path::new("out/ur5e_pick"));
         assert_eq!(path("../../etc"), Path::new("out/.._.._etc"));
         assert_eq!(path(".."), Path::new("out/__"));
+        assert_eq!(path(&"\u{65e5}".repeat(300)), Path::new("out").join("\u{65e5}".repeat(33)));
         assert_eq!(path("a]]>\"\n\0b"), Path::new("out/a______b"));
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_written_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("report.json");
+        fs::create_dir(&path).unwrap();
+        assert!(write_whole(&path, b"{}").is_err());
+        let left: Vec<_> =
+            fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(left, ["report.json"]);
     }
 
     #[test]

@@ -1,21 +1,25 @@
 //! A report as JUnit XML: one test case for each check, judged against what the scenario expects.
 
-use std::{io, path::Path};
+use std::{fs, io, path::Path};
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 use super::{OutputError, RunReport, write_whole};
 use crate::verdict::{Bound, CheckResult, Expectation, Measure, Status, Verdict};
 
-/// Writes all scenarios as one JUnit document.
+/// Writes all scenarios as one JUnit document; makes the folder that it goes to.
 ///
 /// # Errors
 /// [`OutputError`] where the file cannot be written.
 pub fn write_junit(path: &Path, reports: &[RunReport]) -> Result<(), OutputError> {
     let mut document = Report::new("congruent");
     document.add_test_suites(reports.iter().map(suite));
-    let refused = |error| OutputError { path: path.to_owned(), source: io::Error::other(error) };
-    write_whole(path, document.to_string().map_err(refused)?.as_bytes())
+    let refused = |source| OutputError { path: path.to_owned(), source };
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(refused)?;
+    }
+    let text = document.to_string().map_err(|error| refused(io::Error::other(error)))?;
+    write_whole(path, text.as_bytes())
 }
 
 fn suite(report: &RunReport) -> TestSuite {
@@ -77,7 +81,8 @@ pub fn sentence(measure: &Measure) -> String {
     }
 }
 
-/// XML has no place for most control characters.
+/// XML has no place for most control characters and for two that are none.
 fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() && c != '\n' { '\u{fffd}' } else { c }).collect()
+    let has_place = |c: char| c == '\n' || !(c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'));
+    text.chars().map(|c| if has_place(c) { c } else { '\u{fffd}' }).collect()
 }

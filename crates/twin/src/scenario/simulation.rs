@@ -43,8 +43,10 @@ pub(super) fn read(
     };
     let (step, duration) = (written.step_s.as_ref(), written.duration_s.as_ref());
     if step_s > LONGEST_STEP_S {
-        let error =
-            Diagnostic::error("scenario::step", format!("step_s = {step_s} is outside (0, {LONGEST_STEP_S}]"));
+        let error = Diagnostic::error(
+            "scenario::step",
+            format!("step_s = {step_s} is outside (0, {LONGEST_STEP_S}]"),
+        );
         return Err(at(error.with_help("0.001 suits every robot in robots/"), step).into());
     }
     if duration_s <= 0.0 {
@@ -70,6 +72,7 @@ pub(super) fn read(
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 < steps <= 1e8")]
     let steps = steps as u64;
-    let gravity = written.gravity_m_s2.map_or([0.0, 0.0, -9.81], |gravity| gravity.into_inner().map(Finite::get));
+    let gravity =
+        written.gravity_m_s2.map_or([0.0, 0.0, -9.81], |gravity| gravity.into_inner().map(Finite::get));
     Ok(SimulationSettings { step_s, steps, gravity_in_world: Vector3::from(gravity) })
 }

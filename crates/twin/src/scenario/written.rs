@@ -263,10 +263,7 @@ fn read_seed(overrides: Overrides, written: Option<&Spanned<u64>>) -> Result<u64
 fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, Vec<Diagnostic>> {
     let Some(mut section) = section else {
         return Err(Diagnostic::error("scenario::no_controller", "the scenario has no [controller]")
-            .with_help(format!(
-                "add one with kind = {}",
-                controller_names().collect::<Vec<_>>().join(" | ")
-            ))
+            .with_help(format!("add one with kind = {}", controller_names().collect::<Vec<_>>().join(" | ")))
             .into());
     };
     let known: Vec<&str> = controller_names().collect();

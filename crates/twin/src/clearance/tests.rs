@@ -1,0 +1,184 @@
+//! The bounds against brute force: whatever moves how far, what is skipped may not be nearer.
+
+use congruent_description::{Geometry, Joint, JointKind, JointParts, Link};
+use nalgebra::{Translation3, UnitQuaternion};
+use proptest::prelude::*;
+
+use super::*;
+
+/// Two distances of one pair, the one that is reported and the one that brute force finds: equal,
+/// since both come from the same query, but for pairs that a bound left out by the slack.
+const SAME_M: f64 = DISTANCE_SLACK_M;
+
+/// A robot whose links hang side by side on the root, each with one or two shapes off its origin.
+fn description() -> RobotDescription {
+    let shape = |x: f64, geometry| Shape {
+        link_from_shape: Isometry3::translation(x, 0.05, -0.02),
+        geometry,
+        color_rgba: None,
+    };
+    let ball = |radius_m| Geometry::Sphere { radius_m };
+    let cuboid = |x, y, z| Geometry::Box { size_m: Vector3::new(x, y, z) };
+    let can = |radius_m, length_m| Geometry::Cylinder { radius_m, length_m };
+    let shapes = [
+        vec![shape(0.0, cuboid(0.3, 0.2, 0.1))],
+        vec![shape(0.3, ball(0.1)), shape(-0.2, cuboid(0.1, 0.1, 0.4))],
+        vec![shape(0.1, can(0.05, 0.5))],
+        vec![shape(0.4, cuboid(0.02, 0.3, 0.3)), shape(0.0, can(0.1, 0.1))],
+        vec![shape(-0.1, ball(0.02))],
+        vec![],
+    ];
+    let link = |(index, collisions)| Link { name: format!("link_{index}"), collisions, ..Link::default() };
+    let links: Vec<Link> = shapes.into_iter().enumerate().map(link).collect();
+    let root = Robot::new("", vec![Link::default()], vec![]).unwrap().root();
+    let hang = |index: usize| JointParts {
+        joint: Joint {
+            name: format!("joint_{index}"),
+            kind: JointKind::Continuous,
+            parent: root,
+            child: root,
+            parent_from_joint: Isometry3::identity(),
+            axis_in_joint: Vector3::z_axis(),
+            limit: None,
+            damping: 0.0,
+            friction: 0.0,
+            mimic: None,
+        },
+        parent: "link_0".into(),
+        child: format!("link_{index}"),
+        mimic: None,
+    };
+    let robot = Robot::new("star", links, (1..6).map(hang).collect()).unwrap();
+    RobotDescription {
+        path: "star.urdf".into(),
+        name: "star".into(),
+        urdf_path: "star.urdf".into(),
+        base: robot.root(),
+        tip: robot.root(),
+        robot,
+        dh: None,
+        tip_from_tcp: None,
+        tolerance: congruent_description::Tolerance::default(),
+        disabled_collisions: BTreeSet::new(),
+        warnings: Vec::new(),
+    }
+}
+
+fn obstacle() -> Obstacle {
+    Obstacle {
+        name: "wall".into(),
+        world_from_obstacle: Isometry3::translation(0.8, 0.0, 0.0),
+        geometry: Geometry::Box { size_m: Vector3::new(0.1, 2.0, 2.0) },
+    }
+}
+
+fn watched(choice: PairChoice) -> Clearance {
+    Clearance::new(&description(), &[obstacle()], choice).unwrap()
+}
+
+/// The smallest distance of all pairs, measured afresh.
+fn by_brute_force(poses: &[Isometry3<f64>]) -> f64 {
+    let mut fresh = watched(PairChoice::All);
+    fresh.move_links(poses);
+    let pairs = fresh.pairs().len();
+    (0..pairs).map(|pair| fresh.measure(pair)).fold(f64::INFINITY, f64::min)
+}
+
+/// A walk of all links: steps of one size in place, rotation about another axis each time.
+fn walk() -> impl Strategy<Value = (f64, Vec<[f64; 36]>)> {
+    let size = prop_oneof![Just(1e-6), Just(1e-3), Just(0.03), Just(0.5)];
+    (size, prop::collection::vec(prop::array::uniform32(-1.0..1.0_f64), 1..40)).prop_map(|(size, steps)| {
+        let wide = |step: [f64; 32]| std::array::from_fn(|index| step[index % 32] * size);
+        (size, steps.into_iter().map(wide).collect())
+    })
+}
+
+/// All links after one step of a walk; the root stands still.
+fn stepped(poses: &mut [Isometry3<f64>], step: &[f64; 36]) {
+    for (pose, step) in poses.iter_mut().skip(1).zip(step.chunks_exact(6)) {
+        let [x, y, z, a, b, c] = step.try_into().map(|step: [f64; 6]| step).unwrap();
+        let turn = UnitQuaternion::new(Vector3::new(a, b, c) * 3.0);
+        *pose = Isometry3::from_parts(Translation3::new(x, y, z) * pose.translation, turn * pose.rotation);
+    }
+}
+
+fn at_the_start() -> Vec<Isometry3<f64>> {
+    let place = |index: u8| Isometry3::translation(0.0, f64::from(index) * 0.45 - 1.0, 0.3);
+    (0..6).map(place).collect()
+}
+
+proptest! {
+    #[test]
+    fn the_nearest_is_the_nearest_of_all((_, steps) in walk()) {
+        let mut clearance = watched(PairChoice::All);
+        let mut poses = at_the_start();
+        for step in &steps {
+            stepped(&mut poses, step);
+            clearance.move_links(&poses);
+            let found_m = clearance.nearest().unwrap().distance_m;
+            let expected_m = by_brute_force(&poses);
+            prop_assert!((found_m - expected_m).abs() <= SAME_M, "{found_m} is not {expected_m}");
+        }
+    }
+
+    #[test]
+    fn nothing_below_a_threshold_is_missed((_, steps) in walk(), threshold_m in 0.0..0.5_f64) {
+        let mut clearance = watched(PairChoice::All);
+        let mut poses = at_the_start();
+        for step in &steps {
+            stepped(&mut poses, step);
+            clearance.move_links(&poses);
+            let expected_m = by_brute_force(&poses);
+            match clearance.nearest_below(threshold_m) {
+                Some(found) => {
+                    prop_assert!((found.distance_m - expected_m).abs() <= SAME_M);
+                    prop_assert_eq!(clearance.current_m(found.pair), Some(found.distance_m));
+                }
+                None => prop_assert!(expected_m >= threshold_m - SAME_M, "{} missed", expected_m),
+            }
+        }
+    }
+
+    /// What the bounds rest on: no point of a ball moves further than that.
+    #[test]
+    fn no_point_moves_further_than_the_bound(
+        step in prop::array::uniform6(-2.0..2.0_f64),
+        point in prop::array::uniform3(-1.0..1.0_f64),
+    ) {
+        let before = Isometry3::new(Vector3::new(0.3, 0.1, -0.2), Vector3::new(0.5, -1.0, 0.2));
+        let [x, y, z, a, b, c] = step;
+        let after = Isometry3::new(Vector3::new(x, y, z), Vector3::new(a, b, c) * 2.0);
+        let point = nalgebra::Point3::from(point);
+        let moved_m = (after * point - before * point).norm();
+        prop_assert!(moved_m <= largest_shift_m(&before, &after, point.coords.norm()) + 1e-12);
+    }
+}
+
+#[test]
+fn far_pairs_are_not_measured_again() {
+    let mut clearance = watched(PairChoice::All);
+    let mut poses = at_the_start();
+    clearance.move_links(&poses);
+    clearance.nearest();
+    poses[1].translation.x += 1e-4;
+    clearance.move_links(&poses);
+    clearance.nearest();
+    let measured = (0..clearance.pairs().len()).filter(|&pair| clearance.current_m(pair).is_some()).count();
+    assert!((1..4).contains(&measured), "{measured} of {}", clearance.pairs().len());
+}
+
+#[test]
+fn neighbours_and_the_root_before_obstacles_are_left_out() {
+    let names = |choice| {
+        let clearance = watched(choice);
+        let name = |pair| clearance.names(pair);
+        (0..clearance.pairs().len()).map(name).map(|(a, b)| format!("{a} {b}")).collect::<Vec<_>>()
+    };
+    let usual = names(PairChoice::Usual);
+    // Every link is a neighbour of the root, link_5 has no shape, and the wall stands as the root does.
+    assert_eq!(usual.len(), 6 + 4, "{usual:?}");
+    assert!(!usual.iter().any(|pair| pair.contains("link_0") || pair.contains("link_5")), "{usual:?}");
+    let all = names(PairChoice::All);
+    assert_eq!(all.len(), 10 + 4, "{all:?}");
+    assert!(!all.contains(&"link_0 wall".to_owned()), "{all:?}");
+}
