@@ -28,13 +28,16 @@ where
     Ok(Some(Spanned::new(written.span(), written.into_inner().0)))
 }
 
+/// A square matrix by rows.
+type Square<const N: usize> = [[f64; N]; N];
+
 /// For `deserialize_with`: a matrix of `N` rows of `N` entries.
 ///
 /// # Errors
 /// Another number of rows or of entries in a row.
 pub(crate) fn fixed_matrix<'de, D, const N: usize>(
     deserializer: D,
-) -> Result<Option<Spanned<[[f64; N]; N]>>, D::Error>
+) -> Result<Option<Spanned<Square<N>>>, D::Error>
 where
     D: Deserializer<'de>,
 {
