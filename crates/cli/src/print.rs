@@ -101,7 +101,7 @@ impl Printer {
 
     /// Why there is no result.
     pub(crate) fn failure(&self, failure: &Failure) {
-        self.explain(failure);
+        Self::explain(failure);
         if self.format == Format::Json {
             // Standard output may be gone; the exit code and standard error still tell.
             let _ = self.result(&Refusal::from(failure), |_| String::new());
@@ -109,7 +109,7 @@ impl Printer {
     }
 
     /// Why a part of the result is missing: on standard error only.
-    pub(crate) fn explain(&self, failure: &Failure) {
+    pub(crate) fn explain(failure: &Failure) {
         match failure {
             Failure::Machine(message) => to_stderr(&format!("error: {message}\n")),
             Failure::Input(findings) => {

@@ -76,7 +76,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     if let Some(path) = &arguments.junit {
         let reports: Vec<RunReport> = finished.iter().filter_map(Finished::report).cloned().collect();
         if let Err(error) = write_junit(path, &reports) {
-            printer.explain(&Failure::Machine(error.to_string()));
+            Printer::explain(&Failure::Machine(error.to_string()));
             code = BROKEN;
         }
     }
@@ -86,7 +86,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         return Err(failure);
     }
     for failure in finished.iter().filter_map(Finished::failure) {
-        printer.explain(failure);
+        Printer::explain(failure);
     }
     match &finished[..] {
         [one] => printer.result(&one.entry(), |_| one.described())?,
