@@ -20,6 +20,14 @@ pub enum KinematicsError {
         /// Length of the buffer.
         found: usize,
     },
+    /// The buffer for the columns of a Jacobian has another length than there are coordinates.
+    #[error("room for {found} columns of a Jacobian of {expected}")]
+    ColumnCount {
+        /// Number of coordinates.
+        expected: usize,
+        /// Length of the buffer.
+        found: usize,
+    },
     /// A table has no frame of this number.
     #[error("no frame dh{index}: the table's last is dh{last}")]
     FrameIndex {
@@ -51,6 +59,15 @@ impl KinematicsError {
         if found == expected { Ok(()) } else { Err(Self::JointCount { expected, found }) }
     }
 
+    /// Compares the length of a buffer for columns.
+    pub(crate) fn check_columns<T>(expected: usize, columns: &[T]) -> Result<(), Self> {
+        if columns.len() == expected {
+            Ok(())
+        } else {
+            Err(Self::ColumnCount { expected, found: columns.len() })
+        }
+    }
+
     /// Compares the length of a buffer for poses.
     pub(crate) fn check_poses<T>(expected: usize, poses: &[T]) -> Result<(), Self> {
         if poses.len() == expected { Ok(()) } else { Err(Self::PoseCount { expected, found: poses.len() }) }
@@ -70,6 +87,10 @@ mod tests {
         assert_eq!(
             KinematicsError::check_poses(7, &[0.0; 6]).unwrap_err().to_string(),
             "room for 6 poses where 7 are written"
+        );
+        assert_eq!(
+            KinematicsError::check_columns(7, &[0.0; 6]).unwrap_err().to_string(),
+            "room for 6 columns of a Jacobian of 7"
         );
         assert_eq!(
             KinematicsError::FrameIndex { index: 9, last: 6 }.to_string(),

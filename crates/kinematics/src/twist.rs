@@ -29,6 +29,12 @@ pub struct Twist {
 }
 
 impl Twist {
+    /// No motion.
+    #[inline]
+    pub fn zero() -> Self {
+        Self { angular: Vector3::zeros(), linear: Vector3::zeros() }
+    }
+
     /// The 4 x 4 matrix `[V]` whose matrix exponential is the motion.
     ///
     /// Source: Lynch & Park, *Modern Robotics* (2017), section 3.3.2.

@@ -3,7 +3,13 @@
 use congruent_description::{Joint, JointKind, LinkIndex, Robot};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::{error::KinematicsError, pose::Pose, rotation::hat};
+use crate::{
+    error::KinematicsError,
+    jacobian::{Jacobian, JacobianKind},
+    pose::Pose,
+    rotation::hat,
+    twist::Twist,
+};
 
 /// A robot's tree made ready for forward kinematics of every link.
 ///
@@ -66,10 +72,12 @@ enum Motion {
         coordinate: usize,
         by_sine: Matrix3<f64>,
         by_versine: Matrix3<f64>,
+        axis_in_child: Vector3<f64>,
     },
     Shift {
         coordinate: usize,
         axis_in_parent: Vector3<f64>,
+        axis_in_child: Vector3<f64>,
     },
 }
 
@@ -138,6 +146,107 @@ impl UrdfTree {
         }
         Ok(above_from_link)
     }
+
+    /// Pose of one link and the columns of its Jacobian; joints that do not move it get zeros.
+    ///
+    /// | value | shape | unit | frame |
+    /// |---|---|---|---|
+    /// | `q` | the robot's dof | rad, m | order of [`Robot::movable_joints`] |
+    /// | `columns` | the robot's dof | | as `kind` says |
+    /// | result | SE(3) | m | `root_from_link` |
+    ///
+    /// Source: Lynch & Park, *Modern Robotics* (2017), eq. 5.18: each joint's screw, moved to the link.
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] or [`KinematicsError::ColumnCount`] when a length is wrong.
+    /// # Panics
+    /// When `link` is a link of a larger robot.
+    /// # Examples
+    /// See [`UrdfTree::jacobian`].
+    pub fn jacobian_into(
+        &self,
+        q: &[f64],
+        link: LinkIndex,
+        kind: JacobianKind,
+        columns: &mut [Twist],
+    ) -> Result<Pose, KinematicsError> {
+        KinematicsError::check_joints(self.dof, q)?;
+        KinematicsError::check_columns(self.dof, columns)?;
+        columns.fill(Twist::zero());
+        // From the link up to the root, as body twists, which need no more than what lies below.
+        let mut above_from_link = Pose::identity();
+        let mut above = link.get();
+        while let Some(joint) = self.parent_joints[above] {
+            let joint = &self.joints[joint];
+            if let Some((coordinate, twist_in_child)) = joint.motion.twist_in_child() {
+                columns[coordinate] = twist_in_child.seen_from(&above_from_link.inverse());
+            }
+            above_from_link = joint.parent_from_child(q) * above_from_link;
+            above = joint.parent;
+        }
+        for column in columns {
+            *column = kind.of_body(column, &above_from_link);
+        }
+        Ok(above_from_link)
+    }
+
+    /// The Jacobian of one link; [`UrdfTree::jacobian_into`] with a vector of its own.
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] when `q` is no configuration vector of the robot.
+    /// # Panics
+    /// When `link` is a link of a larger robot.
+    /// # Examples
+    /// An arm of 0.5 m on a vertical hinge, and its tool's velocity:
+    /// ```
+    /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+    /// # use nalgebra::{Isometry3, Vector3};
+    /// use congruent_kinematics::{JacobianKind, UrdfTree};
+    /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
+    /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
+    /// # let parts = |name: &str, kind, parent: &str, child: &str, x: f64| JointParts {
+    /// #     joint: Joint {
+    /// #         name: name.into(), kind, parent: single.root(), child: single.root(),
+    /// #         parent_from_joint: Isometry3::translation(x, 0., 0.), axis_in_joint: Vector3::z_axis(),
+    /// #         limit: None, damping: 0., friction: 0., mimic: None,
+    /// #     },
+    /// #     parent: parent.into(), child: child.into(), mimic: None,
+    /// # };
+    /// # let robot = Robot::new("r", vec![link("base"), link("arm"), link("tool")], vec![
+    /// #     parts("turn", JointKind::Continuous, "base", "arm", 0.),
+    /// #     parts("flange", JointKind::Fixed, "arm", "tool", 0.5)]).unwrap();
+    /// let (tree, tool) = (UrdfTree::new(&robot), robot.find_link("tool").unwrap());
+    /// let jacobian = tree.jacobian(&[0.0], tool, JacobianKind::Geometric)?;
+    /// assert_eq!(jacobian.times(&[2.0])?.linear, Vector3::new(0., 1., 0.));
+    /// # Ok::<(), congruent_kinematics::KinematicsError>(())
+    /// ```
+    pub fn jacobian(
+        &self,
+        q: &[f64],
+        link: LinkIndex,
+        kind: JacobianKind,
+    ) -> Result<Jacobian, KinematicsError> {
+        let mut columns = vec![Twist::zero(); self.dof];
+        self.jacobian_into(q, link, kind, &mut columns)?;
+        Ok(Jacobian::from_columns(kind, columns))
+    }
+}
+
+impl Motion {
+    /// The coordinate and the twist of one unit of it, in the child's frame.
+    #[inline]
+    fn twist_in_child(&self) -> Option<(usize, Twist)> {
+        let zero = Vector3::zeros();
+        match *self {
+            Self::Fixed => None,
+            Self::Turn { coordinate, axis_in_child, .. } => {
+                Some((coordinate, Twist { angular: axis_in_child, linear: zero }))
+            }
+            Self::Shift { coordinate, axis_in_child, .. } => {
+                Some((coordinate, Twist { angular: zero, linear: axis_in_child }))
+            }
+        }
+    }
 }
 
 impl TreeJoint {
@@ -148,9 +257,13 @@ impl TreeJoint {
             (JointKind::Revolute | JointKind::Continuous, Some(coordinate)) => {
                 let axis_hat = hat(&joint.axis_in_joint);
                 let by_sine = parent_from_joint.rotation * axis_hat;
-                Motion::Turn { coordinate, by_sine, by_versine: by_sine * axis_hat }
+                let axis_in_child = joint.axis_in_joint.into_inner();
+                Motion::Turn { coordinate, by_sine, by_versine: by_sine * axis_hat, axis_in_child }
             }
-            (JointKind::Prismatic, Some(coordinate)) => Motion::Shift { coordinate, axis_in_parent },
+            (JointKind::Prismatic, Some(coordinate)) => {
+                let axis_in_child = joint.axis_in_joint.into_inner();
+                Motion::Shift { coordinate, axis_in_parent, axis_in_child }
+            }
             (JointKind::Fixed, _) | (_, None) => Motion::Fixed,
         };
         Self { parent: joint.parent.get(), child: joint.child.get(), parent_from_joint, motion }
@@ -161,12 +274,12 @@ impl TreeJoint {
         let Pose { rotation, translation } = self.parent_from_joint;
         match &self.motion {
             Motion::Fixed => self.parent_from_joint,
-            Motion::Turn { coordinate, by_sine, by_versine } => {
+            Motion::Turn { coordinate, by_sine, by_versine, .. } => {
                 let (sin, cos) = q[*coordinate].sin_cos();
                 let rotation = rotation + by_sine * sin + by_versine * (1.0 - cos);
                 Pose { rotation, translation }
             }
-            Motion::Shift { coordinate, axis_in_parent } => {
+            Motion::Shift { coordinate, axis_in_parent, .. } => {
                 Pose { rotation, translation: translation + axis_in_parent * q[*coordinate] }
             }
         }

@@ -17,10 +17,10 @@ use crate::{pose::Pose, sin_cos::SinCos};
 /// which is a third of the work of a matrix product.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Axes {
-    x: Vector3<f64>,
-    y: Vector3<f64>,
-    z: Vector3<f64>,
-    origin: Vector3<f64>,
+    pub(crate) x: Vector3<f64>,
+    pub(crate) y: Vector3<f64>,
+    pub(crate) z: Vector3<f64>,
+    pub(crate) origin: Vector3<f64>,
 }
 
 impl Axes {
@@ -57,6 +57,13 @@ impl Axes {
             z: self.z * alpha.cos - self.y * alpha.sin,
             origin: self.origin + self.x * a_m,
         }
+    }
+
+    /// Times `T(shift)`.
+    #[inline]
+    pub(crate) fn shifted(&self, shift: &Vector3<f64>) -> Self {
+        let origin = self.x * shift.x + self.y * shift.y + self.z * shift.z + self.origin;
+        Self { origin, ..*self }
     }
 
     /// Times any pose.
