@@ -57,7 +57,7 @@ impl Bench {
     }
 }
 
-/// A stream of pseudorandom figures: SplitMix64.
+/// A stream of pseudorandom figures, `SplitMix64`.
 struct Random(u64);
 
 impl Random {

@@ -1,5 +1,7 @@
 //! `congruent calibrate`: corrections of a robot from measurements.
 
+#![expect(clippy::doc_markdown, reason = "the comments are printed as help, where backticks are noise")]
+
 use std::{fmt::Write, path::PathBuf};
 
 use clap::ValueEnum;
@@ -7,7 +9,7 @@ use congruent_description::Diagnostic;
 use congruent_twin::{
     calibration::{
         CalibrationOptions, Loss, Noise, calibrate,
-        measurements::read_measurements,
+        measurements::{MeasuredRow, read_measurements},
         needed_coordinates, plot,
         report::{CalibrationReport, Estimate, Estimation, Explanation, Recommendation, Remainder},
     },
@@ -84,8 +86,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let description = arguments.robot.load(printer)?;
     let needed = needed_coordinates(&description)?;
     let rows = read_measurements(&arguments.measurements, &description.robot, &needed)?;
-    let has_orientation = rows.iter().any(|row| row.base_from_tip.is_some());
-    let options = arguments.options(has_orientation)?;
+    let options = arguments.options(&rows)?;
     let report = calibrate(&description, &rows, &options)?;
     if let Some(path) = &arguments.plot {
         let figure = plot::svg(&report).map_err(|error| Failure::Machine(error.to_string()))?;
@@ -96,7 +97,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 }
 
 impl Arguments {
-    fn options(&self, has_orientation: bool) -> Result<CalibrationOptions, Diagnostic> {
+    fn options(&self, rows: &[MeasuredRow]) -> Result<CalibrationOptions, Diagnostic> {
+        let has_orientation = rows.iter().any(|row| row.base_from_tip.is_some());
         let positive = |name: &str, value: f64| {
             if value.is_finite() && value > 0.0 {
                 return Ok(value);
@@ -211,13 +213,15 @@ fn frozen(text: &mut String, report: &CalibrationReport) {
 }
 
 fn fits(text: &mut String, report: &CalibrationReport) {
-    let turns = report.nominal.worst_rad > 0.0;
     let _ = writeln!(text, "\n  {:16}  {:>20}  {:>20}  cost in m2", "fit", "root mean square", "worst");
     let mut line = |word: &str, left: &Remainder, noise: Option<&Estimation>| {
-        let rms = size(left.rms_m, left.rms_rad, turns);
-        let worst = size(left.worst_m, left.worst_rad, turns);
+        let rms = size(left.rms_m, left.rms_rad);
+        let worst = size(left.worst_m, left.worst_rad);
         let noise = noise.map_or_else(String::new, |of| {
-            format!("  noise of a component {}", size(of.noise_m, of.noise_rad, turns))
+            format!(
+                "  noise of a component {}",
+                size(of.noise_m, if left.worst_rad > 0.0 { of.noise_rad } else { 0.0 })
+            )
         });
         let _ = writeln!(text, "  {word:16}  {rms:>20}  {worst:>20}  {:.6e}{noise}", left.cost_m2);
     };
@@ -228,9 +232,9 @@ fn fits(text: &mut String, report: &CalibrationReport) {
         let _ = writeln!(
             text,
             "  held out          {:>20}  ({} parts; nominal on the same rows {})",
-            size(error.rms_m, error.rms_rad, turns),
+            size(error.rms_m, error.rms_rad),
             error.folds,
-            size(error.nominal_rms_m, error.nominal_rms_rad, turns)
+            size(error.nominal_rms_m, error.nominal_rms_rad)
         );
     }
 }
@@ -239,7 +243,6 @@ fn outliers(text: &mut String, report: &CalibrationReport) {
     if report.outliers.is_empty() {
         return;
     }
-    let turns = report.nominal.worst_rad > 0.0;
     let _ = writeln!(text, "\n  rows that do not fit: nominal, least squares, {}, weight", report.loss);
     for each in &report.outliers {
         let _ = writeln!(
@@ -247,9 +250,9 @@ fn outliers(text: &mut String, report: &CalibrationReport) {
             "  row {:4} (line {})  {:>20}  {:>20}  {:>20}  {:.2}",
             each.row,
             each.line,
-            size(each.nominal_m, each.nominal_rad, turns),
-            size(each.least_squares_m, each.least_squares_rad, turns),
-            size(each.robust_m, each.robust_rad, turns),
+            size(each.nominal_m, each.nominal_rad),
+            size(each.least_squares_m, each.least_squares_rad),
+            size(each.robust_m, each.robust_rad),
             each.weight
         );
     }
@@ -266,7 +269,8 @@ fn next(text: &mut String, report: &CalibrationReport) {
     }
 }
 
-fn size(metres: f64, radians: f64, turns: bool) -> String {
+/// A distance, with the angle where orientations were measured.
+fn size(metres: f64, radians: f64) -> String {
     let length = if metres >= 1e-6 { format!("{:.4} mm", metres * 1e3) } else { format!("{metres:.1e} m") };
-    if turns { format!("{length} {:.5} deg", radians.to_degrees()) } else { length }
+    if radians > 0.0 { format!("{length} {:.5} deg", radians.to_degrees()) } else { length }
 }
