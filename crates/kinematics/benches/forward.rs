@@ -4,7 +4,7 @@
 mod support;
 
 use congruent_description::{DhConvention, LinkIndex, Robot};
-use congruent_kinematics::{DhChain, Pose, ScrewTree, UrdfTree};
+use congruent_kinematics::{DhChain, JacobianKind, Pose, ScrewTree, SerialChain, Twist, UrdfTree};
 use divan::{Bencher, black_box};
 use support::{RowFigures, TableFigures};
 
@@ -82,4 +82,32 @@ fn poe_all_links(bencher: Bencher<'_, '_>) {
     let screws = ScrewTree::new(&robot);
     let mut links = vec![Pose::identity(); robot.links().len()];
     bencher.bench_local(|| screws.root_from_links_into(black_box(&Q), black_box(&mut links)));
+}
+
+/// The chain through the description, as `urdf_to_tip` takes it.
+fn serial() -> SerialChain {
+    let (robot, _) = arm(DhConvention::Standard);
+    SerialChain::from_urdf(&robot, (robot.root(), tip(&robot)))
+}
+
+#[divan::bench]
+fn serial_to_tip(bencher: Bencher<'_, '_>) {
+    let chain = serial();
+    bencher.bench(|| chain.base_from_tip(black_box(&Q)));
+}
+
+#[divan::bench(args = [JacobianKind::Space, JacobianKind::Geometric, JacobianKind::Body])]
+fn serial_with_jacobian(bencher: Bencher<'_, '_>, kind: JacobianKind) {
+    let chain = serial();
+    let mut columns = [Twist::zero(); 6];
+    bencher.bench_local(|| chain.pose_and_jacobian_into(black_box(&Q), kind, black_box(&mut columns)));
+}
+
+#[divan::bench]
+fn urdf_jacobian(bencher: Bencher<'_, '_>) {
+    let (robot, _) = arm(DhConvention::Standard);
+    let (tree, tip) = (UrdfTree::new(&robot), tip(&robot));
+    let mut columns = [Twist::zero(); 6];
+    let kind = JacobianKind::Geometric;
+    bencher.bench_local(|| tree.jacobian_into(black_box(&Q), tip, kind, black_box(&mut columns)));
 }
