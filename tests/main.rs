@@ -3,6 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
 
+mod arm_studies;
 mod bad_input;
 mod calibration;
 mod check_tables;

@@ -6,11 +6,16 @@ mod check;
 mod clearance;
 mod failure;
 mod fk;
+mod ik;
 mod input;
 #[cfg(feature = "recording")]
 mod inspect;
+mod manipulability;
+mod plot_file;
 mod print;
 mod run;
+mod sensitivity;
+mod workspace;
 
 use std::process::ExitCode;
 
@@ -37,6 +42,10 @@ enum Command {
     Run(run::Arguments),
     Check(check::Arguments),
     Fk(fk::Arguments),
+    Ik(ik::Arguments),
+    Manipulability(manipulability::Arguments),
+    Workspace(workspace::Arguments),
+    Sensitivity(sensitivity::Arguments),
     Clearance(clearance::Arguments),
     Calibrate(calibrate::Arguments),
     #[cfg(feature = "recording")]
@@ -51,6 +60,10 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments, &printer),
         Command::Fk(arguments) => fk::run(&arguments, &printer),
         Command::Calibrate(arguments) => calibrate::run(&arguments, &printer),
+        Command::Ik(arguments) => ik::run(&arguments, &printer),
+        Command::Manipulability(arguments) => manipulability::run(&arguments, &printer),
+        Command::Workspace(arguments) => workspace::run(&arguments, &printer),
+        Command::Sensitivity(arguments) => sensitivity::run(&arguments, &printer),
         Command::Clearance(arguments) => clearance::run(&arguments, &printer),
         #[cfg(feature = "recording")]
         Command::Inspect(arguments) => inspect::run(&arguments, &printer),

@@ -28,6 +28,9 @@ pub enum KinematicsError {
         /// Length of the buffer.
         found: usize,
     },
+    /// Nothing moves between the two ends of an arm.
+    #[error("no joint moves between base and tip")]
+    NoJoint,
     /// A table has no frame of this number.
     #[error("no frame dh{index}: the table's last is dh{last}")]
     FrameIndex {

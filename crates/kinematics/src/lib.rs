@@ -8,32 +8,44 @@
 //! Units are metres and radians; `a_from_b` is the pose of frame b in frame a.
 
 pub mod agreement;
+mod arm;
 pub mod calibration;
+mod climb;
 mod dh;
 mod error;
+mod ik;
 mod jacobian;
+mod manipulability;
 mod pose;
 mod rotation;
 mod screw_chain;
 mod screw_tree;
+mod sensitivity;
 mod serial_chain;
 mod serial_steps;
 mod sin_cos;
 mod twist;
+mod uniform;
 mod urdf_tree;
+mod workspace;
 
 #[cfg(test)]
 #[path = "../tests/support/mod.rs"]
 mod support;
 
 pub use agreement::{Bracket, Budget, Certificate, certify, certify_driven};
+pub use arm::{Arm, ArmJoint};
 pub use dh::{DhChain, DhFrames, ModifiedDh, StandardDh};
 pub use error::KinematicsError;
+pub use ik::{IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
 pub use jacobian::{Jacobian, JacobianKind};
+pub use manipulability::{Dexterity, Manipulability, VelocityEllipsoid};
 pub use pose::Pose;
 pub use rotation::{hat, rotation_exp, rotation_log, vee};
 pub use screw_chain::ScrewChain;
 pub use screw_tree::ScrewTree;
+pub use sensitivity::{Displacement, Sampling, displacement};
 pub use serial_chain::SerialChain;
 pub use twist::{Screw, Twist};
 pub use urdf_tree::UrdfTree;
+pub use workspace::Workspace;

@@ -90,7 +90,7 @@ fn at_index(mut error: Diagnostic, index: usize) -> Diagnostic {
 }
 
 /// Byte offset of a line and column, both from 1.
-fn offset_of(text: &str, line: usize, column: usize) -> usize {
+pub(crate) fn offset_of(text: &str, line: usize, column: usize) -> usize {
     let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
     (before + column.saturating_sub(1)).min(text.len())
 }

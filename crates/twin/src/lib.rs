@@ -10,10 +10,12 @@ mod configurations;
 pub mod distances;
 mod execute;
 pub mod forward;
+pub mod inverse;
 pub mod ladder;
 pub mod model;
 pub mod monitor;
 pub mod motion;
+pub mod plot;
 pub mod proximity;
 pub mod recorder;
 #[cfg(feature = "recording")]
@@ -22,6 +24,7 @@ pub mod report;
 mod run;
 mod sample;
 pub mod scenario;
+pub mod study;
 pub mod verdict;
 
 pub use batch::{configuration, read_configurations};

@@ -3,8 +3,9 @@
 
 mod joint_move;
 mod profile;
+mod tcp_move;
 
-use congruent_description::{Diagnostic, Robot};
+use congruent_description::{Diagnostic, Robot, RobotDescription};
 
 pub use profile::{Profile, Progress};
 
@@ -12,6 +13,7 @@ use crate::scenario::Section;
 
 /// What a motion's parser may look at.
 struct Context<'a> {
+    description: &'a RobotDescription,
     robot: &'a Robot,
     /// Where the motion before it ends.
     from: &'a [f64],
@@ -25,7 +27,10 @@ struct Kind {
 }
 
 /// Every kind of motion.
-const KINDS: &[Kind] = &[Kind { keys: joint_move::KEYS, parse: joint_move::parse }];
+const KINDS: &[Kind] = &[
+    Kind { keys: joint_move::KEYS, parse: joint_move::parse },
+    Kind { keys: tcp_move::KEYS, parse: tcp_move::parse },
+];
 
 /// One motion in joint space; all vectors are configuration vectors.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,14 +61,15 @@ impl Trajectory {
     /// Every finding of the first section that is wrong.
     pub fn parse(
         sections: Vec<Section<'_>>,
-        robot: &Robot,
+        description: &RobotDescription,
         start: &[f64],
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut trajectory = Self { start: start.to_vec(), motions: Vec::new(), starts_s: Vec::new() };
         for section in sections {
             let starts_s = trajectory.duration_s();
-            let mut context = Context { robot, from: trajectory.end(), warnings };
+            let mut context =
+                Context { description, robot: &description.robot, from: trajectory.end(), warnings };
             let kind = KINDS.iter().find(|kind| kind.keys.iter().any(|key| section.has(key)));
             let kind = kind.ok_or_else(|| vec![unknown_kind(&section)])?;
             let motion = (kind.parse)(section, &mut context)?;

@@ -124,7 +124,7 @@ impl<'a> Document<'a> {
         let mut start = start;
         move_inside_limits(&mut start, &description);
         let trajectory =
-            keep_all(&mut found, Trajectory::parse(self.motions, &description.robot, &start, &mut warnings));
+            keep_all(&mut found, Trajectory::parse(self.motions, &description, &start, &mut warnings));
         let motions_s = trajectory.as_ref().map_or(0.0, Trajectory::duration_s);
         let simulation = keep_all(&mut found, simulation::read(self.simulation, motions_s, &mut warnings));
         let controller = keep_all(&mut found, read_controller(self.controller));

@@ -1,0 +1,105 @@
+//! `congruent ik`: which joint positions bring the tool there.
+
+use std::{fmt::Write, path::PathBuf};
+
+use clap::ValueEnum;
+use congruent_description::Diagnostic;
+use congruent_twin::inverse::{IkMethod, IkOptions, InverseReport, TargetPart, inverse, read_targets};
+
+use crate::{failure::Failure, input::RobotArgument, print::Printer};
+
+/// Joint positions that bring the tip, or the TCP where one is declared, to given poses.
+///
+/// Exit code 1 where a target is not reached; what is left and which joints stand at a limit is
+/// reported.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// A JSON array of {"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint":
+    /// value}}; without a quaternion any orientation will do. Poses are in link `base`.
+    #[arg(long, value_name = "FILE")]
+    targets: PathBuf,
+    /// How steps are found.
+    #[arg(long, value_enum, default_value_t = MethodArgument::Lm)]
+    method: MethodArgument,
+    /// Ask for positions alone, even where a target has an orientation.
+    #[arg(long)]
+    position_only: bool,
+    /// Seed of the restarts.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Largest distance in m and largest angle in rad that count as reached.
+    #[arg(long, default_value_t = IkOptions::default().tolerance_m, value_parser = tolerance)]
+    tolerance: f64,
+    /// Steps that are tried for each target, restarts included.
+    #[arg(long, default_value_t = IkOptions::default().max_iterations)]
+    iterations: usize,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MethodArgument {
+    /// Levenberg-Marquardt with joint limits and seeded restarts.
+    Lm,
+    /// Newton-Raphson with the matrix logarithm as error.
+    Newton,
+    /// Pseudo-inverse of the geometric Jacobian.
+    PseudoInverse,
+    /// Transpose of the geometric Jacobian.
+    Transpose,
+}
+
+impl From<MethodArgument> for IkMethod {
+    fn from(method: MethodArgument) -> Self {
+        match method {
+            MethodArgument::Lm => Self::LevenbergMarquardt,
+            MethodArgument::Newton => Self::Newton,
+            MethodArgument::PseudoInverse => Self::PseudoInverse,
+            MethodArgument::Transpose => Self::Transpose,
+        }
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let value = text.parse().map_err(|error: std::num::ParseFloatError| error.to_string())?;
+    if value > 0.0 { Ok(value) } else { Err("it must be above 0".to_owned()) }
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let description = arguments.robot.load(printer)?;
+    let mut targets = read_targets(&arguments.targets, &description.robot)?;
+    if arguments.position_only {
+        targets.iter_mut().for_each(|target| target.target.part = TargetPart::Position);
+    }
+    let options = IkOptions {
+        method: arguments.method.into(),
+        tolerance_m: arguments.tolerance,
+        tolerance_rad: arguments.tolerance,
+        max_iterations: arguments.iterations,
+        seed: arguments.seed,
+    };
+    let report = inverse(&description, &targets, &options)
+        .map_err(|error| Diagnostic::error("ik::robot", error.to_string()))?;
+    printer.result(&report, text)?;
+    Ok(u8::from(!report.results.iter().all(|result| result.converged)))
+}
+
+fn text(report: &InverseReport) -> String {
+    let mut text = String::new();
+    let width = report.joints.iter().map(String::len).max().unwrap_or(0);
+    for (index, result) in report.results.iter().enumerate() {
+        let _ = writeln!(
+            text,
+            "target {index}: {} after {} steps, {:.2e} m and {:.2e} rad left",
+            if result.converged { "reached" } else { "NOT REACHED" },
+            result.iterations,
+            result.residual_position_m,
+            result.residual_orientation_rad
+        );
+        for joint in &report.joints {
+            let held = if result.limits_held.contains(joint) { "  at its limit" } else { "" };
+            let _ = writeln!(text, "  {joint:width$}  {:13.9}{held}", result.q[joint]);
+        }
+    }
+    text
+}

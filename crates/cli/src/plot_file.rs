@@ -1,0 +1,29 @@
+//! `--plot FILE.svg`: writes a figure where a command can draw one.
+
+use std::path::PathBuf;
+
+use congruent_description::Diagnostic;
+use congruent_twin::{plot::PlotError, report::write_whole};
+
+use crate::failure::Failure;
+
+/// Where the figure goes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PlotArgument {
+    /// Also draw a figure.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
+}
+
+impl PlotArgument {
+    /// Draws and writes it, if one was asked for.
+    pub(crate) fn write(&self, draw: impl FnOnce() -> Result<String, PlotError>) -> Result<(), Failure> {
+        let Some(path) = &self.plot else { return Ok(()) };
+        let svg = draw().map_err(|error| Failure::Machine(error.to_string()))?;
+        write_whole(path, svg.as_bytes()).map_err(|error| {
+            Diagnostic::error("plot::output", error.to_string())
+                .with_help("choose a file that can be written with --plot")
+                .into()
+        })
+    }
+}

@@ -1,0 +1,74 @@
+//! `congruent sensitivity`: what small errors do at the tool.
+
+use std::fmt::Write;
+
+use congruent_description::Diagnostic;
+use congruent_twin::study::{
+    Sampling,
+    sensitivity::{SensitivityReport, plot, sensitivity},
+};
+
+use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, print::Printer};
+
+/// How far the tool is displaced by 1 degree or 1 mm in each joint's zero and each DH parameter.
+///
+/// Worst and mean over the joint range, with the configuration of the worst.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// Random configurations.
+    #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    samples: u32,
+    /// Their seed.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Also for arms like this one with all lengths multiplied, for example 1,1.5.
+    #[arg(long, value_delimiter = ',', default_values_t = [1.0], value_parser = factor)]
+    length_factors: Vec<f64>,
+    #[command(flatten)]
+    plot: PlotArgument,
+}
+
+fn factor(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|error: std::num::ParseFloatError| error.to_string())?;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("it must be above 0".to_owned()) }
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let description = arguments.robot.load(printer)?;
+    let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
+    let report = sensitivity(&description, &arguments.length_factors, sampling)
+        .map_err(|error| Diagnostic::error("sensitivity::robot", error.to_string()))?;
+    arguments.plot.write(|| plot(&report))?;
+    printer.result(&report, text)?;
+    Ok(0)
+}
+
+fn text(report: &SensitivityReport) -> String {
+    let mut text = String::new();
+    for arm in &report.arms {
+        let _ = writeln!(
+            text,
+            "{}, lengths x {}: displacement of the tool over {} configurations",
+            report.robot, arm.length_factor, report.samples
+        );
+        let width = arm.parameters.iter().map(|parameter| parameter.joint.len()).max().unwrap_or(0);
+        for parameter in &arm.parameters {
+            let at: Vec<String> =
+                parameter.worst_at.iter().map(|(joint, value)| format!("{joint} {value:.3}")).collect();
+            let _ = writeln!(
+                text,
+                "  {:width$} {:5} {:5}  worst {:8.4} mm  mean {:8.4} mm  turn {:6.3} deg  at {}",
+                parameter.joint,
+                parameter.parameter,
+                parameter.error,
+                parameter.worst_mm,
+                parameter.mean_mm,
+                parameter.worst_deg,
+                at.join(", ")
+            );
+        }
+    }
+    text
+}

@@ -1,0 +1,23 @@
+//! Seeded random numbers: the same on every machine, and only where a caller gives the seed.
+
+use rand_chacha::{
+    ChaCha8Rng,
+    rand_core::{RngCore, SeedableRng},
+};
+
+/// Draws numbers evenly from an interval.
+#[derive(Debug, Clone)]
+pub(crate) struct Uniform(ChaCha8Rng);
+
+impl Uniform {
+    pub(crate) fn seeded(seed: u64) -> Self {
+        Self(ChaCha8Rng::seed_from_u64(seed))
+    }
+
+    /// A number in `lower..upper`, with 53 random bits.
+    #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
+    pub(crate) fn between(&mut self, (lower, upper): (f64, f64)) -> f64 {
+        let share = (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        lower + (upper - lower) * share
+    }
+}

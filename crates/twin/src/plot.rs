@@ -1,0 +1,223 @@
+//! Figures for a report, as SVG text: bars of named values, and plane views to scale. The one file
+//! that knows how they look.
+
+use plotters::{
+    coord::Shift,
+    prelude::*,
+    style::text_anchor::{HPos, Pos, VPos},
+};
+
+/// Why no figure could be drawn.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot draw the figure: {0}")]
+pub struct PlotError(String);
+
+impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for PlotError {
+    fn from(error: DrawingAreaErrorKind<E>) -> Self {
+        Self(error.to_string())
+    }
+}
+
+/// Colours that are told apart in print and by the colour-blind (Okabe & Ito 2008).
+const COLOURS: [RGBColor; 4] =
+    [RGBColor(0, 114, 178), RGBColor(230, 159, 0), RGBColor(0, 158, 115), RGBColor(204, 121, 167)];
+const GREY: RGBColor = RGBColor(90, 90, 90);
+const FONT: &str = "sans-serif";
+const TITLE_PX: u32 = 44;
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// One bar: its length, and a mark within it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bar {
+    /// End of the bar.
+    pub worst: f64,
+    /// Place of the mark.
+    pub mean: f64,
+}
+
+/// Bars in groups, a group for each thing and a colour for each series.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BarChart {
+    /// Stands above.
+    pub title: String,
+    /// What the axis measures, with its unit.
+    pub axis: String,
+    /// Names of the series.
+    pub series: Vec<String>,
+    /// Names of the groups, each with a bar for each series.
+    pub groups: Vec<(String, Vec<Bar>)>,
+}
+
+/// Draws horizontal bars, the worst as the bar and the mean as a line in it.
+///
+/// # Errors
+/// [`PlotError`] where the drawing library refuses.
+pub fn bars(chart: &BarChart) -> Result<String, PlotError> {
+    const BAR_PX: u32 = 17;
+    let rows = chart.groups.iter().map(|(_, bars)| bars.len() + 1).sum::<usize>();
+    let height = TITLE_PX + 90 + u32::try_from(rows).unwrap_or(u32::MAX / 64) * BAR_PX;
+    let largest =
+        chart.groups.iter().flat_map(|(_, bars)| bars).fold(0.0, |most: f64, bar| most.max(bar.worst));
+    let name_px = chart.groups.iter().map(|(name, _)| name.len()).max().unwrap_or(0) * 7 + 24;
+    let mut svg = String::new();
+    {
+        let root = page(&mut svg, (860, height), &chart.title)?;
+        let mut plane = ChartBuilder::on(&root)
+            .margin(12)
+            .margin_top(TITLE_PX + 22)
+            .x_label_area_size(44)
+            .y_label_area_size(u32::try_from(name_px).unwrap_or(200))
+            .build_cartesian_2d(0.0..(largest * 1.12).max(f64::MIN_POSITIVE), as_f64(rows)..0.0)?;
+        plane
+            .configure_mesh()
+            .disable_y_mesh()
+            .y_labels(0)
+            .light_line_style(TRANSPARENT)
+            .x_desc(&chart.axis)
+            .label_style((FONT, 13))
+            .draw()?;
+        let mut row = 0.5;
+        for (name, bars) in &chart.groups {
+            let middle = plane.backend_coord(&(0.0, row + as_f64(bars.len()) / 2.0));
+            text(&root, name, (middle.0 - 8, middle.1), HPos::Right)?;
+            for (series, bar) in bars.iter().enumerate() {
+                let corners = [(0.0, row + 0.06), (bar.worst, row + 0.94)];
+                plane.draw_series([Rectangle::new(corners, colour(series).filled())])?;
+                let mark = vec![(bar.mean, row + 0.06), (bar.mean, row + 0.94)];
+                plane.draw_series([PathElement::new(mark, WHITE.stroke_width(2))])?;
+                let end = plane.backend_coord(&(bar.worst, row + 0.5));
+                text(&root, &format!("{:.3}", bar.worst), (end.0 + 5, end.1), HPos::Left)?;
+                row += 1.0;
+            }
+            row += 1.0;
+        }
+        legend(&root, &chart.series)?;
+    }
+    Ok(svg)
+}
+
+/// A curve in a plane view.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Its points.
+    pub points: Vec<[f64; 2]>,
+    /// Which colour; `None` for grey.
+    pub series: Option<usize>,
+}
+
+/// One plane seen to scale.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneView {
+    /// Names of the axes, with units.
+    pub axes: [String; 2],
+    /// Filled rectangles by opposite corners.
+    pub areas: Vec<[[f64; 2]; 2]>,
+    /// Curves over them.
+    pub curves: Vec<Curve>,
+    /// Marked points.
+    pub marks: Vec<[f64; 2]>,
+}
+
+/// Draws views side by side, all at one scale.
+///
+/// # Errors
+/// [`PlotError`] where the drawing library refuses.
+pub fn views(title: &str, series: &[String], views: &[PlaneView]) -> Result<String, PlotError> {
+    const VIEW_PX: u32 = 430;
+    /// Room for the title.
+    const NARROWEST_PX: u32 = 620;
+    let count = u32::try_from(views.len().max(1)).unwrap_or(1);
+    let radius = views.iter().map(|view| span(view).1).fold(f64::MIN_POSITIVE, f64::max) * 1.06;
+    let mut svg = String::new();
+    {
+        let root = page(&mut svg, ((VIEW_PX * count).max(NARROWEST_PX), VIEW_PX + TITLE_PX + 24), title)?;
+        legend(&root, series)?;
+        let (_, below) = root.split_vertically(TITLE_PX + 20);
+        for (area, view) in below.split_evenly((1, views.len().max(1))).iter().zip(views) {
+            draw_view(area, view, radius)?;
+        }
+    }
+    Ok(svg)
+}
+
+fn draw_view(area: &Area<'_>, view: &PlaneView, radius: f64) -> Result<(), PlotError> {
+    let ([x, y], _) = span(view);
+    let mut builder = ChartBuilder::on(area);
+    builder.margin(14).x_label_area_size(44).y_label_area_size(56);
+    // As many metres per pixel along both axes.
+    let (width, height) = builder.build_cartesian_2d(0.0..1.0, 0.0..1.0)?.plotting_area().dim_in_pixel();
+    let per_pixel = 2.0 * radius / f64::from(width.min(height));
+    let half = |pixels: u32| per_pixel * f64::from(pixels) / 2.0;
+    let (half_x, half_y) = (half(width), half(height));
+    let mut plane = builder.build_cartesian_2d(x - half_x..x + half_x, y - half_y..y + half_y)?;
+    plane
+        .configure_mesh()
+        .x_desc(&view.axes[0])
+        .y_desc(&view.axes[1])
+        .light_line_style(TRANSPARENT)
+        .x_labels(7)
+        .y_labels(7)
+        .label_style((FONT, 13))
+        .draw()?;
+    let fill = COLOURS[0].mix(0.45).filled();
+    plane.draw_series(view.areas.iter().map(|[a, b]| Rectangle::new([(a[0], a[1]), (b[0], b[1])], fill)))?;
+    for curve in &view.curves {
+        let style = curve.series.map_or(GREY, colour).stroke_width(2);
+        let points: Vec<(f64, f64)> = curve.points.iter().map(|point| (point[0], point[1])).collect();
+        plane.draw_series([PathElement::new(points, style)])?;
+    }
+    plane.draw_series(view.marks.iter().map(|mark| Circle::new((mark[0], mark[1]), 4, GREY.filled())))?;
+    Ok(())
+}
+
+/// Middle and half extent of what a view shows.
+fn span(view: &PlaneView) -> ([f64; 2], f64) {
+    let corners = view.areas.iter().flatten();
+    let all = corners.chain(view.curves.iter().flat_map(|curve| &curve.points)).chain(&view.marks);
+    let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for point in all {
+        for axis in 0..2 {
+            lower[axis] = lower[axis].min(point[axis]);
+            upper[axis] = upper[axis].max(point[axis]);
+        }
+    }
+    if lower[0] > upper[0] {
+        return ([0.0; 2], 1.0);
+    }
+    let half = (0..2).map(|axis| (upper[axis] - lower[axis]) / 2.0).fold(0.0, f64::max);
+    ([0, 1].map(|axis| f64::midpoint(lower[axis], upper[axis])), half)
+}
+
+fn page<'a>(svg: &'a mut String, size: (u32, u32), title: &str) -> Result<Area<'a>, PlotError> {
+    let root = SVGBackend::with_string(svg, size).into_drawing_area();
+    root.fill(&WHITE)?;
+    let style = (FONT, 18).into_font().color(&BLACK);
+    root.draw(&Text::new(title.to_owned(), (16, 14), style))?;
+    Ok(root)
+}
+
+fn legend(root: &Area<'_>, series: &[String]) -> Result<(), PlotError> {
+    let mut left = 16;
+    for (index, name) in series.iter().enumerate() {
+        root.draw(&Rectangle::new([(left, 44), (left + 12, 56)], colour(index).filled()))?;
+        text(root, name, (left + 18, 50), HPos::Left)?;
+        left += 40 + 7 * i32::try_from(name.len()).unwrap_or(0);
+    }
+    Ok(())
+}
+
+fn text(root: &Area<'_>, words: &str, at: (i32, i32), side: HPos) -> Result<(), PlotError> {
+    let style = TextStyle::from((FONT, 13).into_font()).color(&BLACK).pos(Pos::new(side, VPos::Center));
+    root.draw(&Text::new(words.to_owned(), at, style))?;
+    Ok(())
+}
+
+fn colour(series: usize) -> RGBColor {
+    COLOURS[series % COLOURS.len()]
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a figure has few rows")]
+fn as_f64(rows: usize) -> f64 {
+    rows as f64
+}
