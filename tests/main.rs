@@ -9,6 +9,7 @@ mod calibration;
 mod check_tables;
 mod clearance_goldens;
 mod command;
+mod conversions;
 mod corpus;
 mod diagnosis;
 mod forward_goldens;

@@ -23,6 +23,24 @@ impl RobotArgument {
     }
 }
 
+/// A chain of the robot, where it is not the declared one.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ChainArguments {
+    /// The link that the chain starts from.
+    #[arg(long, value_name = "LINK")]
+    base: Option<String>,
+    /// The link that the chain ends at; with a new base alone, the end of its longest chain.
+    #[arg(long, value_name = "LINK")]
+    tip: Option<String>,
+}
+
+impl ChainArguments {
+    /// The robot along that chain.
+    pub(crate) fn choose(&self, description: RobotDescription) -> Result<RobotDescription, Failure> {
+        Ok(description.with_chain(self.base.as_deref(), self.tip.as_deref())?)
+    }
+}
+
 /// Configurations on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConfigurationArguments {

@@ -4,6 +4,8 @@
 mod calibrate;
 mod check;
 mod clearance;
+mod convert;
+mod derive;
 mod failure;
 mod fk;
 mod ik;
@@ -48,6 +50,8 @@ enum Command {
     Sensitivity(sensitivity::Arguments),
     Clearance(clearance::Arguments),
     Calibrate(calibrate::Arguments),
+    Derive(derive::Arguments),
+    Convert(convert::Arguments),
     #[cfg(feature = "recording")]
     Inspect(inspect::Arguments),
 }
@@ -65,6 +69,8 @@ fn main() -> ExitCode {
         Command::Workspace(arguments) => workspace::run(&arguments, &printer),
         Command::Sensitivity(arguments) => sensitivity::run(&arguments, &printer),
         Command::Clearance(arguments) => clearance::run(&arguments, &printer),
+        Command::Derive(arguments) => derive::run(&arguments, &printer),
+        Command::Convert(arguments) => convert::run(&arguments, &printer),
         #[cfg(feature = "recording")]
         Command::Inspect(arguments) => inspect::run(&arguments, &printer),
     };

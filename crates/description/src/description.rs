@@ -4,7 +4,14 @@ use std::{collections::BTreeSet, path::PathBuf};
 
 use nalgebra::Isometry3;
 
-use crate::{dh_table::DhTable, diagnostic::Diagnostic, link::LinkIndex, robot::Robot};
+use crate::{
+    dh_table::DhTable,
+    diagnostic::{Diagnostic, known_names},
+    joint::JointIndex,
+    link::LinkIndex,
+    robot::Robot,
+    robot_file::tip_of_longest_chain,
+};
 
 /// How far two poses may be apart and still count as the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,4 +54,48 @@ pub struct RobotDescription {
     pub disabled_collisions: BTreeSet<(LinkIndex, LinkIndex)>,
     /// What is suspicious but does not stop the work.
     pub warnings: Vec<Diagnostic>,
+}
+
+impl RobotDescription {
+    /// The same robot seen along another chain; a name that is left out keeps its link, but a new base
+    /// alone has the tip of its own longest chain. The table is dropped where the chain is another.
+    ///
+    /// # Errors
+    /// Where a link is unknown, or `tip` does not hang below `base`.
+    pub fn with_chain(mut self, base: Option<&str>, tip: Option<&str>) -> Result<Self, Diagnostic> {
+        let before = (self.base, self.tip);
+        if let Some(base) = base {
+            self.base = self.link("base", base)?;
+            self.tip = tip_of_longest_chain(&self.robot, self.base);
+        }
+        if let Some(tip) = tip {
+            self.tip = self.link("tip", tip)?;
+        }
+        if self.robot.chain(self.base, self.tip).is_none() {
+            let name = |link| &self.robot.link(link).name;
+            let message =
+                format!("tip \"{}\" does not hang below base \"{}\"", name(self.tip), name(self.base));
+            return Err(Diagnostic::error("chain::broken", message)
+                .with_help("no chain of joints leads from base down to tip"));
+        }
+        if before != (self.base, self.tip) {
+            self.dh = None;
+            self.tip_from_tcp = None;
+        }
+        Ok(self)
+    }
+
+    /// The moving joints from base to tip, mimic joints among them.
+    pub fn moving_chain(&self) -> Vec<JointIndex> {
+        let joints = self.robot.chain(self.base, self.tip).unwrap_or_default();
+        joints.into_iter().filter(|&joint| self.robot.joint(joint).kind.is_movable()).collect()
+    }
+
+    fn link(&self, role: &str, name: &str) -> Result<LinkIndex, Diagnostic> {
+        self.robot.find_link(name).ok_or_else(|| {
+            let links = self.robot.links().iter().map(|link| link.name.as_str());
+            Diagnostic::error("chain::unknown_link", format!("{role} \"{name}\": the robot has no such link"))
+                .with_help(known_names(name, "links", links))
+        })
+    }
 }

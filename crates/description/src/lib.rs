@@ -23,6 +23,7 @@ pub mod toml_text;
 mod tree;
 pub mod units;
 mod urdf;
+mod written_figure;
 mod written_transform;
 mod xml;
 
@@ -38,5 +39,6 @@ pub use joint::{Joint, JointIndex, JointKind, JointLimit, Mimic};
 pub use link::{Link, LinkIndex};
 pub use load::load_robot;
 pub use robot::{JointParts, Robot, RobotError};
-pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey};
+pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey, dh_section};
+pub use urdf::{parse_urdf, urdf_text};
 pub use written_transform::WrittenTransform;

@@ -17,6 +17,7 @@ mod ik;
 mod jacobian;
 mod manipulability;
 mod pose;
+mod proof;
 mod rotation;
 mod screw_chain;
 mod screw_tree;
@@ -35,12 +36,16 @@ mod support;
 
 pub use agreement::{Bracket, Budget, Certificate, certify, certify_driven};
 pub use arm::{Arm, ArmJoint};
-pub use dh::{DhChain, DhFrames, ModifiedDh, StandardDh};
+pub use dh::{
+    AxisPair, AxisRelation, Choice, DeriveError, DhChain, DhDerivation, DhFrames, FreeChoice, ModifiedDh,
+    NotADhTransform, SerialDh, SerialDhRow, StandardDh, derive_dh,
+};
 pub use error::KinematicsError;
 pub use ik::{IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
 pub use jacobian::{Jacobian, JacobianKind};
 pub use manipulability::{Dexterity, Manipulability, VelocityEllipsoid};
 pub use pose::Pose;
+pub use proof::Proof;
 pub use rotation::{hat, rotation_exp, rotation_log, vee};
 pub use screw_chain::ScrewChain;
 pub use screw_tree::ScrewTree;

@@ -101,6 +101,33 @@ impl ScrewChain {
         })
     }
 
+    /// The body screws: the same twists at zero as seen from the tip, `B_i = Ad(M^-1) S_i`.
+    ///
+    /// Source: Lynch & Park, *Modern Robotics* (2017), section 4.1.2.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::{Pose, Screw, ScrewChain};
+    /// use nalgebra::{Matrix3, Point3, Vector3};
+    /// let chain = ScrewChain {
+    ///     twists_in_base: vec![Screw::revolute(Vector3::z_axis(), &Point3::origin()).twist()],
+    ///     base_from_tip_at_zero: Pose::from_parts(Matrix3::identity(), Vector3::x()),
+    /// };
+    /// let twists_in_tip = chain.twists_in_tip();
+    /// assert_eq!(twists_in_tip[0].linear, Vector3::y()); // the tip, 1 m out, goes sideways
+    /// assert_eq!(ScrewChain::from_twists_in_tip(&twists_in_tip, chain.base_from_tip_at_zero), chain);
+    /// ```
+    pub fn twists_in_tip(&self) -> Vec<Twist> {
+        let tip_from_base = self.base_from_tip_at_zero.inverse();
+        self.twists_in_base.iter().map(|twist| twist.seen_from(&tip_from_base)).collect()
+    }
+
+    /// The chain with these body screws, the inverse of [`ScrewChain::twists_in_tip`].
+    pub fn from_twists_in_tip(twists_in_tip: &[Twist], base_from_tip_at_zero: Pose) -> Self {
+        let in_base = |twist: &Twist| twist.seen_from(&base_from_tip_at_zero);
+        Self { twists_in_base: twists_in_tip.iter().map(in_base).collect(), base_from_tip_at_zero }
+    }
+
     /// Number of joints.
     pub fn joint_count(&self) -> usize {
         self.twists_in_base.len()

@@ -3,10 +3,10 @@
 #[path = "support/mod.rs"]
 mod support;
 
-use congruent_description::{DhConvention, DhRowKind, Robot};
+use congruent_description::{DhConvention, DhRowKind, JointKind, Robot};
 use congruent_kinematics::{DhChain, DhFrames, ModifiedDh, Pose, ScrewTree, StandardDh, UrdfTree};
 use nalgebra::{Isometry3, Matrix3, Point3, UnitQuaternion, Vector3};
-use support::{RowFigures, TableFigures, within};
+use support::{Carried, RowFigures, TableFigures, within};
 
 /// Golden digits: the cases print twelve decimals, so half a unit of the last, and rounding; worst
 /// seen 4.7e-13.
@@ -235,4 +235,31 @@ fn a_prismatic_row_ignores_what_it_does_not_drive() {
     let turned = RowFigures { kind: DhRowKind::Revolute, ..prismatic };
     let tip = |row, q| standard(&[row]).1.base_from_tip(&[q]).unwrap();
     assert_eq!(tip(prismatic, 0.0), tip(turned, 0.0));
+}
+
+#[test]
+fn case_22_joints_go_by_name_not_by_order() {
+    let finger = |name: &str, x| Carried {
+        kind: JointKind::Continuous,
+        ..Carried::fixed(name, "base", Isometry3::translation(x, 0.2, 0.0))
+    };
+    let (left, right) = (finger("left", 0.1), finger("right", -0.3));
+    // Two libraries list the same joints in different orders.
+    let robots = [support::robot(vec![left.clone(), right.clone()]), support::robot(vec![right, left])];
+    let pose = |robot: &Robot, link: &str| {
+        let mut q = vec![0.0; robot.dof()];
+        for (name, position) in [("left", 0.7), ("right", -1.1)] {
+            q[robot.coordinate(robot.find_joint(name).unwrap()).unwrap()] = position;
+        }
+        UrdfTree::new(robot).root_from_link(&q, robot.find_link(link).unwrap()).unwrap()
+    };
+    for link in ["left", "right"] {
+        assert_equal(&pose(&robots[0], link), &pose(&robots[1], link));
+    }
+    // By order the same vector is another configuration.
+    let by_order = robots.map(|robot| {
+        let left = robot.find_link("left").unwrap();
+        UrdfTree::new(&robot).root_from_link(&[0.7, -1.1], left).unwrap()
+    });
+    assert!(within((by_order[0].angle_rad(&by_order[1]) - 1.8).abs(), ROUNDING));
 }

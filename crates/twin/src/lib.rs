@@ -7,6 +7,7 @@ pub mod certificate;
 pub mod check;
 pub mod clearance;
 mod configurations;
+pub mod conversion;
 pub mod distances;
 mod execute;
 pub mod forward;

@@ -63,7 +63,7 @@ pub(crate) fn default_chain(robot: &Robot) -> (LinkIndex, LinkIndex) {
 }
 
 /// The deepest link below `base`, counted in moving joints, then in joints: the flange's last frame.
-fn tip_of_longest_chain(robot: &Robot, base: LinkIndex) -> LinkIndex {
+pub(crate) fn tip_of_longest_chain(robot: &Robot, base: LinkIndex) -> LinkIndex {
     let mut depths: Vec<Option<(usize, usize)>> = vec![None; robot.links().len()];
     depths[base.get()] = Some((0, 0));
     let mut best = (base, (0, 0));

@@ -20,6 +20,9 @@ mod number;
 mod pose;
 mod raw;
 mod shape;
+mod write;
+
+pub use write::urdf_text;
 
 use std::{collections::BTreeMap, ops::Range};
 
@@ -67,6 +70,21 @@ pub(crate) fn parse(text: &str, find_mesh: &mut FindMesh<'_>, findings: &mut Fin
     }
     body::check(&robot, &spans(root, "link"), findings);
     Some(robot)
+}
+
+/// Reads a robot from URDF text alone; meshes cannot be found, so it may name none.
+///
+/// # Errors
+/// Every finding, errors and warnings, when at least one is an error.
+/// # Examples
+/// See [`urdf_text`].
+pub fn parse_urdf(text: &str) -> Result<Robot, Vec<Diagnostic>> {
+    let mut findings = Findings::default();
+    let mut no_mesh = |uri: &str, _| {
+        Err(Diagnostic::error("mesh::no_folder", format!("mesh \"{uri}\" cannot be found from text alone")))
+    };
+    let robot = parse(text, &mut no_mesh, &mut findings);
+    robot.ok_or_else(|| findings.into_vec())
 }
 
 /// The document with every text between elements blanked: it means nothing in a URDF, real files

@@ -2,11 +2,17 @@
 //! table under the other convention is another robot.
 
 mod chain;
+mod conditions;
+mod derive;
 mod modified;
+mod serial;
 mod standard;
 
 pub use chain::{DhChain, DhFrames};
+pub use conditions::NotADhTransform;
+pub use derive::{AxisPair, AxisRelation, Choice, DeriveError, DhDerivation, FreeChoice, derive_dh};
 pub use modified::ModifiedDh;
+pub use serial::{SerialDh, SerialDhRow};
 pub use standard::StandardDh;
 
 use nalgebra::{Matrix3, Vector3};

@@ -1,7 +1,9 @@
 //! One row of a table in the modified convention.
 
+use congruent_description::DhConvention;
 use nalgebra::{Matrix3, Vector3};
 
+use super::NotADhTransform;
 use crate::pose::Pose;
 
 /// One modified row: `T = Rx(alpha) Tx(a) Rz(theta) Tz(d)`.
@@ -56,6 +58,32 @@ impl ModifiedDh {
         );
         Pose { rotation, translation: Vector3::new(self.a_m, -sa * self.d_m, ca * self.d_m) }
     }
+
+    /// The one row whose transform this is; `alpha` and `theta` in `-pi..=pi`.
+    ///
+    /// Source: as [`NotADhTransform`]: existence and uniqueness, of the inverse.
+    ///
+    /// # Errors
+    /// [`NotADhTransform`] when `x0` is not perpendicular to `z1`, or does not meet it.
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::ModifiedDh;
+    /// let row = ModifiedDh { a_m: 0.25, alpha_rad: -0.5, d_m: 0.1, theta_rad: 2.0 };
+    /// let found = ModifiedDh::from_transform(&row.transform())?;
+    /// assert!((found.alpha_rad + 0.5).abs() < f64::EPSILON && (found.d_m - 0.1).abs() < f64::EPSILON);
+    /// # Ok::<(), congruent_kinematics::NotADhTransform>(())
+    /// ```
+    pub fn from_transform(dh0_from_dh1: &Pose) -> Result<Self, NotADhTransform> {
+        let Pose { rotation, translation } = dh0_from_dh1.inverse();
+        let x = rotation.column(0).into_owned();
+        NotADhTransform::check(DhConvention::Modified, &x, &translation)?;
+        Ok(Self {
+            a_m: dh0_from_dh1.translation.x,
+            alpha_rad: (-rotation[(2, 1)]).atan2(rotation[(2, 2)]),
+            d_m: -translation.z,
+            theta_rad: (-x.y).atan2(x.x),
+        })
+    }
 }
 
 #[cfg(test)]
@@ -84,6 +112,16 @@ mod tests {
                 .pose();
             prop_assert!(support::within((printed.rotation - stepped.rotation).norm(), ROUNDING));
             prop_assert!(support::within(printed.distance_m(&stepped), ROUNDING));
+        }
+
+        #[test]
+        fn a_transform_gives_its_row_back([a_m, alpha_rad, d_m, theta_rad] in support::dh_figures()) {
+            let row = ModifiedDh { a_m, alpha_rad, d_m, theta_rad };
+            let found = ModifiedDh::from_transform(&row.transform()).unwrap();
+            prop_assert!(support::within((found.a_m - a_m).abs(), ROUNDING));
+            prop_assert!(support::within((found.alpha_rad - alpha_rad).abs(), ROUNDING));
+            prop_assert!(support::within((found.d_m - d_m).abs(), ROUNDING));
+            prop_assert!(support::within((found.theta_rad - theta_rad).abs(), ROUNDING));
         }
     }
 }

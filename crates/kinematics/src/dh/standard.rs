@@ -1,7 +1,9 @@
 //! One row of a table in the standard convention.
 
+use congruent_description::DhConvention;
 use nalgebra::{Matrix3, Vector3};
 
+use super::NotADhTransform;
 use crate::pose::Pose;
 
 /// One standard row: `T = Rz(theta) Tz(d) Tx(a) Rx(alpha)`.
@@ -55,6 +57,37 @@ impl StandardDh {
         );
         Pose { rotation, translation: Vector3::new(self.a_m * ct, self.a_m * st, self.d_m) }
     }
+
+    /// The one row whose transform this is; `alpha` and `theta` in `-pi..=pi`.
+    ///
+    /// Source: as [`NotADhTransform`]: existence and uniqueness.
+    ///
+    /// # Errors
+    /// [`NotADhTransform`] when `x1` is not perpendicular to `z0`, or does not meet it.
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::{Pose, StandardDh};
+    /// use nalgebra::Vector3;
+    /// let row = StandardDh { a_m: 0.25, alpha_rad: -0.5, d_m: 0.1, theta_rad: 2.0 };
+    /// let found = StandardDh::from_transform(&row.transform())?;
+    /// assert!((found.theta_rad - 2.0).abs() < 4.0 * f64::EPSILON && (found.a_m - 0.25).abs() < f64::EPSILON);
+    /// // Shifted along y0 = y1 the axes pass each other.
+    /// let beside = Pose { translation: Vector3::new(0.0, 0.003, 0.0), ..Pose::identity() };
+    /// let refused = StandardDh::from_transform(&beside).unwrap_err();
+    /// assert_eq!(refused.off_meeting_m, 0.003);
+    /// # Ok::<(), congruent_kinematics::NotADhTransform>(())
+    /// ```
+    pub fn from_transform(dh0_from_dh1: &Pose) -> Result<Self, NotADhTransform> {
+        let Pose { rotation, translation } = dh0_from_dh1;
+        let x = rotation.column(0).into_owned();
+        NotADhTransform::check(DhConvention::Standard, &x, translation)?;
+        Ok(Self {
+            a_m: translation.x * x.x + translation.y * x.y,
+            alpha_rad: rotation[(2, 1)].atan2(rotation[(2, 2)]),
+            d_m: translation.z,
+            theta_rad: x.y.atan2(x.x),
+        })
+    }
 }
 
 #[cfg(test)]
@@ -83,6 +116,16 @@ mod tests {
                 .pose();
             prop_assert!(support::within((printed.rotation - stepped.rotation).norm(), ROUNDING));
             prop_assert!(support::within(printed.distance_m(&stepped), ROUNDING));
+        }
+
+        #[test]
+        fn a_transform_gives_its_row_back([a_m, alpha_rad, d_m, theta_rad] in support::dh_figures()) {
+            let row = StandardDh { a_m, alpha_rad, d_m, theta_rad };
+            let found = StandardDh::from_transform(&row.transform()).unwrap();
+            prop_assert!(support::within((found.a_m - a_m).abs(), ROUNDING));
+            prop_assert!(support::within((found.alpha_rad - alpha_rad).abs(), ROUNDING));
+            prop_assert!(support::within((found.d_m - d_m).abs(), ROUNDING));
+            prop_assert!(support::within((found.theta_rad - theta_rad).abs(), ROUNDING));
         }
     }
 }

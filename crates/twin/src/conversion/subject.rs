@@ -1,0 +1,74 @@
+//! The model that is converted: its joints by name, and its forward kinematics.
+
+use congruent_description::{DhTable, Diagnostic, JointIndex, RobotDescription};
+use congruent_kinematics::{DhChain, Pose, ScrewChain, SerialDh, UrdfTree};
+
+use super::Origin;
+
+/// One model of a chain.
+pub(super) struct Subject<'a> {
+    pub(super) description: &'a RobotDescription,
+    pub(super) origin: Origin,
+    /// Base to tip; for a table in the order of its rows.
+    pub(super) joints: Vec<JointIndex>,
+    /// Where each joint stands in a configuration vector.
+    pub(super) coordinates: Vec<usize>,
+}
+
+impl<'a> Subject<'a> {
+    pub(super) fn new(description: &'a RobotDescription, origin: Option<Origin>) -> Result<Self, Diagnostic> {
+        let joints = match (origin, &description.dh) {
+            (Some(Origin::Dh) | None, Some(table)) => table.rows.iter().map(|row| row.joint).collect(),
+            (Some(Origin::Dh), None) => {
+                let message = format!("robot \"{}\" has no [dh] table", description.name);
+                return Err(Diagnostic::error("convert::no_dh", message)
+                    .with_help("leave --from out to convert the chain of the URDF"));
+            }
+            _ => description.moving_chain(),
+        };
+        let coordinate = |&joint| description.robot.coordinate(joint).expect("joints of a chain move");
+        let is_table = origin != Some(Origin::Urdf) && description.dh.is_some();
+        Ok(Self {
+            description,
+            origin: if is_table { Origin::Dh } else { Origin::Urdf },
+            coordinates: joints.iter().map(coordinate).collect(),
+            joints,
+        })
+    }
+
+    /// The declared table, where that is what is converted.
+    pub(super) fn declared(&self) -> Option<&'a DhTable> {
+        self.description.dh.as_ref().filter(|_| self.origin == Origin::Dh)
+    }
+
+    pub(super) fn joint_name(&self, joint: usize) -> &'a str {
+        &self.description.robot.joint(self.joints[joint]).name
+    }
+
+    /// The model as screws.
+    pub(super) fn screws(&self) -> ScrewChain {
+        match self.declared() {
+            Some(table) => SerialDh::from_table(table).screw_chain(),
+            None => ScrewChain::probe(self.joints.len(), self.forward()),
+        }
+    }
+
+    /// `base_from_tip` at the positions of the joints, by the arithmetic that `congruent check` judges.
+    pub(super) fn forward(&self) -> impl FnMut(&[f64]) -> Pose + use<'a> {
+        let RobotDescription { robot, base, tip, .. } = self.description;
+        let table = self.declared().map(|table| DhChain::new(table, robot));
+        let tree = UrdfTree::new(robot);
+        let coordinates = self.coordinates.clone();
+        let mut q = vec![0.0; robot.dof()];
+        move |values: &[f64]| {
+            for (&coordinate, &value) in coordinates.iter().zip(values) {
+                q[coordinate] = value;
+            }
+            let root_from = |link| tree.root_from_link(&q, link).expect("the robot's own configuration");
+            match &table {
+                Some(chain) => chain.base_from_tip(&q).expect("the robot's own configuration"),
+                None => root_from(*base).inverse() * root_from(*tip),
+            }
+        }
+    }
+}

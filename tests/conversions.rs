@@ -1,0 +1,189 @@
+//! `congruent derive` and `congruent convert`: what they write is read again and judged by `congruent check`.
+
+use std::{fs, path::Path};
+
+use serde_json::Value;
+
+use crate::{
+    command::{Answer, congruent, congruent_json, text},
+    corpus::{corpus, workspace},
+};
+
+/// What every conversion is held to: rad and m. Worst seen: 1e-14.
+const ACCURACY: f64 = 1e-12;
+const CONVENTIONS: [&str; 2] = ["standard", "modified"];
+
+/// A robot file around a section `[dh]`, judged at the accuracy of conversions.
+#[track_caller]
+fn agrees(section: &str, urdf: &Path, report: &Value) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("robot.toml");
+    let head = format!("urdf = {urdf:?}\nbase = {}\ntip = {}\n", report["base"], report["tip"]);
+    let tolerance = format!("[tolerance]\nposition_m = {ACCURACY:?}\norientation_rad = {ACCURACY:?}\n");
+    fs::write(&file, format!("{head}{tolerance}{section}")).unwrap();
+    let answer = congruent_json(&["check", &text(&file)]);
+    let comparisons = answer.json()["comparisons"].clone();
+    let by_table =
+        comparisons.as_array().and_then(|all| all.iter().find(|each| each["name"] == "model_urdf"));
+    let verdict = by_table.map(|comparison| comparison["verdict"].clone());
+    assert_eq!(verdict, Some("agree".into()), "{}: {}{}", urdf.display(), answer.stdout, answer.stderr);
+}
+
+#[track_caller]
+fn proved(answer: &Answer) -> Value {
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    let report = answer.json();
+    let worst = report["proof"]["worst"].as_f64().unwrap();
+    assert!(worst <= ACCURACY, "{worst:e}: {report:#}");
+    report
+}
+
+/// Derives both tables, checks each as it is printed, and turns it into a URDF that agrees again.
+#[track_caller]
+fn goes_round(urdf: &Path, chain: &[&str]) {
+    for convention in CONVENTIONS {
+        let path = text(urdf);
+        let mut arguments = vec!["derive", &path, "--convention", convention];
+        arguments.extend(chain);
+        let report = proved(&congruent_json(&arguments));
+        let printed = congruent(&arguments).stdout;
+        agrees(&printed, urdf, &report);
+        assert!(printed.ends_with(report["robot_toml"].as_str().unwrap()));
+        let mut arguments = vec!["convert", &path, "--to", "urdf"];
+        arguments.extend(chain);
+        proved(&congruent_json(&arguments));
+        let folder = tempfile::tempdir().unwrap();
+        let written = folder.path().join("chain.urdf");
+        fs::write(&written, congruent(&arguments).stdout).unwrap();
+        agrees(&printed, &written, &report);
+    }
+}
+
+#[test]
+fn longest_chains_of_the_corpus() {
+    let Some(corpus) = corpus() else { return };
+    let names = [
+        "baxter",
+        "denso_hsr065",
+        "fanuc_m10ia",
+        "iiwa14",
+        "panda",
+        "rrr_arm",
+        "so100",
+        "ur5e",
+        "xarm7_gripper",
+    ];
+    for name in names {
+        goes_round(&corpus.join("robots").join(name).join("robot.urdf"), &[]);
+    }
+}
+
+#[test]
+fn both_arms_of_a_torso() {
+    let Some(corpus) = corpus() else { return };
+    let urdf = corpus.join("robots/baxter/robot.urdf");
+    for tip in ["left_gripper", "right_gripper"] {
+        goes_round(&urdf, &["--base", "torso", "--tip", tip]);
+    }
+}
+
+/// Reference cases 8 and 9: table, screws and URDF of one robot, in both conventions.
+#[test]
+fn declared_tables_of_all_robots() {
+    for entry in fs::read_dir(workspace().join("robots")).unwrap().flatten() {
+        let folder = text(&entry.path());
+        let signs = |report: &Value| {
+            let rows = report["table"]["rows"].as_array().unwrap().clone();
+            rows.iter().map(|row| row["sign"].clone()).collect::<Vec<_>>()
+        };
+        let by_convention = CONVENTIONS.map(|convention| {
+            let report = proved(&congruent_json(&["convert", &folder, "--to", convention]));
+            assert_eq!(report["from"], "dh");
+            report
+        });
+        assert_eq!(signs(&by_convention[0]), signs(&by_convention[1]));
+        proved(&congruent_json(&["convert", &folder, "--to", "poe"]));
+        proved(&congruent_json(&["convert", &folder, "--to", "urdf"]));
+        proved(&congruent_json(&["convert", &folder, "--from", "urdf", "--to", "modified"]));
+        let urdf = fs::read_dir(entry.path()).unwrap().flatten().map(|file| file.path());
+        let urdf = urdf.into_iter().find(|path| path.extension().is_some_and(|end| end == "urdf")).unwrap();
+        goes_round(&urdf, &[]);
+        for report in by_convention {
+            agrees_within_the_robots_own(report["robot_toml"].as_str().unwrap(), &urdf, &report);
+        }
+    }
+}
+
+/// The declared table may differ from the URDF by digits; the tolerance of robot files applies.
+#[track_caller]
+fn agrees_within_the_robots_own(section: &str, urdf: &Path, report: &Value) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("robot.toml");
+    let head = format!("urdf = {urdf:?}\nbase = {}\ntip = {}\n", report["base"], report["tip"]);
+    fs::write(&file, format!("{head}{section}")).unwrap();
+    let answer = congruent_json(&["check", &text(&file)]);
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+}
+
+const TWO_JOINTS: &str = r#"<robot name="two">
+  <link name="base"/><link name="upper"/><link name="lower"/><link name="tip"/>
+  <joint name="shoulder" type="continuous">
+    <parent link="base"/><child link="upper"/><origin xyz="0 0 0.3" rpy="0.3 0.4 0.5"/><axis xyz="0 0 1"/>
+  </joint>
+  <joint name="elbow" type="continuous">
+    <parent link="upper"/><child link="lower"/><origin xyz="0.3 0.4 0.1" rpy="ROLL 0 0"/><axis xyz="0 0 1"/>
+  </joint>
+  <joint name="flange" type="fixed"><parent link="lower"/><child link="tip"/><origin xyz="0 0 0.2"/></joint>
+</robot>"#;
+
+/// Two joints whose axes are this far from parallel.
+fn two_joints(roll: &str) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("two.urdf");
+    fs::write(&file, TWO_JOINTS.replace("ROLL", roll)).unwrap();
+    let path = text(&file);
+    (folder, path)
+}
+
+#[test]
+fn nearly_parallel_axes_are_refused_and_simplified_only_on_demand() {
+    let (_folder, path) = two_joints("3.14159265");
+    let refused = congruent(&["derive", &path, "--convention", "standard"]);
+    assert_eq!(refused.code, 2, "{}", refused.stdout);
+    for word in ["shoulder", "elbow", "3.590e-9 rad from parallel", "--accuracy"] {
+        assert!(refused.stderr.contains(word), "no {word:?} in {}", refused.stderr);
+    }
+    let coarse = congruent_json(&["derive", &path, "--convention", "standard", "--accuracy", "1e-7"]).json();
+    assert_eq!(coarse["axes"][0]["relation"], "anti_parallel");
+    let worst = coarse["proof"]["worst"].as_f64().unwrap();
+    assert!(worst > 1e-9 && worst < 1e-8, "{worst:e}");
+    // A turn that says the half turn with all its digits is exactly anti-parallel.
+    let (_folder, path) = two_joints("3.141592653589793");
+    goes_round(Path::new(&path), &[]);
+}
+
+#[test]
+fn a_chain_that_does_not_move_has_no_table() {
+    let (_folder, path) = two_joints("0.3");
+    let refused =
+        congruent(&["derive", &path, "--convention", "modified", "--base", "lower", "--tip", "tip"]);
+    assert_eq!(refused.code, 2);
+    assert!(refused.stderr.contains("no moving joint"), "{}", refused.stderr);
+    let poe = proved(&congruent_json(&["convert", &path, "--to", "poe", "--base", "lower", "--tip", "tip"]));
+    assert_eq!(poe["poe"]["space_screws"].as_array().unwrap().len(), 0);
+    let upwards =
+        congruent(&["derive", &path, "--convention", "modified", "--base", "tip", "--tip", "upper"]);
+    assert_eq!(upwards.code, 2);
+    assert!(upwards.stderr.contains("does not hang below"), "{}", upwards.stderr);
+    let unknown = congruent(&["convert", &path, "--to", "poe", "--tip", "tipp"]);
+    assert!(unknown.code == 2 && unknown.stderr.contains("did you mean \"tip\"?"), "{}", unknown.stderr);
+}
+
+#[test]
+fn a_mimic_joint_in_the_chain_is_told() {
+    let Some(corpus) = corpus() else { return };
+    let urdf = text(&corpus.join("robots/xarm7_gripper/robot.urdf"));
+    let report = proved(&congruent_json(&["derive", &urdf, "--convention", "standard"]));
+    let notes = report["notes"].to_string();
+    assert!(notes.contains("left_finger_joint") && notes.contains("drive_joint"), "{notes}");
+}
