@@ -24,7 +24,7 @@ struct Written {
 }
 
 pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<Motion, Vec<Diagnostic>> {
-    let written: Written = section.read().map_err(|error| vec![error])?;
+    let written: Written = section.read()?;
     let to = reach(&written.move_tcp, context).map_err(|error| vec![error])?;
     Ok(Motion {
         from: context.from.to_vec(),
