@@ -18,7 +18,7 @@ const CONVENTIONS: [&str; 2] = ["standard", "modified"];
 fn agrees(section: &str, urdf: &Path, report: &Value) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("robot.toml");
-    let head = format!("urdf = {urdf:?}\nbase = {}\ntip = {}\n", report["base"], report["tip"]);
+    let head = format!("urdf = {:?}\nbase = {}\ntip = {}\n", text(urdf), report["base"], report["tip"]);
     let tolerance = format!("[tolerance]\nposition_m = {ACCURACY:?}\norientation_rad = {ACCURACY:?}\n");
     fs::write(&file, format!("{head}{tolerance}{section}")).unwrap();
     let answer = congruent_json(&["check", &text(&file)]);
@@ -119,7 +119,7 @@ fn declared_tables_of_all_robots() {
 fn agrees_within_the_robots_own(section: &str, urdf: &Path, report: &Value) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("robot.toml");
-    let head = format!("urdf = {urdf:?}\nbase = {}\ntip = {}\n", report["base"], report["tip"]);
+    let head = format!("urdf = {:?}\nbase = {}\ntip = {}\n", text(urdf), report["base"], report["tip"]);
     fs::write(&file, format!("{head}{section}")).unwrap();
     let answer = congruent_json(&["check", &text(&file)]);
     assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);

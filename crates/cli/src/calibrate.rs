@@ -23,7 +23,7 @@ const NOTHING: u8 = 4;
 
 /// Corrections of a robot's model from measured poses or points of its tip (or TCP) in the base.
 ///
-/// MEASUREMENTS is CSV with a header (<joint>_rad or _deg, then x_m, y_m, z_m or _mm, optionally qw, qx, qy,
+/// MEASUREMENTS is CSV with a header (`<joint>_rad` or `_deg`, then x_m, y_m, z_m or _mm, optionally qw, qx, qy,
 /// qz or roll_deg, pitch_deg, yaw_deg), or JSON: [{"q": {joint: rad}, "translation_m": [x, y, z],
 /// "quaternion_wxyz": [w, x, y, z]}]. Coordinates that were not measured are left out.
 #[derive(Debug, clap::Args)]

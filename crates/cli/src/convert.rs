@@ -97,7 +97,10 @@ pub(crate) fn text(report: &ConversionReport) -> String {
         let said = said.replace("--", "- -");
         return urdf.replacen('\n', &format!("\n<!--\n{said}-->\n"), 1);
     }
-    let mut text: String = said.lines().map(|line| format!("# {line}\n")).collect();
+    let mut text = String::new();
+    for line in said.lines() {
+        let _ = writeln!(text, "# {line}");
+    }
     if let Some(section) = &report.robot_toml {
         text += section;
     }

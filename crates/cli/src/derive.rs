@@ -12,7 +12,7 @@ use crate::{
 
 /// A Denavit-Hartenberg table from the axes of a URDF, proved by comparing back.
 ///
-/// Prints the section [dh] of a robot file; what was free to choose stands beside it.
+/// Prints the section `[dh]` of a robot file; what was free to choose stands beside it.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

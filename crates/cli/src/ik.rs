@@ -16,8 +16,8 @@ use crate::{failure::Failure, input::RobotArgument, print::Printer};
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// A JSON array of {"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint":
-    /// value}}; without a quaternion any orientation will do. Poses are in link `base`.
+    /// A JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint":
+    /// value}}`; without a quaternion any orientation will do. Poses are in link `base`.
     #[arg(long, value_name = "FILE")]
     targets: PathBuf,
     /// How steps are found.
@@ -69,7 +69,9 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let description = arguments.robot.load(printer)?;
     let mut targets = read_targets(&arguments.targets, &description.robot)?;
     if arguments.position_only {
-        targets.iter_mut().for_each(|target| target.target.part = TargetPart::Position);
+        for target in &mut targets {
+            target.target.part = TargetPart::Position;
+        }
     }
     let options = IkOptions {
         method: arguments.method.into(),
