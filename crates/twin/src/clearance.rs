@@ -69,7 +69,7 @@ impl Clearance {
     /// Builds hulls and pairs for a robot among obstacles.
     ///
     /// # Errors
-    /// [`ProximityError`] when a collision mesh has no volume.
+    /// [`ProximityError`] when a collision mesh has no extent.
     pub fn new(
         description: &RobotDescription,
         obstacles: &[Obstacle],

@@ -44,7 +44,7 @@ pub enum Overlap {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DistanceError {
-    /// A collision shape has no volume.
+    /// A collision shape has no convex hull.
     #[error(transparent)]
     Proximity(#[from] ProximityError),
     /// A configuration is none of the robot's.
@@ -55,7 +55,7 @@ pub enum DistanceError {
 /// Distances between convex hulls of links (and to obstacles) at each configuration.
 ///
 /// # Errors
-/// [`DistanceError`] where a collision mesh has no volume.
+/// [`DistanceError`] where a collision mesh has no extent.
 pub fn distances(
     description: &RobotDescription,
     obstacles: &[Obstacle],

@@ -15,11 +15,10 @@ use parry3d_f64::{
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProximityError {
-    /// All vertices lie in a plane, on a line or in a point.
-    #[error(
-        "{subject}: the mesh has no volume, so it has no convex hull; give it a thickness or leave it out"
-    )]
-    Flat {
+    /// All vertices lie on a line or in a point. A mesh in a plane has a hull: a plate without
+    /// thickness.
+    #[error("{subject}: the mesh has no convex hull; give it an extent or leave it out")]
+    NoHull {
         /// The link or obstacle.
         subject: String,
     },
@@ -42,7 +41,7 @@ impl Hulls {
     /// Hulls of the shapes of one link; a mesh without triangles contributes nothing.
     ///
     /// # Errors
-    /// [`ProximityError::Flat`] when a mesh has no volume.
+    /// [`ProximityError::NoHull`] when a mesh has no extent.
     pub fn new(subject: &str, shapes: &[Shape]) -> Result<Self, ProximityError> {
         let mut hulls = Self { shapes: Vec::with_capacity(shapes.len()), radius_m: 0.0 };
         for shape in shapes {
@@ -133,9 +132,9 @@ fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Convex>, Proximit
         Geometry::Sphere { radius_m } => (SharedShape::new(Ball::new(*radius_m)), *radius_m),
         Geometry::Mesh(mesh) if mesh.triangles.is_empty() => return Ok(None),
         Geometry::Mesh(mesh) => {
-            let flat = || ProximityError::Flat { subject: subject.to_owned() };
+            let no_hull = || ProximityError::NoHull { subject: subject.to_owned() };
             let points: Vec<Vector> = mesh.vertices_m.iter().map(vector).collect();
-            let hull = ConvexPolyhedron::from_convex_hull(&points).ok_or_else(flat)?;
+            let hull = ConvexPolyhedron::from_convex_hull(&points).ok_or_else(no_hull)?;
             let radius_m = hull.points().iter().map(|point| point.length()).fold(0.0, f64::max);
             (SharedShape::new(hull), radius_m)
         }

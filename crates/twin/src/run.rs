@@ -26,7 +26,7 @@ pub enum RunError {
     /// The model does not fit the robot.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
-    /// A collision shape has no volume.
+    /// A collision shape has no convex hull.
     #[error(transparent)]
     Proximity(#[from] ProximityError),
     /// The recording cannot be written.
