@@ -26,6 +26,12 @@ impl Golden {
         links.iter().map(|link| link.as_str().expect("a name")).collect()
     }
 
+    /// Names of the movable joints, in the order of vectors and columns.
+    pub(crate) fn joints(&self) -> Vec<&str> {
+        let joints = self.document["joints"].as_array().expect("joints");
+        joints.iter().map(|joint| joint["name"].as_str().expect("a name")).collect()
+    }
+
     /// Writes configurations as a batch for the command.
     pub(crate) fn write_batch(&self, configurations: &[&Value], path: &Path) {
         let joints = self.document["joints"].as_array().expect("joints");

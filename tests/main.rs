@@ -15,6 +15,7 @@ mod corpus;
 mod diagnosis;
 mod forward_goldens;
 mod golden;
+mod jacobian_goldens;
 mod pairing;
 mod robots;
 mod scenarios;

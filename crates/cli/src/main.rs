@@ -12,6 +12,7 @@ mod ik;
 mod input;
 #[cfg(feature = "recording")]
 mod inspect;
+mod jacobian;
 mod manipulability;
 mod plot_file;
 mod print;
@@ -44,6 +45,7 @@ enum Command {
     Run(run::Arguments),
     Check(check::Arguments),
     Fk(fk::Arguments),
+    Jacobian(jacobian::Arguments),
     Ik(ik::Arguments),
     Manipulability(manipulability::Arguments),
     Workspace(workspace::Arguments),
@@ -63,6 +65,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments, &printer),
         Command::Check(arguments) => check::run(&arguments, &printer),
         Command::Fk(arguments) => fk::run(&arguments, &printer),
+        Command::Jacobian(arguments) => jacobian::run(&arguments, &printer),
         Command::Calibrate(arguments) => calibrate::run(&arguments, &printer),
         Command::Ik(arguments) => ik::run(&arguments, &printer),
         Command::Manipulability(arguments) => manipulability::run(&arguments, &printer),

@@ -12,6 +12,7 @@ pub mod distances;
 mod execute;
 pub mod forward;
 pub mod inverse;
+pub mod jacobians;
 pub mod ladder;
 pub mod model;
 pub mod monitor;

@@ -1,0 +1,81 @@
+//! `congruent jacobian`: how joint velocities move a link.
+
+use std::fmt::Write;
+
+use clap::ValueEnum;
+use congruent_description::{Diagnostic, known_names};
+use congruent_twin::jacobians::{JacobianKind, JacobianReport, jacobians};
+
+use crate::{
+    failure::Failure,
+    input::{ConfigurationArguments, RobotArgument},
+    print::Printer,
+};
+
+/// The Jacobian of a link: its velocity for each joint's, linear and angular block by name.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// The link that moves; the model's tip where it is left out.
+    #[arg(long, value_name = "NAME")]
+    link: Option<String>,
+    /// In which frame and at which point the velocity is taken.
+    #[arg(long, value_enum, default_value_t = KindArgument::Geometric)]
+    kind: KindArgument,
+    #[command(flatten)]
+    configurations: ConfigurationArguments,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum KindArgument {
+    /// Twist in the root link's frame, at its origin.
+    Space,
+    /// Twist in the link's own frame, at its origin.
+    Body,
+    /// Velocity of the link's origin, axes of the root link.
+    Geometric,
+}
+
+impl From<KindArgument> for JacobianKind {
+    fn from(kind: KindArgument) -> Self {
+        match kind {
+            KindArgument::Space => Self::Space,
+            KindArgument::Body => Self::Body,
+            KindArgument::Geometric => Self::Geometric,
+        }
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let description = arguments.robot.load(printer)?;
+    let robot = &description.robot;
+    let link = match &arguments.link {
+        None => description.tip,
+        Some(name) => robot.find_link(name).ok_or_else(|| {
+            let links: Vec<&str> = robot.links().iter().map(|link| link.name.as_str()).collect();
+            let message = format!("robot \"{}\" has no link \"{name}\"", robot.name());
+            Diagnostic::error("jacobian::link", message).with_help(known_names(name, "links", links))
+        })?,
+    };
+    let configurations = arguments.configurations.read(robot)?;
+    let report = jacobians(robot, link, arguments.kind.into(), &configurations)
+        .map_err(|error| Diagnostic::error("jacobian::configuration", error.to_string()))?;
+    printer.result(&report, text)?;
+    Ok(0)
+}
+
+fn text(report: &JacobianReport) -> String {
+    let mut text =
+        format!("{} Jacobian of {}, columns: {}\n", report.kind, report.link, report.joints.join(", "));
+    for (index, blocks) in report.results.iter().enumerate() {
+        let _ = writeln!(text, "configuration {index}");
+        for (name, block) in [("linear", &blocks.linear), ("angular", &blocks.angular)] {
+            for (row, axis) in block.iter().zip(["x", "y", "z"]) {
+                let figures: Vec<String> = row.iter().map(|figure| format!("{figure:12.9}")).collect();
+                let _ = writeln!(text, "  {name:7} {axis}  {}", figures.join(" "));
+            }
+        }
+    }
+    text
+}

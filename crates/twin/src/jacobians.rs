@@ -1,0 +1,67 @@
+//! `congruent jacobian`: how joint velocities move a link.
+
+use congruent_description::{LinkIndex, Robot};
+pub use congruent_kinematics::JacobianKind;
+use congruent_kinematics::{Jacobian, KinematicsError, UrdfTree};
+use nalgebra::Matrix3xX;
+use serde::Serialize;
+
+/// A Jacobian as programs read it: named blocks, since half the field stacks linear first and half
+/// angular first. Columns are in the order of the report's joints.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Blocks {
+    /// Three rows: m/s for each rad/s or m/s.
+    pub linear: [Vec<f64>; 3],
+    /// Three rows: rad/s for each rad/s or m/s.
+    pub angular: [Vec<f64>; 3],
+}
+
+impl From<&Jacobian> for Blocks {
+    fn from(jacobian: &Jacobian) -> Self {
+        Self { linear: rows(&jacobian.linear()), angular: rows(&jacobian.angular()) }
+    }
+}
+
+fn rows(block: &Matrix3xX<f64>) -> [Vec<f64>; 3] {
+    [0, 1, 2].map(|row| block.row(row).iter().copied().collect())
+}
+
+/// The answer of `congruent jacobian`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JacobianReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// Movable joints, in the order of columns; mimic joints have columns of their own.
+    pub joints: Vec<String>,
+    /// The link that moves.
+    pub link: String,
+    /// `space`, `body` or `geometric`.
+    pub kind: &'static str,
+    /// One entry for each configuration, in input order.
+    pub results: Vec<Blocks>,
+}
+
+/// Jacobians of one link at each configuration, from the URDF chain.
+///
+/// # Errors
+/// [`KinematicsError::JointCount`] for a configuration that is none of the robot's.
+pub fn jacobians(
+    robot: &Robot,
+    link: LinkIndex,
+    kind: JacobianKind,
+    configurations: &[Vec<f64>],
+) -> Result<JacobianReport, KinematicsError> {
+    let tree = UrdfTree::new(robot);
+    let at = |q: &Vec<f64>| Ok(Blocks::from(&tree.jacobian(q, link, kind)?));
+    Ok(JacobianReport {
+        robot: robot.name().to_owned(),
+        joints: robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.clone()).collect(),
+        link: robot.link(link).name.clone(),
+        kind: match kind {
+            JacobianKind::Space => "space",
+            JacobianKind::Body => "body",
+            JacobianKind::Geometric => "geometric",
+        },
+        results: configurations.iter().map(at).collect::<Result<_, KinematicsError>>()?,
+    })
+}
