@@ -10,6 +10,7 @@ use tempfile::TempDir;
 use crate::{
     command::{congruent, congruent_json, text},
     corpus::workspace,
+    pairing::{PANDA_JOINTS, UR5E_JOINTS},
 };
 
 /// Reference case 4: five measured points of the planar arm.
@@ -138,15 +139,6 @@ fn names(list: &Value) -> Vec<&str> {
     list.as_array().unwrap().iter().map(|each| each["name"].as_str().unwrap()).collect()
 }
 
-const UR5E: [&str; 6] = [
-    "shoulder_pan_joint",
-    "shoulder_lift_joint",
-    "elbow_joint",
-    "wrist_1_joint",
-    "wrist_2_joint",
-    "wrist_3_joint",
-];
-
 /// Known errors of a UR5e: four zeros, two lengths and a twist.
 const UR5E_ERRORS: [(&str, &str); 4] = [
     (
@@ -216,7 +208,7 @@ fn without_noise_the_table_comes_back_to_rounding() {
     const ROUNDING: f64 = 1e-11;
     let bench = Bench::new();
     let robot = bench.robot("ur5e", &UR5E_ERRORS);
-    let rows = measured(&robot, &UR5E, 40, (0.0, 0.0));
+    let rows = measured(&robot, &UR5E_JOINTS, 40, (0.0, 0.0));
     let file = bench.write("poses.json", &Value::from(rows).to_string());
     let report = calibrate(&["robots/ur5e", &file, "--free", "dh"]);
     assert!(number(&report["least_squares"]["worst_m"]) < ROUNDING, "{}", report["least_squares"]);
@@ -243,7 +235,7 @@ fn noisy_poses_of_a_ur5e_recover_its_errors_within_their_sigmas() {
     let (noise_m, noise_rad) = (1e-4, 2e-4);
     let bench = Bench::new();
     let robot = bench.robot("ur5e", &UR5E_ERRORS);
-    let rows = measured(&robot, &UR5E, 40, (noise_m, noise_rad));
+    let rows = measured(&robot, &UR5E_JOINTS, 40, (noise_m, noise_rad));
     let file = bench.write("poses.json", &Value::from(rows).to_string());
     let report = calibrate(&["robots/ur5e", &file, "--free", "dh"]);
     for (name, truth) in ur5e_truth() {
@@ -267,7 +259,7 @@ fn planted_outliers_are_named_and_do_not_bend_the_robust_estimate() {
     const PLANTED: [usize; 6] = [3, 8, 11, 20, 27, 33];
     let bench = Bench::new();
     let robot = bench.robot("ur5e", &UR5E_ERRORS);
-    let mut rows = measured(&robot, &UR5E, 40, (1e-4, 2e-4));
+    let mut rows = measured(&robot, &UR5E_JOINTS, 40, (1e-4, 2e-4));
     for (turn, &row) in PLANTED.iter().enumerate() {
         let figure = &mut rows[row - 1]["translation_m"][turn % 3];
         *figure = json!(number(figure) + if turn % 2 == 0 { 0.02 } else { -0.004 });
@@ -296,15 +288,6 @@ fn planted_outliers_are_named_and_do_not_bend_the_robust_estimate() {
 
 #[test]
 fn panda_zeros_from_points_alone() {
-    const JOINTS: [&str; 7] = [
-        "panda_joint1",
-        "panda_joint2",
-        "panda_joint3",
-        "panda_joint4",
-        "panda_joint5",
-        "panda_joint6",
-        "panda_joint7",
-    ];
     let bench = Bench::new();
     let robot = bench.robot(
         "panda",
@@ -313,10 +296,10 @@ fn panda_zeros_from_points_alone() {
             "alpha_deg = 90.0\nd_m = 0.316\ntheta_deg = 0.4",
         )],
     );
-    let mut csv =
-        JOINTS.iter().fold(String::new(), |header, joint| header + joint + "_rad,") + "x_mm,y_mm,z_mm\n";
-    for row in measured(&robot, &JOINTS, 30, (5e-5, 0.0)) {
-        for joint in JOINTS {
+    let mut csv = PANDA_JOINTS.iter().fold(String::new(), |header, joint| header + joint + "_rad,")
+        + "x_mm,y_mm,z_mm\n";
+    for row in measured(&robot, &PANDA_JOINTS, 30, (5e-5, 0.0)) {
+        for joint in PANDA_JOINTS {
             let _ = write!(csv, "{},", row["q"][joint]);
         }
         let mm: Vec<String> =
@@ -352,7 +335,7 @@ fn a_bare_urdf_is_calibrated_by_its_axes() {
             ("xyz_m = [0.0, 0.0, 0.05]", "xyz_m = [0.0, 0.0, 0.0]"),
         ],
     );
-    let rows = measured(&robot, &UR5E, 30, (1e-5, 1e-5));
+    let rows = measured(&robot, &UR5E_JOINTS, 30, (1e-5, 1e-5));
     let file = bench.write("poses.json", &Value::from(rows).to_string());
     let urdf = text(&Path::new(&workspace()).join("robots/ur5e/ur5e.urdf"));
     let report = calibrate(&[&urdf, &file, "--free", "zero-offsets,axes"]);

@@ -225,6 +225,11 @@ impl Robot {
         &self.movable
     }
 
+    /// Names of the joints with a coordinate, in the order of configuration vectors.
+    pub fn movable_joint_names(&self) -> impl ExactSizeIterator<Item = &str> + Clone {
+        self.movable.iter().map(|&joint| self.joint(joint).name.as_str())
+    }
+
     /// Length of a configuration vector: the number of movable joints, mimic joints included.
     pub fn dof(&self) -> usize {
         self.movable.len()

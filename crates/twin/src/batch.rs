@@ -74,7 +74,7 @@ fn place(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Vec<f64>, Diag
     for (name, &value) in values {
         let coordinate = robot.find_joint(name).and_then(|joint| robot.coordinate(joint));
         let Some(coordinate) = coordinate else {
-            let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.as_str());
+            let joints = robot.movable_joint_names();
             let message = format!("robot \"{}\" has no moving joint \"{name}\"", robot.name());
             return Err(Diagnostic::error("configurations::unknown_joint", message)
                 .with_help(known_names(name, "joints", joints)));

@@ -326,8 +326,8 @@ fn larger(a: f64, b: f64) -> f64 {
 
 fn named(description: &RobotDescription, q: &[f64]) -> Vec<NamedValue> {
     let robot = &description.robot;
-    let value = |(&joint, &value)| NamedValue { joint: robot.joint(joint).name.clone(), value };
-    robot.movable_joints().iter().zip(q).map(value).collect()
+    let value = |(joint, &value): (&str, _)| NamedValue { joint: joint.to_owned(), value };
+    robot.movable_joint_names().zip(q).map(value).collect()
 }
 
 pub(crate) fn as_map<S: serde::Serializer>(values: &[NamedValue], serializer: S) -> Result<S::Ok, S::Error> {

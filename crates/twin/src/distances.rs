@@ -87,7 +87,7 @@ pub fn distances(
     };
     Ok(DistanceReport {
         robot: robot.name().to_owned(),
-        joints: robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.clone()).collect(),
+        joints: robot.movable_joint_names().map(str::to_owned).collect(),
         pairs: (0..pairs).map(names).collect(),
         results,
     })

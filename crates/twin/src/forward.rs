@@ -136,7 +136,7 @@ pub fn forward(
     }
     Ok(ForwardReport {
         robot: robot.name().to_owned(),
-        joints: robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.clone()).collect(),
+        joints: robot.movable_joint_names().map(str::to_owned).collect(),
         source,
         results,
     })

@@ -55,7 +55,7 @@ pub fn jacobians(
     let at = |q: &Vec<f64>| Ok(Blocks::from(&tree.jacobian(q, link, kind)?));
     Ok(JacobianReport {
         robot: robot.name().to_owned(),
-        joints: robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.clone()).collect(),
+        joints: robot.movable_joint_names().map(str::to_owned).collect(),
         link: robot.link(link).name.clone(),
         kind: match kind {
             JacobianKind::Space => "space",

@@ -60,7 +60,7 @@ impl Names {
         };
         Self {
             links: robot.links().iter().map(|link| link.name.clone()).collect(),
-            joints: robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.clone()).collect(),
+            joints: robot.movable_joint_names().map(str::to_owned).collect(),
             pairs: (0..clearance.pairs().len()).map(pair).collect(),
         }
     }

@@ -84,7 +84,7 @@ fn repeated(name: &Spanned<String>) -> Diagnostic {
 fn joint_named(robot: &Robot, name: &Spanned<String>, unit: Unit) -> Result<JointIndex, Diagnostic> {
     let text = name.get_ref();
     let Some(index) = robot.find_joint(text).filter(|&joint| robot.coordinate(joint).is_some()) else {
-        let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.as_str());
+        let joints = robot.movable_joint_names();
         let message = format!("robot \"{}\" has no moving joint \"{text}\"", robot.name());
         return Err(Diagnostic::error("scenario::unknown_joint", message)
             .with_help(known_names(text, "joints", joints))

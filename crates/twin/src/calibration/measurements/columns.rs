@@ -82,8 +82,7 @@ fn without_unit(name: &str, robot: &Robot) -> Diagnostic {
 }
 
 fn unknown(name: &str, stem: &str, robot: &Robot) -> Diagnostic {
-    let joints: Vec<&str> =
-        robot.movable_joints().iter().map(|&joint| robot.joint(joint).name.as_str()).collect();
+    let joints: Vec<&str> = robot.movable_joint_names().collect();
     let known = joints.into_iter().chain(["x", "y", "z", "qw", "qx", "qy", "qz", "roll", "pitch", "yaw"]);
     let message =
         format!("column \"{name}\" is no joint of robot \"{}\" and no measured quantity", robot.name());
