@@ -35,7 +35,7 @@ fn tip(robot: &Robot) -> LinkIndex {
     robot.find_link("tip").expect("the arm has a tip")
 }
 
-/// Six sines with their cosines by the platform, as the trees take them.
+/// Six sines with their cosines by the platform, as the screws take them.
 #[divan::bench]
 fn six_sine_cosine_pairs(bencher: Bencher<'_, '_>) {
     bencher.bench(|| black_box(Q).map(f64::sin_cos));
@@ -94,6 +94,18 @@ fn serial() -> SerialChain {
 fn serial_to_tip(bencher: Bencher<'_, '_>) {
     let chain = serial();
     bencher.bench(|| chain.base_from_tip(black_box(&Q)));
+}
+
+/// A thousand configurations at once, as many as fit the second cache.
+#[divan::bench]
+fn serial_batch_of_1000(bencher: Bencher<'_, '_>) {
+    const COUNT: usize = 1000;
+    let chain = serial();
+    let configurations: Vec<f64> = (0..6000).map(|at| 3.0 * f64::from(at).sin()).collect();
+    let mut base_from_tips = vec![Pose::identity(); COUNT];
+    bencher.counter(divan::counter::ItemsCount::new(COUNT)).bench_local(|| {
+        chain.base_from_tips_into(black_box(&configurations), black_box(&mut base_from_tips))
+    });
 }
 
 #[divan::bench(args = [JacobianKind::Space, JacobianKind::Geometric, JacobianKind::Body])]

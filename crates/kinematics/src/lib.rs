@@ -22,6 +22,7 @@ mod rotation;
 mod screw_chain;
 mod screw_tree;
 mod sensitivity;
+mod serial_batch;
 mod serial_chain;
 mod serial_steps;
 mod sin_cos;

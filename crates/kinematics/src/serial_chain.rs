@@ -12,12 +12,9 @@ use crate::{
     pose::Pose,
     screw_chain::ScrewChain,
     serial_steps::{Path, Step},
-    sin_cos::{SinCos, SinesCosines},
+    sin_cos::{BLOCK, SinCos, SinesCosines},
     twist::Twist,
 };
-
-/// Joints whose sines are computed together.
-const BLOCK: usize = 8;
 
 /// A chain of joints from one link to another, each reduced to
 /// `Rz(theta + theta' q) T(x, y, d + d' q) Rx(alpha)` between two constants.
@@ -54,11 +51,11 @@ const BLOCK: usize = 8;
 /// ```
 #[derive(Debug, Clone)]
 pub struct SerialChain {
-    rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
     coordinates: Vec<usize>,
-    base_from_first: Axes,
+    pub(crate) base_from_first: Axes,
     /// The turn about the last row's axis that remains.
-    last: SinCos,
+    pub(crate) last: SinCos,
 }
 
 /// One joint and what follows it, up to the next joint's axis.
@@ -191,15 +188,15 @@ impl SerialChain {
             for ((theta_rad, row), q) in theta_rad.iter_mut().zip(block).zip(q) {
                 *theta_rad = row.theta_rad + row.theta_per_q * q;
             }
-            let theta = SinesCosines::of(theta_rad);
+            let theta = SinesCosines::of_block(theta_rad);
             for ((row, theta), q) in block.iter().zip(theta.iter()).zip(q) {
                 each(at, &axes);
                 let shift = row.shift + Vector3::new(0.0, 0.0, row.d_per_q * q);
-                axes = axes.about_z(theta, 0.0).shifted(&shift).about_x(row.alpha, 0.0);
+                axes = axes.turned_about_z(theta).shifted(&shift).turned_about_x(row.alpha);
                 at += 1;
             }
         }
-        axes.about_z(self.last, 0.0)
+        axes.turned_about_z(self.last)
     }
 }
 

@@ -1,8 +1,16 @@
 //! Sine and cosine together, in line and without a branch on the value.
 //!
-//! It serves the tables only: a call to the platform's function costs more than the products of a
-//! row (`benches/forward.rs`), keeps the compiler from overlapping joints, and gives other last bits
-//! on another platform. The trees keep to the platform's, so that a fault here cannot hide in both.
+//! A call to the platform's function costs more than the products of a row (`benches/forward.rs`),
+//! keeps the compiler from overlapping joints, and gives other last bits on another platform. The
+//! screws (`screw_tree.rs`) keep to the platform's, and so does the physics: a fault here cannot
+//! hide in all.
+
+#![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
+
+use pulp::{Arch, Simd, WithSimd};
+
+/// Angles whose sines a chain computes together: joints of one arm.
+pub(crate) const BLOCK: usize = 8;
 
 /// Up to here the angle's multiple of pi/2 is found exactly: 2^20 pi/2. Beyond, the standard
 /// library answers.
@@ -49,7 +57,7 @@ pub(crate) struct SinCos {
 
 impl SinCos {
     /// Of an angle in radians.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of(angle_rad: f64) -> Self {
         if angle_rad.abs() <= LARGEST_RAD {
             Self::of_moderate(angle_rad)
@@ -61,7 +69,7 @@ impl SinCos {
 
     /// The angle less the nearest multiple of pi/2, in two parts; then a polynomial each, then
     /// exchanged and signed by the quadrant.
-    #[inline]
+    #[inline(always)]
     fn of_moderate(angle_rad: f64) -> Self {
         let rounded = angle_rad * std::f64::consts::FRAC_2_PI + ROUNDER;
         let quarters = rounded - ROUNDER;
@@ -82,13 +90,13 @@ impl SinCos {
 /// Sines and cosines of several angles, kept apart: so the compiler computes them in pairs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SinesCosines<const N: usize> {
-    sin: [f64; N],
-    cos: [f64; N],
+    pub(crate) sin: [f64; N],
+    pub(crate) cos: [f64; N],
 }
 
 impl<const N: usize> SinesCosines<N> {
     /// Of angles in radians.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of(angles_rad: [f64; N]) -> Self {
         if angles_rad.iter().all(|angle_rad| angle_rad.abs() <= LARGEST_RAD) {
             Self::of_each(angles_rad, SinCos::of_moderate)
@@ -97,7 +105,7 @@ impl<const N: usize> SinesCosines<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn of_each(angles_rad: [f64; N], each: impl Fn(f64) -> SinCos) -> Self {
         let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
         for ((sin, cos), angle_rad) in sin.iter_mut().zip(&mut cos).zip(angles_rad) {
@@ -108,14 +116,33 @@ impl<const N: usize> SinesCosines<N> {
     }
 
     /// The pairs, in the order of the angles.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn iter(&self) -> impl Iterator<Item = SinCos> {
         self.sin.iter().zip(&self.cos).map(|(&sin, &cos)| SinCos { sin, cos })
     }
 }
 
+impl SinesCosines<BLOCK> {
+    /// Of a block of angles in radians, in the widest vectors that the machine has.
+    #[inline]
+    pub(crate) fn of_block(angles_rad: [f64; BLOCK]) -> Self {
+        Arch::new().dispatch(Block(angles_rad))
+    }
+}
+
+struct Block([f64; BLOCK]);
+
+impl WithSimd for Block {
+    type Output = SinesCosines<BLOCK>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        SinesCosines::of(self.0)
+    }
+}
+
 /// Sine of `x + lost`, `|x| <= pi/4`.
-#[inline]
+#[inline(always)]
 fn kernel_sin(x: f64, lost: f64) -> f64 {
     let [s1, s2, s3, s4, s5, s6] = SINE;
     let xx = x * x;
@@ -125,7 +152,7 @@ fn kernel_sin(x: f64, lost: f64) -> f64 {
 }
 
 /// Cosine of `x + lost`, `|x| <= pi/4`.
-#[inline]
+#[inline(always)]
 fn kernel_cos(x: f64, lost: f64) -> f64 {
     let [c1, c2, c3, c4, c5, c6] = COSINE;
     let xx = x * x;

@@ -8,6 +8,7 @@ use crate::{
     jacobian::{Jacobian, JacobianKind},
     pose::Pose,
     rotation::hat,
+    sin_cos::{BLOCK, SinCos, SinesCosines},
     twist::Twist,
 };
 
@@ -116,8 +117,14 @@ impl UrdfTree {
         KinematicsError::check_joints(self.dof, q)?;
         KinematicsError::check_poses(self.parent_joints.len(), root_from_links)?;
         root_from_links[0] = Pose::identity();
-        for joint in &self.joints {
-            root_from_links[joint.child] = root_from_links[joint.parent] * joint.parent_from_child(q);
+        for block in self.joints.chunks(BLOCK) {
+            let turns = SinesCosines::of_block(std::array::from_fn(|at| {
+                block.get(at).map_or(0.0, |joint| joint.motion.angle_rad(q))
+            }));
+            for (joint, turn) in block.iter().zip(turns.iter()) {
+                let root_from_parent = root_from_links[joint.parent];
+                root_from_links[joint.child] = root_from_parent * joint.parent_from_child(q, turn);
+            }
         }
         Ok(())
     }
@@ -137,14 +144,7 @@ impl UrdfTree {
     /// See [`UrdfTree`].
     pub fn root_from_link(&self, q: &[f64], link: LinkIndex) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
-        let mut above_from_link = Pose::identity();
-        let mut above = link.get();
-        while let Some(joint) = self.parent_joints[above] {
-            let joint = &self.joints[joint];
-            above_from_link = joint.parent_from_child(q) * above_from_link;
-            above = joint.parent;
-        }
-        Ok(above_from_link)
+        Ok(self.visit_up(q, link, |_, _| {}))
     }
 
     /// Pose of one link and the columns of its Jacobian; joints that do not move it get zeros.
@@ -174,20 +174,15 @@ impl UrdfTree {
         KinematicsError::check_columns(self.dof, columns)?;
         columns.fill(Twist::zero());
         // From the link up to the root, as body twists, which need no more than what lies below.
-        let mut above_from_link = Pose::identity();
-        let mut above = link.get();
-        while let Some(joint) = self.parent_joints[above] {
-            let joint = &self.joints[joint];
+        let root_from_link = self.visit_up(q, link, |joint, child_from_link| {
             if let Some((coordinate, twist_in_child)) = joint.motion.twist_in_child() {
-                columns[coordinate] = twist_in_child.seen_from(&above_from_link.inverse());
+                columns[coordinate] = twist_in_child.seen_from(&child_from_link.inverse());
             }
-            above_from_link = joint.parent_from_child(q) * above_from_link;
-            above = joint.parent;
-        }
+        });
         for column in columns {
-            *column = kind.of_body(column, &above_from_link);
+            *column = kind.of_body(column, &root_from_link);
         }
-        Ok(above_from_link)
+        Ok(root_from_link)
     }
 
     /// The Jacobian of one link; [`UrdfTree::jacobian_into`] with a vector of its own.
@@ -230,9 +225,39 @@ impl UrdfTree {
         self.jacobian_into(q, link, kind, &mut columns)?;
         Ok(Jacobian::from_columns(kind, columns))
     }
+
+    /// Climbs from a link to the root, the sines of a block first, so that they are computed
+    /// together; `each` sees a joint and the link's pose in its child. Gives the pose in the root.
+    #[inline]
+    fn visit_up(&self, q: &[f64], link: LinkIndex, mut each: impl FnMut(&TreeJoint, &Pose)) -> Pose {
+        let mut above_from_link = Pose::identity();
+        let mut next = self.parent_joints[link.get()];
+        while next.is_some() {
+            let mut block = [None; BLOCK];
+            for place in &mut block {
+                let Some(index) = next else { break };
+                let joint = &self.joints[index];
+                *place = Some(joint);
+                next = self.parent_joints[joint.parent];
+            }
+            let angle_rad = |joint: Option<&TreeJoint>| joint.map_or(0.0, |joint| joint.motion.angle_rad(q));
+            let turns = SinesCosines::of_block(block.map(angle_rad));
+            for (joint, turn) in block.into_iter().flatten().zip(turns.iter()) {
+                each(joint, &above_from_link);
+                above_from_link = joint.parent_from_child(q, turn) * above_from_link;
+            }
+        }
+        above_from_link
+    }
 }
 
 impl Motion {
+    /// The angle whose sine and cosine the motion needs; 0 where it needs none.
+    #[inline]
+    fn angle_rad(&self, q: &[f64]) -> f64 {
+        if let Self::Turn { coordinate, .. } = self { q[*coordinate] } else { 0.0 }
+    }
+
     /// The coordinate and the twist of one unit of it, in the child's frame.
     #[inline]
     fn twist_in_child(&self) -> Option<(usize, Twist)> {
@@ -270,13 +295,12 @@ impl TreeJoint {
     }
 
     #[inline]
-    fn parent_from_child(&self, q: &[f64]) -> Pose {
+    fn parent_from_child(&self, q: &[f64], turn: SinCos) -> Pose {
         let Pose { rotation, translation } = self.parent_from_joint;
         match &self.motion {
             Motion::Fixed => self.parent_from_joint,
-            Motion::Turn { coordinate, by_sine, by_versine, .. } => {
-                let (sin, cos) = q[*coordinate].sin_cos();
-                let rotation = rotation + by_sine * sin + by_versine * (1.0 - cos);
+            Motion::Turn { by_sine, by_versine, .. } => {
+                let rotation = rotation + by_sine * turn.sin + by_versine * (1.0 - turn.cos);
                 Pose { rotation, translation }
             }
             Motion::Shift { coordinate, axis_in_parent, .. } => {

@@ -9,7 +9,7 @@ mod support;
 use std::path::Path;
 
 use congruent_description::{DhConvention, DhRowKind, Robot, load_robot};
-use congruent_kinematics::{DhChain, Pose, ScrewTree, UrdfTree};
+use congruent_kinematics::{DhChain, Pose, ScrewTree, SerialChain, UrdfTree};
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use serde_json::Value;
 use support::{RowFigures, TableFigures, within};
@@ -127,6 +127,14 @@ fn positions(robot: &Robot, golden: &Value, configuration: &Value) -> Vec<f64> {
     q
 }
 
+#[track_caller]
+fn assert_tree_pose(at: &str, found: &Pose, golden: &Value) {
+    let golden = pose_of_seven(golden);
+    let (distance_m, angle_rad) = (found.distance_m(&golden), found.angle_rad(&golden));
+    assert!(within(distance_m, TREE_M), "{at}: {distance_m:e} m");
+    assert!(within(angle_rad, TREE_RAD), "{at}: {angle_rad:e} rad");
+}
+
 fn assert_trees(name: &str, robot: &Robot, golden: &Value) {
     let (tree, screws) = (UrdfTree::new(robot), ScrewTree::new(robot));
     let mut by_joints = vec![Pose::identity(); robot.links().len()];
@@ -136,14 +144,31 @@ fn assert_trees(name: &str, robot: &Robot, golden: &Value) {
         tree.root_from_links_into(&q, &mut by_joints).expect("lengths are right");
         screws.root_from_links_into(&q, &mut by_screws).expect("lengths are right");
         for (link, pose) in array(&golden["links"]).iter().zip(array(&configuration["poses"])) {
-            let golden = pose_of_seven(pose);
             let link = robot.find_link(text(link)).expect("the robot has the golden's link");
             for (path, found) in [("urdf", &by_joints[link.get()]), ("poe", &by_screws[link.get()])] {
-                let (distance_m, angle_rad) = (found.distance_m(&golden), found.angle_rad(&golden));
-                let at = format!("{name}, {path}, {} at {q:?}", robot.link(link).name);
-                assert!(within(distance_m, TREE_M), "{at}: {distance_m:e} m");
-                assert!(within(angle_rad, TREE_RAD), "{at}: {angle_rad:e} rad");
+                assert_tree_pose(&format!("{name}, {path}, {} at {q:?}", robot.link(link).name), found, pose);
             }
+        }
+    }
+}
+
+/// All configurations of the golden at once, to every link.
+fn assert_batches(name: &str, robot: &Robot, golden: &Value) {
+    let configurations = array(&golden["configs"]);
+    for (at, link) in array(&golden["links"]).iter().enumerate() {
+        let tip = robot.find_link(text(link)).expect("the robot has the golden's link");
+        let chain = SerialChain::from_urdf(robot, (robot.root(), tip));
+        let q: Vec<f64> = configurations
+            .iter()
+            .flat_map(|configuration| {
+                let q = positions(robot, golden, configuration);
+                chain.coordinates().iter().map(move |&coordinate| q[coordinate]).collect::<Vec<_>>()
+            })
+            .collect();
+        let mut root_from_tips = vec![Pose::identity(); configurations.len()];
+        chain.base_from_tips_into(&q, &mut root_from_tips).expect("lengths are right");
+        for (found, configuration) in root_from_tips.iter().zip(configurations) {
+            assert_tree_pose(&format!("{name}, batch to {link}"), found, &configuration["poses"][at]);
         }
     }
 }
@@ -158,5 +183,6 @@ fn trees_against_pinocchio() {
         assert_eq!(description.robot.link(description.robot.root()).name, text(&golden["root_link"]));
         assert_eq!(description.robot.links().len(), array(&golden["links"]).len());
         assert_trees(name, &description.robot, &golden);
+        assert_batches(name, &description.robot, &golden);
     }
 }

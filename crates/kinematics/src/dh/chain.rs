@@ -7,7 +7,7 @@ use super::Axes;
 use crate::{
     error::KinematicsError,
     pose::Pose,
-    sin_cos::{SinCos, SinesCosines},
+    sin_cos::{BLOCK, SinCos, SinesCosines},
 };
 
 /// A table made ready for forward kinematics: constants computed once, joints found once.
@@ -76,9 +76,6 @@ struct Row {
     d_m: f64,
     d_per_q: f64,
 }
-
-/// Rows whose sines are computed together.
-const BLOCK: usize = 8;
 
 impl DhChain {
     /// Prepares a table of `robot`.
@@ -196,7 +193,7 @@ impl DhChain {
             for (theta_rad, row) in theta_rad.iter_mut().zip(block) {
                 *theta_rad = row.theta_rad + row.theta_per_q * q[row.coordinate];
             }
-            let theta = SinesCosines::of(theta_rad);
+            let theta = SinesCosines::of_block(theta_rad);
             for (row, theta) in block.iter().zip(theta.iter()) {
                 let d_m = row.d_m + row.d_per_q * q[row.coordinate];
                 axes = match self.convention {

@@ -43,26 +43,36 @@ impl Axes {
         Pose { rotation, translation: *origin }
     }
 
-    /// Times `Rz(theta) Tz(d)`.
+    /// Times `Rz(theta)`.
     #[inline]
-    pub(crate) fn about_z(&self, theta: SinCos, d_m: f64) -> Self {
+    pub(crate) fn turned_about_z(&self, theta: SinCos) -> Self {
         Self {
             x: self.x * theta.cos + self.y * theta.sin,
             y: self.y * theta.cos - self.x * theta.sin,
-            z: self.z,
-            origin: self.origin + self.z * d_m,
+            ..*self
         }
+    }
+
+    /// Times `Rx(alpha)`.
+    #[inline]
+    pub(crate) fn turned_about_x(&self, alpha: SinCos) -> Self {
+        Self {
+            y: self.y * alpha.cos + self.z * alpha.sin,
+            z: self.z * alpha.cos - self.y * alpha.sin,
+            ..*self
+        }
+    }
+
+    /// Times `Rz(theta) Tz(d)`.
+    #[inline]
+    pub(crate) fn about_z(&self, theta: SinCos, d_m: f64) -> Self {
+        Self { origin: self.origin + self.z * d_m, ..self.turned_about_z(theta) }
     }
 
     /// Times `Tx(a) Rx(alpha)`.
     #[inline]
     pub(crate) fn about_x(&self, alpha: SinCos, a_m: f64) -> Self {
-        Self {
-            x: self.x,
-            y: self.y * alpha.cos + self.z * alpha.sin,
-            z: self.z * alpha.cos - self.y * alpha.sin,
-            origin: self.origin + self.x * a_m,
-        }
+        Self { origin: self.origin + self.x * a_m, ..self.turned_about_x(alpha) }
     }
 
     /// Times `T(shift)`.
