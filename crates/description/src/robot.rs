@@ -282,6 +282,21 @@ impl Robot {
     ///
     /// # Panics
     /// When `qd` is not a configuration vector of this robot.
+    /// # Examples
+    /// ```
+    /// let robot = congruent_description::parse_urdf(
+    ///     r#"<robot name="gripper">
+    ///         <link name="palm"/><link name="left"/><link name="right"/>
+    ///         <joint name="a" type="continuous"><parent link="palm"/><child link="left"/></joint>
+    ///         <joint name="b" type="continuous"><parent link="palm"/><child link="right"/>
+    ///             <mimic joint="a" multiplier="-2" offset="0.5"/></joint>
+    ///     </robot>"#,
+    /// ).unwrap();
+    /// let (mut q, mut qd) = ([0.1, 9.0], [0.1, 9.0]);
+    /// robot.apply_mimic(&mut q);
+    /// robot.apply_mimic_to_speeds(&mut qd);
+    /// assert_eq!((q, qd), ([0.1, 0.3], [0.1, -0.2]));
+    /// ```
     pub fn apply_mimic_to_speeds(&self, qd: &mut [f64]) {
         self.follow_masters(qd, |_| 0.0);
     }
