@@ -32,17 +32,13 @@ impl Golden {
         joints.iter().map(|joint| joint["name"].as_str().expect("a name")).collect()
     }
 
-    /// Writes configurations as a batch for the command.
+    /// Writes configurations as a batch for the command, with speeds where they have some.
     pub(crate) fn write_batch(&self, configurations: &[&Value], path: &Path) {
-        let joints = self.document["joints"].as_array().expect("joints");
-        let by_name = |configuration: &&Value| {
-            let q = configuration["q"].as_array().expect("positions");
-            let named = joints.iter().zip(q);
-            let q: Map<String, Value> = named
-                .map(|(joint, q)| (joint["name"].as_str().expect("a name").to_owned(), q.clone()))
-                .collect();
-            json!({ "q": q })
+        let named = |numbers: &Value| -> Map<String, Value> {
+            let numbers = numbers.as_array().into_iter().flatten().cloned();
+            self.joints().into_iter().map(str::to_owned).zip(numbers).collect()
         };
+        let by_name = |entry: &&Value| json!({ "q": named(&entry["q"]), "v": named(&entry["v"]) });
         let batch: Vec<Value> = configurations.iter().map(by_name).collect();
         fs::write(path, json!(batch).to_string()).expect("a temporary file is written");
     }

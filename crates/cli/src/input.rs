@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, path::PathBuf};
 
 use congruent_description::{Diagnostic, Robot, RobotDescription, load_robot};
-use congruent_twin::{configuration, read_configurations};
+use congruent_twin::{JointState, configuration, read_configurations, read_states};
 
 use crate::{failure::Failure, print::Printer};
 
@@ -44,7 +44,8 @@ impl ChainArguments {
 /// Configurations on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConfigurationArguments {
-    /// A JSON array of {"q": {"joint": value}} in rad and m; joints that are not named are at 0.
+    /// A JSON array of {"q": {"joint": value}} in rad and m, with speeds "v" where they are asked for;
+    /// joints that are not named are at 0.
     #[arg(long, value_name = "FILE", conflicts_with = "at")]
     configurations: Option<PathBuf>,
     /// One joint's position in rad or m; may be given several times.
@@ -67,6 +68,17 @@ impl ConfigurationArguments {
             }
         }
         Ok(vec![configuration(&values, robot)?])
+    }
+
+    /// The same with the speeds of the file.
+    pub(crate) fn read_states(&self, robot: &Robot) -> Result<Vec<JointState>, Failure> {
+        let Some(path) = &self.configurations else {
+            let message = "speeds are read from a file of configurations, and none is given";
+            return Err(Diagnostic::error("cli::speeds", message)
+                .with_help(r#"--configurations FILE with [{"q": {"joint": 0.1}, "v": {"joint": 0.2}}]"#)
+                .into());
+        };
+        Ok(read_states(path, robot)?)
     }
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use clap::ValueEnum;
 use congruent_description::{Diagnostic, known_names};
-use congruent_twin::jacobians::{JacobianKind, JacobianReport, jacobians};
+use congruent_twin::jacobians::{Blocks, JacobianKind, JacobianReport, jacobians, jacobians_in_motion};
 
 use crate::{
     failure::Failure,
@@ -25,6 +25,9 @@ pub(crate) struct Arguments {
     kind: KindArgument,
     #[command(flatten)]
     configurations: ConfigurationArguments,
+    /// Add the time derivative at the speeds "v" of the configurations, in rad/s and m/s.
+    #[arg(long)]
+    derivative: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -58,9 +61,13 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
             Diagnostic::error("jacobian::link", message).with_help(known_names(name, "links", links))
         })?,
     };
-    let configurations = arguments.configurations.read(robot)?;
-    let report = jacobians(robot, link, arguments.kind.into(), &configurations)
-        .map_err(|error| Diagnostic::error("jacobian::configuration", error.to_string()))?;
+    let kind = arguments.kind.into();
+    let report = if arguments.derivative {
+        jacobians_in_motion(robot, link, kind, &arguments.configurations.read_states(robot)?)
+    } else {
+        jacobians(robot, link, kind, &arguments.configurations.read(robot)?)
+    }
+    .map_err(|error| Diagnostic::error("jacobian::configuration", error.to_string()))?;
     printer.result(&report, text)?;
     Ok(0)
 }
@@ -68,14 +75,22 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 fn text(report: &JacobianReport) -> String {
     let mut text =
         format!("{} Jacobian of {}, columns: {}\n", report.kind, report.link, report.joints.join(", "));
-    for (index, blocks) in report.results.iter().enumerate() {
+    for (index, result) in report.results.iter().enumerate() {
         let _ = writeln!(text, "configuration {index}");
-        for (name, block) in [("linear", &blocks.linear), ("angular", &blocks.angular)] {
-            for (row, axis) in block.iter().zip(["x", "y", "z"]) {
-                let figures: Vec<String> = row.iter().map(|figure| format!("{figure:12.9}")).collect();
-                let _ = writeln!(text, "  {name:7} {axis}  {}", figures.join(" "));
-            }
+        rows(&mut text, &result.jacobian);
+        if let Some(derivative) = &result.derivative {
+            let _ = writeln!(text, "  derivative, per s");
+            rows(&mut text, derivative);
         }
     }
     text
+}
+
+fn rows(text: &mut String, blocks: &Blocks) {
+    for (name, block) in [("linear", &blocks.linear), ("angular", &blocks.angular)] {
+        for (row, axis) in block.iter().zip(["x", "y", "z"]) {
+            let figures: Vec<String> = row.iter().map(|figure| format!("{figure:12.9}")).collect();
+            let _ = writeln!(text, "  {name:7} {axis}  {}", figures.join(" "));
+        }
+    }
 }

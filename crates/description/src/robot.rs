@@ -275,11 +275,38 @@ impl Robot {
     /// # Panics
     /// When `q` is not a configuration vector of this robot.
     pub fn apply_mimic(&self, q: &mut [f64]) {
-        assert_eq!(q.len(), self.dof(), "one entry for each movable joint");
+        self.follow_masters(q, |mimic| mimic.offset);
+    }
+
+    /// The same for speeds, which no offset changes.
+    ///
+    /// # Panics
+    /// When `qd` is not a configuration vector of this robot.
+    /// # Examples
+    /// ```
+    /// let robot = congruent_description::parse_urdf(
+    ///     r#"<robot name="gripper">
+    ///         <link name="palm"/><link name="left"/><link name="right"/>
+    ///         <joint name="a" type="continuous"><parent link="palm"/><child link="left"/></joint>
+    ///         <joint name="b" type="continuous"><parent link="palm"/><child link="right"/>
+    ///             <mimic joint="a" multiplier="-2" offset="0.5"/></joint>
+    ///     </robot>"#,
+    /// ).unwrap();
+    /// let (mut q, mut qd) = ([0.1, 9.0], [0.1, 9.0]);
+    /// robot.apply_mimic(&mut q);
+    /// robot.apply_mimic_to_speeds(&mut qd);
+    /// assert_eq!((q, qd), ([0.1, 0.3], [0.1, -0.2]));
+    /// ```
+    pub fn apply_mimic_to_speeds(&self, qd: &mut [f64]) {
+        self.follow_masters(qd, |_| 0.0);
+    }
+
+    fn follow_masters(&self, vector: &mut [f64], constant: fn(&Mimic) -> f64) {
+        assert_eq!(vector.len(), self.dof(), "one entry for each movable joint");
         for (coordinate, &joint) in self.movable.iter().enumerate() {
-            if let Some(Mimic { master, multiplier, offset }) = self.joint(joint).mimic {
-                let master = self.coordinates[master.0].expect("a mimicked joint moves");
-                q[coordinate] = multiplier * q[master] + offset;
+            if let Some(mimic) = &self.joint(joint).mimic {
+                let master = self.coordinates[mimic.master.0].expect("a mimicked joint moves");
+                vector[coordinate] = mimic.multiplier * vector[master] + constant(mimic);
             }
         }
     }

@@ -1,10 +1,13 @@
-//! What one forward kinematics costs, on an arm of six joints with the lengths of a `UR5e`.
+//! What one forward kinematics and its derivatives cost, on an arm of six joints with the lengths of a `UR5e`.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
 
 use congruent_description::{DhConvention, LinkIndex, Robot};
-use congruent_kinematics::{DhChain, JacobianKind, Pose, ScrewTree, SerialChain, Twist, UrdfTree};
+use congruent_kinematics::{
+    DhChain, DhDerivatives, JacobianKind, Pose, ScrewChain, ScrewDerivatives, ScrewTree, SerialChain, Twist,
+    UrdfTree,
+};
 use divan::{Bencher, black_box};
 use support::{RowFigures, TableFigures};
 
@@ -122,4 +125,29 @@ fn urdf_jacobian(bencher: Bencher<'_, '_>) {
     let mut columns = [Twist::zero(); 6];
     let kind = JacobianKind::Geometric;
     bencher.bench_local(|| tree.jacobian_into(black_box(&Q), tip, kind, black_box(&mut columns)));
+}
+
+/// The time derivative of a Jacobian that is there already.
+#[divan::bench(args = [JacobianKind::Space, JacobianKind::Geometric, JacobianKind::Body])]
+fn jacobian_rate(bencher: Bencher<'_, '_>, kind: JacobianKind) {
+    let (mut columns, mut rate) = ([Twist::zero(); 6], [Twist::zero(); 6]);
+    serial().pose_and_jacobian_into(&Q, kind, &mut columns).expect("six joints");
+    bencher.bench_local(|| kind.rate_into(black_box(&columns), black_box(&Q), black_box(&mut rate)));
+}
+
+/// All 36 derivatives by a table of six rows and its two constants.
+#[divan::bench(args = [DhConvention::Standard, DhConvention::Modified])]
+fn dh_derivatives(bencher: Bencher<'_, '_>, convention: DhConvention) {
+    let (_, chain) = arm(convention);
+    let mut derivatives = DhDerivatives::default();
+    bencher.bench_local(|| chain.derivatives_into(black_box(&Q), black_box(&mut derivatives)));
+}
+
+/// All 42 derivatives by six screws and the home pose.
+#[divan::bench]
+fn screw_derivatives(bencher: Bencher<'_, '_>) {
+    let (robot, chain) = arm(DhConvention::Standard);
+    let screws = ScrewChain::from_dh(&chain, robot.dof()).expect("the table's own robot");
+    let mut derivatives = ScrewDerivatives::default();
+    bencher.bench_local(|| screws.derivatives_into(black_box(&Q), black_box(&mut derivatives)));
 }

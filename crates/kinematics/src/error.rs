@@ -28,6 +28,14 @@ pub enum KinematicsError {
         /// Length of the buffer.
         found: usize,
     },
+    /// A Jacobian has no column of this number.
+    #[error("no column {index}: the Jacobian has {count}")]
+    ColumnIndex {
+        /// The column that was asked for, from 0.
+        index: usize,
+        /// Number of coordinates.
+        count: usize,
+    },
     /// Nothing moves between the two ends of an arm.
     #[error("no joint moves between base and tip")]
     NoJoint,
@@ -94,6 +102,10 @@ mod tests {
         assert_eq!(
             KinematicsError::check_columns(7, &[0.0; 6]).unwrap_err().to_string(),
             "room for 6 columns of a Jacobian of 7"
+        );
+        assert_eq!(
+            KinematicsError::ColumnIndex { index: 6, count: 6 }.to_string(),
+            "no column 6: the Jacobian has 6"
         );
         assert_eq!(
             KinematicsError::FrameIndex { index: 9, last: 6 }.to_string(),

@@ -117,8 +117,7 @@ fn block(columns: &[Twist], part: impl Fn(&Twist) -> Vector3<f64>) -> Matrix3xX<
 pub(crate) fn twist_of(columns: &[Twist], qd: &[f64]) -> Twist {
     let mut sum = Twist::zero();
     for (column, &speed) in columns.iter().zip(qd) {
-        sum.angular += column.angular * speed;
-        sum.linear += column.linear * speed;
+        sum += *column * speed;
     }
     sum
 }

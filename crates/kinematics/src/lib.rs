@@ -15,11 +15,13 @@ mod dh;
 mod error;
 mod ik;
 mod jacobian;
+mod jacobian_derivative;
 mod manipulability;
 mod pose;
 mod proof;
 mod rotation;
 mod screw_chain;
+mod screw_derivatives;
 mod screw_tree;
 mod sensitivity;
 mod serial_batch;
@@ -27,6 +29,7 @@ mod serial_chain;
 mod serial_steps;
 mod sin_cos;
 mod twist;
+mod twist_algebra;
 mod uniform;
 mod urdf_tree;
 mod workspace;
@@ -38,8 +41,8 @@ mod support;
 pub use agreement::{Bracket, Budget, Certificate, certify, certify_driven};
 pub use arm::{Arm, ArmJoint};
 pub use dh::{
-    AxisPair, AxisRelation, Choice, DeriveError, DhChain, DhDerivation, DhFrames, FreeChoice, ModifiedDh,
-    NotADhTransform, SerialDh, SerialDhRow, StandardDh, derive_dh,
+    AxisPair, AxisRelation, Choice, DeriveError, DhChain, DhDerivation, DhDerivatives, DhFrames, DhRowTwists,
+    FreeChoice, ModifiedDh, NotADhTransform, SerialDh, SerialDhRow, StandardDh, derive_dh,
 };
 pub use error::KinematicsError;
 pub use ik::{IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
@@ -49,6 +52,7 @@ pub use pose::Pose;
 pub use proof::Proof;
 pub use rotation::{hat, rotation_exp, rotation_log, vee};
 pub use screw_chain::ScrewChain;
+pub use screw_derivatives::ScrewDerivatives;
 pub use screw_tree::ScrewTree;
 pub use sensitivity::{Displacement, Sampling, displacement};
 pub use serial_chain::SerialChain;

@@ -10,7 +10,7 @@ use crate::{
 /// Below this angle the coefficients that cancel are summed as series. The first term left out
 /// weighs 2e-16 of the sum there; above, cancellation costs less than `eps / angle^2` of a
 /// coefficient that is multiplied by `angle^2`.
-const SERIES_BELOW_RAD: f64 = 0.25;
+pub(crate) const SERIES_BELOW_RAD: f64 = 0.25;
 
 /// A generator of rigid motions, or a velocity: turning and shifting, angular first.
 ///
@@ -20,7 +20,7 @@ const SERIES_BELOW_RAD: f64 = 0.25;
 /// |---|---|---|---|
 /// | `angular` | 3 | rad per unit of the scalar | the named one |
 /// | `linear` | 3 | m per unit of the scalar: motion of the point at the origin | the named one |
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Twist {
     /// Turn per unit of the scalar.
     pub angular: Vector3<f64>,
@@ -218,7 +218,7 @@ impl Screw {
 }
 
 /// `(x - sin x) / x^3`, 1/6 at 0.
-fn sine_lag_ratio(x: f64) -> f64 {
+pub(crate) fn sine_lag_ratio(x: f64) -> f64 {
     let xx = x * x;
     if x < SERIES_BELOW_RAD {
         let tail = 1.0 / 362_880.0 - xx / 39_916_800.0;

@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, path::Path};
 use congruent_description::{Diagnostic, Robot, known_names, read_text};
 use serde::Deserialize;
 
-/// How far a given mimic position may be from what its master implies. Kind: digits of the file.
+/// How far a given mimic position or speed may be from what its master implies. Kind: digits of the file.
 const MIMIC_DIGITS: f64 = 1e-9;
 /// Largest file of configurations that is read.
 const MOST_BYTES: u64 = 256 << 20;
@@ -24,12 +24,42 @@ struct Written {
     a: BTreeMap<String, f64>,
 }
 
+/// Where a robot is and how fast it moves: one entry for each movable joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointState {
+    /// Positions in rad and m.
+    pub q: Vec<f64>,
+    /// Speeds in rad/s and m/s.
+    pub qd: Vec<f64>,
+}
+
 /// Reads a file of configurations: a JSON array of `{"q": {joint: value}, ...}` in rad and m,
 /// missing joints 0. The result holds configuration vectors of the robot.
 ///
 /// # Errors
 /// Where the file cannot be read, is no such array, or names an unknown joint.
 pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, Diagnostic> {
+    read(path, robot, |written| configuration(&written.q, robot))
+}
+
+/// The same with the speeds `"v"`, in rad/s and m/s, missing ones 0; those of mimic joints as their
+/// masters imply.
+///
+/// # Errors
+/// As [`read_configurations`], and where a mimic joint is not as fast as its master makes it.
+pub fn read_states(path: &Path, robot: &Robot) -> Result<Vec<JointState>, Diagnostic> {
+    let state = |written: &Written| {
+        let qd = followed(&written.v, robot, Robot::apply_mimic_to_speeds)?;
+        Ok(JointState { q: configuration(&written.q, robot)?, qd })
+    };
+    read(path, robot, state)
+}
+
+fn read<T>(
+    path: &Path,
+    robot: &Robot,
+    vectors: impl Fn(&Written) -> Result<T, Diagnostic>,
+) -> Result<Vec<T>, Diagnostic> {
     let source = read_text(path, MOST_BYTES)?;
     let refused = |error: &serde_json::Error| {
         let offset = offset_of(&source.text, error.line(), error.column());
@@ -39,13 +69,13 @@ pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, 
     };
     let written: Vec<Written> =
         serde_json::from_str(&source.text).map_err(|error| refused(&error).in_file(&source))?;
-    let vector = |(index, entry): (usize, &Written)| {
+    let entry = |(index, entry): (usize, &Written)| {
         for group in [&entry.v, &entry.tau, &entry.a] {
             place(group, robot).map_err(|error| at_index(error, index).in_file(&source))?;
         }
-        configuration(&entry.q, robot).map_err(|error| at_index(error, index).in_file(&source))
+        vectors(entry).map_err(|error| at_index(error, index).in_file(&source))
     };
-    written.iter().enumerate().map(vector).collect()
+    written.iter().enumerate().map(entry).collect()
 }
 
 /// The configuration vector that has these joints at these positions (rad or m), others at 0,
@@ -54,10 +84,19 @@ pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, 
 /// # Errors
 /// Where a joint is unknown, or a mimic joint is not where its master puts it.
 pub fn configuration(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Vec<f64>, Diagnostic> {
-    let mut q = place(values, robot)?;
-    let given = q.clone();
-    robot.apply_mimic(&mut q);
-    for ((&joint, implied), given) in robot.movable_joints().iter().zip(&q).zip(&given) {
+    followed(values, robot, Robot::apply_mimic)
+}
+
+/// Values by name as a vector in which mimic joints follow their masters.
+fn followed(
+    values: &BTreeMap<String, f64>,
+    robot: &Robot,
+    apply_mimic: fn(&Robot, &mut [f64]),
+) -> Result<Vec<f64>, Diagnostic> {
+    let mut vector = place(values, robot)?;
+    let given = vector.clone();
+    apply_mimic(robot, &mut vector);
+    for ((&joint, implied), given) in robot.movable_joints().iter().zip(&vector).zip(&given) {
         let name = &robot.joint(joint).name;
         if values.contains_key(name) && (implied - given).abs() > MIMIC_DIGITS {
             let message =
@@ -66,7 +105,7 @@ pub fn configuration(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Ve
                 .with_help("leave mimic joints out, or give what follows from their master"));
         }
     }
-    Ok(q)
+    Ok(vector)
 }
 
 fn place(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Vec<f64>, Diagnostic> {

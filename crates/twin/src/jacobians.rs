@@ -6,6 +6,8 @@ use congruent_kinematics::{Jacobian, KinematicsError, UrdfTree};
 use nalgebra::Matrix3xX;
 use serde::Serialize;
 
+use crate::batch::JointState;
+
 /// A Jacobian as programs read it: named blocks, since half the field stacks linear first and half
 /// angular first. Columns are in the order of the report's joints.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -26,6 +28,18 @@ fn rows(block: &Matrix3xX<f64>) -> [Vec<f64>; 3] {
     [0, 1, 2].map(|row| block.row(row).iter().copied().collect())
 }
 
+/// One configuration's answer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JacobianResult {
+    /// The Jacobian itself.
+    #[serde(flatten)]
+    pub jacobian: Blocks,
+    /// Its time derivative at the speeds that were given, each entry per s; absent where none was
+    /// asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub derivative: Option<Blocks>,
+}
+
 /// The answer of `congruent jacobian`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct JacobianReport {
@@ -38,7 +52,7 @@ pub struct JacobianReport {
     /// `space`, `body` or `geometric`.
     pub kind: &'static str,
     /// One entry for each configuration, in input order.
-    pub results: Vec<Blocks>,
+    pub results: Vec<JacobianResult>,
 }
 
 /// Jacobians of one link at each configuration, from the URDF chain.
@@ -52,8 +66,41 @@ pub fn jacobians(
     configurations: &[Vec<f64>],
 ) -> Result<JacobianReport, KinematicsError> {
     let tree = UrdfTree::new(robot);
-    let at = |q: &Vec<f64>| Ok(Blocks::from(&tree.jacobian(q, link, kind)?));
-    Ok(JacobianReport {
+    let at = |q: &Vec<f64>| {
+        let jacobian = tree.jacobian(q, link, kind)?;
+        Ok(JacobianResult { jacobian: Blocks::from(&jacobian), derivative: None })
+    };
+    let results = configurations.iter().map(at).collect::<Result<_, KinematicsError>>()?;
+    Ok(report(robot, link, kind, results))
+}
+
+/// Jacobians of one link and their time derivatives, from the URDF chain.
+///
+/// # Errors
+/// [`KinematicsError::JointCount`] for positions or speeds that are none of the robot's.
+pub fn jacobians_in_motion(
+    robot: &Robot,
+    link: LinkIndex,
+    kind: JacobianKind,
+    states: &[JointState],
+) -> Result<JacobianReport, KinematicsError> {
+    let tree = UrdfTree::new(robot);
+    let at = |JointState { q, qd }: &JointState| {
+        let jacobian = tree.jacobian(q, link, kind)?;
+        let derivative = Some(Blocks::from(&jacobian.rate(qd)?));
+        Ok(JacobianResult { jacobian: Blocks::from(&jacobian), derivative })
+    };
+    let results = states.iter().map(at).collect::<Result<_, KinematicsError>>()?;
+    Ok(report(robot, link, kind, results))
+}
+
+fn report(
+    robot: &Robot,
+    link: LinkIndex,
+    kind: JacobianKind,
+    results: Vec<JacobianResult>,
+) -> JacobianReport {
+    JacobianReport {
         robot: robot.name().to_owned(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         link: robot.link(link).name.clone(),
@@ -62,6 +109,6 @@ pub fn jacobians(
             JacobianKind::Body => "body",
             JacobianKind::Geometric => "geometric",
         },
-        results: configurations.iter().map(at).collect::<Result<_, KinematicsError>>()?,
-    })
+        results,
+    }
 }

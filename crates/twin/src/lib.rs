@@ -29,7 +29,7 @@ pub mod scenario;
 pub mod study;
 pub mod verdict;
 
-pub use batch::{configuration, read_configurations};
+pub use batch::{JointState, configuration, read_configurations, read_states};
 pub use configurations::{probe_configurations, random_configurations};
 pub use execute::{ExecuteError, Options, execute};
 pub use run::{Outcome, Run, RunError};

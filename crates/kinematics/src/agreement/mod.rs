@@ -5,7 +5,6 @@
 //! are compared as screws and tip at one generic configuration, which is exact, and a catalogue of
 //! hypotheses is tried on the difference. How far the two are apart at most is the certificate's.
 
-mod algebra;
 mod cause;
 mod certificate;
 mod described;

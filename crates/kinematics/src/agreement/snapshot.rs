@@ -4,7 +4,6 @@
 use nalgebra::Vector3;
 
 use super::{
-    algebra::{NOTHING, bracket, scaled},
     reference::Reference,
     suspect::{Influence, Suspect, Walk},
 };
@@ -40,7 +39,7 @@ impl Viewpoint {
     /// Suspect less target, without unit: six numbers for each joint, then the tip.
     pub(super) fn difference(&self, suspect: &Suspect, walk: &Walk, target: &Snapshot) -> Vec<f64> {
         let mut numbers = Vec::with_capacity(6 * target.twists.len() + 12);
-        let mut twists = vec![NOTHING; target.twists.len()];
+        let mut twists = vec![Twist::zero(); target.twists.len()];
         for (row, twist) in suspect.rows.iter().zip(&walk.row_twists) {
             twists[row.joint] = *twist;
         }
@@ -67,10 +66,10 @@ impl Viewpoint {
             place[3..].copy_from_slice((twist.linear / self.length_m).as_slice());
         };
         for (row, twist) in suspect.rows.iter().zip(&walk.row_twists).skip(*from_row) {
-            put(row.joint, bracket(generator, twist));
+            put(row.joint, generator.bracket(twist));
         }
         if let Some(row) = *grows {
-            put(suspect.rows[row].joint, scaled(&walk.row_twists[row], 1.0 / suspect.rows[row].rate));
+            put(suspect.rows[row].joint, walk.row_twists[row] * (1.0 / suspect.rows[row].rate));
         }
         let Pose { rotation, translation } = &walk.base_from_tip;
         for axis in 0..3 {

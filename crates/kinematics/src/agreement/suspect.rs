@@ -4,9 +4,13 @@
 use congruent_description::{DhConvention, DhRowKind};
 use nalgebra::Vector3;
 
-use super::algebra::scaled;
 use crate::{
-    dh::Axes, pose::Pose, rotation::rotation_exp, screw_chain::ScrewChain, sin_cos::SinCos, twist::Twist,
+    dh::{Axes, DhRowTwists},
+    pose::Pose,
+    rotation::rotation_exp,
+    screw_chain::ScrewChain,
+    sin_cos::SinCos,
+    twist::Twist,
 };
 
 /// An entry of a row.
@@ -125,8 +129,8 @@ pub(super) struct Influence {
 pub(super) struct Walk {
     pub(super) row_twists: Vec<Twist>,
     pub(super) base_from_tip: Pose,
-    /// For each row the frame along whose z the joint acts, and the one along whose x `a` acts.
-    frames: Vec<(Pose, Pose)>,
+    /// For each row what its entries do; a row in screws has `theta` alone.
+    entries: Vec<DhRowTwists>,
     base_from_dhn: Pose,
 }
 
@@ -201,7 +205,7 @@ impl Suspect {
     pub(super) fn walk(&self, q: &[f64]) -> Walk {
         let mut pose = self.base.pose;
         let mut row_twists = Vec::with_capacity(self.rows.len());
-        let mut frames = Vec::with_capacity(self.rows.len());
+        let mut entries = Vec::with_capacity(self.rows.len());
         for row in &self.rows {
             let motion = row.rate * q[row.joint];
             match row.link {
@@ -212,29 +216,26 @@ impl Suspect {
                     };
                     let (theta, alpha) = (SinCos::of(turn), SinCos::of(alpha_rad));
                     let before = Axes::of(&pose);
-                    let (z_frame, x_frame, after) = if self.convention == Some(DhConvention::Modified) {
-                        let middle = before.about_x(alpha, a_m);
-                        (middle.pose(), pose, middle.about_z(theta, slide))
-                    } else {
-                        let middle = before.about_z(theta, slide);
-                        (pose, middle.pose(), middle.about_x(alpha, a_m))
+                    let convention = self.convention.unwrap_or(DhConvention::Standard);
+                    let behind = match convention {
+                        DhConvention::Standard => before.about_z(theta, slide).about_x(alpha, a_m),
+                        DhConvention::Modified => before.about_x(alpha, a_m).about_z(theta, slide),
                     };
-                    let along_z = match kind {
-                        DhRowKind::Revolute => Twist { angular: Vector3::z(), linear: Vector3::zeros() },
-                        DhRowKind::Prismatic => Twist { angular: Vector3::zeros(), linear: Vector3::z() },
-                    };
-                    row_twists.push(scaled(&along_z.seen_from(&z_frame), row.rate));
-                    frames.push((z_frame, x_frame));
-                    pose = after.pose();
+                    let by = DhRowTwists::between(convention, &before, &behind);
+                    let along_z = if kind == DhRowKind::Revolute { by.theta } else { by.d };
+                    row_twists.push(along_z * row.rate);
+                    entries.push(by);
+                    pose = behind.pose();
                 }
                 SuspectLink::Screw { twist, offset } => {
-                    row_twists.push(scaled(&twist.seen_from(&pose), row.rate));
-                    frames.push((pose, pose));
+                    let theta = twist.seen_from(&pose);
+                    row_twists.push(theta * row.rate);
+                    entries.push(DhRowTwists { theta, ..DhRowTwists::default() });
                     pose = pose * twist.exp(offset + motion);
                 }
             }
         }
-        Walk { row_twists, base_from_tip: pose * self.tool.pose, frames, base_from_dhn: pose }
+        Walk { row_twists, base_from_tip: pose * self.tool.pose, entries, base_from_dhn: pose }
     }
 
     /// How a parameter moves the chain at `q`, whose walk is given; `None` where the model does not
@@ -244,23 +245,20 @@ impl Suspect {
         let rigid = |generator, from_row| Some(Influence { generator, from_row, grows: None });
         match parameter {
             Parameter::Row(row, entry) => {
-                let (z_frame, x_frame) = &walk.frames[row];
+                self.entry(row, entry)?;
+                let by = &walk.entries[row];
                 // Behind a modified row's `a` and `alpha` its own axis moves too.
                 let own = usize::from(self.convention != Some(DhConvention::Modified));
-                match (self.rows[row].link, entry) {
-                    (SuspectLink::Dh { .. }, Entry::A) => rigid(unit(0).seen_from(x_frame), row + own),
-                    (SuspectLink::Dh { .. }, Entry::Alpha) => rigid(unit(3).seen_from(x_frame), row + own),
-                    (SuspectLink::Dh { .. }, Entry::D) => rigid(unit(2).seen_from(z_frame), row + 1),
-                    (SuspectLink::Dh { .. }, Entry::Theta) => rigid(unit(5).seen_from(z_frame), row + 1),
-                    (SuspectLink::Screw { twist, .. }, Entry::Theta) => {
-                        rigid(twist.seen_from(z_frame), row + 1)
-                    }
-                    (SuspectLink::Screw { .. }, _) => None,
+                match entry {
+                    Entry::A => rigid(by.a, row + own),
+                    Entry::Alpha => rigid(by.alpha, row + own),
+                    Entry::D => rigid(by.d, row + 1),
+                    Entry::Theta => rigid(by.theta, row + 1),
                 }
             }
             Parameter::Rate(row) => {
                 let share = q[self.rows[row].joint] / self.rows[row].rate;
-                let generator = scaled(&walk.row_twists[row], share);
+                let generator = walk.row_twists[row] * share;
                 Some(Influence { generator, from_row: row + 1, grows: Some(row) })
             }
             Parameter::Base(component) if component < 3 => rigid(unit(component), 0),
@@ -275,12 +273,7 @@ impl Suspect {
 
 /// The twist of one component: shifts along x, y, z, then turns about x, y, z.
 fn unit(component: usize) -> Twist {
-    let axis = Vector3::ith(component % 3, 1.0);
-    if component < 3 {
-        Twist { angular: Vector3::zeros(), linear: axis }
-    } else {
-        Twist { angular: axis, linear: Vector3::zeros() }
-    }
+    Twist::units()[(component + 3) % 6]
 }
 
 /// A declared transform with one component changed: a shift in the frame before it, a turn about

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::{
     calibration::parameter::{Entry, Parameter, turns},
-    dh::DhChain,
+    dh::{Axes, DhChain, DhRowTwists},
     error::KinematicsError,
     pose::Pose,
     screw_chain::ScrewChain,
@@ -61,14 +61,14 @@ pub fn joint_axes(chain: &ScrewChain, joints: &[&str]) -> Vec<Parameter> {
                     name: format!("{joint}.shift_{letter}"),
                     entry: Entry::AxisShift,
                     slot,
-                    generator_in_base: shift(across),
+                    generator_in_base: Twist::shift(across),
                 });
             }
             parameters.push(Parameter {
                 name: format!("{joint}.tilt_{letter}"),
                 entry: Entry::AxisTilt,
                 slot,
-                generator_in_base: turn(across, point),
+                generator_in_base: Twist::turn(across, &point),
             });
         }
     }
@@ -93,14 +93,12 @@ pub fn dh_entries(
     chain.dh_frames_into(&vec![0.0; dof], &mut base_from_dh)?;
     let mut parameters = Vec::with_capacity(5 * rows);
     for (at, (row, joint)) in table.rows.iter().zip(joints).enumerate() {
-        // Where the row turns about z, and where it turns about x: frame and slot.
-        let (about_z, about_x, x_slot, has_neighbour) = match table.convention {
-            DhConvention::Standard => (at, at + 1, at + 1, at + 1 < rows),
-            DhConvention::Modified => (at + 1, at, at, at > 0),
+        let (x_slot, has_neighbour) = match table.convention {
+            DhConvention::Standard => (at + 1, at + 1 < rows),
+            DhConvention::Modified => (at, at > 0),
         };
-        let axis = |frame: usize, column: usize| base_from_dh[frame].rotation.column(column).into_owned();
-        let origin = |frame: usize| base_from_dh[frame].translation;
-        let (x, z) = (axis(about_x, 0), axis(about_z, 2));
+        let (before, behind) = (Axes::of(&base_from_dh[at]), Axes::of(&base_from_dh[at + 1]));
+        let by = DhRowTwists::between(table.convention, &before, &behind);
         let mut push = |entry, word: &str, slot, generator_in_base| {
             parameters.push(Parameter { name: format!("{joint}.{word}"), entry, slot, generator_in_base });
         };
@@ -108,28 +106,22 @@ pub fn dh_entries(
             DhRowKind::Revolute => (Entry::Theta, Entry::D),
             DhRowKind::Prismatic => (Entry::D, Entry::Theta),
         };
-        push(theta, "theta", at + 1, turn(z, origin(about_z)));
-        push(d, "d", at + 1, shift(z));
-        push(Entry::A, "a", x_slot, shift(x));
-        push(Entry::Alpha, "alpha", x_slot, turn(x, origin(about_x)));
+        push(theta, "theta", at + 1, by.theta);
+        push(d, "d", at + 1, by.d);
+        push(Entry::A, "a", x_slot, by.a);
+        push(Entry::Alpha, "alpha", x_slot, by.alpha);
         if has_neighbour && row.alpha_rad.sin().abs() < NEARLY_PARALLEL_SINE {
-            push(Entry::Beta, "beta", x_slot, turn(axis(about_x, 1), origin(about_x)));
+            let frame = &base_from_dh[x_slot];
+            let y = frame.rotation.column(1).into_owned();
+            push(Entry::Beta, "beta", x_slot, Twist::turn(y, &frame.translation));
         }
     }
     Ok(parameters)
 }
 
 fn rigid(base_from_frame: &Pose, of: &str, entry: Entry, slot: usize) -> Vec<Parameter> {
-    let axis = |column: usize| base_from_frame.rotation.column(column).into_owned();
-    let at = base_from_frame.translation;
-    let generators = [
-        shift(axis(0)),
-        shift(axis(1)),
-        shift(axis(2)),
-        turn(axis(2), at),
-        turn(axis(1), at),
-        turn(axis(0), at),
-    ];
+    let [roll, pitch, yaw, x, y, z] = Twist::units().map(|unit| unit.seen_from(base_from_frame));
+    let generators = [x, y, z, yaw, pitch, roll];
     let named = |(word, generator_in_base)| Parameter {
         name: format!("{of}.{word}"),
         entry,
@@ -137,14 +129,6 @@ fn rigid(base_from_frame: &Pose, of: &str, entry: Entry, slot: usize) -> Vec<Par
         generator_in_base,
     };
     RIGID.into_iter().zip(generators).map(named).collect()
-}
-
-fn shift(along: Vector3<f64>) -> Twist {
-    Twist { angular: Vector3::zeros(), linear: along }
-}
-
-fn turn(axis: Vector3<f64>, through: Vector3<f64>) -> Twist {
-    Twist { angular: axis, linear: through.cross(&axis) }
 }
 
 /// Two unit vectors across `axis` and each other, each with the letter of the base's axis that it

@@ -154,8 +154,7 @@ pub(super) struct Linearisation<'a> {
 
 impl<'a> Linearisation<'a> {
     pub(super) fn new(chain: &'a CorrectedChain, p: &'a [f64]) -> Self {
-        let nothing = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
-        Self { chain, p, twists: vec![nothing; p.len()], row: DVector::zeros(p.len()) }
+        Self { chain, p, twists: vec![Twist::zero(); p.len()], row: DVector::zeros(p.len()) }
     }
 }
 

@@ -3,11 +3,12 @@
 
 use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Robot};
 
-use super::Axes;
+use super::{Axes, DhDerivatives, DhRowTwists};
 use crate::{
     error::KinematicsError,
     pose::Pose,
     sin_cos::{BLOCK, SinCos, SinesCosines},
+    twist::Twist,
 };
 
 /// A table made ready for forward kinematics: constants computed once, joints found once.
@@ -181,6 +182,38 @@ impl DhChain {
         let first_from_last =
             self.visit(Axes::of(&Pose::identity()), &self.rows[first..last], q, |_, _| {}).pose();
         Ok(if frames.seen_from <= frames.of { first_from_last } else { first_from_last.inverse() })
+    }
+
+    /// Pose of link `tip`, and its derivative by every figure of the table.
+    ///
+    /// | value | shape | unit | frame |
+    /// |---|---|---|---|
+    /// | `q` | the robot's dof | rad, m | order of [`Robot::movable_joints`] |
+    /// | `derivatives` | n rows | 1 per unit of the figure | base |
+    ///
+    /// It allocates only while `derivatives` is of a shorter table.
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] when `q` is no configuration vector of the robot.
+    /// # Examples
+    /// See [`DhDerivatives`].
+    pub fn derivatives_into(
+        &self,
+        q: &[f64],
+        derivatives: &mut DhDerivatives,
+    ) -> Result<(), KinematicsError> {
+        KinematicsError::check_joints(self.dof, q)?;
+        let DhDerivatives { base_from_tip, by_base_from_dh0, by_rows, by_dhn_from_tip } = derivatives;
+        by_rows.clear();
+        let mut before = Axes::of(&self.base_from_dh0);
+        let base_from_dhn = self.visit(before, &self.rows, q, |_, behind| {
+            by_rows.push(DhRowTwists::between(self.convention, &before, behind));
+            before = *behind;
+        });
+        *base_from_tip = base_from_dhn.times(&self.dhn_from_tip);
+        *by_base_from_dh0 = Twist::units();
+        *by_dhn_from_tip = Twist::units().map(|unit| unit.seen_from(&base_from_dhn.pose()));
+        Ok(())
     }
 
     /// Steps along `rows`, the sines of a block first, so that they are computed together.

@@ -3,6 +3,7 @@
 
 mod chain;
 mod conditions;
+mod derivatives;
 mod derive;
 mod modified;
 mod serial;
@@ -10,6 +11,7 @@ mod standard;
 
 pub use chain::{DhChain, DhFrames};
 pub use conditions::NotADhTransform;
+pub use derivatives::{DhDerivatives, DhRowTwists};
 pub use derive::{AxisPair, AxisRelation, Choice, DeriveError, DhDerivation, FreeChoice, derive_dh};
 pub use modified::ModifiedDh;
 pub use serial::{SerialDh, SerialDhRow};
