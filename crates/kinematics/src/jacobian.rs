@@ -1,7 +1,7 @@
 //! Jacobians: which of the three, and their columns as twists. Robots fill the columns in
-//! `urdf_tree.rs` and `serial_chain.rs`; this file is the only one that lays six numbers in a row.
+//! `urdf_tree.rs` and `serial_chain.rs`; how six numbers stand in a row is `adjoint.rs`.
 
-use nalgebra::{Matrix3xX, Matrix6xX, Vector3};
+use nalgebra::{Matrix3xX, Matrix6xX, Vector3, Vector6};
 
 use crate::{error::KinematicsError, pose::Pose, twist::Twist};
 
@@ -98,8 +98,7 @@ impl Jacobian {
     pub fn matrix(&self) -> Matrix6xX<f64> {
         let mut matrix = Matrix6xX::zeros(self.columns.len());
         for (mut column, twist) in matrix.column_iter_mut().zip(&self.columns) {
-            column.fixed_rows_mut::<3>(0).copy_from(&twist.angular);
-            column.fixed_rows_mut::<3>(3).copy_from(&twist.linear);
+            column.copy_from(&Vector6::from(*twist));
         }
         matrix
     }

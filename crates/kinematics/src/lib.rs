@@ -7,11 +7,13 @@
 //!
 //! Units are metres and radians; `a_from_b` is the pose of frame b in frame a.
 
+mod adjoint;
 pub mod agreement;
 mod arm;
 pub mod calibration;
 mod climb;
 mod dh;
+mod elementary;
 mod error;
 mod ik;
 mod jacobian;
@@ -29,6 +31,7 @@ mod twist;
 mod uniform;
 mod urdf_tree;
 mod workspace;
+mod wrench;
 
 #[cfg(test)]
 #[path = "../tests/support/mod.rs"]
@@ -54,3 +57,4 @@ pub use serial_chain::SerialChain;
 pub use twist::{Screw, Twist};
 pub use urdf_tree::UrdfTree;
 pub use workspace::Workspace;
+pub use wrench::Wrench;
