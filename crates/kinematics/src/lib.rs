@@ -15,6 +15,7 @@ mod climb;
 mod dh;
 mod elementary;
 mod error;
+mod euler;
 mod ik;
 mod jacobian;
 mod manipulability;
@@ -44,6 +45,7 @@ pub use dh::{
     NotADhTransform, SerialDh, SerialDhRow, StandardDh, derive_dh,
 };
 pub use error::KinematicsError;
+pub use euler::{Determined, EulerAngles, EulerSet};
 pub use ik::{IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
 pub use jacobian::{Jacobian, JacobianKind};
 pub use manipulability::{Dexterity, Manipulability, VelocityEllipsoid};
