@@ -5,6 +5,7 @@ use std::fs;
 use crate::{
     command::{congruent_json, text},
     corpus::workspace,
+    golden::numbers,
 };
 
 #[test]
@@ -50,4 +51,39 @@ fn case_21_rrr_arm_gripper_at_the_courses_configuration() {
             assert!((found - expected).abs() < DIGITS_M, "{source} axis {axis}: {found} not {expected}");
         }
     }
+}
+
+/// Reference case 5, on the arm of case 3: the second configuration is one whose product of quaternions
+/// has w < 0. Position and quaternion by mpmath 1.3 with 30 digits, printed with 12.
+#[test]
+fn case_05_joint_states_by_name_in_tcp_out() {
+    /// Golden digits: half a unit of the twelfth decimal, and rounding.
+    const PRINTED: f64 = 5.1e-13;
+    let check = |[joint_1, joint_2, joint_3]: [f64; 3], position: [f64; 3], wxyz: [f64; 4]| {
+        // By name: the order on the command line does not count.
+        let at = [("joint_3", joint_3), ("joint_1", joint_1), ("joint_2", joint_2)]
+            .map(|(joint, degrees)| format!("{joint}={}", degrees.to_radians()));
+        for source in ["dh", "urdf", "poe", "simulation"] {
+            let mut arguments = vec!["fk", "robots/spatial_3r", "--source", source];
+            arguments.extend(at.iter().flat_map(|value| ["--at", value]));
+            let answer = congruent_json(&arguments);
+            assert_eq!(answer.code, 0, "{}", answer.stderr);
+            let tcp = &answer.json()["results"][0]["links"]["tcp"];
+            for (key, expected) in [("translation_m", &position[..]), ("quaternion_wxyz", &wxyz[..])] {
+                for (found, expected) in numbers(&tcp[key]).into_iter().zip(expected) {
+                    assert!((found - expected).abs() < PRINTED, "{source} {key}: {found} not {expected}");
+                }
+            }
+        }
+    };
+    check(
+        [20.0, -30.0, 40.0],
+        [0.885_051_832_295, 0.322_132_522_738, 0.052_094_453_300],
+        [0.683_012_701_892, 0.704_416_026_403, 0.061_628_416_716, 0.183_012_701_892],
+    );
+    check(
+        [160.0, 100.0, -20.0],
+        [-0.265_590_195_119, 0.096_666_925_536, 0.889_365_427_109],
+        [0.353_553_390_593, -0.541_675_220_420, -0.454_519_477_672, -0.612_372_435_696],
+    );
 }
