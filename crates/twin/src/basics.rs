@@ -121,7 +121,9 @@ pub fn basics(
 ) -> Result<Basics, KinematicsError> {
     let robot = &description.robot;
     let witnesses = Witnesses::new(description);
-    let at_zero = witnesses.base_from_tcp(&vec![0.0; robot.dof()])?;
+    let mut zero = vec![0.0; robot.dof()];
+    robot.apply_mimic(&mut zero);
+    let at_zero = witnesses.base_from_tcp(&zero)?;
     let mut basics = Basics {
         base: robot.link(description.base).name.clone(),
         tip: robot.link(description.tip).name.clone(),

@@ -28,9 +28,9 @@ pub enum Source {
 /// A pose as programs read it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ReportedPose {
-    /// Origin in the root link's frame.
+    /// Origin, in the root link's frame where nothing else is said.
     pub translation_m: [f64; 3],
-    /// Orientation in the root link's frame; the first component that is not zero is positive.
+    /// Orientation in the same frame; the first component that is not zero is positive.
     pub quaternion_wxyz: [f64; 4],
 }
 
