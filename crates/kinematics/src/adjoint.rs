@@ -34,8 +34,8 @@ impl Pose {
 impl Twist {
     /// The Lie bracket `[V, W] = ad(V) W`: how `W` changes when it is carried along `V`.
     ///
-    /// Its matrix [`Twist::hat`] is the commutator of the two. Acceleration of joints that move
-    /// together comes from it.
+    /// Its matrix [`Twist::hat`] is the commutator of theirs. A joint's twist changes at this rate while
+    /// the joints before it move by `V`.
     ///
     /// Source: Lynch & Park, *Modern Robotics* (2017), section 8.2.2.
     ///

@@ -47,7 +47,7 @@ pub enum EulerSet {
 
 /// What a rotation says of the first and the last angle of a set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Determined {
+pub enum DeterminedAngles {
     /// Each for itself.
     Both,
     /// Only their sum: the position is singular, and the first is set to zero.
@@ -65,7 +65,7 @@ pub struct EulerAngles {
     /// The same rotation with the middle angle in the other half of the circle.
     pub other_rad: [f64; 3],
     /// Whether the position is singular.
-    pub determined: Determined,
+    pub determined: DeterminedAngles,
     /// How far the middle angle is from the nearest singular position, in `0..=pi/2`. A small error
     /// of the rotation comes back in the first and the last angle divided by its sine.
     pub from_singular_rad: f64,
@@ -166,12 +166,12 @@ impl EulerSet {
     ///
     /// # Examples
     /// ```
-    /// use congruent_kinematics::{Determined, EulerSet};
+    /// use congruent_kinematics::{DeterminedAngles, EulerSet};
     /// let found = EulerSet::Zyz.angles(&EulerSet::Zyz.rotation([0.3, 0.5, -0.2]));
     /// assert!((found.angles_rad[1] - 0.5).abs() < 1e-15 && (found.other_rad[1] + 0.5).abs() < 1e-15);
     /// // Without the middle turn only the sum counts.
     /// let singular = EulerSet::Zyz.angles(&EulerSet::Zyz.rotation([0.3, 0.0, -0.2]));
-    /// assert_eq!((singular.determined, singular.angles_rad[0]), (Determined::Sum, 0.0));
+    /// assert_eq!((singular.determined, singular.angles_rad[0]), (DeterminedAngles::Sum, 0.0));
     /// assert!((singular.angles_rad[2] - 0.1).abs() < 1e-15);
     /// ```
     pub fn angles(self, rotation: &Matrix3<f64>) -> EulerAngles {
@@ -196,13 +196,13 @@ impl EulerSet {
         };
         let from_singular_rad = across.hypot(up).atan2(m(i, last).abs());
         let determined = match (from_singular_rad < singular_below_rad, m(i, last) > 0.0) {
-            (false, _) => Determined::Both,
-            (true, true) => Determined::Sum,
-            (true, false) => Determined::Difference,
+            (false, _) => DeterminedAngles::Both,
+            (true, true) => DeterminedAngles::Sum,
+            (true, false) => DeterminedAngles::Difference,
         };
         let (first, sine) = match determined {
-            Determined::Both => (angle(across, up), across.hypot(up)),
-            Determined::Sum | Determined::Difference => (0.0, 0.0),
+            DeterminedAngles::Both => (angle(across, up), across.hypot(up)),
+            DeterminedAngles::Sum | DeterminedAngles::Difference => (0.0, 0.0),
         };
         // Row j of what remains when the first turn is undone.
         let (sin, cos) = first.sin_cos();

@@ -46,7 +46,7 @@ pub use dh::{
     NotADhTransform, SerialDh, SerialDhRow, StandardDh, derive_dh,
 };
 pub use error::KinematicsError;
-pub use euler::{Determined, EulerAngles, EulerSet};
+pub use euler::{DeterminedAngles, EulerAngles, EulerSet};
 pub use ik::{IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
 pub use jacobian::{Jacobian, JacobianKind};
 pub use manipulability::{Dexterity, Manipulability, VelocityEllipsoid};

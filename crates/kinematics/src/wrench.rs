@@ -33,7 +33,7 @@ impl Wrench {
     /// A force alone, in newtons, on a line through `point`: its moment is `point x force`.
     ///
     /// # Examples
-    /// 10 N downwards, 0.5 m out along x, turn about -y of the negative sense.
+    /// A weight of 10 N, 0.5 m out along x, turns about y.
     /// ```
     /// use congruent_kinematics::Wrench;
     /// use nalgebra::{Point3, Vector3};

@@ -6,14 +6,14 @@ mod support;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use congruent_kinematics::{Determined, EulerAngles, EulerSet, Pose, rotation_exp};
+use congruent_kinematics::{DeterminedAngles, EulerAngles, EulerSet, Pose, rotation_exp};
 use nalgebra::{Matrix3, Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use support::within;
 
 /// Rounding of two products of rotations and of the angles' sines; worst seen 8.4e-16.
 const ROUNDING_RAD: f64 = 4e-15;
-/// What [`Determined::Sum`] and [`Determined::Difference`] leave out at most: the distance from the singular
+/// What [`DeterminedAngles::Sum`] and [`DeterminedAngles::Difference`] leave out at most: the distance from the singular
 /// position, 64 eps, on top of rounding; worst seen 1.2e-14.
 const SINGULAR_RAD: f64 = 2e-14;
 
@@ -88,7 +88,7 @@ fn case_15_all_twelve_sets_against_sympy() {
     for (name, printed) in printed {
         let set: EulerSet = name.parse().unwrap();
         let found = assert_solutions(set, &rotation, ROUNDING_RAD);
-        assert_eq!(found.determined, Determined::Both);
+        assert_eq!(found.determined, DeterminedAngles::Both);
         for (found, printed) in found.angles_rad.into_iter().zip(printed) {
             assert!(within((found - printed).abs(), ROUNDING_RAD), "{set}: {found} for {printed}");
         }
@@ -100,12 +100,12 @@ fn case_15_singular_positions_are_reported_and_the_first_angle_is_zero() {
     let (first, last) = (0.8, -2.1);
     for set in EulerSet::ALL {
         for (middle, determined) in
-            singular_rad(set).into_iter().zip([Determined::Sum, Determined::Difference])
+            singular_rad(set).into_iter().zip([DeterminedAngles::Sum, DeterminedAngles::Difference])
         {
             let found = assert_solutions(set, &set.rotation([first, middle, last]), SINGULAR_RAD);
             assert_eq!(found.determined, determined, "{set} at {middle}");
             assert!(within(found.from_singular_rad, ROUNDING_RAD));
-            let counts = if determined == Determined::Sum { first + last } else { last - first };
+            let counts = if determined == DeterminedAngles::Sum { first + last } else { last - first };
             assert_eq!(found.angles_rad[0].to_bits(), 0.0_f64.to_bits());
             assert!(within(wrapped(found.angles_rad[1] - middle).abs(), ROUNDING_RAD));
             assert!(within(wrapped(found.angles_rad[2] - counts).abs(), ROUNDING_RAD), "{set}: {found:?}");
@@ -118,7 +118,7 @@ fn case_15_the_rotation_that_turns_nothing_has_no_angles() {
     for set in EulerSet::ALL {
         let found = set.angles(&Matrix3::identity());
         assert_eq!(found.angles_rad.map(f64::to_bits), [0.0_f64; 3].map(f64::to_bits), "{set}");
-        let determined = if set.is_proper() { Determined::Sum } else { Determined::Both };
+        let determined = if set.is_proper() { DeterminedAngles::Sum } else { DeterminedAngles::Both };
         assert_eq!(found.determined, determined);
     }
 }
@@ -153,7 +153,7 @@ proptest! {
             let rotation = set.rotation(angles_rad);
             prop_assert!(within(apart_rad(&rotation, &by_quaternions(set, angles_rad)), ROUNDING_RAD));
             let found = set.angles(&rotation);
-            prop_assert_eq!(found.determined, Determined::Both);
+            prop_assert_eq!(found.determined, DeterminedAngles::Both);
             let from_singular_rad = PI * share.min(1.0 - share);
             prop_assert!(within((found.from_singular_rad - from_singular_rad).abs(), ROUNDING_RAD));
             for (found, angle_rad) in found.angles_rad.into_iter().zip(angles_rad) {
@@ -172,8 +172,8 @@ proptest! {
                 let step = 10_f64.powf(exponent) * if beyond { 1.0 } else { -1.0 };
                 let rotation = set.rotation([first, singular + step, last]);
                 let bound_rad = match set.angles(&rotation).determined {
-                    Determined::Both => ROUNDING_RAD,
-                    Determined::Sum | Determined::Difference => SINGULAR_RAD,
+                    DeterminedAngles::Both => ROUNDING_RAD,
+                    DeterminedAngles::Sum | DeterminedAngles::Difference => SINGULAR_RAD,
                 };
                 let found = assert_solutions(set, &rotation, bound_rad);
                 prop_assert!(within((found.from_singular_rad - step.abs()).abs(), ROUNDING_RAD));
