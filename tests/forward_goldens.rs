@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use serde_json::Value;
+
 use crate::{
     command::{congruent_json, text},
     corpus::corpus,
@@ -44,6 +46,41 @@ fn check_source(source: &str) {
         robots += 1;
     }
     assert_eq!(robots, 9);
+}
+
+/// Reference case 6 on real robots: each joint moved alone by 10 degrees or 10 mm, against differences of
+/// Pinocchio's poses.
+#[test]
+fn case_06_which_way_each_joint_moves_the_tip() {
+    let Some(corpus) = corpus() else { return };
+    let mut joints = 0;
+    for entry in fs::read_dir(corpus.join("robots")).unwrap().flatten().filter(|entry| entry.path().is_dir())
+    {
+        let robot = entry.path();
+        let golden = Golden::load(&robot);
+        let answer = congruent_json(&["check", &text(&robot.join("robot.urdf"))]);
+        assert_eq!(answer.code, 0, "{}: {}", robot.display(), answer.stderr);
+        let basics = &answer.json()["basics"];
+        let tip = golden.links().iter().position(|link| basics["tip"] == **link).unwrap();
+        let tip_at = |configuration: &Value| numbers(&configuration["poses"][tip]);
+        let zero = tip_at(golden.configurations(&["zero"])[0]);
+        let moved = golden.configurations(&["axis"]);
+        for motion in basics["joints"].as_array().unwrap() {
+            let joint = golden.joints().iter().position(|joint| motion["joint"] == **joint).unwrap();
+            let alone = moved.iter().find(|configuration| numbers(&configuration["q"])[joint] > 0.0);
+            let golden = tip_at(alone.unwrap());
+            let shift: Vec<f64> =
+                golden.iter().zip(&zero).take(3).map(|(after, before)| after - before).collect();
+            let motion = &motion["motion"]["urdf"];
+            let apart_m = distance_m(&numbers(&motion["shift_m"]), &shift);
+            assert!(apart_m <= POSITION_M, "{} joint {joint}: {apart_m:e} m", robot.display());
+            let turn_rad = distance_m(&numbers(&motion["turn_rad"]), &[0.0; 3]);
+            let off_rad = (turn_rad - angle_rad(&golden[3..], &zero[3..])).abs();
+            assert!(off_rad <= ORIENTATION_RAD, "{} joint {joint}: {off_rad:e} rad", robot.display());
+            joints += 1;
+        }
+    }
+    assert_eq!(joints, 68);
 }
 
 #[test]

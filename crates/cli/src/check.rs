@@ -4,6 +4,7 @@ use std::{fmt::Write, path::PathBuf};
 
 use congruent_description::{Diagnostic, load_robot};
 use congruent_twin::{
+    basics::{Basics, ByWitness},
     certificate::{Brackets, ReportedBracket},
     check::{Agreement, CheckReport, Comparison, check},
     ladder::{Blame, Ladder, ReportedCause},
@@ -26,6 +27,9 @@ pub(crate) struct Arguments {
     /// Seed of the random configurations.
     #[arg(long, default_value_t = 0)]
     seed: u64,
+    /// Show too where the TCP is at zero and which way each joint moves it; JSON always has it.
+    #[arg(long)]
+    basics: bool,
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
@@ -37,6 +41,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
             .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
         reports.push(report);
     }
+    let text = |report: &CheckReport| {
+        let basics = if arguments.basics { basics(&report.basics) } else { String::new() };
+        text(report) + &basics
+    };
     let all_agree = reports.iter().all(|report| report.verdict == Agreement::Agree);
     match &reports[..] {
         [report] => printer.result(report, text)?,
@@ -73,6 +81,54 @@ fn text(report: &CheckReport) -> String {
         diagnosed(&mut text, ladder);
     }
     text
+}
+
+/// What a person tries first.
+fn basics(basics: &Basics) -> String {
+    let mut text = format!("  the TCP on {}, in the axes of {}:\n", basics.tip, basics.base);
+    let width = basics.joints.iter().map(|joint| joint.joint.len()).max().unwrap_or(0);
+    by_witness(&mut text, &format!("{:width$} {:8}", "at zero", ""), &basics.zero, |pose| {
+        let [at, quaternion] = [&pose.translation_m.map(to_mm)[..], &pose.quaternion_wxyz].map(figures);
+        format!("at    {at} mm  quaternion {quaternion}")
+    });
+    for joint in &basics.joints {
+        let by = match joint.unit {
+            "m" => format!("{:+} mm", to_mm(joint.by)),
+            _ => format!("{:+} deg", joint.by.to_degrees().round()),
+        };
+        by_witness(&mut text, &format!("{:width$} {by:>8}", joint.joint), &joint.motion, |motion| {
+            let [shift, turn] = [motion.shift_m.map(to_mm), motion.turn_rad.map(f64::to_degrees)];
+            format!("shift {} mm  turn {} deg", figures(&shift), figures(&turn))
+        });
+    }
+    let _ = writeln!(
+        text,
+        "    at all configurations: R'R - I {:.1e}, det R - 1 {:.1e}, T T^-1 off by {:.1e} m and {:.1e} rad",
+        basics.orthonormality_error, basics.determinant_error, basics.round_trip_m, basics.round_trip_rad
+    );
+    text
+}
+
+/// One line where table and URDF show the same, otherwise one for each.
+fn by_witness<T>(text: &mut String, label: &str, by: &ByWitness<T>, shown: impl Fn(&T) -> String) {
+    let lines: Vec<(&str, String)> = by.named().map(|(witness, value)| (witness, shown(value))).collect();
+    let lines: &[(&str, String)] = match &lines[..] {
+        [(_, table), (_, urdf)] if table == urdf => &[("both", table.clone())],
+        lines => lines,
+    };
+    for (witness, line) in lines {
+        let _ = writeln!(text, "    {label} {witness:5}  {line}");
+    }
+}
+
+/// Three decimals each, and no minus before a zero.
+fn figures(figures: &[f64]) -> String {
+    let rounded = figures.iter().map(|figure| format!("{:9.3}", (figure * 1e3).round() / 1e3 + 0.0));
+    rounded.collect::<Vec<_>>().join(" ")
+}
+
+fn to_mm(metres: f64) -> f64 {
+    metres * 1e3
 }
 
 /// What holds over the whole joint range: a proof, not a sample.

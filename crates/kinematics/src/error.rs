@@ -1,5 +1,7 @@
 //! What a caller of the kinematics can get wrong. Wrong robots are refused where they are read.
 
+use crate::euler::EulerSet;
+
 /// Why figures were refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -57,6 +59,14 @@ pub enum KinematicsError {
         /// Where it ends.
         upper: f64,
     },
+    /// No set of Euler angles has this name.
+    #[error("no set of Euler angles \"{name}\": there are {}", names(known))]
+    EulerSet {
+        /// The name.
+        name: String,
+        /// All sets, nearest first.
+        known: [EulerSet; 12],
+    },
 }
 
 impl KinematicsError {
@@ -85,6 +95,10 @@ impl KinematicsError {
     }
 }
 
+fn names(sets: &[EulerSet]) -> String {
+    sets.iter().map(|set| set.name()).collect::<Vec<_>>().join(", ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -110,6 +124,10 @@ mod tests {
         assert_eq!(
             KinematicsError::FrameIndex { index: 9, last: 6 }.to_string(),
             "no frame dh9: the table's last is dh6"
+        );
+        assert_eq!(
+            "zyw".parse::<EulerSet>().unwrap_err().to_string(),
+            "no set of Euler angles \"zyw\": there are zyx, zyz, xyz, zxy, xyx, zxz, xzy, yxz, yzx, xzx, yxy, yzy"
         );
     }
 }

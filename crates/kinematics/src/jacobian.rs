@@ -1,9 +1,9 @@
 //! Jacobians: which of the three, and their columns as twists. Robots fill the columns in
-//! `urdf_tree.rs` and `serial_chain.rs`; this file is the only one that lays six numbers in a row.
+//! `urdf_tree.rs` and `serial_chain.rs`; how six numbers stand in a row is `adjoint.rs`.
 
-use nalgebra::{Matrix3xX, Matrix6xX, Vector3};
+use nalgebra::{Matrix3xX, Matrix6xX, Vector3, Vector6};
 
-use crate::{error::KinematicsError, pose::Pose, twist::Twist};
+use crate::{error::KinematicsError, pose::Pose, twist::Twist, wrench::Wrench};
 
 /// Which of the three Jacobians of a link is meant. They differ in the axes of a column and in the
 /// point whose velocity its linear part is.
@@ -84,6 +84,29 @@ impl Jacobian {
         Ok(twist_of(&self.columns, qd))
     }
 
+    /// The joint efforts by which the link exerts a wrench when nothing moves: `J^T F`.
+    ///
+    /// | value | shape | unit | frame |
+    /// |---|---|---|---|
+    /// | `wrench` | 6 | N m, N | axes and reference point of [`Jacobian::kind`] |
+    /// | result | dof | N m or N | joints |
+    ///
+    /// Source: Lynch & Park, *Modern Robotics* (2017), eq. 5.26.
+    ///
+    /// # Examples
+    /// A planar arm of 0.6 m and 0.4 m, stretched along x, pushes along y with 10 N.
+    /// ```
+    /// use congruent_kinematics::{Jacobian, JacobianKind, Twist, Wrench};
+    /// use nalgebra::Vector3;
+    /// let about_z = |y: f64| Twist { angular: Vector3::z(), linear: Vector3::new(0., y, 0.) };
+    /// let tip_jacobian = Jacobian::from_columns(JacobianKind::Geometric, vec![about_z(1.0), about_z(0.4)]);
+    /// let push = Wrench { moment: Vector3::zeros(), force: Vector3::new(0., 10., 0.) };
+    /// assert_eq!(tip_jacobian.efforts(&push), [10.0, 4.0]);
+    /// ```
+    pub fn efforts(&self, wrench: &Wrench) -> Vec<f64> {
+        self.columns.iter().map(|column| wrench.power(column)).collect()
+    }
+
     /// The angular rows, 3 x dof, in rad per unit of the coordinate.
     pub fn angular(&self) -> Matrix3xX<f64> {
         block(&self.columns, |column| column.angular)
@@ -98,8 +121,7 @@ impl Jacobian {
     pub fn matrix(&self) -> Matrix6xX<f64> {
         let mut matrix = Matrix6xX::zeros(self.columns.len());
         for (mut column, twist) in matrix.column_iter_mut().zip(&self.columns) {
-            column.fixed_rows_mut::<3>(0).copy_from(&twist.angular);
-            column.fixed_rows_mut::<3>(3).copy_from(&twist.linear);
+            column.copy_from(&Vector6::from(*twist));
         }
         matrix
     }

@@ -7,12 +7,15 @@
 //!
 //! Units are metres and radians; `a_from_b` is the pose of frame b in frame a.
 
+mod adjoint;
 pub mod agreement;
 mod arm;
 pub mod calibration;
 mod climb;
 mod dh;
+mod elementary;
 mod error;
+mod euler;
 mod ik;
 mod jacobian;
 mod jacobian_derivative;
@@ -28,11 +31,13 @@ mod serial_batch;
 mod serial_chain;
 mod serial_steps;
 mod sin_cos;
+mod tool_axes;
 mod twist;
 mod twist_algebra;
 mod uniform;
 mod urdf_tree;
 mod workspace;
+mod wrench;
 
 #[cfg(test)]
 #[path = "../tests/support/mod.rs"]
@@ -45,6 +50,7 @@ pub use dh::{
     FreeChoice, ModifiedDh, NotADhTransform, SerialDh, SerialDhRow, StandardDh, derive_dh,
 };
 pub use error::KinematicsError;
+pub use euler::{DeterminedAngles, EulerAngles, EulerSet};
 pub use ik::{IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
 pub use jacobian::{Jacobian, JacobianKind};
 pub use manipulability::{Dexterity, Manipulability, VelocityEllipsoid};
@@ -56,6 +62,8 @@ pub use screw_derivatives::ScrewDerivatives;
 pub use screw_tree::ScrewTree;
 pub use sensitivity::{Displacement, Sampling, displacement};
 pub use serial_chain::SerialChain;
+pub use tool_axes::{ToolAxes, ToolAxesError};
 pub use twist::{Screw, Twist};
 pub use urdf_tree::UrdfTree;
 pub use workspace::Workspace;
+pub use wrench::Wrench;

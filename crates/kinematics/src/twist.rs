@@ -273,11 +273,24 @@ mod tests {
     fn log_undoes_exp_at_the_ends_of_the_range() {
         let axis = Vector3::new(2.0, -1.0, 2.0) / 3.0;
         let around_series = [SERIES_BELOW_RAD - 1e-9, SERIES_BELOW_RAD, SERIES_BELOW_RAD + 1e-9];
-        for angle in [0.0, 1e-200, 1e-16, 1e-8, 1e-4, 1.0, PI - 1e-4, PI - 1e-8, PI - 1e-14] {
+        for angle in [0.0, 1e-200, 1e-16, 1e-12, 1e-8, 1e-4, 1e-3, 1.0, PI - 1e-4, PI - 1e-9, PI - 1e-14] {
             assert_round_trip(twist(axis * angle));
         }
         for angle in around_series {
             assert_round_trip(twist(axis * angle));
+        }
+    }
+
+    /// At pi itself the turn may come back about the opposite axis: the motion is what counts.
+    #[test]
+    fn exp_undoes_log_at_pi() {
+        for axis in [Vector3::x(), -Vector3::y(), Vector3::z(), Vector3::new(-2.0, 1.0, -2.0) / 3.0] {
+            let half_turn = twist(axis * PI).exp(1.0);
+            let found = Twist::log(&half_turn);
+            assert!(support::within((found.angular.norm() - PI).abs(), ROUNDING_RAD));
+            let back = found.exp(1.0);
+            assert!(support::within(back.angle_rad(&half_turn), ROUNDING_RAD));
+            assert!(support::within(back.distance_m(&half_turn), ROUNDING_M));
         }
     }
 

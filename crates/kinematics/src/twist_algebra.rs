@@ -1,4 +1,5 @@
-//! Twists as vectors: sums, multiples, the Lie bracket, and the derivative of the exponential.
+//! Twists as vectors: sums, multiples, and the derivative of the exponential. Their Lie bracket is in
+//! `adjoint.rs`.
 
 use std::ops::{Add, AddAssign, Mul};
 
@@ -54,27 +55,6 @@ impl Twist {
             0..3 => Self { angular: Vector3::ith(at, 1.0), linear: Vector3::zeros() },
             _ => Self::shift(Vector3::ith(at - 3, 1.0)),
         })
-    }
-
-    /// How `other` changes per unit of this twist while it is carried along: the Lie bracket
-    /// `[V, W] = (w_V x w_W, w_V x v_W + v_V x w_W)`.
-    ///
-    /// Source: Lynch & Park, *Modern Robotics* (2017), definition 8.5.
-    ///
-    /// # Examples
-    /// A turn about z carries a turn about x towards one about y.
-    /// ```
-    /// use congruent_kinematics::Twist;
-    /// let [about_x, about_y, about_z, ..] = Twist::units();
-    /// assert_eq!(about_z.bracket(&about_x), about_y);
-    /// ```
-    #[inline]
-    #[must_use]
-    pub fn bracket(&self, other: &Self) -> Self {
-        Self {
-            angular: self.angular.cross(&other.angular),
-            linear: self.angular.cross(&other.linear) + self.linear.cross(&other.angular),
-        }
     }
 
     /// How the motion `exp([V])` moves when `V` changes at a rate: the twist `V'` with

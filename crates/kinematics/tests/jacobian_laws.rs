@@ -6,16 +6,16 @@ mod support;
 
 use congruent_description::{LinkIndex, Robot};
 use congruent_kinematics::{
-    Jacobian, JacobianKind, KinematicsError, Pose, ScrewChain, SerialChain, Twist, UrdfTree,
+    Jacobian, JacobianKind, KinematicsError, Pose, ScrewChain, SerialChain, Twist, UrdfTree, Wrench,
 };
 use proptest::prelude::*;
 use support::within;
 
-/// Rounding over up to eight joints within 10 m, by two paths; worst seen 4.4e-15, and 5.9e-14 where
+/// Rounding over up to eight joints within 10 m, by two paths; worst seen 4.4e-15, and 6.3e-14 where
 /// the screws were probed.
 const ROUNDING: f64 = 1e-13;
 /// Central difference, h = 2^-10 and Richardson's fourth order: h^4/30 on 10 m is 3e-13, rounding
-/// 10 eps/h is 2e-12; worst seen 1.4e-12.
+/// 10 eps/h is 2e-12; worst seen 2.6e-12.
 const DIFFERENCE: f64 = 1e-11;
 
 fn apart(a: &Twist, b: &Twist) -> f64 {
@@ -76,6 +76,29 @@ proptest! {
                     });
                     let found = space_from(kind, column, &root_from_link);
                     prop_assert!(within(apart(&found, &expected), DIFFERENCE), "{kind:?}: {found:?} {expected:?}");
+                }
+            }
+        }
+    }
+
+    /// The same wrench on the link, in the frame of each kind, takes the same efforts.
+    #[test]
+    fn efforts_do_not_depend_on_the_frame(
+        joints in support::tree(), q in support::positions(), [moment, force] in [support::vector(), support::vector()],
+    ) {
+        let robot = support::robot(joints);
+        let (tree, q, in_link) = (UrdfTree::new(&robot), &q[..robot.dof()], Wrench { moment, force });
+        for link in robot.link_indices() {
+            let root_from_link = tree.root_from_link(q, link).unwrap();
+            let turned = Pose { translation: nalgebra::Vector3::zeros(), ..root_from_link };
+            let efforts = |kind, wrench: Wrench| tree.jacobian(q, link, kind).unwrap().efforts(&wrench);
+            let expected = efforts(JacobianKind::Body, in_link);
+            for found in [
+                efforts(JacobianKind::Space, in_link.seen_from(&root_from_link)),
+                efforts(JacobianKind::Geometric, in_link.seen_from(&turned)),
+            ] {
+                for (found, expected) in found.iter().zip(&expected) {
+                    prop_assert!(within((found - expected).abs(), ROUNDING));
                 }
             }
         }

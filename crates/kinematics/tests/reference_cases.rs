@@ -4,8 +4,11 @@
 mod support;
 
 use congruent_description::{DhConvention, DhRowKind, JointKind, Robot};
-use congruent_kinematics::{DhChain, DhFrames, ModifiedDh, Pose, ScrewTree, StandardDh, UrdfTree};
-use nalgebra::{Isometry3, Matrix3, Point3, UnitQuaternion, Vector3};
+use congruent_kinematics::{
+    DhChain, DhFrames, JacobianKind, ModifiedDh, Pose, Screw, ScrewTree, StandardDh, ToolAxes, ToolAxesError,
+    UrdfTree, hat,
+};
+use nalgebra::{Isometry3, Matrix3, Point3, Unit, Vector3, Vector6};
 use support::{Carried, RowFigures, TableFigures, within};
 
 /// Golden digits: the cases print twelve decimals, so half a unit of the last, and rounding; worst
@@ -167,13 +170,42 @@ fn case_11_the_tool_is_separate_from_the_chain() {
 }
 
 #[test]
+fn case_12_orthonormality_kept_over_long_products() {
+    const PRODUCTS: u32 = 1_000_000;
+    /// Drift: a step is off by eps and a product rounds by as much, all to one side at worst, so n times
+    /// 4 eps; worst seen 1e-10.
+    const DRIFT: f64 = 1e-9;
+    /// The same over the thousand products between two mendings; worst seen 1.1e-13.
+    const KEPT: f64 = 1e-12;
+    let axis = Unit::new_normalize(Vector3::new(0.3, -0.5, 0.8));
+    let screw = Screw::revolute(axis, &Point3::new(0.4, 0.1, -0.2));
+    let step = screw.exp(0.7);
+    let (mut left_alone, mut mended, mut worst_mended) = (Pose::identity(), Pose::identity(), 0.0_f64);
+    for at in 1..=PRODUCTS {
+        (left_alone, mended) = (left_alone * step, mended * step);
+        worst_mended = worst_mended.max(mended.orthonormality_error());
+        if at % 1000 == 0 {
+            mended = mended.orthonormalized().unwrap();
+        }
+    }
+    assert!(within(left_alone.orthonormality_error(), DRIFT));
+    assert!(within((left_alone.determinant() - 1.0).abs(), DRIFT));
+    assert!(within(worst_mended, KEPT));
+    // Mending takes the drift out and leaves the pose where it is.
+    let at_last = left_alone.orthonormalized().unwrap();
+    assert!(within(at_last.orthonormality_error(), ROUNDING));
+    assert!(left_alone.orthonormality_error() > 100.0 * at_last.orthonormality_error());
+    for pose in [left_alone, at_last, mended] {
+        let expected = screw.exp(0.7 * f64::from(PRODUCTS));
+        assert!(within(pose.distance_m(&expected), DRIFT));
+        assert!(within(pose.angle_rad(&expected), DRIFT));
+    }
+}
+
+#[test]
 fn case_14_elementary_transforms() {
-    let shift = |x, y| Pose::from_parts(Matrix3::identity(), Vector3::new(x, y, 0.0));
-    let about_z = |degrees: f64| {
-        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), degrees.to_radians());
-        Pose::from(Isometry3::from_parts(Vector3::zeros().into(), turn))
-    };
-    let (along_y, along_x, turn) = (shift(0.0, 1.0), shift(3.0, 0.0), about_z(90.0));
+    let (along_y, along_x, turn) =
+        (Pose::shift_y(1.0), Pose::shift_x(3.0), Pose::turn_z(90_f64.to_radians()));
     let composed = along_y * along_x * turn;
     assert_rotation(&composed, [0., -1., 0., 1., 0., 0., 0., 0., 1.]);
     assert_position(&composed, [3.0, 1.0, 0.0]);
@@ -184,6 +216,10 @@ fn case_14_elementary_transforms() {
     // About the current frame on the right, about the fixed frame on the left.
     assert_position(&(turn * along_x), [0.0, 3.0, 0.0]);
     assert_position(&(along_x * turn), [3.0, 0.0, 0.0]);
+    let about_current_x = turn * Pose::turn_x(90_f64.to_radians());
+    assert_rotation(&about_current_x, [0., 0., 1., 1., 0., 0., 0., 1., 0.]);
+    let about_fixed_x = Pose::turn_x(90_f64.to_radians()) * turn;
+    assert_rotation(&about_fixed_x, [0., -1., 0., 0., 0., -1., 1., 0., 0.]);
     let point = composed * Point3::new(1.0, 0.0, 0.0);
     assert!(within((point - Point3::new(3.0, 2.0, 0.0)).norm(), ROUNDING));
 }
@@ -204,6 +240,41 @@ fn case_16_between_any_two_frames() {
             }
         }
     }
+}
+
+/// The hand of case 3 by the columns of its printed rotation.
+#[test]
+fn case_19_tool_frame_by_normal_sliding_approach() {
+    /// Golden digits of two printed axes in one product; worst seen 7e-13.
+    const TWO_PRINTED: f64 = 2.0 * PRINTED;
+    let axes = ToolAxes {
+        normal: Vector3::new(0.925_416_578_398, 0.336_824_088_833, 0.173_648_177_667),
+        sliding: Vector3::new(-0.163_175_911_167, -0.059_391_174_614, 0.984_807_753_012),
+        approach: Vector3::new(0.342_020_143_326, -0.939_692_620_786, 0.0),
+    };
+    let origin = Point3::new(0.792_510_174_455, 0.288_450_113_855, 0.034_729_635_533);
+    let (_, chain) = standard(&spatial_3r());
+    let by_table = chain.base_from_tip(&degrees([20.0, -30.0, 40.0])).unwrap();
+    let by_axes = axes.base_from_tool(&origin).unwrap();
+    assert_rotation(&by_axes, by_table.rotation.transpose().as_slice().try_into().unwrap());
+    assert_position(&by_table, by_axes.translation.into());
+    // Approach and sliding alone, of any length: n = s x a.
+    let by_two = ToolAxes::from_approach_and_sliding(axes.approach * 3.0, axes.sliding * 0.02).unwrap();
+    assert!(within((by_two.normal - axes.normal).amax(), TWO_PRINTED));
+    // A mirror image, and a sliding axis that leans by one degree.
+    let mirrored = ToolAxes { normal: axes.sliding, sliding: axes.normal, ..axes };
+    let Err(ToolAxesError::LeftHanded { triple_product }) = mirrored.base_from_tool(&origin) else {
+        panic!("a mirror image is no frame")
+    };
+    assert!(within((triple_product + 1.0).abs(), TWO_PRINTED));
+    let one_degree = 1_f64.to_radians();
+    let leaning = axes.sliding * one_degree.cos() + axes.normal * one_degree.sin();
+    let Err(ToolAxesError::NotPerpendicular { first: "normal", second: "sliding", off_rad }) =
+        (ToolAxes { sliding: leaning, ..axes }).base_from_tool(&origin)
+    else {
+        panic!("leaning axes are no frame")
+    };
+    assert!(within((off_rad - one_degree).abs(), TWO_PRINTED));
 }
 
 #[test]
@@ -262,4 +333,48 @@ fn case_22_joints_go_by_name_not_by_order() {
         UrdfTree::new(&robot).root_from_link(&[0.7, -1.1], left).unwrap()
     });
     assert!(within((by_order[0].angle_rad(&by_order[1]) - 1.8).abs(), ROUNDING));
+}
+
+/// A link that turns about the vertical axis through (L, L, 0), and the point P on it, d away.
+fn turning_link() -> Robot {
+    let (length_m, point_m) = (1.0, 0.4);
+    let pivot = Carried::fixed("link", "base", Isometry3::translation(length_m, length_m, 0.0));
+    support::robot(vec![
+        Carried { kind: JointKind::Continuous, axis_in_joint: Vector3::z_axis(), ..pivot },
+        Carried::fixed("p", "link", Isometry3::translation(point_m, 0.0, 0.0)),
+    ])
+}
+
+#[test]
+fn case_25_position_and_velocity_of_a_point() {
+    let robot = turning_link();
+    let (q, qd, p) = ([30_f64.to_radians()], [1.0], robot.find_link("p").unwrap());
+    let (tree, screws) = (UrdfTree::new(&robot), ScrewTree::new(&robot));
+    for pose in [tree.root_from_link(&q, p).unwrap(), screws.root_from_link(&q, p).unwrap()] {
+        assert_position(&pose, [1.346_410_161_514, 1.2, 0.0]);
+    }
+    let twist = tree.jacobian(&q, p, JacobianKind::Geometric).unwrap().times(&qd).unwrap();
+    let printed = Vector3::new(-0.2, 0.346_410_161_514, 0.0);
+    assert!(within((twist.linear - printed).amax(), PRINTED), "{}", twist.linear);
+    assert_eq!(twist.angular, Vector3::z());
+}
+
+#[test]
+fn case_26_body_twist_and_space_twist() {
+    let robot = turning_link();
+    let link = robot.find_link("link").unwrap();
+    let (tree, q, qd) = (UrdfTree::new(&robot), [30_f64.to_radians()], [1.0]);
+    let twist = |kind| tree.jacobian(&q, link, kind).unwrap().times(&qd).unwrap();
+    let (in_body, in_space) = (twist(JacobianKind::Body), twist(JacobianKind::Space));
+    let printed = |six: [f64; 6]| Vector6::from(six);
+    assert!(within((Vector6::from(in_body) - printed([0., 0., 1., 0., 0., 0.])).amax(), ROUNDING));
+    assert!(within((Vector6::from(in_space) - printed([0., 0., 1., 1., -1., 0.])).amax(), ROUNDING));
+    let space_from_body = tree.root_from_link(&q, link).unwrap();
+    let adjoint = space_from_body.adjoint();
+    assert!(within((adjoint * Vector6::from(in_body) - Vector6::from(in_space)).amax(), ROUNDING));
+    // [p] R stands below: angular first, the linear velocity takes from the turn and not the reverse.
+    let p = space_from_body.translation;
+    assert_eq!(adjoint.fixed_view::<3, 3>(3, 0), hat(&p) * space_from_body.rotation);
+    assert_eq!(adjoint.fixed_view::<3, 3>(0, 3), Matrix3::zeros());
+    assert!(within((in_space.linear + in_space.angular.cross(&p)).norm(), ROUNDING)); // v_s = -w x p
 }

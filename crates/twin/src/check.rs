@@ -8,6 +8,7 @@ use nalgebra::Isometry3;
 use serde::Serialize;
 
 use crate::{
+    basics::{Basics, basics},
     certificate::{Bounds, Brackets, certificate},
     configurations::probe_configurations,
     ladder::{Ladder, ReportedAlternative, ReportedCause, climb},
@@ -98,6 +99,8 @@ pub struct CheckReport {
     pub seed: u64,
     /// Two witnesses at a time.
     pub comparisons: Vec<Comparison>,
+    /// What a person tries first: zero, one axis at a time, whether the transforms are rigid.
+    pub basics: Basics,
     /// How far table and URDF are apart at most, over the whole joint range; of a robot with a table.
     pub certificate: Option<Bounds>,
     /// The same with configurations that come near.
@@ -169,6 +172,7 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
         configurations: configurations.len(),
         seed,
         comparisons,
+        basics: basics(description, &configurations)?,
         certificate: brackets.as_ref().map(Brackets::bounds),
         certificate_bracket: brackets,
         diagnosis: named.map(|ladder| ladder.diagnosis.clone()).unwrap_or_default(),
@@ -320,7 +324,8 @@ impl Tally {
     }
 }
 
-fn larger(a: f64, b: f64) -> f64 {
+/// The larger of two; a NaN is the largest of all.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b <= a { a } else { b }
 }
 

@@ -16,11 +16,7 @@ const AXIS_STEP_M: f64 = 0.01;
 pub fn probe_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Vec<f64>> {
     let joints: Vec<&Joint> = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).collect();
     let mut configurations = vec![vec![0.0; joints.len()]];
-    for (coordinate, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.mimic.is_none()) {
-        let mut q = vec![0.0; joints.len()];
-        q[coordinate] = if joint.kind == JointKind::Prismatic { AXIS_STEP_M } else { AXIS_STEP_RAD };
-        configurations.push(q);
-    }
+    configurations.extend(axis_steps(robot).into_iter().map(|step| step.q));
     configurations.extend(random_configurations(robot, seed, random));
     let middle: Vec<f64> = joints.iter().map(|joint| f64::midpoint(range(joint).0, range(joint).1)).collect();
     for (coordinate, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.mimic.is_none()) {
@@ -37,6 +33,30 @@ pub fn probe_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Vec<
         robot.apply_mimic(q);
     }
     configurations
+}
+
+/// One joint moved alone from zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisStep {
+    /// The joint.
+    pub joint: JointIndex,
+    /// Its position: 10 degrees or 10 mm.
+    pub by: f64,
+    /// The configuration; joints that mimic this one follow it.
+    pub q: Vec<f64>,
+}
+
+/// Each joint that mimics no other moved alone, in the robot's order.
+pub fn axis_steps(robot: &Robot) -> Vec<AxisStep> {
+    let step = |(coordinate, &joint): (usize, &JointIndex)| {
+        let by = if robot.joint(joint).kind == JointKind::Prismatic { AXIS_STEP_M } else { AXIS_STEP_RAD };
+        let mut q = vec![0.0; robot.dof()];
+        q[coordinate] = by;
+        robot.apply_mimic(&mut q);
+        AxisStep { joint, by, q }
+    };
+    let moves_itself = |(_, joint): &(usize, &JointIndex)| robot.joint(**joint).mimic.is_none();
+    robot.movable_joints().iter().enumerate().filter(moves_itself).map(step).collect()
 }
 
 /// Seeded draws within the limits; mimic joints follow their masters.

@@ -8,6 +8,9 @@ use serde::Serialize;
 
 use crate::check::CheckError;
 
+/// The tool center point among links.
+const TCP: &str = "tcp";
+
 /// Which witness answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -25,9 +28,9 @@ pub enum Source {
 /// A pose as programs read it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ReportedPose {
-    /// Origin in the root link's frame.
+    /// Origin, in the root link's frame where nothing else is said.
     pub translation_m: [f64; 3],
-    /// Orientation in the root link's frame; the first component that is not zero is positive.
+    /// Orientation in the same frame; the first component that is not zero is positive.
     pub quaternion_wxyz: [f64; 4],
 }
 
@@ -89,7 +92,7 @@ impl From<ForwardError> for Diagnostic {
     }
 }
 
-/// Poses of all links, or of the table's frames, at each configuration.
+/// Poses of all links and of the declared TCP, or of the table's frames, at each configuration.
 ///
 /// # Errors
 /// [`ForwardError`] where the witness does not exist or refuses the robot.
@@ -103,7 +106,13 @@ pub fn forward(
     let names = || robot.links().iter().map(|link| link.name.clone());
     let mut results = Vec::with_capacity(configurations.len());
     let mut keep = |poses: &[Pose]| {
-        results.push(Poses { links: names().zip(poses.iter().map(ReportedPose::from)).collect() });
+        let mut links: Vec<(String, ReportedPose)> =
+            names().zip(poses.iter().map(ReportedPose::from)).collect();
+        if let Some(tip_from_tcp) = description.tip_from_tcp.filter(|_| robot.find_link(TCP).is_none()) {
+            let root_from_tcp = poses[description.tip.get()] * Pose::from(tip_from_tcp);
+            links.push((TCP.to_owned(), (&root_from_tcp).into()));
+        }
+        results.push(Poses { links });
     };
     match source {
         Source::Urdf => {
@@ -160,7 +169,7 @@ fn by_table(description: &RobotDescription, configurations: &[Vec<f64>]) -> Resu
             .map(|(index, frame)| (format!("dh{index}"), (&(root_from_base * *frame)).into()))
             .collect();
         links.push((robot.link(description.tip).name.clone(), (&root_from_tip).into()));
-        links.push(("tcp".to_owned(), (&(root_from_tip * tip_from_tcp)).into()));
+        links.push((TCP.to_owned(), (&(root_from_tip * tip_from_tcp)).into()));
         Ok(Poses { links })
     };
     configurations.iter().map(|q| at(q).map_err(|error| CheckError::from(error).into())).collect()

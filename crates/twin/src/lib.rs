@@ -1,6 +1,7 @@
 //! Runs a robot's analytical model and its physics twin side by side, compares them at every
 //! sample, checks clearances and limits, reports and records.
 
+pub mod basics;
 mod batch;
 pub mod calibration;
 pub mod certificate;
@@ -30,7 +31,7 @@ pub mod study;
 pub mod verdict;
 
 pub use batch::{JointState, configuration, read_configurations, read_states};
-pub use configurations::{probe_configurations, random_configurations};
+pub use configurations::{AxisStep, axis_steps, probe_configurations, random_configurations};
 pub use execute::{ExecuteError, Options, execute};
 pub use run::{Outcome, Run, RunError};
 pub use sample::{LinkError, Sample};

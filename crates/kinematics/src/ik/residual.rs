@@ -101,6 +101,6 @@ impl TaskFrame {
             TargetPart::Pose => twist.angular,
             TargetPart::Position => nalgebra::Vector3::zeros(),
         };
-        Vector6::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
+        Twist { angular, linear }.into()
     }
 }

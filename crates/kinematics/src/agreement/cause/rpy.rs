@@ -1,28 +1,29 @@
 //! `rpy_order`: roll, pitch and yaw written or read in the other order, in a declared transform of
 //! the model or in one joint of the reference.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use crate::{
     agreement::hypothesis::{Case, Cause, Hypothesis, Place},
-    rotation::rotation_exp,
+    euler::EulerSet,
 };
 
 /// Figures below this make every order the same.
 const NO_TURN_RAD: f64 = 1e-12;
+/// Nearer to a quarter turn of pitch the other two angles are one: files write as few as ten digits.
+const SINGULAR_BELOW_RAD: f64 = 1e-9;
 
 /// What another order makes of a rotation.
 type Reading = fn([f64; 3], &Matrix3<f64>) -> Matrix3<f64>;
 
 /// The same figures in another order, by product, by its reverse, and by the place of the figures.
 const READINGS: [Reading; 3] = [
-    |[roll, pitch, yaw], _| turn(0, roll) * turn(1, pitch) * turn(2, yaw),
+    |rpy, _| EulerSet::Xyz.rotation(rpy),
     |_, rotation| {
-        // Rx(r) Ry(p) Rz(y) is the transpose of Rz(-y) Ry(-p) Rx(-r).
-        let [roll, pitch, yaw] = rpy_of(&rotation.transpose()).map(|angle| -angle);
-        turn(2, yaw) * turn(1, pitch) * turn(0, roll)
+        let [roll, pitch, yaw] = EulerSet::Xyz.angles_singular_below(rotation, SINGULAR_BELOW_RAD).angles_rad;
+        EulerSet::Zyx.rotation([yaw, pitch, roll])
     },
-    |[roll, pitch, yaw], _| turn(2, roll) * turn(1, pitch) * turn(0, yaw),
+    |rpy, _| EulerSet::Zyx.rotation(rpy),
 ];
 
 pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
@@ -54,17 +55,8 @@ fn reread(rotation: &mut Matrix3<f64>, written_rpy_rad: Option<[f64; 3]>, readin
     }
 }
 
-fn turn(axis: usize, angle_rad: f64) -> Matrix3<f64> {
-    rotation_exp(&Vector3::ith(axis, angle_rad))
-}
-
-/// Roll, pitch and yaw about fixed axes; where the pitch is a quarter turn, without yaw.
+/// Roll, pitch and yaw about the fixed axes x, y, z.
 fn rpy_of(rotation: &Matrix3<f64>) -> [f64; 3] {
-    let cos_pitch = rotation[(0, 0)].hypot(rotation[(1, 0)]);
-    let pitch = (-rotation[(2, 0)]).atan2(cos_pitch);
-    if cos_pitch < 1e-9 {
-        return [(-rotation[(1, 2)]).atan2(rotation[(1, 1)]), pitch, 0.0];
-    }
-    let roll = rotation[(2, 1)].atan2(rotation[(2, 2)]);
-    [roll, pitch, rotation[(1, 0)].atan2(rotation[(0, 0)])]
+    let [yaw, pitch, roll] = EulerSet::Zyx.angles_singular_below(rotation, SINGULAR_BELOW_RAD).angles_rad;
+    [roll, pitch, yaw]
 }
