@@ -13,7 +13,7 @@ use crate::{
     recorder::{Recorder, RecordingError},
     sample::{LinkError, Sample},
     scenario::Scenario,
-    verdict::CheckResult,
+    verdict::{CheckResult, Stop},
 };
 
 /// Why a run cannot start or cannot go on.
@@ -41,6 +41,8 @@ pub struct Outcome {
     pub checks: Vec<CheckResult>,
     /// Steps taken.
     pub steps: u64,
+    /// Where a check ended the run before its time.
+    pub stopped: Option<Stop>,
     /// SHA-256 over the joint positions of every sample.
     pub trajectory_sha256: String,
 }
@@ -53,6 +55,7 @@ pub struct Run<'a> {
     controller: Box<dyn Controller>,
     model: Model,
     clearance: Clearance,
+    zones: Clearance,
     names: Names,
     desired_q: Vec<f64>,
     desired_qd: Vec<f64>,
@@ -86,13 +89,15 @@ impl<'a> Run<'a> {
         let mut world = World::new(robot, &settings)?;
         world.set_state(&scenario.start, &vec![0.0; robot.dof()])?;
         let clearance = Clearance::new(&scenario.description, &scenario.obstacles, PairChoice::Usual)?;
+        let zones = clearance.before_zones(&scenario.zones)?;
         Ok(Self {
             scenario,
             world,
             controller: controller(&scenario.controller.kind, scenario.controller.gains)?,
             model: Model::new(&scenario.description)?,
-            names: Names::new(robot, &clearance),
+            names: Names::new(robot, &clearance, &zones),
             clearance,
+            zones,
             desired_q: vec![0.0; robot.dof()],
             desired_qd: vec![0.0; robot.dof()],
             root_from_links: vec![Isometry3::identity(); robot.links().len()],
@@ -135,33 +140,43 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Shows this instant to all checks and to the recorder.
+    /// Shows this instant to all checks and to the recorder; gives the number of the check that ends
+    /// the run here, where one does.
     ///
     /// # Errors
     /// [`RunError::Recording`] when the recorder cannot write.
-    pub fn observe(&mut self, checks: &mut [Check], recorder: &mut dyn Recorder) -> Result<(), RunError> {
+    pub fn observe(
+        &mut self,
+        checks: &mut [Check],
+        recorder: &mut dyn Recorder,
+    ) -> Result<Option<usize>, RunError> {
         self.clearance.move_links(&self.root_from_links);
+        self.zones.move_links(&self.root_from_links);
         let step = self.world.step_count();
         let mut sample = Sample {
             step,
             time_s: self.scenario.simulation.time_s(step),
+            is_last: step >= self.scenario.simulation.steps,
             q: self.world.q(),
             model: self.model.latest(),
             twin: &self.root_from_links,
             errors: &self.errors,
             clearance: &mut self.clearance,
+            zones: &mut self.zones,
         };
-        for check in checks {
+        for check in checks.iter_mut() {
             check.monitor.observe(&mut sample);
         }
+        let stopping = checks.iter().position(Check::stops);
+        sample.is_last |= stopping.is_some();
         for q in sample.q {
             self.hash.update(q.to_le_bytes());
         }
         recorder.record(&mut sample)?;
-        Ok(())
+        Ok(stopping)
     }
 
-    /// Runs to the end. What was found before an error is in the results all the same.
+    /// Runs to the end, or to the first violation of a check that stops the run. What was found before an error is in the results all the same.
     pub fn finish(
         mut self,
         checks: &mut [Check],
@@ -169,24 +184,35 @@ impl<'a> Run<'a> {
         mut progress: impl FnMut(u64),
     ) -> (Outcome, Result<(), RunError>) {
         let end = self.scenario.simulation.steps;
+        let mut stopping = None;
         let mut go = || -> Result<(), RunError> {
             self.compare()?;
-            self.observe(checks, recorder)?;
-            while self.world.step_count() < end {
+            stopping = self.observe(checks, recorder)?;
+            while stopping.is_none() && self.world.step_count() < end {
                 self.step()?;
                 self.compare()?;
-                self.observe(checks, recorder)?;
+                stopping = self.observe(checks, recorder)?;
                 progress(self.world.step_count());
             }
             Ok(())
         };
         let result = go();
+        let mut results: Vec<CheckResult> = checks.iter().map(|check| check.result(&self.names)).collect();
         let outcome = Outcome {
-            checks: checks.iter().map(|check| check.result(&self.names)).collect(),
+            stopped: stopping.map(|index| self.stopped_by(&mut results[index])),
+            checks: results,
             steps: self.world.step_count(),
             trajectory_sha256: hex(&self.hash.finalize()),
         };
         (outcome, result)
+    }
+
+    /// Where the run stands, ended by a check; its result tells people so.
+    fn stopped_by(&self, result: &mut CheckResult) -> Stop {
+        let (step, steps) = (self.world.step_count(), self.scenario.simulation.steps);
+        let time_s = self.scenario.simulation.time_s(step);
+        result.notes.push(format!("stopped the run at {time_s:.3} s, after {step} of {steps} steps"));
+        Stop { check: result.check, line: result.line, step, time_s }
     }
 }
 

@@ -13,7 +13,7 @@ use crate::{
     model::PoseSource,
     run::{Outcome, RunError},
     scenario::Scenario,
-    verdict::{CheckResult, Expectation, Status, Verdict},
+    verdict::{CheckResult, Expectation, Status, Stop, Verdict},
 };
 
 /// The whole report of one scenario.
@@ -35,6 +35,8 @@ pub struct RunReport {
     pub expected: Expectation,
     /// Every check.
     pub checks: Vec<CheckResult>,
+    /// Where a check ended the run before its time: later steps were neither taken nor looked at.
+    pub stopped: Option<Stop>,
     /// Why the run broke off, where it did.
     pub error: Option<String>,
     /// The clock.
@@ -144,6 +146,7 @@ impl RunReport {
             exit_code: verdict.exit_code(),
             expected: scenario.expect.clone(),
             checks,
+            stopped: outcome.stopped,
             error: error.map(ToString::to_string),
             simulation: Clock {
                 step_s: scenario.simulation.step_s,
