@@ -181,6 +181,42 @@ fn case_13_an_answer_to_a_violation_that_is_none() {
 }
 
 #[test]
+fn case_23_a_servo_that_cannot_be() {
+    for (keys, words) in [
+        (
+            "servo_tcp = { xyz_m = [1, 0, 0] }\nmethod = \"inverse\"",
+            ["\"inverse\"", "pseudo_inverse, transpose"],
+        ),
+        ("servo_tcp = { xyz_m = [1, 0, 0] }\ngain_per_s = -1", ["above 0", "-1"]),
+        ("servo_tcp = { xyz_m = [1, 0, nan] }", ["xyz_m", "NaN"]),
+        ("servo_tcp = { xyz = [1, 0, 0] }", ["unknown key \"xyz\"", "did you mean \"xyz_m\"?"]),
+        ("servo_tcp = { xyz_m = [1, 0, 0] }\nprofile = \"cubic\"", ["unknown key \"profile\"", "gain_per_s"]),
+    ] {
+        let bench = Workbench::new();
+        bench.edit("scenario.toml", "move_joints_deg = { joint_1 = 10 }", keys);
+        bench.refused("scenario.toml", 0, &words);
+    }
+    let bench = Workbench::new();
+    let servo = "[[motion]]\nservo_tcp = { xyz_m = [1, 0, 0] }\nduration_s = 0.01\n[[motion]]";
+    bench.edit("scenario.toml", "[[motion]]", servo);
+    bench.refused("scenario.toml", 11, &["where a servo_tcp ends", "another servo_tcp"]);
+}
+
+#[test]
+fn case_23_a_goal_that_cannot_be() {
+    for (keys, words) in [
+        ("position_m = 1e-6", ["missing key \"tcp\"", "tcp"]),
+        ("tcp = { xyz_m = [1, 0, 0] }", ["missing key \"position_m\"", "position_m"]),
+        ("tcp = { rpy_deg = [1, 0, 0] }\nposition_m = 1e-6", ["no `orientation_rad`", "both for a pose"]),
+        ("tcp = {}\nposition_m = 1\norientation_rad = 1", ["the goal has none", "neither for a position"]),
+    ] {
+        let bench = Workbench::new();
+        bench.edit("scenario.toml", "kind = \"agreement\"", &format!("kind = \"goal\"\n{keys}"));
+        bench.refused("scenario.toml", 0, &words);
+    }
+}
+
+#[test]
 fn an_expectation_of_a_check_that_is_not_there() {
     let bench = Workbench::new();
     let scenario = format!("{SCENARIO}[expect]\nverdict = \"fail\"\nchecks = [\"clearance\"]\n");

@@ -20,3 +20,4 @@ mod pairing;
 mod robots;
 mod safety;
 mod scenarios;
+mod servo;

@@ -45,7 +45,7 @@ pub use dh::{
     FreeChoice, ModifiedDh, NotADhTransform, SerialDh, SerialDhRow, StandardDh, derive_dh,
 };
 pub use error::KinematicsError;
-pub use ik::{IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
+pub use ik::{DifferentialMethod, IkChange, IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
 pub use jacobian::{Jacobian, JacobianKind};
 pub use manipulability::{Dexterity, Manipulability, VelocityEllipsoid};
 pub use pose::Pose;

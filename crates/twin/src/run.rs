@@ -9,6 +9,7 @@ use crate::{
     clearance::{Clearance, PairChoice},
     model::Model,
     monitor::{Check, Names},
+    motion::{Guide, Led},
     proximity::ProximityError,
     recorder::{Recorder, RecordingError},
     sample::{LinkError, Sample},
@@ -43,6 +44,8 @@ pub struct Outcome {
     pub steps: u64,
     /// Where a check ended the run before its time.
     pub stopped: Option<Stop>,
+    /// Where each servo has led the tool.
+    pub servos: Vec<Led>,
     /// SHA-256 over the joint positions of every sample.
     pub trajectory_sha256: String,
 }
@@ -57,8 +60,7 @@ pub struct Run<'a> {
     clearance: Clearance,
     zones: Clearance,
     names: Names,
-    desired_q: Vec<f64>,
-    desired_qd: Vec<f64>,
+    guide: Guide<'a>,
     root_from_links: Vec<Isometry3<f64>>,
     errors: Vec<LinkError>,
     hash: Sha256,
@@ -98,8 +100,7 @@ impl<'a> Run<'a> {
             names: Names::new(robot, &clearance, &zones),
             clearance,
             zones,
-            desired_q: vec![0.0; robot.dof()],
-            desired_qd: vec![0.0; robot.dof()],
+            guide: Guide::new(&scenario.trajectory, &scenario.description)?,
             root_from_links: vec![Isometry3::identity(); robot.links().len()],
             errors: vec![LinkError::default(); robot.links().len()],
             hash: Sha256::new(),
@@ -116,15 +117,15 @@ impl<'a> Run<'a> {
         &self.model
     }
 
-    /// One step of physics towards the motion's next point.
+    /// One step of physics towards the motion's next point, which may depend on where the robot is.
     ///
     /// # Errors
-    /// [`SimulationError`] when the physics breaks.
-    pub fn step(&mut self) -> Result<(), SimulationError> {
+    /// [`RunError::Simulation`] when the physics breaks.
+    pub fn step(&mut self) -> Result<(), RunError> {
         let time_s = self.scenario.simulation.time_s(self.world.step_count() + 1);
-        self.scenario.trajectory.reference_into(time_s, &mut self.desired_q, &mut self.desired_qd);
-        let reference = Reference { q: &self.desired_q, qd: &self.desired_qd };
-        self.world.step(&mut *self.controller, &reference)
+        self.guide.advance(time_s, self.world.q())?;
+        let reference = Reference { q: self.guide.q(), qd: self.guide.qd() };
+        Ok(self.world.step(&mut *self.controller, &reference)?)
     }
 
     /// Poses of all links by both witnesses at this instant, and how far they are apart.
@@ -176,7 +177,8 @@ impl<'a> Run<'a> {
         Ok(stopping)
     }
 
-    /// Runs to the end, or to the first violation of a check that stops the run. What was found before an error is in the results all the same.
+    /// Runs to the end, or to the first violation of a check that stops the run. What was found before
+    /// an error is in the results all the same.
     pub fn finish(
         mut self,
         checks: &mut [Check],
@@ -197,23 +199,28 @@ impl<'a> Run<'a> {
             Ok(())
         };
         let result = go();
+        let (servos, result) = match self.guide.finish(self.world.q()) {
+            Ok(servos) => (servos, result),
+            Err(error) => (Vec::new(), result.and(Err(error.into()))),
+        };
+        let steps = self.world.step_count();
         let mut results: Vec<CheckResult> = checks.iter().map(|check| check.result(&self.names)).collect();
         let outcome = Outcome {
-            stopped: stopping.map(|index| self.stopped_by(&mut results[index])),
+            stopped: stopping.map(|index| stopped_by(&mut results[index], self.scenario, steps)),
             checks: results,
-            steps: self.world.step_count(),
+            steps,
+            servos,
             trajectory_sha256: hex(&self.hash.finalize()),
         };
         (outcome, result)
     }
+}
 
-    /// Where the run stands, ended by a check; its result tells people so.
-    fn stopped_by(&self, result: &mut CheckResult) -> Stop {
-        let (step, steps) = (self.world.step_count(), self.scenario.simulation.steps);
-        let time_s = self.scenario.simulation.time_s(step);
-        result.notes.push(format!("stopped the run at {time_s:.3} s, after {step} of {steps} steps"));
-        Stop { check: result.check, line: result.line, step, time_s }
-    }
+/// Where a run stands after `step` steps, ended by a check; its result tells people so.
+fn stopped_by(result: &mut CheckResult, scenario: &Scenario, step: u64) -> Stop {
+    let (time_s, steps) = (scenario.simulation.time_s(step), scenario.simulation.steps);
+    result.notes.push(format!("stopped the run at {time_s:.3} s, after {step} of {steps} steps"));
+    Stop { check: result.check, line: result.line, step, time_s }
 }
 
 fn hex(bytes: &[u8]) -> String {

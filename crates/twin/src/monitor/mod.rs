@@ -2,6 +2,7 @@
 
 mod agreement;
 mod clearance;
+mod goal;
 mod limits;
 mod on_violation;
 mod watch;
@@ -91,6 +92,7 @@ struct Kind {
 const KINDS: &[Kind] = &[
     Kind { name: agreement::NAME, parse: agreement::parse },
     Kind { name: clearance::NAME, parse: clearance::parse },
+    Kind { name: goal::NAME, parse: goal::parse },
     Kind { name: limits::NAME, parse: limits::parse },
     Kind { name: zone::NAME, parse: zone::parse },
 ];

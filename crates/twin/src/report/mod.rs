@@ -11,6 +11,7 @@ pub use junit::{sentence, write_junit};
 
 use crate::{
     model::PoseSource,
+    motion::Led,
     run::{Outcome, RunError},
     scenario::Scenario,
     verdict::{CheckResult, Expectation, Status, Stop, Verdict},
@@ -37,6 +38,9 @@ pub struct RunReport {
     pub checks: Vec<CheckResult>,
     /// Where a check ended the run before its time: later steps were neither taken nor looked at.
     pub stopped: Option<Stop>,
+    /// Where each `servo_tcp` has led the tool.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub servos: Vec<Led>,
     /// Why the run broke off, where it did.
     pub error: Option<String>,
     /// The clock.
@@ -147,6 +151,7 @@ impl RunReport {
             expected: scenario.expect.clone(),
             checks,
             stopped: outcome.stopped,
+            servos: outcome.servos,
             error: error.map(ToString::to_string),
             simulation: Clock {
                 step_s: scenario.simulation.step_s,

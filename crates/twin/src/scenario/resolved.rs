@@ -8,7 +8,10 @@ use nalgebra::Isometry3;
 use toml::{Table, Value};
 
 use super::{Scenario, Zone};
-use crate::{motion::Motion, verdict::Expectation};
+use crate::{
+    motion::{Course, Motion},
+    verdict::Expectation,
+};
 
 pub(super) fn toml(scenario: &Scenario) -> String {
     let robot = &scenario.description.robot;
@@ -95,9 +98,18 @@ fn joints(prefix: &str, robot: &Robot, q: &[f64]) -> Table {
 }
 
 fn motion(robot: &Robot, motion: &Motion) -> Value {
-    let mut section = joints("move_joints", robot, &motion.to);
+    let (mut section, settings) = match &motion.course {
+        Course::Joints(course) => {
+            let profile = ("profile", course.profile.name().into());
+            (joints("move_joints", robot, &course.to), table([profile]))
+        }
+        Course::Servo(servo) => (
+            table([("servo_tcp", servo.written.to_table().into())]),
+            table([("method", servo.method.name().into()), ("gain_per_s", servo.gain_per_s.into())]),
+        ),
+    };
     section.insert("duration_s".to_owned(), motion.duration_s.into());
-    section.insert("profile".to_owned(), motion.profile.name().into());
+    section.extend(settings);
     Value::Table(section)
 }
 
