@@ -89,7 +89,7 @@ fn run(servo: &Servo<'_>) -> Reached {
          [[check]]\nkind = \"agreement\"\nposition_m = 1e-9\norientation_rad = 1e-9\n\
          [[check]]\nkind = \"limits\"\n\
          [[check]]\nkind = \"goal\"\ntcp = {{}}\nposition_m = 100\n",
-        robot = workspace().join("robots/rrr_arm"),
+        robot = text(&workspace().join("robots/rrr_arm")),
         joints = joints.collect::<Vec<_>>().join(", "),
         controller = servo.controller,
         target = inline(&servo.target),
@@ -133,7 +133,7 @@ fn left_m(reached: &Reached, target_m: &[f64]) -> f64 {
 fn case_23_to_the_courses_position_step_by_step() {
     for method in METHODS {
         for controller in [COMPENSATED, PLAYED_BACK] {
-            let reached = run(&Servo { method, controller, ..Servo::default() });
+            let reached = run(&Servo { controller, method, ..Servo::default() });
             let left_m = left_m(&reached, &TARGET_M);
             assert!(left_m < LEFT_M, "{method}, {controller}: {left_m:e} m left");
             let told_m = reached.servo["position_m"].as_f64().unwrap();

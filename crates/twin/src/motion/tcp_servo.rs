@@ -2,9 +2,10 @@
 //! kinematics in the loop: at every step of the simulation the error and the Jacobian are those of
 //! the measured joint positions. There is no plan, so where it ends is known only in the run.
 //!
-//! What the loop adjusts is the reference of the joints' controller. It follows the error and is
-//! not set to the measured positions, so that an arm that sags under its controller is brought to
-//! the target all the same.
+//! What the loop adjusts is the reference of the joints' controller. It adds up what the error asks
+//! for and does not start from the measured positions, so that an arm that sags under its controller
+//! is brought to the target all the same. For the same reason it is asked for more and more, up to
+//! its limits, where an obstacle keeps it from following: checks see that, the servo does not.
 
 use congruent_description::{Diagnostic, Robot, RobotDescription, WrittenTransform};
 use congruent_kinematics::{
