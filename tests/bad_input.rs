@@ -129,6 +129,93 @@ fn an_obstacle_that_cannot_be() {
     }
 }
 
+const ZONE: &str = "[[check]]\nkind = \"zone\"\n[[zone]]\nname = \"a\"\n";
+
+#[test]
+fn case_13_a_zone_that_cannot_be() {
+    for (keys, words) in [
+        ("links = [\"*\"]", ["zone \"a\" has not exactly one shape", "box_m"]),
+        ("links = [\"*\"]\nbox_m = [1, -1, 1]", ["above 0", "-1"]),
+        ("links = [\"*\"]\nbox_m = [1, 1, 1]\nxyz_m = [0, 1e9, 0]", ["zone \"a\"", "large or far"]),
+        ("links = [\"link_11\"]\nbox_m = [1, 1, 1]", ["no link \"link_11\"", "did you mean \"link_1\"?"]),
+        ("links = [\"l*9\"]\nbox_m = [1, 1, 1]", ["no moving link with a collision shape \"l*9\"", "link_2"]),
+        ("links = [\"tip\"]\nbox_m = [1, 1, 1]", ["\"tip\" has no collision shape", "link_1"]),
+        ("links = [\"base*\"]\nbox_m = [1, 1, 1]", ["no moving link", "base_link"]),
+        ("links = \"link_1\"\nbox_m = [1, 1, 1]", ["`links` is an array of strings", "found string"]),
+        ("links = [1]\nbox_m = [1, 1, 1]", ["`links` is an array of strings", "found integer"]),
+        ("links = []\nbox_m = [1, 1, 1]", ["forbidden to no link", "links = [\"*\"]"]),
+        ("link = [\"*\"]\nbox_m = [1, 1, 1]", ["forbidden to no link", "unknown key \"link\""]),
+    ] {
+        let bench = Workbench::new();
+        bench.edit("scenario.toml", "[[check]]", &format!("{ZONE}{keys}\n[[check]]"));
+        bench.refused("scenario.toml", 0, &words);
+    }
+    let bench = Workbench::new();
+    let two = format!("{ZONE}links = [\"*\"]\nbox_m = [1, 1, 1]\n{}", &ZONE[ZONE.find("[[z").unwrap()..]);
+    bench.edit("scenario.toml", "[[check]]", &format!("{two}links = [\"*\"]\nbox_m = [1, 1, 1]\n[[check]]"));
+    bench.refused("scenario.toml", 17, &["two zones are named \"a\""]);
+}
+
+#[test]
+fn case_13_zones_and_their_check_go_together() {
+    let bench = Workbench::new();
+    bench.edit("scenario.toml", "kind = \"agreement\"", "kind = \"zone\"");
+    bench.refused("scenario.toml", 11, &["nothing to look at", "[[zone]]"]);
+    let bench = Workbench::new();
+    let zone = &ZONE[ZONE.find("[[z").unwrap()..];
+    bench.edit("scenario.toml", "[[check]]", &format!("{zone}links = [\"*\"]\nbox_m = [1, 1, 1]\n[[check]]"));
+    bench.refused("scenario.toml", 11, &["nothing watches the zones", "kind = \"zone\""]);
+}
+
+#[test]
+fn case_13_an_answer_to_a_violation_that_is_none() {
+    for (key, words) in [
+        ("on_violation = \"halt\"", ["unknown answer to a violation \"halt\"", "continue, stop"]),
+        ("on_violation = true", ["`on_violation` is a string", "found boolean"]),
+        ("on_violaton = \"stop\"", ["unknown key \"on_violaton\"", "of every check: kind, on_violation"]),
+    ] {
+        let bench = Workbench::new();
+        bench.edit("scenario.toml", "kind = \"agreement\"", &format!("kind = \"agreement\"\n{key}"));
+        bench.refused("scenario.toml", 13, &words);
+    }
+}
+
+#[test]
+fn case_23_a_servo_that_cannot_be() {
+    for (keys, words) in [
+        (
+            "servo_tcp = { xyz_m = [1, 0, 0] }\nmethod = \"inverse\"",
+            ["\"inverse\"", "pseudo_inverse, transpose"],
+        ),
+        ("servo_tcp = { xyz_m = [1, 0, 0] }\ngain_per_s = -1", ["above 0", "-1"]),
+        ("servo_tcp = { xyz_m = [1, 0, nan] }", ["xyz_m", "NaN"]),
+        ("servo_tcp = { xyz = [1, 0, 0] }", ["unknown key \"xyz\"", "did you mean \"xyz_m\"?"]),
+        ("servo_tcp = { xyz_m = [1, 0, 0] }\nprofile = \"cubic\"", ["unknown key \"profile\"", "gain_per_s"]),
+    ] {
+        let bench = Workbench::new();
+        bench.edit("scenario.toml", "move_joints_deg = { joint_1 = 10 }", keys);
+        bench.refused("scenario.toml", 0, &words);
+    }
+    let bench = Workbench::new();
+    let servo = "[[motion]]\nservo_tcp = { xyz_m = [1, 0, 0] }\nduration_s = 0.01\n[[motion]]";
+    bench.edit("scenario.toml", "[[motion]]", servo);
+    bench.refused("scenario.toml", 11, &["where a servo_tcp ends", "another servo_tcp"]);
+}
+
+#[test]
+fn case_23_a_goal_that_cannot_be() {
+    for (keys, words) in [
+        ("position_m = 1e-6", ["missing key \"tcp\"", "tcp"]),
+        ("tcp = { xyz_m = [1, 0, 0] }", ["missing key \"position_m\"", "position_m"]),
+        ("tcp = { rpy_deg = [1, 0, 0] }\nposition_m = 1e-6", ["no `orientation_rad`", "both for a pose"]),
+        ("tcp = {}\nposition_m = 1\norientation_rad = 1", ["the goal has none", "neither for a position"]),
+    ] {
+        let bench = Workbench::new();
+        bench.edit("scenario.toml", "kind = \"agreement\"", &format!("kind = \"goal\"\n{keys}"));
+        bench.refused("scenario.toml", 0, &words);
+    }
+}
+
 #[test]
 fn an_expectation_of_a_check_that_is_not_there() {
     let bench = Workbench::new();

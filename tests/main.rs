@@ -18,4 +18,6 @@ mod golden;
 mod jacobian_goldens;
 mod pairing;
 mod robots;
+mod safety;
 mod scenarios;
+mod servo;

@@ -31,6 +31,7 @@ fn passes(scenario: &str) {
     let out = tempfile::tempdir().unwrap();
     let report = report(scenario, out.path());
     assert_eq!(report["verdict"], "as_expected");
+    assert!(report["stopped"].is_null());
     for kind in ["agreement", "clearance", "limits"] {
         assert_eq!(check(&report, kind)["status"], "pass", "{kind}");
         assert_eq!(check(&report, kind)["samples"], report["simulation"]["steps"].as_u64().unwrap() + 1);
@@ -59,6 +60,11 @@ fn ur5e_pick_passes() {
 #[test]
 fn panda_reach_passes() {
     passes("panda_reach");
+}
+
+#[test]
+fn case_13_beside_a_zone_nothing_stops() {
+    passes("ur5e_beside_zone");
 }
 
 #[test]

@@ -263,6 +263,9 @@ fn described(report: &RunReport) -> String {
     if let Some(error) = &report.error {
         let _ = writeln!(text, "  {error}");
     }
+    for servo in &report.servos {
+        let _ = writeln!(text, "  motion {}   {servo}", servo.motion);
+    }
     for check in &report.checks {
         checked(&mut text, check);
     }

@@ -18,7 +18,7 @@ const QUATERNION_NORM: f64 = 1e-6;
 const ORTHONORMAL: f64 = 1e-9;
 
 /// A transform as written; identity where nothing is given.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WrittenTransform {
     /// Translation in metres.
@@ -42,6 +42,37 @@ pub struct WrittenTransform {
 }
 
 impl WrittenTransform {
+    /// Whether a rotation is written, be it the identity.
+    pub fn has_rotation(&self) -> bool {
+        let Self { xyz_m: _, xyz_mm: _, rpy_rad, rpy_deg, quaternion_wxyz, matrix } = self;
+        rpy_rad.is_some() || rpy_deg.is_some() || quaternion_wxyz.is_some() || matrix.is_some()
+    }
+
+    /// The keys again, as they were written.
+    pub fn to_table(&self) -> toml::Table {
+        fn numbers(numbers: &[f64]) -> toml::Value {
+            numbers.iter().map(|&number| toml::Value::Float(number)).collect::<Vec<_>>().into()
+        }
+        let vector = |key: &str, vector: Option<&Spanned<[f64; 3]>>| {
+            vector.map(|vector| (key.to_owned(), numbers(vector.get_ref())))
+        };
+        let quaternion = self
+            .quaternion_wxyz
+            .as_ref()
+            .map(|entries| ("quaternion_wxyz".to_owned(), numbers(entries.get_ref())));
+        let matrix = self.matrix.as_ref().map(|rows| {
+            let rows = rows.get_ref().iter().map(|row| numbers(row));
+            ("matrix".to_owned(), rows.collect::<Vec<_>>().into())
+        });
+        let vectors = [
+            vector("xyz_m", self.xyz_m.as_ref()),
+            vector("xyz_mm", self.xyz_mm.as_ref()),
+            vector("rpy_rad", self.rpy_rad.as_ref()),
+            vector("rpy_deg", self.rpy_deg.as_ref()),
+        ];
+        vectors.into_iter().chain([quaternion, matrix]).flatten().collect()
+    }
+
     /// The transform.
     ///
     /// # Errors
@@ -163,6 +194,25 @@ mod tests {
     fn rpy_turns_about_fixed_axes() {
         // x, then y: (0, 1, 0) goes to z by the first turn, to x by the second.
         check("rpy_deg = [90, 90, 0]", Point3::new(0.0, 1.0, 0.0), Point3::new(1.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn what_was_written_is_written_again() {
+        for text in [
+            "",
+            "xyz_m = [1.0, 2.0, 3.0]\nrpy_deg = [0.0, 0.0, 90.0]\n",
+            "xyz_mm = [1000.0, 2000.0, 3000.0]\nrpy_rad = [0.0, 0.0, 0.1]\n",
+            "quaternion_wxyz = [1.0, 0.0, 0.0, 0.0]\n",
+            "matrix = [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 2.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]\n",
+        ] {
+            let mut findings = Findings::default();
+            let written = parse_toml::<WrittenTransform>(text, &mut findings).unwrap();
+            assert_eq!(written.to_table().to_string(), text);
+            assert_eq!(written.has_rotation(), !text.is_empty());
+        }
+        let mut findings = Findings::default();
+        let place = parse_toml::<WrittenTransform>("xyz_m = [1, 2, 3]", &mut findings).unwrap();
+        assert!(!place.has_rotation());
     }
 
     #[track_caller]

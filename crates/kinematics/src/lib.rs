@@ -51,7 +51,7 @@ pub use dh::{
 };
 pub use error::KinematicsError;
 pub use euler::{DeterminedAngles, EulerAngles, EulerSet};
-pub use ik::{IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
+pub use ik::{DifferentialMethod, IkChange, IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
 pub use jacobian::{Jacobian, JacobianKind};
 pub use manipulability::{Dexterity, Manipulability, VelocityEllipsoid};
 pub use pose::Pose;

@@ -1,4 +1,5 @@
-//! Distances between links, and from links to obstacles, as they change along a run.
+//! Distances between links, from links to obstacles, and from links to forbidden zones, as they
+//! change along a run.
 //!
 //! An exact distance costs more than a physics step, so each pair keeps a lower bound that shrinks
 //! by how far its two bodies have moved against each other since the last exact distance. A pair
@@ -6,11 +7,14 @@
 
 use std::collections::BTreeSet;
 
-use congruent_description::{LinkIndex, Robot, RobotDescription, Shape};
+use congruent_description::{Link, LinkIndex, Robot, RobotDescription, Shape};
 use congruent_simulation::Obstacle;
 use nalgebra::{Isometry3, Vector3};
 
-use crate::proximity::{Hulls, ProximityError};
+use crate::{
+    proximity::{Hulls, ProximityError},
+    scenario::Zone,
+};
 
 /// Subtracted from every bound: what an exact distance may be off, and then some.
 /// Kind: solver stop. Bound: 1e-7 m (worst of 1,950 mesh hull pairs of four arms: 2.5e-8 m).
@@ -19,9 +23,9 @@ const DISTANCE_SLACK_M: f64 = 1e-7;
 /// Two subjects whose distance is watched: indices into [`Clearance::subjects`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Pair {
-    /// The first link.
+    /// The first link, or a zone.
     pub a: usize,
-    /// The second link, or an obstacle.
+    /// The second link, or an obstacle; of a zone, the link.
     pub b: usize,
 }
 
@@ -54,12 +58,25 @@ struct Watch {
     is_current: bool,
 }
 
+impl Watch {
+    /// A pair of which nothing is known.
+    fn new(pair: Pair) -> Self {
+        Self {
+            pair,
+            a_from_b: Isometry3::identity(),
+            exact_m: f64::NAN,
+            lower_bound_m: f64::NEG_INFINITY,
+            is_current: false,
+        }
+    }
+}
+
 /// Distances of all watched pairs.
 #[derive(Debug, Clone)]
 pub struct Clearance {
     subjects: Vec<String>,
     hulls: Vec<Hulls>,
-    /// Links come first, in the robot's order, then obstacles with their constant pose.
+    /// Links come first, in the robot's order, then obstacles or zones with their constant pose.
     root_from_subjects: Vec<Isometry3<f64>>,
     links: usize,
     watches: Vec<Watch>,
@@ -77,35 +94,59 @@ impl Clearance {
     ) -> Result<Self, ProximityError> {
         let robot = &description.robot;
         let links = robot.links().len();
-        let mut subjects: Vec<String> = robot.links().iter().map(|link| link.name.clone()).collect();
-        let mut hulls = Vec::with_capacity(links + obstacles.len());
-        for link in robot.links() {
-            hulls.push(Hulls::new(&format!("link \"{}\"", link.name), &link.collisions)?);
-        }
+        let hulls = |link: &Link| Hulls::new(&format!("link \"{}\"", link.name), &link.collisions);
+        let mut clearance = Self {
+            subjects: robot.links().iter().map(|link| link.name.clone()).collect(),
+            hulls: robot.links().iter().map(hulls).collect::<Result<_, _>>()?,
+            root_from_subjects: vec![Isometry3::identity(); links],
+            links,
+            watches: Vec::new(),
+        };
         for obstacle in obstacles {
-            let shape = Shape {
-                link_from_shape: Isometry3::identity(),
-                geometry: obstacle.geometry.clone(),
-                color_rgba: None,
-            };
-            hulls.push(Hulls::new(&format!("obstacle \"{}\"", obstacle.name), &[shape])?);
-            subjects.push(obstacle.name.clone());
+            clearance.add(obstacle)?;
         }
-        let mut root_from_subjects = vec![Isometry3::identity(); links];
-        root_from_subjects.extend(obstacles.iter().map(|obstacle| obstacle.world_from_obstacle));
-        let watches = pairs(robot, &hulls, choice, &description.disabled_collisions)
-            .map(|pair| Watch {
-                pair,
-                a_from_b: Isometry3::identity(),
-                exact_m: f64::NAN,
-                lower_bound_m: f64::NEG_INFINITY,
-                is_current: false,
-            })
-            .collect();
-        Ok(Self { subjects, hulls, root_from_subjects, links, watches })
+        let pairs = pairs(robot, &clearance.hulls, choice, &description.disabled_collisions);
+        clearance.watches = pairs.map(Watch::new).collect();
+        Ok(clearance)
     }
 
-    /// Names of links, then of obstacles.
+    /// The same links before forbidden zones: the pairs are each zone with the links that it names.
+    /// Hulls are shared.
+    ///
+    /// # Errors
+    /// [`ProximityError`] never comes from boxes, spheres and cylinders.
+    pub fn before_zones(&self, zones: &[Zone]) -> Result<Self, ProximityError> {
+        let mut clearance = Self {
+            subjects: self.subjects[..self.links].to_vec(),
+            hulls: self.hulls[..self.links].to_vec(),
+            root_from_subjects: self.root_from_subjects[..self.links].to_vec(),
+            links: self.links,
+            watches: Vec::new(),
+        };
+        for zone in zones {
+            let a = clearance.add(&zone.space)?;
+            // Links are second: what a bound loses by a turn is proportional to the second's size,
+            // and zones are large.
+            let pairs = zone.links.iter().map(|link| Pair { a, b: link.get() });
+            clearance.watches.extend(pairs.map(Watch::new));
+        }
+        Ok(clearance)
+    }
+
+    /// Adds what stands still; gives its index among the subjects.
+    fn add(&mut self, standing: &Obstacle) -> Result<usize, ProximityError> {
+        let shape = Shape {
+            link_from_shape: Isometry3::identity(),
+            geometry: standing.geometry.clone(),
+            color_rgba: None,
+        };
+        self.hulls.push(Hulls::new(&format!("\"{}\"", standing.name), &[shape])?);
+        self.subjects.push(standing.name.clone());
+        self.root_from_subjects.push(standing.world_from_obstacle);
+        Ok(self.subjects.len() - 1)
+    }
+
+    /// Names of links, then of obstacles or zones.
     pub fn subjects(&self) -> &[String] {
         &self.subjects
     }

@@ -9,11 +9,12 @@ use crate::{
     clearance::{Clearance, PairChoice},
     model::Model,
     monitor::{Check, Names},
+    motion::{Guide, Led},
     proximity::ProximityError,
     recorder::{Recorder, RecordingError},
     sample::{LinkError, Sample},
     scenario::Scenario,
-    verdict::CheckResult,
+    verdict::{CheckResult, Stop},
 };
 
 /// Why a run cannot start or cannot go on.
@@ -41,6 +42,10 @@ pub struct Outcome {
     pub checks: Vec<CheckResult>,
     /// Steps taken.
     pub steps: u64,
+    /// Where a check ended the run before its time.
+    pub stopped: Option<Stop>,
+    /// Where each servo has led the tool.
+    pub servos: Vec<Led>,
     /// SHA-256 over the joint positions of every sample.
     pub trajectory_sha256: String,
 }
@@ -53,9 +58,9 @@ pub struct Run<'a> {
     controller: Box<dyn Controller>,
     model: Model,
     clearance: Clearance,
+    zones: Clearance,
     names: Names,
-    desired_q: Vec<f64>,
-    desired_qd: Vec<f64>,
+    guide: Guide<'a>,
     root_from_links: Vec<Isometry3<f64>>,
     errors: Vec<LinkError>,
     hash: Sha256,
@@ -86,15 +91,16 @@ impl<'a> Run<'a> {
         let mut world = World::new(robot, &settings)?;
         world.set_state(&scenario.start, &vec![0.0; robot.dof()])?;
         let clearance = Clearance::new(&scenario.description, &scenario.obstacles, PairChoice::Usual)?;
+        let zones = clearance.before_zones(&scenario.zones)?;
         Ok(Self {
             scenario,
             world,
             controller: controller(&scenario.controller.kind, scenario.controller.gains)?,
             model: Model::new(&scenario.description)?,
-            names: Names::new(robot, &clearance),
+            names: Names::new(robot, &clearance, &zones),
             clearance,
-            desired_q: vec![0.0; robot.dof()],
-            desired_qd: vec![0.0; robot.dof()],
+            zones,
+            guide: Guide::new(&scenario.trajectory, &scenario.description)?,
             root_from_links: vec![Isometry3::identity(); robot.links().len()],
             errors: vec![LinkError::default(); robot.links().len()],
             hash: Sha256::new(),
@@ -111,15 +117,15 @@ impl<'a> Run<'a> {
         &self.model
     }
 
-    /// One step of physics towards the motion's next point.
+    /// One step of physics towards the motion's next point, which may depend on where the robot is.
     ///
     /// # Errors
-    /// [`SimulationError`] when the physics breaks.
-    pub fn step(&mut self) -> Result<(), SimulationError> {
+    /// [`RunError::Simulation`] when the physics breaks.
+    pub fn step(&mut self) -> Result<(), RunError> {
         let time_s = self.scenario.simulation.time_s(self.world.step_count() + 1);
-        self.scenario.trajectory.reference_into(time_s, &mut self.desired_q, &mut self.desired_qd);
-        let reference = Reference { q: &self.desired_q, qd: &self.desired_qd };
-        self.world.step(&mut *self.controller, &reference)
+        self.guide.advance(time_s, self.world.q())?;
+        let reference = Reference { q: self.guide.q(), qd: self.guide.qd() };
+        Ok(self.world.step(&mut *self.controller, &reference)?)
     }
 
     /// Poses of all links by both witnesses at this instant, and how far they are apart.
@@ -135,33 +141,44 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Shows this instant to all checks and to the recorder.
+    /// Shows this instant to all checks and to the recorder; gives the number of the check that ends
+    /// the run here, where one does.
     ///
     /// # Errors
     /// [`RunError::Recording`] when the recorder cannot write.
-    pub fn observe(&mut self, checks: &mut [Check], recorder: &mut dyn Recorder) -> Result<(), RunError> {
+    pub fn observe(
+        &mut self,
+        checks: &mut [Check],
+        recorder: &mut dyn Recorder,
+    ) -> Result<Option<usize>, RunError> {
         self.clearance.move_links(&self.root_from_links);
+        self.zones.move_links(&self.root_from_links);
         let step = self.world.step_count();
         let mut sample = Sample {
             step,
             time_s: self.scenario.simulation.time_s(step),
+            is_last: step >= self.scenario.simulation.steps,
             q: self.world.q(),
             model: self.model.latest(),
             twin: &self.root_from_links,
             errors: &self.errors,
             clearance: &mut self.clearance,
+            zones: &mut self.zones,
         };
-        for check in checks {
+        for check in checks.iter_mut() {
             check.monitor.observe(&mut sample);
         }
+        let stopping = checks.iter().position(Check::stops);
+        sample.is_last |= stopping.is_some();
         for q in sample.q {
             self.hash.update(q.to_le_bytes());
         }
         recorder.record(&mut sample)?;
-        Ok(())
+        Ok(stopping)
     }
 
-    /// Runs to the end. What was found before an error is in the results all the same.
+    /// Runs to the end, or to the first violation of a check that stops the run. What was found before
+    /// an error is in the results all the same.
     pub fn finish(
         mut self,
         checks: &mut [Check],
@@ -169,25 +186,41 @@ impl<'a> Run<'a> {
         mut progress: impl FnMut(u64),
     ) -> (Outcome, Result<(), RunError>) {
         let end = self.scenario.simulation.steps;
+        let mut stopping = None;
         let mut go = || -> Result<(), RunError> {
             self.compare()?;
-            self.observe(checks, recorder)?;
-            while self.world.step_count() < end {
+            stopping = self.observe(checks, recorder)?;
+            while stopping.is_none() && self.world.step_count() < end {
                 self.step()?;
                 self.compare()?;
-                self.observe(checks, recorder)?;
+                stopping = self.observe(checks, recorder)?;
                 progress(self.world.step_count());
             }
             Ok(())
         };
         let result = go();
+        let (servos, result) = match self.guide.finish(self.world.q()) {
+            Ok(servos) => (servos, result),
+            Err(error) => (Vec::new(), result.and(Err(error.into()))),
+        };
+        let steps = self.world.step_count();
+        let mut results: Vec<CheckResult> = checks.iter().map(|check| check.result(&self.names)).collect();
         let outcome = Outcome {
-            checks: checks.iter().map(|check| check.result(&self.names)).collect(),
-            steps: self.world.step_count(),
+            stopped: stopping.map(|index| stopped_by(&mut results[index], self.scenario, steps)),
+            checks: results,
+            steps,
+            servos,
             trajectory_sha256: hex(&self.hash.finalize()),
         };
         (outcome, result)
     }
+}
+
+/// Where a run stands after `step` steps, ended by a check; its result tells people so.
+fn stopped_by(result: &mut CheckResult, scenario: &Scenario, step: u64) -> Stop {
+    let (time_s, steps) = (scenario.simulation.time_s(step), scenario.simulation.steps);
+    result.notes.push(format!("stopped the run at {time_s:.3} s, after {step} of {steps} steps"));
+    Stop { check: result.check, line: result.line, step, time_s }
 }
 
 fn hex(bytes: &[u8]) -> String {

@@ -33,6 +33,9 @@ pub struct Sample<'a> {
     pub step: u64,
     /// Simulated time.
     pub time_s: f64,
+    /// Whether no step follows. Monitors see the end of the scenario, recorders also the end that
+    /// a check has just made.
+    pub is_last: bool,
     /// Joint positions of the twin, in the robot's order of movable joints.
     pub q: &'a [f64],
     /// Poses by analysis, in the root link's frame and the robot's order of links.
@@ -43,4 +46,6 @@ pub struct Sample<'a> {
     pub errors: &'a [LinkError],
     /// Distances between links and to obstacles: measured where a monitor asks.
     pub clearance: &'a mut Clearance,
+    /// Distances from links to the zones that are forbidden to them, likewise.
+    pub zones: &'a mut Clearance,
 }

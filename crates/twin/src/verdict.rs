@@ -59,7 +59,8 @@ pub struct Measure {
     pub unit: &'static str,
     /// The limit.
     pub limit: f64,
-    /// Whether values may not exceed the limit (`at_most`) or not fall below it (`at_least`).
+    /// Whether values may not exceed the limit (`at_most`), not fall below it (`at_least`), or not
+    /// even come down to it (`above`).
     pub bound: Bound,
     /// The worst value with its place; `None` where nothing was seen.
     pub worst: Option<Moment>,
@@ -75,14 +76,26 @@ pub enum Bound {
     AtMost,
     /// Fine from the limit on.
     AtLeast,
+    /// Fine above the limit, not at it.
+    Above,
 }
 
 impl Bound {
+    /// The words before the limit in a sentence.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::AtMost => "at most",
+            Self::AtLeast => "at least",
+            Self::Above => "above",
+        }
+    }
+
     /// Whether `value` is fine; NaN never is.
     pub fn holds(self, value: f64, limit: f64) -> bool {
         match self {
             Self::AtMost => value <= limit,
             Self::AtLeast => value >= limit,
+            Self::Above => value > limit,
         }
     }
 
@@ -92,7 +105,7 @@ impl Bound {
             _ if known.is_nan() => false,
             _ if value.is_nan() => true,
             Self::AtMost => value > known,
-            Self::AtLeast => value < known,
+            Self::AtLeast | Self::Above => value < known,
         }
     }
 }
@@ -113,6 +126,19 @@ pub struct CheckResult {
     /// What to know beside the figures.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+}
+
+/// Where a run ended before its time, because a check says `on_violation = "stop"`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Stop {
+    /// The kind of check that was violated.
+    pub check: &'static str,
+    /// Its line in the scenario file, from 1.
+    pub line: usize,
+    /// Steps taken until then: the last of them shows the violation.
+    pub step: u64,
+    /// Simulated time of the violation.
+    pub time_s: f64,
 }
 
 /// What a run has shown, all checks together.
@@ -223,8 +249,16 @@ mod tests {
     }
 
     #[test]
+    fn at_the_limit() {
+        let holds = [Bound::AtMost, Bound::AtLeast, Bound::Above].map(|bound| bound.holds(0.5, 0.5));
+        assert_eq!(holds, [true, true, false]);
+        assert!(Bound::Above.holds(0.6, 0.5) && Bound::Above.is_worse(0.1, 0.2));
+    }
+
+    #[test]
     fn not_a_number_is_outside_every_limit_and_worst_of_all() {
         assert!(!Bound::AtMost.holds(f64::NAN, 1.0) && !Bound::AtLeast.holds(f64::NAN, 1.0));
+        assert!(!Bound::Above.holds(f64::NAN, 1.0) && Bound::Above.is_worse(f64::NAN, 5.0));
         assert!(Bound::AtMost.is_worse(f64::NAN, 5.0) && !Bound::AtMost.is_worse(5.0, f64::NAN));
     }
 }

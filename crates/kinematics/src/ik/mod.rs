@@ -35,6 +35,35 @@ pub enum IkMethod {
     Transpose,
 }
 
+/// How joint speeds follow from the error of a tool, in a loop that is closed from outside:
+/// [`IkSolver::change_towards`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DifferentialMethod {
+    /// Position error and turn error through the pseudo-inverse of the geometric Jacobian, damped in
+    /// directions in which the arm is nearly singular: where the singular value is less than a
+    /// twentieth of the largest, the joints are asked for less than the whole error, and for nothing
+    /// where it is zero.
+    ///
+    /// Source: Siciliano et al., *Robotics* (2009), eq. 3.74; damping by Maciejewski & Klein (1988).
+    #[default]
+    PseudoInverse,
+    /// As [`IkMethod::Transpose`].
+    Transpose,
+}
+
+/// What would close the error if the arm were linear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IkChange<'a> {
+    /// Change of each joint of the arm, rad or m; 0 for a joint that a limit holds.
+    pub change: &'a [f64],
+    /// Distance to the target, m.
+    pub residual_position_m: f64,
+    /// Angle to the target, rad; 0 where no orientation is asked for.
+    pub residual_orientation_rad: f64,
+    /// Indices of the arm's joints that stand at a limit which the error pushes them against.
+    pub limits_held: &'a [usize],
+}
+
 /// When a solution counts, and how much is tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IkOptions {

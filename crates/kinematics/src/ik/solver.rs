@@ -3,7 +3,7 @@
 use nalgebra::Vector6;
 
 use super::{
-    IkMethod, IkOptions, IkResult,
+    DifferentialMethod, IkChange, IkMethod, IkOptions, IkResult,
     residual::{IkTarget, Residual, TaskFrame},
     step::{self, Task},
 };
@@ -127,6 +127,81 @@ impl IkSolver {
         })
     }
 
+    /// One step of differential inverse kinematics, for a loop that is closed from outside: the change
+    /// of the joints that would close the error from `q` to the target if the arm were linear.
+    ///
+    /// | value | shape | unit | frame |
+    /// |---|---|---|---|
+    /// | `target` | SE(3) | m | `base_from_tcp` |
+    /// | `q` | number of joints | rad, m | base to tip |
+    /// | `commanded` | number of joints | rad, m | base to tip |
+    /// | change | number of joints | rad, m | base to tip |
+    ///
+    /// Error and Jacobian are those at `q`, where the arm is; the error is `p_d - p` and, as axis and
+    /// angle, `R_d R^T`. `commanded` is what the arm was told last: a joint that is told to stand at its
+    /// limit is held there. Times a gain, the change is a joint velocity. No limit is applied to it.
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] when `q` or `commanded` is no configuration of the arm.
+    /// # Examples
+    /// A slide that stands 0.3 m before its target has 0.3 m to go, as long as it is told to:
+    /// ```
+    /// # use congruent_description::{Joint, JointKind, JointLimit, JointParts, Link, Robot};
+    /// # use nalgebra::{Isometry3, Matrix3, Vector3};
+    /// use congruent_kinematics::{Arm, DifferentialMethod, IkSolver, IkTarget, Pose, TargetPart};
+    /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
+    /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
+    /// # let slide = Joint {
+    /// #     name: "slide".into(), kind: JointKind::Prismatic, parent: single.root(), child: single.root(),
+    /// #     parent_from_joint: Isometry3::identity(), axis_in_joint: Vector3::x_axis(),
+    /// #     limit: Some(JointLimit { lower: 0., upper: 0.5, velocity: 1., effort: 1. }),
+    /// #     damping: 0., friction: 0., mimic: None,
+    /// # };
+    /// # let parts = JointParts { joint: slide, parent: "base".into(), child: "tip".into(), mimic: None };
+    /// # let robot = Robot::new("1p", vec![link("base"), link("tip")], vec![parts]).unwrap();
+    /// let ends = (robot.root(), robot.find_link("tip").unwrap());
+    /// let mut solver = IkSolver::new(Arm::new(&robot, ends, Pose::identity())?); // goes from 0 to 0.5 m
+    /// let target = IkTarget {
+    ///     base_from_tcp: Pose::from_parts(Matrix3::identity(), Vector3::new(0.7, 0., 0.)),
+    ///     part: TargetPart::Position,
+    /// };
+    /// for method in [DifferentialMethod::PseudoInverse, DifferentialMethod::Transpose] {
+    ///     let step = solver.change_towards(&target, (&[0.4], &[0.4]), method)?;
+    ///     assert!((step.change[0] - 0.3).abs() < 1e-15 && step.limits_held.is_empty());
+    ///     let step = solver.change_towards(&target, (&[0.4], &[0.5]), method)?;
+    ///     assert_eq!((step.change, step.limits_held), ([0.0].as_slice(), [0].as_slice()));
+    /// }
+    /// # Ok::<(), congruent_kinematics::KinematicsError>(())
+    /// ```
+    pub fn change_towards(
+        &mut self,
+        target: &IkTarget,
+        (q, commanded): (&[f64], &[f64]),
+        method: DifferentialMethod,
+    ) -> Result<IkChange<'_>, KinematicsError> {
+        KinematicsError::check_joints(self.q.len(), q)?;
+        KinematicsError::check_joints(self.q.len(), commanded)?;
+        self.q.copy_from_slice(q);
+        let (frame, rule): (_, fn(&Task<'_>, &mut [f64])) = match method {
+            DifferentialMethod::PseudoInverse => (IkMethod::PseudoInverse, step::damped_pseudo_inverse),
+            DifferentialMethod::Transpose => (IkMethod::Transpose, step::transposed),
+        };
+        let frame = TaskFrame::of(frame, target.part, self.arm.metres_per_rad());
+        let residual = self.look(target, &frame)?;
+        self.q.copy_from_slice(commanded);
+        self.hold(&residual);
+        self.follow(rule, &residual);
+        self.limits_held.clear();
+        let held = self.held.iter().enumerate().filter(|(_, held)| **held);
+        self.limits_held.extend(held.map(|(index, _)| index));
+        Ok(IkChange {
+            change: &self.change,
+            residual_position_m: residual.position_m,
+            residual_orientation_rad: residual.orientation_rad,
+            limits_held: &self.limits_held,
+        })
+    }
+
     /// The configuration that was found last.
     pub(super) fn solution(&self) -> &[f64] {
         &self.best
@@ -194,28 +269,39 @@ impl IkSolver {
 
     /// Moves `q` by one step, within the limits; gives the longest change.
     fn step(&mut self, method: IkMethod, residual: &Residual) -> f64 {
-        for (at, joint) in self.arm.joints().iter().enumerate() {
-            let pull = self.columns[at].dot(&residual.task);
-            let q = self.q[at];
-            self.held[at] = (q <= joint.lower && pull < 0.0) || (q >= joint.upper && pull > 0.0);
-        }
-        let task = Task {
-            columns: &self.columns,
-            held: &self.held,
-            residual: &residual.task,
-            cost: residual.cost(),
+        self.hold(residual);
+        let rule = match method {
+            IkMethod::LevenbergMarquardt => step::damped,
+            IkMethod::Newton | IkMethod::PseudoInverse => step::pseudo_inverse,
+            IkMethod::Transpose => step::transposed,
         };
-        match method {
-            IkMethod::LevenbergMarquardt => step::damped(&task, &mut self.change),
-            IkMethod::Newton | IkMethod::PseudoInverse => step::pseudo_inverse(&task, &mut self.change),
-            IkMethod::Transpose => step::transposed(&task, &mut self.change),
-        }
+        self.follow(rule, residual);
         let mut longest: f64 = 0.0;
         for ((q, joint), change) in self.q.iter_mut().zip(self.arm.joints()).zip(&self.change) {
             let before = std::mem::replace(q, joint.inside(*q + change));
             longest = longest.max((*q - before).abs());
         }
         longest
+    }
+
+    /// Marks the joints that stand at a limit in `q` and that the residual pushes against it.
+    fn hold(&mut self, residual: &Residual) {
+        for (at, joint) in self.arm.joints().iter().enumerate() {
+            let pull = self.columns[at].dot(&residual.task);
+            let q = self.q[at];
+            self.held[at] = (q <= joint.lower && pull < 0.0) || (q >= joint.upper && pull > 0.0);
+        }
+    }
+
+    /// Leaves the change of the joints that a rule finds in `change`.
+    fn follow(&mut self, rule: fn(&Task<'_>, &mut [f64]), residual: &Residual) {
+        let task = Task {
+            columns: &self.columns,
+            held: &self.held,
+            residual: &residual.task,
+            cost: residual.cost(),
+        };
+        rule(&task, &mut self.change);
     }
 }
 

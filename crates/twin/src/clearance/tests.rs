@@ -84,6 +84,39 @@ fn by_brute_force(poses: &[Isometry3<f64>]) -> f64 {
     (0..pairs).map(|pair| fresh.measure(pair)).fold(f64::INFINITY, f64::min)
 }
 
+/// A zone around the way of some links, off its own origin's axes.
+fn zones() -> [Zone; 2] {
+    let description = description();
+    let links =
+        |names: &[&str]| names.iter().map(|name| description.robot.find_link(name).unwrap()).collect();
+    let turned = Isometry3::new(Vector3::new(0.5, 0.2, 0.3), Vector3::new(0.3, -0.8, 0.4));
+    let space = |name: &str, world_from_obstacle, geometry| Obstacle {
+        name: name.into(),
+        world_from_obstacle,
+        geometry,
+    };
+    let ball = space("ball", Isometry3::translation(0.0, 1.0, 0.3), Geometry::Sphere { radius_m: 0.2 });
+    let room = space("room", turned, Geometry::Box { size_m: Vector3::new(0.2, 3.0, 1.0) });
+    [
+        Zone { space: ball, links: links(&["link_1", "link_4"]) },
+        Zone { space: room, links: links(&["link_0", "link_2", "link_3"]) },
+    ]
+}
+
+/// The smallest distance of a zone's links to it, from fresh hulls.
+fn to_zones_by_brute_force(poses: &[Isometry3<f64>]) -> f64 {
+    let robot = description().robot;
+    let apart = |zone: &Zone, link: LinkIndex| {
+        let shape = |geometry| Shape { link_from_shape: Isometry3::identity(), geometry, color_rgba: None };
+        let space = Hulls::new("zone", &[shape(zone.space.geometry.clone())]).unwrap();
+        let hulls = Hulls::new("link", &robot.link(link).collisions).unwrap();
+        hulls.distance_m(&space, &poses[link.get()].inv_mul(&zone.space.world_from_obstacle))
+    };
+    let zones = zones();
+    let all = zones.iter().flat_map(|zone| zone.links.iter().map(move |&link| apart(zone, link)));
+    all.fold(f64::INFINITY, f64::min)
+}
+
 /// A walk of all links: steps of one size in place, rotation about another axis each time.
 fn walk() -> impl Strategy<Value = (f64, Vec<[f64; 36]>)> {
     let size = prop_oneof![Just(1e-6), Just(1e-3), Just(0.03), Just(0.5)];
@@ -139,6 +172,19 @@ proptest! {
         }
     }
 
+    #[test]
+    fn case_13_no_link_in_a_zone_is_missed((_, steps) in walk()) {
+        let mut before_zones = watched(PairChoice::All).before_zones(&zones()).unwrap();
+        let mut poses = at_the_start();
+        for step in &steps {
+            stepped(&mut poses, step);
+            before_zones.move_links(&poses);
+            let found_m = before_zones.nearest().unwrap().distance_m;
+            let expected_m = to_zones_by_brute_force(&poses);
+            prop_assert!((found_m - expected_m).abs() <= SAME_M, "{found_m} is not {expected_m}");
+        }
+    }
+
     /// What the bounds rest on: no point of a ball moves further than that.
     #[test]
     fn no_point_moves_further_than_the_bound(
@@ -165,6 +211,14 @@ fn far_pairs_are_not_measured_again() {
     clearance.nearest();
     let measured = (0..clearance.pairs().len()).filter(|&pair| clearance.current_m(pair).is_some()).count();
     assert!((1..4).contains(&measured), "{measured} of {}", clearance.pairs().len());
+}
+
+#[test]
+fn case_13_a_zone_is_paired_with_the_links_that_it_names() {
+    let before_zones = watched(PairChoice::All).before_zones(&zones()).unwrap();
+    let pairs: Vec<_> = (0..before_zones.pairs().len()).map(|pair| before_zones.names(pair)).collect();
+    let expected = [("ball", "link_1"), ("ball", "link_4"), ("room", "link_0"), ("room", "link_2")];
+    assert_eq!((&pairs[..4], pairs[4]), (&expected[..], ("room", "link_3")));
 }
 
 #[test]

@@ -2,10 +2,16 @@
 
 mod agreement;
 mod clearance;
+mod goal;
 mod limits;
+mod on_violation;
 mod watch;
+mod zone;
 
 use congruent_description::{Diagnostic, Robot, RobotDescription};
+
+pub use on_violation::OnViolation;
+pub(crate) use zone::NAME as ZONE;
 
 use crate::{
     clearance::Clearance,
@@ -49,19 +55,26 @@ pub struct Names {
     pub joints: Vec<String>,
     /// Watched pairs, as `a--b`.
     pub pairs: Vec<String>,
+    /// Links with the zones that are forbidden to them, as `link--zone`.
+    pub zones: Vec<String>,
 }
 
 impl Names {
-    /// The names of a robot and of the pairs that are watched around it.
-    pub fn new(robot: &Robot, clearance: &Clearance) -> Self {
+    /// The names of a robot, of the pairs that are watched around it, and of its zones.
+    pub fn new(robot: &Robot, clearance: &Clearance, zones: &Clearance) -> Self {
         let pair = |index| {
             let (a, b) = clearance.names(index);
             format!("{a}--{b}")
+        };
+        let in_zone = |index| {
+            let (zone, link) = zones.names(index);
+            format!("{link}--{zone}")
         };
         Self {
             links: robot.links().iter().map(|link| link.name.clone()).collect(),
             joints: robot.movable_joint_names().map(str::to_owned).collect(),
             pairs: (0..clearance.pairs().len()).map(pair).collect(),
+            zones: (0..zones.pairs().len()).map(in_zone).collect(),
         }
     }
 }
@@ -79,7 +92,9 @@ struct Kind {
 const KINDS: &[Kind] = &[
     Kind { name: agreement::NAME, parse: agreement::parse },
     Kind { name: clearance::NAME, parse: clearance::parse },
+    Kind { name: goal::NAME, parse: goal::parse },
     Kind { name: limits::NAME, parse: limits::parse },
+    Kind { name: zone::NAME, parse: zone::parse },
 ];
 
 /// A check of a scenario: a monitor with its place in the file.
@@ -88,6 +103,8 @@ pub struct Check {
     pub kind: &'static str,
     /// Line of its section, from 1.
     pub line: usize,
+    /// What follows its first violation.
+    pub on_violation: OnViolation,
     /// What looks at the samples.
     pub monitor: Box<dyn Monitor>,
 }
@@ -106,7 +123,16 @@ impl Check {
     pub fn parse(mut section: Section<'_>, description: &RobotDescription) -> Result<Self, Vec<Diagnostic>> {
         let line = section.line();
         let kind = section.select("kind", "check", KINDS, |kind| kind.name)?;
-        Ok(Self { kind: kind.name, line, monitor: (kind.parse)(section, description)? })
+        let on_violation = OnViolation::take(&mut section)?;
+        let monitor = (kind.parse)(section, description).map_err(|errors| {
+            errors.into_iter().map(on_violation::name_common_keys).collect::<Vec<Diagnostic>>()
+        })?;
+        Ok(Self { kind: kind.name, line, on_violation, monitor })
+    }
+
+    /// Whether the check has failed and ends the run with that.
+    pub fn stops(&self) -> bool {
+        self.on_violation == OnViolation::Stop && self.monitor.has_failed()
     }
 
     /// The result of the check.

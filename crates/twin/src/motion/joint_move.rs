@@ -3,7 +3,7 @@
 use congruent_description::Diagnostic;
 use serde::Deserialize;
 
-use super::{Context, Motion, Profile};
+use super::{Context, Course, JointMove, Motion, Profile};
 use crate::scenario::{JointValues, Positive, Section, WrittenJoints};
 
 /// The keys that make a section this kind of motion.
@@ -43,10 +43,6 @@ pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<M
         to[coordinate] = target.value;
     }
     context.robot.apply_mimic(&mut to);
-    Ok(Motion {
-        from: context.from.to_vec(),
-        to,
-        duration_s: written.duration_s.get(),
-        profile: written.profile,
-    })
+    let course = JointMove { from: context.from.to_vec(), to, profile: written.profile };
+    Ok(Motion { duration_s: written.duration_s.get(), course: Course::Joints(course) })
 }

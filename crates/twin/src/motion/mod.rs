@@ -1,13 +1,18 @@
-//! What the arm is asked to do: motions one after another, in joint space. A new kind of motion is
-//! a file here and a line in `KINDS`.
+//! What the arm is asked to do: motions one after another. Moves are planned when the scenario is
+//! read, servos are led in the run (`guide.rs`). A new kind of motion is a file here and a line in
+//! `KINDS`.
 
+mod guide;
 mod joint_move;
 mod profile;
 mod tcp_move;
+mod tcp_servo;
 
 use congruent_description::{Diagnostic, Robot, RobotDescription};
 
+pub use guide::Guide;
 pub use profile::{Profile, Progress};
+pub use tcp_servo::{Led, Method, TcpServo};
 
 use crate::scenario::Section;
 
@@ -15,7 +20,8 @@ use crate::scenario::Section;
 struct Context<'a> {
     description: &'a RobotDescription,
     robot: &'a Robot,
-    /// Where the motion before it ends.
+    /// Where the motion before it ends; before a motion that needs no start, the last place that is
+    /// known.
     from: &'a [f64],
     warnings: &'a mut Vec<Diagnostic>,
 }
@@ -23,26 +29,55 @@ struct Context<'a> {
 /// How one kind of motion is made from its section; it is known by its keys.
 struct Kind {
     keys: &'static [&'static str],
+    /// Whether it is planned, from a start that must be known.
+    is_planned: bool,
     parse: fn(Section<'_>, &mut Context<'_>) -> Result<Motion, Vec<Diagnostic>>,
 }
 
 /// Every kind of motion.
 const KINDS: &[Kind] = &[
-    Kind { keys: joint_move::KEYS, parse: joint_move::parse },
-    Kind { keys: tcp_move::KEYS, parse: tcp_move::parse },
+    Kind { keys: joint_move::KEYS, is_planned: true, parse: joint_move::parse },
+    Kind { keys: tcp_move::KEYS, is_planned: true, parse: tcp_move::parse },
+    Kind { keys: tcp_servo::KEYS, is_planned: false, parse: tcp_servo::parse },
 ];
 
-/// One motion in joint space; all vectors are configuration vectors.
+/// One motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
+    /// How long it takes.
+    pub duration_s: f64,
+    /// Where it goes.
+    pub course: Course,
+}
+
+/// Where a motion goes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Course {
+    /// From one configuration to another.
+    Joints(JointMove),
+    /// Where the tool is led, step by step.
+    Servo(Box<TcpServo>),
+}
+
+/// A planned move; its vectors are configuration vectors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointMove {
     /// Positions at its start, rad or m.
     pub from: Vec<f64>,
     /// Positions at its end, rad or m.
     pub to: Vec<f64>,
-    /// How long it takes.
-    pub duration_s: f64,
     /// Its course in between.
     pub profile: Profile,
+}
+
+impl JointMove {
+    /// Writes positions and velocities where a share of the way is done.
+    fn at(&self, progress: Progress, q: &mut [f64], qd: &mut [f64]) {
+        for ((q, qd), (from, to)) in q.iter_mut().zip(qd).zip(self.from.iter().zip(&self.to)) {
+            *q = from + (to - from) * progress.share;
+            *qd = (to - from) * progress.share_per_s;
+        }
+    }
 }
 
 /// All motions of a scenario; the arm holds before the first and after the last.
@@ -72,6 +107,9 @@ impl Trajectory {
                 Context { description, robot: &description.robot, from: trajectory.end(), warnings };
             let kind = KINDS.iter().find(|kind| kind.keys.iter().any(|key| section.has(key)));
             let kind = kind.ok_or_else(|| vec![unknown_kind(&section)])?;
+            if kind.is_planned && trajectory.ends_open() {
+                return Err(after_servo(&section).into());
+            }
             let motion = (kind.parse)(section, &mut context)?;
             trajectory.motions.push(motion);
             trajectory.starts_s.push(starts_s);
@@ -92,26 +130,40 @@ impl Trajectory {
         }
     }
 
-    /// Where the last motion ends.
-    fn end(&self) -> &[f64] {
-        self.motions.last().map_or(&self.start, |motion| &motion.to)
+    /// Whether a motion is led in the run.
+    fn has_servo(&self) -> bool {
+        self.motions.iter().any(|motion| matches!(motion.course, Course::Servo(_)))
     }
 
-    /// Writes the desired positions and velocities at `time_s`.
-    pub fn reference_into(&self, time_s: f64, q: &mut [f64], qd: &mut [f64]) {
-        let current = self.starts_s.partition_point(|&start_s| start_s <= time_s);
-        let Some(current) = current.checked_sub(1) else {
-            q.copy_from_slice(&self.start);
-            qd.fill(0.0);
-            return;
-        };
-        let motion = &self.motions[current];
-        let progress = motion.profile.at(time_s - self.starts_s[current], motion.duration_s);
-        for ((q, qd), (from, to)) in q.iter_mut().zip(qd).zip(motion.from.iter().zip(&motion.to)) {
-            *q = from + (to - from) * progress.share;
-            *qd = (to - from) * progress.share_per_s;
-        }
+    /// Whether only the run can tell where the last motion ends.
+    fn ends_open(&self) -> bool {
+        matches!(self.motions.last(), Some(Motion { course: Course::Servo(_), .. }))
     }
+
+    /// Where the last motion ends whose end is known.
+    fn end(&self) -> &[f64] {
+        let known = self.motions.iter().rev().find_map(|motion| match &motion.course {
+            Course::Joints(joints) => Some(&joints.to),
+            Course::Servo(_) => None,
+        });
+        known.unwrap_or(&self.start)
+    }
+
+    /// The motion at `time_s`, which is over where its duration is, with the time of its start; `None`
+    /// before the first.
+    fn under_way(&self, time_s: f64) -> Option<(usize, f64)> {
+        let current = self.starts_s.partition_point(|&start_s| start_s <= time_s).checked_sub(1)?;
+        Some((current, self.starts_s[current]))
+    }
+}
+
+fn after_servo(section: &Section<'_>) -> Diagnostic {
+    Diagnostic::error(
+        "scenario::after_servo",
+        "the motion starts where a servo_tcp ends, which only the run tells",
+    )
+    .with_help("put it before the servo_tcp, or let another servo_tcp follow")
+    .at(section.span())
 }
 
 fn unknown_kind(section: &Section<'_>) -> Diagnostic {
@@ -128,10 +180,8 @@ mod tests {
     /// From 1 to 3 in 2 s, then to -1 in 1 s.
     fn trajectory() -> Trajectory {
         let motion = |from, to, duration_s| Motion {
-            from: vec![from],
-            to: vec![to],
             duration_s,
-            profile: Profile::Linear,
+            course: Course::Joints(JointMove { from: vec![from], to: vec![to], profile: Profile::Linear }),
         };
         Trajectory {
             start: vec![1.0],
@@ -142,9 +192,9 @@ mod tests {
 
     #[track_caller]
     fn at(trajectory: &Trajectory, time_s: f64, q: f64, qd: f64) {
-        let (mut found_q, mut found_qd) = ([f64::NAN], [f64::NAN]);
-        trajectory.reference_into(time_s, &mut found_q, &mut found_qd);
-        assert_eq!((found_q, found_qd), ([q], [qd]), "at {time_s} s");
+        let mut guide = Guide::with(trajectory, None);
+        guide.advance(time_s, &[f64::NAN]).unwrap();
+        assert_eq!((guide.q(), guide.qd()), (&[q][..], &[qd][..]), "at {time_s} s");
     }
 
     #[test]

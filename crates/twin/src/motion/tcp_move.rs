@@ -6,7 +6,7 @@ use congruent_kinematics::{Arm, IkOptions, IkSolver, IkTarget, KinematicsError, 
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{Context, Motion, Profile};
+use super::{Context, Course, JointMove, Motion, Profile};
 use crate::scenario::{Positive, Section};
 
 /// The keys that make a section this kind of motion.
@@ -26,34 +26,36 @@ struct Written {
 pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<Motion, Vec<Diagnostic>> {
     let written: Written = section.read()?;
     let to = reach(&written.move_tcp, context).map_err(|error| vec![error])?;
-    Ok(Motion {
-        from: context.from.to_vec(),
-        to,
-        duration_s: written.duration_s.get(),
-        profile: written.profile,
-    })
+    let course = JointMove { from: context.from.to_vec(), to, profile: written.profile };
+    Ok(Motion { duration_s: written.duration_s.get(), course: Course::Joints(course) })
+}
+
+/// The arm that a tool's pose is asked of, and the pose in its base: all of it, or its position where
+/// no rotation is written.
+pub(super) fn target(
+    written: &Spanned<WrittenTransform>,
+    context: &Context<'_>,
+) -> Result<(Arm, IkTarget), Diagnostic> {
+    let span = written.span();
+    let transform = written.get_ref();
+    let part = if transform.has_rotation() { TargetPart::Pose } else { TargetPart::Position };
+    let world_from_tcp = Pose::from(transform.isometry().map_err(|error| in_span(error, &span))?);
+    let no_arm = |error| no_arm(&error, &span);
+    let world_from_base = UrdfTree::new(context.robot)
+        .root_from_link(context.from, context.description.base)
+        .map_err(no_arm)?;
+    let arm = Arm::of(context.description).map_err(no_arm)?;
+    Ok((arm, IkTarget { base_from_tcp: world_from_base.inverse() * world_from_tcp, part }))
 }
 
 /// The configuration nearest to the motion's start that brings the tool there.
 fn reach(written: &Spanned<WrittenTransform>, context: &Context<'_>) -> Result<Vec<f64>, Diagnostic> {
     let span = written.span();
-    let transform = written.get_ref();
-    let turned = transform.rpy_deg.is_some()
-        || transform.rpy_rad.is_some()
-        || transform.quaternion_wxyz.is_some()
-        || transform.matrix.is_some();
-    let part = if turned { TargetPart::Pose } else { TargetPart::Position };
-    let world_from_tcp = Pose::from(transform.isometry().map_err(|error| in_span(error, &span))?);
-    let no_arm =
-        |error: KinematicsError| Diagnostic::error("scenario::move_tcp", error.to_string()).at(span.clone());
-    let robot = context.robot;
-    let world_from_base =
-        UrdfTree::new(robot).root_from_link(context.from, context.description.base).map_err(no_arm)?;
-    let arm = Arm::of(context.description).map_err(no_arm)?;
+    let (arm, target) = target(written, context)?;
     let start = arm.from_robot(context.from);
     let mut solver = IkSolver::new(arm);
-    let target = IkTarget { base_from_tcp: world_from_base.inverse() * world_from_tcp, part };
-    let found = solver.solve_nearest(&target, &start, &IkOptions::default(), ATTEMPTS).map_err(no_arm)?;
+    let found = solver.solve_nearest(&target, &start, &IkOptions::default(), ATTEMPTS);
+    let found = found.map_err(|error| no_arm(&error, &span))?;
     if !found.converged {
         let message = format!(
             "the tool cannot be brought there within the joint limits: {:.4} mm and {:.4} deg are left at best",
@@ -67,8 +69,12 @@ fn reach(written: &Spanned<WrittenTransform>, context: &Context<'_>) -> Result<V
     let q = found.q.to_vec();
     let mut to = context.from.to_vec();
     solver.arm().write_to_robot(&q, &mut to);
-    robot.apply_mimic(&mut to);
+    context.robot.apply_mimic(&mut to);
     Ok(to)
+}
+
+fn no_arm(error: &KinematicsError, span: &std::ops::Range<usize>) -> Diagnostic {
+    Diagnostic::error("scenario::move_tcp", error.to_string()).at(span.clone())
 }
 
 fn in_span(mut error: Diagnostic, span: &std::ops::Range<usize>) -> Diagnostic {

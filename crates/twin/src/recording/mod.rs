@@ -64,7 +64,6 @@ pub struct RerunRecorder {
     bodies: Vec<Body>,
     tip_from_tcp: Isometry3<f64>,
     stride: u64,
-    last_step: u64,
     batch: Batch,
     disagreement: Disagreement,
     distances: Distances,
@@ -112,7 +111,6 @@ impl RerunRecorder {
             bodies,
             tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
             stride: stride(scenario.simulation.step_s),
-            last_step: scenario.simulation.steps,
             batch: Batch::new(names),
             disagreement: Disagreement::new(names.links.len(), limits),
             distances: Distances::default(),
@@ -162,7 +160,7 @@ impl RerunRecorder {
 
 impl Recorder for RerunRecorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
-        let is_due = sample.step.is_multiple_of(self.stride) || sample.step == self.last_step;
+        let is_due = sample.step.is_multiple_of(self.stride) || sample.is_last;
         if !is_due && !self.disagreement.would_change(sample.errors) {
             return Ok(());
         }

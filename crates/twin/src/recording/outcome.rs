@@ -135,6 +135,10 @@ fn write_events(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
             events.push((moment.time_s, TextLogLevel::ERROR, text));
         }
     }
+    if let Some(stop) = &report.stopped {
+        let text = format!("check {} stops the run", stop.check);
+        events.push((end_s, TextLogLevel::ERROR, text));
+    }
     if let Some(error) = &report.error {
         events.push((end_s, TextLogLevel::CRITICAL, error.clone()));
     }

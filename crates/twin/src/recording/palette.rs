@@ -24,6 +24,8 @@ pub(super) const LIMIT: Color = rgb([0xff, 0x5c, 0x5c]);
 pub(super) const OUTSIDE: Color = rgb([0xff, 0x2d, 0x2d]);
 /// The model's ghost: a hue that robots rarely have, see-through.
 pub(super) const GHOST: Color = rgba([0x2e, 0xe6, 0xd6], 0x48);
+/// Where links may not be: a warning that hides nothing.
+pub(super) const ZONE: Color = rgba([0xff, 0x8c, 0x1a], 0x38);
 /// Around the link that is off most.
 pub(super) const HALO: Color = rgba([0xff, 0x2d, 0x2d], 0x60);
 /// Where the tool has been.

@@ -28,6 +28,11 @@ pub(super) fn obstacle(name: &str) -> EntityPath {
     path(&["world", "obstacle", name])
 }
 
+/// Where links may not be.
+pub(super) fn zone(name: &str) -> EntityPath {
+    path(&["world", "zone", name])
+}
+
 /// Where the tool has been.
 pub(super) fn trail() -> EntityPath {
     path(&["world", "trail"])

@@ -1,6 +1,7 @@
 //! What a recording says once: shapes, names and colours.
 
 use congruent_description::{Link, Robot, Shape};
+use congruent_simulation::Obstacle;
 use rerun::{Color, EntityPath, LineStrips3D, Radius, SeriesLines, TimePoint, ViewCoordinates};
 
 use super::{
@@ -40,19 +41,31 @@ pub(super) fn write(
         write_body(writer, &ghost, &paths::model(&link.name), Some(Paint::Plain(palette::GHOST)))?;
     }
     for (index, obstacle) in scenario.obstacles.iter().enumerate() {
-        let shape = Shape {
-            link_from_shape: obstacle.world_from_obstacle,
-            geometry: obstacle.geometry.clone(),
-            color_rgba: None,
-        };
-        let body = Body::new(&[shape], palette::obstacle(index), 0.0);
-        write_body(writer, &body, &paths::obstacle(&obstacle.name), Some(Paint::Own))?;
+        write_standing(writer, obstacle, &paths::obstacle(&obstacle.name), palette::obstacle(index))?;
+    }
+    for zone in &scenario.zones {
+        write_standing(writer, &zone.space, &paths::zone(&zone.space.name), palette::ZONE)?;
     }
     let trail = LineStrips3D::update_fields()
         .with_colors([palette::TRAIL])
         .with_radii([Radius::new_ui_points(TRAIL_UI_POINTS)]);
     writer.log_static(&paths::trail(), &trail)?;
     Disagreement::write_static(writer)
+}
+
+/// Writes what stands still.
+fn write_standing(
+    writer: &mut RrdWriter,
+    standing: &Obstacle,
+    path: &EntityPath,
+    color: Color,
+) -> Result<(), RecordingError> {
+    let shape = Shape {
+        link_from_shape: standing.world_from_obstacle,
+        geometry: standing.geometry.clone(),
+        color_rgba: None,
+    };
+    write_body(writer, &Body::new(&[shape], color, 0.0), path, Some(Paint::Own))
 }
 
 /// Shapes and paint share a path, so that each path is one row.

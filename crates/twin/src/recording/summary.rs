@@ -68,6 +68,9 @@ fn markdown(report: &RunReport) -> String {
     if let Some(error) = &report.error {
         let _ = writeln!(text, "{}\n", escaped(error));
     }
+    for servo in &report.servos {
+        let _ = writeln!(text, "- motion {}: {}", servo.motion, escaped(&servo.to_string()));
+    }
     for check in &report.checks {
         push_check(&mut text, check);
     }

@@ -32,11 +32,7 @@ pub(super) fn quantity(value: f64, unit: &str) -> String {
 
 /// A limit as it is written in a scenario.
 pub(super) fn limit(measure: &Measure) -> String {
-    let sign = match measure.bound {
-        crate::verdict::Bound::AtMost => "at most",
-        crate::verdict::Bound::AtLeast => "at least",
-    };
-    let value = measure.limit;
+    let (sign, value) = (measure.bound.words(), measure.limit);
     if value == 0.0 || (1e-3..1e4).contains(&value.abs()) {
         format!("{sign} {value} {}", measure.unit)
     } else {

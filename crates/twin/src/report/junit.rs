@@ -5,7 +5,7 @@ use std::{fs, io, path::Path};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 use super::{OutputError, RunReport, write_whole};
-use crate::verdict::{Bound, CheckResult, Expectation, Measure, Status, Verdict};
+use crate::verdict::{CheckResult, Expectation, Measure, Status, Verdict};
 
 /// Writes all scenarios as one JUnit document; makes the folder that it goes to.
 ///
@@ -67,11 +67,7 @@ fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
 
 /// One measure in words: `position 3.2e-10 m at tool0, t = 1.2 s, limit 1e-9`.
 pub fn sentence(measure: &Measure) -> String {
-    let bound = match measure.bound {
-        Bound::AtMost => "at most",
-        Bound::AtLeast => "at least",
-    };
-    let (unit, limit) = (measure.unit, measure.limit);
+    let (bound, unit, limit) = (measure.bound.words(), measure.unit, measure.limit);
     match &measure.worst {
         Some(worst) => format!(
             "{} {:.3e} {unit} at {} ({:.3} s), {bound} {limit:e} {unit}",

@@ -11,9 +11,10 @@ pub use junit::{sentence, write_junit};
 
 use crate::{
     model::PoseSource,
+    motion::Led,
     run::{Outcome, RunError},
     scenario::Scenario,
-    verdict::{CheckResult, Expectation, Status, Verdict},
+    verdict::{CheckResult, Expectation, Status, Stop, Verdict},
 };
 
 /// The whole report of one scenario.
@@ -35,6 +36,11 @@ pub struct RunReport {
     pub expected: Expectation,
     /// Every check.
     pub checks: Vec<CheckResult>,
+    /// Where a check ended the run before its time: later steps were neither taken nor looked at.
+    pub stopped: Option<Stop>,
+    /// Where each `servo_tcp` has led the tool.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub servos: Vec<Led>,
     /// Why the run broke off, where it did.
     pub error: Option<String>,
     /// The clock.
@@ -144,6 +150,8 @@ impl RunReport {
             exit_code: verdict.exit_code(),
             expected: scenario.expect.clone(),
             checks,
+            stopped: outcome.stopped,
+            servos: outcome.servos,
             error: error.map(ToString::to_string),
             simulation: Clock {
                 step_s: scenario.simulation.step_s,

@@ -7,6 +7,7 @@ mod resolved;
 mod section;
 mod simulation;
 mod written;
+mod zone;
 
 use std::path::{Path, PathBuf};
 
@@ -17,6 +18,7 @@ use nalgebra::Vector3;
 pub(crate) use joint_values::{JointValues, WrittenJoints};
 pub use number::{Finite, NonNegative, Positive};
 pub use section::Section;
+pub use zone::Zone;
 
 use crate::{monitor::Check, motion::Trajectory, verdict::Expectation};
 
@@ -74,6 +76,8 @@ pub struct Scenario {
     pub trajectory: Trajectory,
     /// What stands around, in the root link's frame.
     pub obstacles: Vec<Obstacle>,
+    /// Where named links may not be, in the root link's frame.
+    pub zones: Vec<Zone>,
     /// What is looked at.
     pub checks: Vec<Check>,
     /// What must come out.

@@ -7,8 +7,11 @@ use congruent_simulation::Obstacle;
 use nalgebra::Isometry3;
 use toml::{Table, Value};
 
-use super::Scenario;
-use crate::{motion::Motion, verdict::Expectation};
+use super::{Scenario, Zone};
+use crate::{
+    motion::{Course, Motion},
+    verdict::Expectation,
+};
 
 pub(super) fn toml(scenario: &Scenario) -> String {
     let robot = &scenario.description.robot;
@@ -42,9 +45,15 @@ pub(super) fn toml(scenario: &Scenario) -> String {
     );
     let motions = scenario.trajectory.motions().iter().map(|step| motion(robot, step));
     top.insert("motion".to_owned(), Value::Array(motions.collect()));
-    top.insert("obstacle".to_owned(), Value::Array(scenario.obstacles.iter().map(obstacle).collect()));
+    let obstacles = scenario.obstacles.iter().map(|each| Value::Table(standing(each)));
+    top.insert("obstacle".to_owned(), Value::Array(obstacles.collect()));
+    top.insert(
+        "zone".to_owned(),
+        Value::Array(scenario.zones.iter().map(|each| zone(robot, each)).collect()),
+    );
     let checks = scenario.checks.iter().map(|check| {
-        let mut section = table([("kind", check.kind.into())]);
+        let mut section =
+            table([("kind", check.kind.into()), ("on_violation", check.on_violation.name().into())]);
         section.extend(check.monitor.resolved());
         Value::Table(section)
     });
@@ -89,13 +98,31 @@ fn joints(prefix: &str, robot: &Robot, q: &[f64]) -> Table {
 }
 
 fn motion(robot: &Robot, motion: &Motion) -> Value {
-    let mut section = joints("move_joints", robot, &motion.to);
+    let (mut section, settings) = match &motion.course {
+        Course::Joints(course) => {
+            let profile = ("profile", course.profile.name().into());
+            (joints("move_joints", robot, &course.to), table([profile]))
+        }
+        Course::Servo(servo) => (
+            table([("servo_tcp", servo.written.to_table().into())]),
+            table([("method", servo.method.name().into()), ("gain_per_s", servo.gain_per_s.into())]),
+        ),
+    };
     section.insert("duration_s".to_owned(), motion.duration_s.into());
-    section.insert("profile".to_owned(), motion.profile.name().into());
+    section.extend(settings);
     Value::Table(section)
 }
 
-fn obstacle(obstacle: &Obstacle) -> Value {
+/// A zone, its links by their names.
+fn zone(robot: &Robot, zone: &Zone) -> Value {
+    let mut section = standing(&zone.space);
+    let links = zone.links.iter().map(|&link| robot.link(link).name.as_str().into());
+    section.insert("links".to_owned(), Value::Array(links.collect()));
+    Value::Table(section)
+}
+
+/// Name, shape and place of what stands still.
+fn standing(obstacle: &Obstacle) -> Table {
     let mut section = table([("name", obstacle.name.as_str().into())]);
     let (key, shape) = match &obstacle.geometry {
         Geometry::Box { size_m } => ("box_m", numbers(size_m.as_slice())),
@@ -104,14 +131,14 @@ fn obstacle(obstacle: &Obstacle) -> Value {
             "cylinder",
             Value::Table(table([("radius_m", (*radius_m).into()), ("length_m", (*length_m).into())])),
         ),
-        Geometry::Mesh(_) => unreachable!("scenarios have no mesh obstacles"),
+        Geometry::Mesh(_) => unreachable!("scenarios have no meshes of their own"),
     };
     section.insert(key.to_owned(), shape);
     let Isometry3 { rotation, translation } = obstacle.world_from_obstacle;
     let (roll, pitch, yaw) = rotation.euler_angles();
     section.insert("xyz_m".to_owned(), numbers(translation.vector.as_slice()));
     section.insert("rpy_rad".to_owned(), numbers(&[roll, pitch, yaw]));
-    Value::Table(section)
+    section
 }
 
 fn expectation(expect: &Expectation) -> Value {

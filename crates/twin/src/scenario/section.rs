@@ -78,6 +78,23 @@ impl<'a> Section<'a> {
         }
     }
 
+    /// Takes an array of strings out of this one; `None` where the key is absent.
+    ///
+    /// # Errors
+    /// A diagnostic where the key holds something else.
+    pub fn take_strings(&mut self, key: &str) -> Result<Option<Vec<Spanned<String>>>, Diagnostic> {
+        let Some(value) = self.table.get_mut().remove(key) else { return Ok(None) };
+        let refused = |value: &Spanned<DeValue<'_>>| {
+            wrong_type(key, "an array of strings", value.get_ref().type_str()).at(value.span())
+        };
+        let items = value.get_ref().as_array().ok_or_else(|| refused(&value))?;
+        let string = |item: &Spanned<DeValue<'_>>| {
+            let text = item.get_ref().as_str().ok_or_else(|| refused(item))?;
+            Ok(Spanned::new(item.span(), text.to_owned()))
+        };
+        items.iter().map(string).collect::<Result<_, _>>().map(Some)
+    }
+
     /// Takes the string under `key` out and gives the one of `known` that has this name.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ use super::{
     number::NonNegative,
     obstacle,
     section::Section,
-    simulation,
+    simulation, zone,
 };
 use crate::{monitor, motion::Trajectory, verdict::Expectation};
 
@@ -65,6 +65,7 @@ pub(super) struct Document<'a> {
     controller: Option<Section<'a>>,
     motions: Vec<Section<'a>>,
     obstacles: Vec<Section<'a>>,
+    zones: Vec<Section<'a>>,
     checks: Vec<Section<'a>>,
     expect: Option<Section<'a>>,
     /// What is wrong so far; the sections are checked all the same.
@@ -72,7 +73,8 @@ pub(super) struct Document<'a> {
 }
 
 /// The sections that [`Document::parse`] takes out of the top.
-const SECTIONS: [&str; 7] = ["simulation", "start", "controller", "motion", "obstacle", "check", "expect"];
+const SECTIONS: [&str; 8] =
+    ["simulation", "start", "controller", "motion", "obstacle", "zone", "check", "expect"];
 
 impl<'a> Document<'a> {
     pub(super) fn parse(text: &'a str) -> Result<Self, Vec<Diagnostic>> {
@@ -82,6 +84,7 @@ impl<'a> Document<'a> {
         let controller = document.take_table("controller")?;
         let motions = document.take_tables("motion")?;
         let obstacles = document.take_tables("obstacle")?;
+        let zones = document.take_tables("zone")?;
         let checks = document.take_tables("check")?;
         let expect = document.take_table("expect")?;
         let mut findings = Findings::default();
@@ -89,7 +92,7 @@ impl<'a> Document<'a> {
         let mut findings = findings.map(name_sections);
         let Some(top) = top else { return Err(findings.into_vec()) };
         findings.keep(check_top(&top));
-        Ok(Self { top, simulation, start, controller, motions, obstacles, checks, expect, findings })
+        Ok(Self { top, simulation, start, controller, motions, obstacles, zones, checks, expect, findings })
     }
 
     /// The robot's path, relative to the scenario's folder.
@@ -128,19 +131,28 @@ impl<'a> Document<'a> {
         let motions_s = trajectory.as_ref().map_or(0.0, Trajectory::duration_s);
         let simulation = keep_all(&mut found, simulation::read(self.simulation, motions_s, &mut warnings));
         let controller = keep_all(&mut found, read_controller(self.controller));
-        let obstacles = keep_all(&mut found, obstacle::read(self.obstacles, &description.robot));
-        let written_checks = self.checks.len();
+        let robot = &description.robot;
+        let obstacles = keep_all(&mut found, obstacle::read(self.obstacles, &obstacle::OBSTACLE, robot));
+        let first_zone = self.zones.first().map(Section::span);
+        let zones = keep_all(&mut found, zone::read(self.zones, robot));
+        let spans: Vec<_> = self.checks.iter().map(Section::span).collect();
         let checks: Vec<_> = self
             .checks
             .into_iter()
             .filter_map(|section| keep_all(&mut found, monitor::Check::parse(section, &description)))
             .collect();
-        let all_checks = (checks.len() == written_checks).then_some(&checks[..]);
+        let all_checks = (checks.len() == spans.len()).then_some(&checks[..]);
+        if let Some(checks) = all_checks {
+            let placed: Vec<_> = checks.iter().zip(spans).collect();
+            found.keep(zone::paired_with_checks(first_zone, &placed));
+        }
         let expect = keep_all(&mut found, read_expect(self.expect, all_checks));
-        let parts = (seed, trajectory, simulation, controller, obstacles, expect);
-        let (Some(seed), Some(trajectory), Some(simulation), Some(controller), Some(obstacles), Some(expect)) =
-            parts
+        let (Some(seed), Some(trajectory), Some(simulation), Some(controller)) =
+            (seed, trajectory, simulation, controller)
         else {
+            return Err(found.into_vec());
+        };
+        let (Some(obstacles), Some(zones), Some(expect)) = (obstacles, zones, expect) else {
             return Err(found.into_vec());
         };
         if found.has_error() {
@@ -157,6 +169,7 @@ impl<'a> Document<'a> {
             controller,
             trajectory,
             obstacles,
+            zones,
             checks,
             expect,
             warnings,

@@ -1,0 +1,219 @@
+//! `servo_tcp`: the tool centre point is led to a pose, or to a position, by differential inverse
+//! kinematics in the loop: at every step of the simulation the error and the Jacobian are those of
+//! the measured joint positions. There is no plan, so where it ends is known only in the run.
+//!
+//! What the loop adjusts is the reference of the joints' controller. It adds up what the error asks
+//! for and does not start from the measured positions, so that an arm that sags under its controller
+//! is brought to the target all the same. For the same reason it is asked for more and more, up to
+//! its limits, where an obstacle keeps it from following: checks see that, the servo does not.
+
+use congruent_description::{Diagnostic, Robot, RobotDescription, WrittenTransform};
+use congruent_kinematics::{
+    Arm, ArmJoint, DifferentialMethod, IkSolver, IkTarget, KinematicsError, TargetPart,
+};
+use serde::{Deserialize, Serialize};
+use toml::Spanned;
+
+use super::{Context, Course, Motion, tcp_move};
+use crate::scenario::{Positive, Section};
+
+/// The keys that make a section this kind of motion.
+pub(super) const KEYS: &[&str] = &["servo_tcp"];
+/// Without a gain, an error falls to 1/e in 0.2 s.
+const DEFAULT_GAIN_PER_S: f64 = 5.0;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    servo_tcp: Spanned<WrittenTransform>,
+    #[serde(default)]
+    method: Method,
+    gain_per_s: Option<Positive>,
+    duration_s: Positive,
+}
+
+/// How joint speeds follow from the error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// By the pseudo-inverse of the Jacobian, damped where the arm is nearly singular.
+    #[default]
+    PseudoInverse,
+    /// By the transpose of the Jacobian.
+    Transpose,
+}
+
+impl Method {
+    /// The name in scenario files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PseudoInverse => "pseudo_inverse",
+            Self::Transpose => "transpose",
+        }
+    }
+}
+
+/// One motion that is led and not planned.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TcpServo {
+    /// The target as the scenario gives it, in the world.
+    pub written: WrittenTransform,
+    /// The target in the arm's base.
+    pub target: IkTarget,
+    /// How joint speeds follow from the error.
+    pub method: Method,
+    /// How fast the error decays: as `exp(-gain t)` where nothing limits the joints.
+    pub gain_per_s: f64,
+}
+
+/// Where a servo has led the tool.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Led {
+    /// Number of the motion in the scenario, from 1.
+    pub motion: usize,
+    /// How it was led.
+    pub method: Method,
+    /// Distance to the target that is left.
+    pub position_m: f64,
+    /// Angle that is left; `None` where no orientation was asked for.
+    pub orientation_rad: Option<f64>,
+    /// Joints that a limit holds from going on.
+    pub limits_held: Vec<String>,
+}
+
+pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<Motion, Vec<Diagnostic>> {
+    let written: Written = section.read()?;
+    let (_, target) = tcp_move::target(&written.servo_tcp, context)?;
+    let servo = TcpServo {
+        target,
+        written: written.servo_tcp.into_inner(),
+        method: written.method,
+        gain_per_s: written.gain_per_s.map_or(DEFAULT_GAIN_PER_S, Positive::get),
+    };
+    Ok(Motion { duration_s: written.duration_s.get(), course: Course::Servo(Box::new(servo)) })
+}
+
+/// Leads an arm; allocates nothing from step to step.
+#[derive(Debug)]
+pub(super) struct Drive<'a> {
+    robot: &'a Robot,
+    solver: IkSolver,
+    measured: Vec<f64>,
+    commanded: Vec<f64>,
+    change: Vec<f64>,
+    /// The whole reference before the step.
+    before: Vec<f64>,
+}
+
+/// A step, and the part of it that lies within the motion.
+pub(super) struct Stride {
+    pub(super) step_s: f64,
+    pub(super) moved_s: f64,
+}
+
+impl<'a> Drive<'a> {
+    pub(super) fn new(description: &'a RobotDescription) -> Result<Self, KinematicsError> {
+        let arm = Arm::of(description)?;
+        let joints = arm.joints().len();
+        Ok(Self {
+            robot: &description.robot,
+            solver: IkSolver::new(arm),
+            measured: vec![0.0; joints],
+            commanded: vec![0.0; joints],
+            change: vec![0.0; joints],
+            before: vec![0.0; description.robot.dof()],
+        })
+    }
+
+    /// Leads the reference `q` on by one step: towards the target, within the joints' limits of
+    /// position and, all slowed down alike, of speed. `qd` is the mean over the step.
+    pub(super) fn lead(
+        &mut self,
+        servo: &TcpServo,
+        measured_q: &[f64],
+        Stride { step_s, moved_s }: Stride,
+        (q, qd): (&mut [f64], &mut [f64]),
+    ) -> Result<(), KinematicsError> {
+        if moved_s <= 0.0 {
+            qd.fill(0.0);
+            return Ok(());
+        }
+        self.look(measured_q, q);
+        let (arm_q, method) = ((&self.measured[..], &self.commanded[..]), servo.method.into());
+        self.change.copy_from_slice(self.solver.change_towards(&servo.target, arm_q, method)?.change);
+        // What the law de/dt = -gain e does in this time: it never goes too far, whatever the gain.
+        let share = -(-servo.gain_per_s * moved_s).exp_m1();
+        let joints = self.solver.arm().joints();
+        let times_too_fast = |(joint, change): (&ArmJoint, &f64)| {
+            let fastest = self.robot.joint(joint.joint).limit.map_or(0.0, |limit| limit.velocity);
+            if fastest > 0.0 { share * change.abs() / (fastest * moved_s) } else { 0.0 }
+        };
+        let slower = joints.iter().zip(&self.change).map(times_too_fast).fold(1.0, f64::max);
+        self.before.copy_from_slice(q);
+        for (joint, change) in joints.iter().zip(&self.change) {
+            let reference = &mut q[joint.coordinate];
+            *reference = (*reference + share * change / slower).clamp(joint.lower, joint.upper);
+        }
+        self.robot.apply_mimic(q);
+        for ((qd, q), before) in qd.iter_mut().zip(q.iter()).zip(&self.before) {
+            *qd = (q - before) / step_s;
+        }
+        Ok(())
+    }
+
+    /// What a servo leaves where the robot is now.
+    pub(super) fn look_back(
+        &mut self,
+        servo: &TcpServo,
+        motion: usize,
+        measured_q: &[f64],
+        q: &[f64],
+    ) -> Result<Led, KinematicsError> {
+        self.look(measured_q, q);
+        let (arm_q, method) = ((&self.measured[..], &self.commanded[..]), servo.method.into());
+        let step = self.solver.change_towards(&servo.target, arm_q, method)?;
+        let (position_m, orientation_rad) = (step.residual_position_m, step.residual_orientation_rad);
+        let held = step.limits_held.to_vec();
+        let joints = self.solver.arm().joints();
+        let name = |at: usize| self.robot.joint(joints[at].joint).name.clone();
+        Ok(Led {
+            motion,
+            method: servo.method,
+            position_m,
+            orientation_rad: (servo.target.part == TargetPart::Pose).then_some(orientation_rad),
+            limits_held: held.into_iter().map(name).collect(),
+        })
+    }
+
+    /// Takes the arm's joints out of the robot's.
+    fn look(&mut self, measured_q: &[f64], reference_q: &[f64]) {
+        for (at, joint) in self.solver.arm().joints().iter().enumerate() {
+            self.measured[at] = measured_q[joint.coordinate];
+            self.commanded[at] = reference_q[joint.coordinate];
+        }
+    }
+}
+
+impl std::fmt::Display for Led {
+    /// In words: `led by pseudo_inverse, 1.2e-9 m left`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "led by {}, {:.1e} m", self.method.name(), self.position_m)?;
+        if let Some(orientation_rad) = self.orientation_rad {
+            write!(f, " and {orientation_rad:.1e} rad")?;
+        }
+        f.write_str(" left")?;
+        if !self.limits_held.is_empty() {
+            write!(f, ", held by limits of {}", self.limits_held.join(", "))?;
+        }
+        Ok(())
+    }
+}
+
+impl From<Method> for DifferentialMethod {
+    fn from(method: Method) -> Self {
+        match method {
+            Method::PseudoInverse => Self::PseudoInverse,
+            Method::Transpose => Self::Transpose,
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! `[[zone]]`: space that links are forbidden to enter, in the root link's frame. A zone is no body:
+//! physics knows nothing of it, the check `zone` watches it.
+
+use std::ops::Range;
+
+use congruent_description::{Diagnostic, Geometry, Link, LinkIndex, Robot, known_names};
+use congruent_simulation::Obstacle;
+use toml::Spanned;
+
+use super::{obstacle, section::Section};
+use crate::monitor::{Check, ZONE};
+
+/// Space that is forbidden to some links.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Zone {
+    /// Its name, pose and shape.
+    pub space: Obstacle,
+    /// The links that may not enter, in the robot's order: at least one, each with a collision
+    /// shape.
+    pub links: Vec<LinkIndex>,
+}
+
+/// Reads all zones; names as of obstacles.
+///
+/// `links` holds names of links, in which `*` stands for any characters. A name with `*` means the
+/// links that can move and have a collision shape: what stands with the root link stands where
+/// the scenario put it. A link that is named in full counts in any case.
+pub(super) fn read(sections: Vec<Section<'_>>, robot: &Robot) -> Result<Vec<Zone>, Vec<Diagnostic>> {
+    let mut errors = Vec::new();
+    let (mut links, mut rest) = (Vec::new(), Vec::new());
+    for mut section in sections {
+        match forbidden_links(&mut section, robot) {
+            Ok(found) => links.push(found),
+            Err(found) => errors.extend(found),
+        }
+        rest.push(section);
+    }
+    let spaces = obstacle::read(rest, &obstacle::ZONE, robot).map_err(|found| errors.extend(found));
+    match spaces {
+        Ok(spaces) if errors.is_empty() => {
+            Ok(spaces.into_iter().zip(links).map(|(space, links)| Zone { space, links }).collect())
+        }
+        _ => Err(errors),
+    }
+}
+
+/// Zones and their check go together: a check without a zone would look at nothing, and a zone
+/// without a check would forbid nothing.
+pub(super) fn paired_with_checks(
+    zone: Option<Range<usize>>,
+    checks: &[(&Check, Range<usize>)],
+) -> Result<(), Diagnostic> {
+    let check = checks.iter().find(|(check, _)| check.kind == ZONE);
+    match (zone, check) {
+        (Some(span), None) => {
+            Err(Diagnostic::error("scenario::zone_unchecked", "nothing watches the zones of this scenario")
+                .with_help(format!("add a [[check]] with kind = \"{ZONE}\""))
+                .at(span))
+        }
+        (None, Some((_, span))) => {
+            let message = format!("check \"{ZONE}\" has nothing to look at: the scenario has no zone");
+            Err(Diagnostic::error("scenario::no_zone", message)
+                .with_help("add a [[zone]] with name, links, a shape and its place")
+                .at(span.clone()))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn forbidden_links(section: &mut Section<'_>, robot: &Robot) -> Result<Vec<LinkIndex>, Vec<Diagnostic>> {
+    let span = section.span();
+    let names = section.take_strings("links")?.unwrap_or_default();
+    if names.is_empty() {
+        return Err(Diagnostic::error("scenario::zone_links", "the zone is forbidden to no link")
+            .with_help("give links = [\"*\"] for all links that move, or their names")
+            .at(span)
+            .into());
+    }
+    let mut links = Vec::new();
+    let mut errors = Vec::new();
+    for name in &names {
+        match links_named(name, robot) {
+            Ok(found) => links.extend(found),
+            Err(error) => errors.push(error.at(name.span())),
+        }
+    }
+    links.sort_unstable();
+    links.dedup();
+    if errors.is_empty() { Ok(links) } else { Err(errors) }
+}
+
+fn links_named(name: &Spanned<String>, robot: &Robot) -> Result<Vec<LinkIndex>, Diagnostic> {
+    let name = name.get_ref().as_str();
+    let can_enter = |link: LinkIndex| has_shape(robot.link(link));
+    if name.contains('*') {
+        let links = robot.link_indices().filter(|&link| {
+            can_enter(link) && robot.body(link) != robot.root() && matches(name, &robot.link(link).name)
+        });
+        let links: Vec<LinkIndex> = links.collect();
+        return if links.is_empty() { Err(no_link(name, robot)) } else { Ok(links) };
+    }
+    match robot.find_link(name) {
+        None => Err(no_link(name, robot)),
+        Some(link) if can_enter(link) => Ok(vec![link]),
+        Some(_) => {
+            let message = format!("link \"{name}\" has no collision shape: it can enter no zone");
+            Err(Diagnostic::error("scenario::zone_links", message).with_help(known_names(
+                "",
+                "links with one",
+                links_with_shape(robot),
+            )))
+        }
+    }
+}
+
+fn no_link(name: &str, robot: &Robot) -> Diagnostic {
+    let what = if name.contains('*') { "moving link with a collision shape" } else { "link" };
+    Diagnostic::error(
+        "scenario::unknown_link",
+        format!("robot \"{}\" has no {what} \"{name}\"", robot.name()),
+    )
+    .with_help(known_names(name, "links", links_with_shape(robot)))
+}
+
+fn links_with_shape(robot: &Robot) -> impl Iterator<Item = &str> + Clone {
+    robot.links().iter().filter(|link| has_shape(link)).map(|link| link.name.as_str())
+}
+
+/// Whether anything of the link can touch; a mesh without triangles is nothing.
+fn has_shape(link: &Link) -> bool {
+    let is_empty =
+        |geometry: &Geometry| matches!(geometry, Geometry::Mesh(mesh) if mesh.triangles.is_empty());
+    link.collisions.iter().any(|shape| !is_empty(&shape.geometry))
+}
+
+/// Whether `name` is `pattern`, in which each `*` stands for any characters or none.
+fn matches(pattern: &str, name: &str) -> bool {
+    let Some((start, rest)) = pattern.split_once('*') else { return pattern == name };
+    let Some(mut name) = name.strip_prefix(start) else { return false };
+    let mut pieces: Vec<&str> = rest.split('*').collect();
+    let end = pieces.pop().unwrap_or_default();
+    for piece in pieces {
+        // The first place is as good as any: what follows has the more room.
+        let Some(at) = name.find(piece) else { return false };
+        name = &name[at + piece.len()..];
+    }
+    name.ends_with(end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_stands_for_any_characters() {
+        for (pattern, name, is_match) in [
+            ("*", "wrist_1_link", true),
+            ("wrist_*", "wrist_1_link", true),
+            ("wrist_*", "forearm_link", false),
+            ("*_link", "wrist_1_link", true),
+            ("*_link", "tool0", false),
+            ("w*_1_*k", "wrist_1_link", true),
+            ("w*_3_*k", "wrist_1_link", false),
+            ("wrist_1_link*", "wrist_1_link", true),
+            ("**", "", true),
+            ("a*a", "a", false),
+            ("*ab*ab", "aab", false),
+            ("*ab*ab", "abab", true),
+            ("wrist", "wrist_1_link", false),
+        ] {
+            assert_eq!(matches(pattern, name), is_match, "{pattern} {name}");
+        }
+    }
+}
