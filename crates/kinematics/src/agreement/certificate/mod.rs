@@ -12,6 +12,7 @@
 mod branch;
 mod corner;
 mod gap;
+mod order;
 mod reduce;
 mod search;
 mod telescope;
@@ -22,6 +23,7 @@ use self::{
     branch::{Outcome, bracket},
     corner::Interval,
     gap::Gap,
+    order::SideBySide,
     reduce::{Reduced, Tidied},
     search::Attained,
     telescope::Telescope,
@@ -115,14 +117,15 @@ pub fn certify(
     ranges: &[(f64, f64)],
     budget: Budget,
 ) -> Result<Certificate, KinematicsError> {
+    KinematicsError::check_joint_count(a.joint_count(), b.joint_count())?;
     KinematicsError::check_joint_count(a.joint_count(), ranges.len())?;
     let each_its_own: Vec<usize> = (0..a.joint_count()).collect();
-    certify_driven((a, b), &each_its_own, ranges, budget)
+    certify_driven((a, &each_its_own), (b, &each_its_own), ranges, budget)
 }
 
-/// The same where one position may drive several joints: `drivers` has, for each joint of the
-/// chains, the index of its position in `ranges`. So joints that mimic others are held, and chains
-/// whose joints stand in different orders: either then has joints that do not move.
+/// The same where the joints of the chains are driven in any order: beside each chain stands, for
+/// each of its joints, the index of its position in `ranges`. So joints that mimic others are held, and
+/// chains that have their joints in different orders.
 ///
 /// # Errors
 /// As [`certify`]; [`KinematicsError::JointCount`] also for a driver that has no range.
@@ -131,37 +134,35 @@ pub fn certify(
 /// ```
 /// use congruent_kinematics::{Budget, Pose, ScrewChain, Twist, certify_driven};
 /// use nalgebra::Vector3;
-/// let (still, turn) = (Vector3::zeros(), Vector3::z());
-/// let chain = |turns: [Vector3<f64>; 2]| ScrewChain {
-///     twists_in_base: turns.map(|angular| Twist { angular, linear: still }).to_vec(),
-///     base_from_tip_at_zero: Pose::identity(),
-/// };
-/// let (once, twice) = (chain([turn, still]), chain([turn, turn]));
-/// let certificate = certify_driven((&once, &twice), &[0, 0], &[(0.0, 0.5)], Budget::default())?;
+/// let turn = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
+/// let chain = |twists_in_base| ScrewChain { twists_in_base, base_from_tip_at_zero: Pose::identity() };
+/// let (once, twice) = (chain(vec![turn]), chain(vec![turn, turn]));
+/// let certificate = certify_driven((&once, &[0]), (&twice, &[0, 0]), &[(0.0, 0.5)], Budget::default())?;
 /// assert!((certificate.orientation_rad.attained - 0.5).abs() < 1e-7);
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())
 /// ```
 pub fn certify_driven(
-    (a, b): (&ScrewChain, &ScrewChain),
-    drivers: &[usize],
+    a: (&ScrewChain, &[usize]),
+    b: (&ScrewChain, &[usize]),
     ranges: &[(f64, f64)],
     budget: Budget,
 ) -> Result<Certificate, KinematicsError> {
-    KinematicsError::check_joint_count(a.joint_count(), b.joint_count())?;
-    KinematicsError::check_joint_count(a.joint_count(), drivers.len())?;
-    check_ranges(drivers, ranges)?;
+    KinematicsError::check_joint_count(a.0.joint_count(), a.1.len())?;
+    KinematicsError::check_joint_count(b.0.joint_count(), b.1.len())?;
+    let SideBySide { chains: [a, b], drivers } = SideBySide::new(a, b);
+    check_ranges(&drivers, ranges)?;
     let rest: Vec<f64> = ranges.iter().map(|&(lower, upper)| 0.0_f64.clamp(lower, upper)).collect();
     let ranges_of_joints: Vec<Interval> = drivers.iter().map(|&driver| ranges[driver]).collect();
-    let first = Telescope::new(a, b, &ranges_of_joints);
-    let tidied = Tidied::new((a, b), drivers, ranges);
+    let first = Telescope::new(&a, &b, &ranges_of_joints);
+    let tidied = Tidied::new((&a, &b), &drivers, ranges);
     let problem = Problem { tidied: &tidied, rest: &rest, budget };
     let mut position_m = problem.bracket(&POSITION, first.total_m());
     let mut orientation_rad = problem.bracket(&ORIENTATION, first.total_rad());
     let at = |chain: &ScrewChain, positions: &[f64]| {
         chain.base_from_tip(&drivers.iter().map(|&driver| positions[driver]).collect::<Vec<_>>())
     };
-    position_m.attain(at(a, &position_m.at)?.distance_m(&at(b, &position_m.at)?));
-    orientation_rad.attain(at(a, &orientation_rad.at)?.angle_rad(&at(b, &orientation_rad.at)?));
+    position_m.attain(at(&a, &position_m.at)?.distance_m(&at(&b, &position_m.at)?));
+    orientation_rad.attain(at(&a, &orientation_rad.at)?.angle_rad(&at(&b, &orientation_rad.at)?));
     Ok(Certificate { position_m, orientation_rad })
 }
 
