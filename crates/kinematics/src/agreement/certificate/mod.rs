@@ -1,10 +1,12 @@
 //! A bracket around the worst disagreement of two chains over the whole joint range: from below a
 //! configuration that attains it, from above a bound that holds everywhere.
 //!
-//! Three steps. The telescoped sum (`telescope.rs`) settles chains that agree, in microseconds. What
-//! is left is reduced to the joints that matter (`reduce.rs`); climbing from many starts
-//! (`search.rs`) finds a bad configuration, and branch and bound (`branch.rs`) proves that none is
-//! much worse, with bounds from corners of polygons (`gap.rs`, `corner.rs`).
+//! Four steps. Chains with their joints in different orders are laid side by side (`order.rs`). The
+//! telescoped sum (`telescope.rs`) settles chains that agree, in microseconds. What is left is reduced to
+//! the joints that matter (`reduce.rs`); climbing from many starts (`search.rs`) finds a bad
+//! configuration, and branch and bound (`branch.rs`) proves that none is much worse, with bounds from
+//! corners of polygons (`gap.rs`, `corner.rs`), and where these do not do, from chains that stand
+//! between the two (`way.rs`).
 //!
 //! The bound is rigorous in floating point: each file states what rounding can take from it, and
 //! adds that. It speaks of the two [`ScrewChain`]s as they are given.
@@ -16,17 +18,19 @@ mod order;
 mod reduce;
 mod search;
 mod telescope;
+mod way;
 
 use std::f64::consts::PI;
 
 use self::{
-    branch::{Outcome, bracket},
+    branch::{Bound, Outcome, Scale, Task, bracket},
     corner::Interval,
     gap::Gap,
     order::SideBySide,
     reduce::{Reduced, Tidied},
     search::Attained,
     telescope::Telescope,
+    way::Way,
 };
 use crate::{error::KinematicsError, screw_chain::ScrewChain};
 
@@ -35,20 +39,26 @@ use crate::{error::KinematicsError, screw_chain::ScrewChain};
 const ROUNDING_LEVEL: f64 = 1e-12;
 /// Part of the attained disagreement that may be spent on leaving out a joint that hardly matters.
 const ALLOWANCE: f64 = 1e-4;
+/// One part in so many of the budget goes to the gap alone, before other bounds are looked for.
+const ALONE: u64 = 16;
+/// Ways whose steps are not worse together than this many times what is attained may help.
+const PROMISING: f64 = 1.25;
+/// Most ways that are followed.
+const MOST_WAYS: usize = 4;
 
 /// When to stop dividing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
     /// The bracket is narrow enough when `certified <= attained (1 + relative_gap)`.
     pub relative_gap: f64,
-    /// Most corners that are evaluated for each of the two brackets, some 10 ns each; a box counts
-    /// for 256 more than it has.
+    /// Most corners that are evaluated for each of the two brackets, some 5 ns each; a box counts for
+    /// some hundred more than it has.
     pub corners: u64,
 }
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { relative_gap: 0.02, corners: 100_000_000 }
+        Self { relative_gap: 0.02, corners: 250_000_000 }
     }
 }
 
@@ -188,26 +198,27 @@ impl Bracket {
 /// What is bracketed: how it is made a gap, and how a gap is read.
 struct Measure {
     reduce: fn(&Tidied, f64) -> Reduced,
-    /// The disagreement for a gap.
-    of_gap: fn(f64) -> f64,
-    /// Gaps beyond it are no larger disagreements.
-    ceiling: f64,
+    scale: Scale,
     price_of_tidying: fn(&Tidied) -> f64,
+    ways: fn(&ScrewChain, &ScrewChain) -> Vec<Way>,
 }
 
 const POSITION: Measure = Measure {
     reduce: Tidied::position,
-    of_gap: |gap_m| gap_m,
-    ceiling: f64::INFINITY,
+    scale: Scale { of_gap: |gap_m| gap_m, ceiling: f64::INFINITY },
     price_of_tidying: |tidied| tidied.price_m,
+    ways: |a, b| [way::over_faults(a, b), way::over_points(a, b)].concat(),
 };
 
 const ORIENTATION: Measure = Measure {
     reduce: Tidied::orientation,
-    // Half a turn is the most that two orientations differ, and their quaternions sqrt(2) then.
-    of_gap: |gap| if gap < std::f64::consts::SQRT_2 { 4.0 * (gap / 2.0).asin() } else { PI },
-    ceiling: std::f64::consts::SQRT_2,
+    scale: Scale {
+        // Half a turn is the most that two orientations differ, and their quaternions sqrt(2) then.
+        of_gap: |gap| if gap < std::f64::consts::SQRT_2 { 4.0 * (gap / 2.0).asin() } else { PI },
+        ceiling: std::f64::consts::SQRT_2,
+    },
     price_of_tidying: |tidied| tidied.price_rad,
+    ways: way::over_faults,
 };
 
 struct Problem<'a> {
@@ -223,18 +234,66 @@ impl Problem<'_> {
             return Bracket { attained: 0.0, certified: telescoped, at: self.rest.to_vec(), cells: 0 };
         }
         let ranges: &[Interval] = &self.tidied.positions;
+        let of_gap = measure.scale.of_gap;
         let whole = (measure.reduce)(self.tidied, ROUNDING_LEVEL);
         let found = Attained::search(&whole.gap, ranges);
-        let allowance = (ALLOWANCE * (measure.of_gap)(found.gap)).max(ROUNDING_LEVEL);
-        let reduced = (measure.reduce)(self.tidied, allowance);
-        let found = Attained::new(&reduced.gap, self.at_rest_elsewhere(&reduced.gap, &found.at));
-        let Outcome { attained, certified, cells } =
-            bracket(&reduced.gap, ranges, found, (measure.ceiling, self.budget));
-        let price = reduced.price + (measure.price_of_tidying)(self.tidied);
-        // The reading of the gap and the sum are some four roundings.
-        let certified = ((measure.of_gap)(certified) + price) * (1.0 + 16.0 * f64::EPSILON);
-        let certified = certified.min(telescoped).min((measure.of_gap)(f64::INFINITY));
-        Bracket { attained: (measure.of_gap)(attained.gap), certified, at: attained.at, cells }
+        let allowance = (ALLOWANCE * of_gap(found.gap)).max(ROUNDING_LEVEL);
+        let Reduced { gap, price } = (measure.reduce)(self.tidied, allowance);
+        let found = Attained::new(&gap, self.at_rest_elsewhere(&gap, &found.at));
+        let price = price + (measure.price_of_tidying)(self.tidied);
+        let itself = Bound { steps: vec![gap.clone()], price };
+        let affordable = |bounds: Vec<Bound>| -> Vec<Bound> {
+            bounds.into_iter().filter(|bound| bound.is_affordable(ranges, self.budget)).collect()
+        };
+        let Budget { corners, relative_gap } = self.budget;
+        let mut task = Task {
+            gap: &gap,
+            bounds: affordable(vec![itself.clone()]),
+            ranges,
+            scale: measure.scale,
+            budget: Budget { corners: corners / ALONE, relative_gap },
+        };
+        let mut outcome = bracket(&task, found);
+        let attained = of_gap(outcome.attained.gap);
+        if outcome.certified > (attained * (1.0 + relative_gap)).max(ROUNDING_LEVEL) {
+            let ways = self.ways(measure, &outcome.attained, allowance);
+            task.bounds = affordable([vec![itself], ways].concat());
+            task.budget = Budget { corners: corners - corners / ALONE, relative_gap };
+            let further = bracket(&task, outcome.attained);
+            outcome = Outcome {
+                certified: outcome.certified.min(further.certified),
+                cells: outcome.cells + further.cells,
+                ..further
+            };
+        }
+        let Outcome { attained, certified, cells } = outcome;
+        // The readings of the gaps and their sum are some dozen roundings.
+        let certified = certified * (1.0 + 64.0 * f64::EPSILON);
+        let certified = certified.min(telescoped).min(of_gap(f64::INFINITY));
+        Bracket { attained: of_gap(attained.gap), certified, at: attained.at, cells }
+    }
+
+    /// Bounds over chains between the two, those that promise most.
+    fn ways(&self, measure: &Measure, attained: &Attained, allowance: f64) -> Vec<Bound> {
+        let Tidied { a, b, drivers, positions, .. } = self.tidied;
+        let step = |[from, to]: &[ScrewChain; 2]| -> (Gap, f64) {
+            let tidied = Tidied::new((from, to), drivers, positions);
+            let Reduced { gap, price } = (measure.reduce)(&tidied, allowance);
+            (gap, price + (measure.price_of_tidying)(&tidied))
+        };
+        let to_tidied = (measure.price_of_tidying)(self.tidied);
+        let bound = |way: &Way| {
+            let (steps, prices): (Vec<Gap>, Vec<f64>) = way.iter().map(step).unzip();
+            let price = to_tidied + prices.iter().sum::<f64>();
+            let worst = |gap: &Gap| (measure.scale.of_gap)(Attained::near(gap, positions, &attained.at).gap);
+            (price + steps.iter().map(worst).sum::<f64>(), Bound { steps, price })
+        };
+        let mut ways: Vec<(f64, Bound)> = (measure.ways)(a, b).iter().map(bound).collect();
+        let worth = PROMISING * (measure.scale.of_gap)(attained.gap);
+        ways.retain(|(sum, _)| *sum <= worth);
+        ways.sort_by(|one, two| one.0.total_cmp(&two.0));
+        ways.truncate(MOST_WAYS);
+        ways.into_iter().map(|(_, bound)| bound).collect()
     }
 
     /// Joints that the gap does not depend on go to where they rest.
