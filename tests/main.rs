@@ -16,6 +16,7 @@ mod diagnosis;
 mod forward_goldens;
 mod golden;
 mod jacobian_goldens;
+mod ladder_chains;
 mod pairing;
 mod robots;
 mod safety;

@@ -5,7 +5,7 @@ use std::{fmt::Write, path::PathBuf};
 use congruent_description::{Diagnostic, load_robot};
 use congruent_twin::{
     basics::{Basics, ByWitness},
-    certificate::{Brackets, ReportedBracket},
+    certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate},
     check::{Agreement, CheckReport, Comparison, check},
     ladder::{Blame, Ladder, ReportedCause},
 };
@@ -74,9 +74,7 @@ fn text(report: &CheckReport) -> String {
             report.worst.at.iter().map(|named| format!("{} {:.4}", named.joint, named.value)).collect();
         let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, at.join(", "));
     }
-    if let Some(brackets) = &report.certificate_bracket {
-        certified(&mut text, report.verdict, brackets);
-    }
+    certified(&mut text, report);
     if let Some(ladder) = report.ladders.iter().find(|ladder| !ladder.diagnosis.is_empty()) {
         diagnosed(&mut text, ladder);
     }
@@ -132,13 +130,9 @@ fn to_mm(metres: f64) -> f64 {
 }
 
 /// What holds over the whole joint range: a proof, not a sample.
-fn certified(text: &mut String, verdict: Agreement, Brackets { position_m, orientation_rad }: &Brackets) {
-    if verdict == Agreement::Agree {
-        let (position, orientation) = (length(position_m.certified), angle(orientation_rad.certified));
-        let _ = writeln!(
-            text,
-            "  certified: table and URDF at most {position} and {orientation} apart over the whole joint range"
-        );
+fn certified(text: &mut String, report: &CheckReport) {
+    if report.verdict == Agreement::Agree {
+        report.certificates.iter().for_each(|certificate| narrow(text, certificate));
         return;
     }
     let mut line = |what: &str, bracket: &ReportedBracket, figure: fn(f64) -> String| {
@@ -152,8 +146,31 @@ fn certified(text: &mut String, verdict: Agreement, Brackets { position_m, orien
             figure(bracket.certified)
         );
     };
-    line("position", position_m, length);
-    line("orientation", orientation_rad, angle);
+    if let Some(Brackets { position_m, orientation_rad }) = &report.certificate_bracket {
+        line("position", position_m, length);
+        line("orientation", orientation_rad, angle);
+    }
+}
+
+/// A certificate of models that agree, with what it presumes.
+fn narrow(text: &mut String, certificate: &ReportedCertificate) {
+    let ReportedCertificate { between, brackets, premise, .. } = certificate;
+    if let Some(Brackets { position_m, orientation_rad }) = brackets {
+        let (position, orientation) = (length(position_m.certified), angle(orientation_rad.certified));
+        let _ = writeln!(
+            text,
+            "  certified: {between} at most {position} and {orientation} apart over the whole joint range"
+        );
+    }
+    if let Some(Premise { configurations, residual_m, residual_rad, holds }) = premise {
+        let (kept, figures) =
+            (if *holds { "is" } else { "is not" }, [length(*residual_m), angle(*residual_rad)]);
+        let _ = writeln!(
+            text,
+            "    each joint of the physics {kept} one screw, as probed: to {} at {configurations} configurations",
+            figures.join(" and ")
+        );
+    }
 }
 
 /// The first cause as a compiler shows it, then what cannot be told from it and what comes next.

@@ -91,6 +91,11 @@ impl RobotDescription {
         joints.into_iter().filter(|&joint| self.robot.joint(joint).kind.is_movable()).collect()
     }
 
+    /// The entries of the configuration vector of [`RobotDescription::moving_chain`].
+    pub fn moving_coordinates(&self) -> Vec<usize> {
+        self.moving_chain().into_iter().filter_map(|joint| self.robot.coordinate(joint)).collect()
+    }
+
     fn link(&self, role: &str, name: &str) -> Result<LinkIndex, Diagnostic> {
         self.robot.find_link(name).ok_or_else(|| {
             let links = self.robot.links().iter().map(|link| link.name.as_str());

@@ -40,5 +40,5 @@ pub use link::{Link, LinkIndex};
 pub use load::load_robot;
 pub use robot::{JointParts, Robot, RobotError};
 pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey, dh_section};
-pub use urdf::{parse_urdf, urdf_text};
+pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use written_transform::WrittenTransform;

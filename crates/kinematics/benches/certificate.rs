@@ -58,7 +58,7 @@ fn chain(figures: &TableFigures) -> ScrewChain {
 /// One fault: its name and what it changes.
 type Fault = (&'static str, fn(&mut TableFigures));
 
-const FAULTS: [Fault; 7] = [
+const FAULTS: [Fault; 8] = [
     ("none", |_| ()),
     ("alpha of row 1, 1 deg", |arm| arm.rows[0].alpha_rad += 1_f64.to_radians()),
     ("a of row 2, 1 mm", |arm| arm.rows[1].a_m += 1e-3),
@@ -67,6 +67,10 @@ const FAULTS: [Fault; 7] = [
         arm.base_from_dh0 = Isometry3::new(Vector3::x() * 1e-3, Vector3::x() * 0.017);
     }),
     ("tool, 5 mm", |arm| arm.dhn_from_tip = Isometry3::translation(0.005, 0.0, 0.0)),
+    ("base and tool, 50 mm each", |arm| {
+        arm.base_from_dh0 = Isometry3::translation(0.03, 0.04, 0.0);
+        arm.dhn_from_tip = Isometry3::translation(0.0, 0.03, -0.04);
+    }),
     ("every figure", |arm| {
         for row in &mut arm.rows {
             row.a_m += 1e-3;

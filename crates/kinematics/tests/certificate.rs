@@ -166,6 +166,52 @@ fn a_joint_that_moves_twice_as_far() {
     assert_close(&small.position_m, 1e-6 * PI);
 }
 
+/// An arm with the lengths of a Panda, in its limits: seven joints, of which all matter.
+fn seven_joints() -> (TableFigures, Vec<(f64, f64)>) {
+    let row = RowFigures::revolute;
+    let rows = [
+        row(0.0, 0.0, 0.333),
+        row(0.0, -90.0, 0.0),
+        row(0.0, 90.0, 0.316),
+        row(0.0825, 90.0, 0.0),
+        row(-0.0825, -90.0, 0.384),
+        row(0.0, 90.0, 0.0),
+        row(0.088, 90.0, 0.107),
+    ];
+    let limits =
+        [(-2.9, 2.9), (-1.76, 1.76), (-2.9, 2.9), (-3.07, -0.07), (-2.9, 2.9), (-0.02, 3.75), (-2.9, 2.9)];
+    (TableFigures::new(DhConvention::Modified, &rows), limits.to_vec())
+}
+
+#[test]
+fn a_wrong_base_and_a_wrong_tool_add_up() {
+    let (arm, ranges) = seven_joints();
+    let off = changed(&arm, |arm| {
+        arm.base_from_dh0 = Isometry3::translation(0.01, 0.02, -0.02);
+        arm.dhn_from_tip = Isometry3::translation(0.0, 0.03, 0.04);
+    });
+    let position_m = certify(&chain(&off), &chain(&arm), &ranges, Budget::default()).unwrap().position_m;
+    assert_close(&position_m, 0.03 + 0.05);
+}
+
+#[test]
+fn a_small_turn_beside_a_large_one_adds_up_too() {
+    let (arm, ranges) = seven_joints();
+    let off = changed(&arm, |arm| {
+        arm.base_from_dh0 = Isometry3::rotation(Vector3::x() * 1.9);
+        arm.dhn_from_tip = Isometry3::rotation(Vector3::z() * 1e-4);
+    });
+    let certificate = certify(&chain(&off), &chain(&arm), &ranges, Budget::default()).unwrap();
+    assert_close(&certificate.orientation_rad, 1.9 + 1e-4);
+}
+
+#[test]
+fn a_joint_in_degrees_is_worst_at_its_furthest_reach_on_both_sides() {
+    // Joint 2 turns 57 times as fast, about the axis from which the elbow and the tool stand out.
+    let fast = changed(&planar(0.4), |arm| arm.rows[0].sign = 180.0 / PI);
+    assert_close(&certificate(&fast, &planar(0.4)).position_m, 2.0);
+}
+
 #[test]
 fn a_sliding_joint_is_exact() {
     let slide = |x: f64| ScrewChain {
@@ -188,12 +234,11 @@ fn more_than_one_turn_repeats_itself() {
 #[test]
 fn parallel_joints_in_another_order_agree_in_orientation() {
     // The same two lengths, the joints exchanged: shoulder and elbow trade their parts.
-    let still = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
     let arm = chain(&planar(0.4));
-    let [first, second] = [arm.twists_in_base[0], arm.twists_in_base[1]];
-    let with = |twists_in_base: Vec<Twist>| ScrewChain { twists_in_base, ..arm.clone() };
-    let (a, b) = (with(vec![first, second, still]), with(vec![still, first, second]));
-    let certificate = certify_driven((&a, &b), &[0, 1, 0], &[TURN, (-0.5, 0.5)], Budget::default()).unwrap();
+    let (in_order, exchanged): (&[usize], &[usize]) = (&[0, 1], &[1, 0]);
+    let ranges = [TURN, (-0.5, 0.5)];
+    let certificate =
+        certify_driven((&arm, in_order), (&arm, exchanged), &ranges, Budget::default()).unwrap();
     assert_exact(&certificate.orientation_rad, 0.0);
     let apart = |q: [f64; 2]| {
         let tip = |q1: f64, q2: f64| {
@@ -306,6 +351,21 @@ proptest! {
     fn no_configuration_of_unlike_chains_exceeds_the_certificate(
         a in any_chain(), b in any_chain(), ranges in ranges(),
     ) {
+        assert_holds(&a, &b, &ranges[..3])?;
+    }
+
+    #[test]
+    fn no_configuration_of_a_moved_chain_with_another_ratio_exceeds_the_certificate(
+        a in any_chain(), base in support::isometry(), tool in support::isometry(),
+        (joint, ratio) in (0_usize..3, -20.0..20.0), ranges in ranges(),
+    ) {
+        let base = Pose::from(base);
+        let mut b = ScrewChain {
+            twists_in_base: a.twists_in_base.iter().map(|twist| twist.seen_from(&base)).collect(),
+            base_from_tip_at_zero: base * a.base_from_tip_at_zero * Pose::from(tool),
+        };
+        let Twist { angular, linear } = b.twists_in_base[joint];
+        b.twists_in_base[joint] = Twist { angular: angular * ratio, linear: linear * ratio };
         assert_holds(&a, &b, &ranges[..3])?;
     }
 

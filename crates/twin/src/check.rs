@@ -9,10 +9,11 @@ use serde::Serialize;
 
 use crate::{
     basics::{Basics, basics},
-    certificate::{Bounds, Brackets, certificate},
+    certificate::{Bounds, Brackets, ReportedCertificate, certificates, worst},
     configurations::probe_configurations,
     ladder::{Ladder, ReportedAlternative, ReportedCause, climb},
     model::{Model, PoseSource},
+    probed::Probed,
     report::Finding,
     sample::LinkError,
     verdict::NamedValue,
@@ -101,10 +102,12 @@ pub struct CheckReport {
     pub comparisons: Vec<Comparison>,
     /// What a person tries first: zero, one axis at a time, whether the transforms are rigid.
     pub basics: Basics,
-    /// How far table and URDF are apart at most, over the whole joint range; of a robot with a table.
+    /// How far models are apart at most, over the whole joint range: the largest of `certificates`.
     pub certificate: Option<Bounds>,
     /// The same with configurations that come near.
     pub certificate_bracket: Option<Brackets>,
+    /// Two models of the chain at a time.
+    pub certificates: Vec<ReportedCertificate>,
     /// The likeliest cause of a disagreement, then what comes next and leaves more: that of the
     /// first ladder that has one.
     pub diagnosis: Vec<ReportedCause>,
@@ -158,16 +161,17 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
     }
     let comparisons: Vec<Comparison> =
         tallies.iter().map(|tally| tally.finish(description, &configurations)).collect();
-    let worst = worst_of(&comparisons);
-    let ladders = climb(description, &mut witnesses.world, &configurations)?;
+    let probed = Probed::new(description, &mut witnesses.world, &configurations)?;
+    let ladders = climb(description, &probed.chain, &configurations);
     let named = ladders.iter().find(|ladder| !ladder.diagnosis.is_empty());
     let agree = comparisons.iter().all(|comparison| comparison.verdict == Agreement::Agree);
-    let brackets = certificate(description)?;
+    let certificates = certificates(description, &probed, &mut witnesses.world)?;
+    let brackets = worst(&certificates);
     let Tolerance { position_m, orientation_rad: angle } = description.tolerance;
     Ok(CheckReport {
         robot: robot.name().to_owned(),
         verdict: if agree { Agreement::Agree } else { Agreement::Disagree },
-        worst,
+        worst: worst_of(&comparisons),
         tolerance: ReportedTolerance { position_m, orientation_rad: angle },
         configurations: configurations.len(),
         seed,
@@ -175,6 +179,7 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
         basics: basics(description, &configurations)?,
         certificate: brackets.as_ref().map(Brackets::bounds),
         certificate_bracket: brackets,
+        certificates,
         diagnosis: named.map(|ladder| ladder.diagnosis.clone()).unwrap_or_default(),
         indistinguishable: named.map(|ladder| ladder.indistinguishable.clone()).unwrap_or_default(),
         ladders,

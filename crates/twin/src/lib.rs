@@ -19,6 +19,7 @@ pub mod model;
 pub mod monitor;
 pub mod motion;
 pub mod plot;
+mod probed;
 pub mod proximity;
 pub mod recorder;
 #[cfg(feature = "recording")]

@@ -17,11 +17,13 @@ mod grammar;
 mod joint;
 mod link;
 mod number;
+mod places;
 mod pose;
 mod raw;
 mod shape;
 mod write;
 
+pub use places::UrdfPlaces;
 pub use write::urdf_text;
 
 use std::{collections::BTreeMap, ops::Range};

@@ -72,19 +72,26 @@ pub(super) fn compare(case: &Case) -> Vec<JointDifference> {
     let suspect = ScrewChain::probe(joints, |q| case.suspect.base_from_tip(q));
     let reference = case.reference.screws();
     let mut differences = Vec::new();
-    for (joint, (invariant, found)) in quantities(&suspect) {
-        let expected = quantities(&reference)
-            .into_iter()
-            .find(|(at, (kind, _))| *at == joint && *kind == invariant)
-            .map_or(f64::NAN, |(_, (_, value))| value);
+    let (found_here, expected_here) = (quantities(&suspect), quantities(&reference));
+    let value = |list: &[Quantity], at: usize, of: Invariant| {
+        list.iter().find(|(joint, (kind, _))| (*joint, *kind) == (at, of)).map(|(_, (_, value))| *value)
+    };
+    for &(joint, (invariant, found)) in &found_here {
+        let expected = value(&expected_here, joint, invariant).unwrap_or(f64::NAN);
         let off = if invariant == Invariant::Zero {
             let turn = found - expected;
             turn.sin().atan2(turn.cos()).abs()
         } else {
             (found - expected).abs()
         };
-        if off > ROUNDING {
+        // A joint that moves nothing on the other side has no kind there.
+        if off > ROUNDING || (expected.is_nan() && invariant == Invariant::Kind) {
             differences.push(JointDifference { invariant, joint, found, expected });
+        }
+    }
+    for &(joint, (invariant, expected)) in &expected_here {
+        if invariant == Invariant::Kind && value(&found_here, joint, invariant).is_none() {
+            differences.push(JointDifference { invariant, joint, found: f64::NAN, expected });
         }
     }
     if let (Some(found), Some(expected)) = (suspect.twists_in_base.first(), reference.twists_in_base.first())
@@ -151,8 +158,11 @@ impl Axis {
     }
 }
 
-/// All quantities of a chain that it has, each with the joint that it belongs to.
-fn quantities(chain: &ScrewChain) -> Vec<(usize, (Invariant, f64))> {
+/// A quantity with the joint that it belongs to.
+type Quantity = (usize, (Invariant, f64));
+
+/// All quantities of a chain that it has.
+fn quantities(chain: &ScrewChain) -> Vec<Quantity> {
     let axes: Vec<Option<Axis>> = chain.twists_in_base.iter().map(Axis::of).collect();
     let mut list = Vec::new();
     for (joint, axis) in axes.iter().enumerate() {

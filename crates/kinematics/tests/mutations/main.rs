@@ -4,6 +4,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
 
+mod certificates;
 mod faults;
 mod matrix;
 mod robots;
@@ -16,6 +17,7 @@ use rand_chacha::{
 
 use faults::Fault;
 use matrix::{Matrix, Outcome};
+use robots::Mutable;
 
 /// The tolerance of robot files, as they are written by default.
 const TOLERANCE: f64 = 1e-9;
@@ -47,7 +49,7 @@ fn judge(case: &Case, faults: &[&Fault]) -> Option<Outcome> {
 /// Every `stride`th single fault of every robot.
 fn singles(stride: usize) -> Matrix {
     let mut matrix = Matrix::default();
-    for (name, case) in robots::all() {
+    for Mutable { name, case, .. } in robots::all() {
         for fault in faults::all(&case).iter().step_by(stride) {
             if let Some(outcome) = judge(&case, &[fault]) {
                 matrix.count(&name, &[fault], &outcome);
@@ -61,7 +63,7 @@ fn singles(stride: usize) -> Matrix {
 fn pairs(each: usize) -> Matrix {
     let mut matrix = Matrix::default();
     let mut generator = ChaCha8Rng::seed_from_u64(7);
-    for (name, case) in robots::all() {
+    for Mutable { name, case, .. } in robots::all() {
         let faults = faults::all(&case);
         let mut any = || {
             let index = generator.next_u64() % u64::try_from(faults.len()).unwrap();
@@ -79,7 +81,7 @@ fn pairs(each: usize) -> Matrix {
 
 #[test]
 fn unmutated_pairs_raise_no_alarm() {
-    for (name, case) in robots::all() {
+    for Mutable { name, case, .. } in robots::all() {
         let question = question(case.reference.joint_count());
         let diagnosis = diagnose(&case, &question);
         assert!(diagnosis.explanations.is_empty(), "{name}: {:?}", case.residual(&question));

@@ -12,8 +12,18 @@ use congruent_kinematics::{
 use nalgebra::{Matrix3, Vector3};
 use serde_json::Value;
 
-/// Every robot at hand, by name.
-pub(crate) fn all() -> Vec<(String, Case)> {
+/// What a joint without limits is asked for.
+const TURN: (f64, f64) = (-std::f64::consts::PI, std::f64::consts::PI);
+
+/// A robot: its name, its model against itself, and the ranges of its joints, base to tip, in rad or m.
+pub(crate) struct Mutable {
+    pub(crate) name: String,
+    pub(crate) case: Case,
+    pub(crate) ranges: Vec<(f64, f64)>,
+}
+
+/// Every robot at hand.
+pub(crate) fn all() -> Vec<Mutable> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut robots = Vec::new();
     let mut folders: Vec<_> = fs::read_dir(root.join("robots")).unwrap().flatten().collect();
@@ -25,7 +35,9 @@ pub(crate) fn all() -> Vec<(String, Case)> {
         let moving: Vec<_> =
             joints.into_iter().filter(|&joint| description.robot.joint(joint).kind.is_movable()).collect();
         let suspect = Suspect::from_table(description.dh.as_ref().unwrap(), &moving).unwrap();
-        robots.push((description.name.clone(), Case { suspect, reference }));
+        let range = |&joint| description.robot.joint(joint).position_range().unwrap_or(TURN);
+        let ranges = moving.iter().map(range).collect();
+        robots.push(Mutable { name: description.name.clone(), case: Case { suspect, reference }, ranges });
     }
     if let Some(corpus) = std::env::var_os("CONGRUENT_CORPUS") {
         let text = fs::read_to_string(root.join(corpus).join("robots/dh_tables.json")).unwrap();
@@ -36,7 +48,7 @@ pub(crate) fn all() -> Vec<(String, Case)> {
 }
 
 /// A table with the chain of joints that it stands for, written as a URDF would.
-fn table(table: &Value) -> (String, Case) {
+fn table(table: &Value) -> Mutable {
     let convention =
         if table["convention"] == "classic" { DhConvention::Standard } else { DhConvention::Modified };
     let (base, tool) = (pose(&table["base"]), pose(&table["tool"]));
@@ -73,7 +85,17 @@ fn table(table: &Value) -> (String, Case) {
     });
     let suspect = Suspect { convention: Some(convention), base: base.into(), rows, tool: tool.into() };
     let name = table["name"].as_str().unwrap().to_owned();
-    (name, Case { suspect, reference: Reference { joints } })
+    let ranges = table["rows"].as_array().unwrap().iter().map(range).collect();
+    Mutable { name, case: Case { suspect, reference: Reference { joints } }, ranges }
+}
+
+/// The row's limits, or one turn, or half a metre to either side.
+fn range(row: &Value) -> (f64, f64) {
+    match (&row["qlim"], row["type"] == "R") {
+        (Value::Array(ends), _) => (ends[0].as_f64().unwrap(), ends[1].as_f64().unwrap()),
+        (_, true) => TURN,
+        (_, false) => (-0.5, 0.5),
+    }
 }
 
 fn moving(parent_from_joint: Pose, kind: DhRowKind, rate: f64) -> ReferenceJoint {

@@ -1,8 +1,8 @@
-//! One fault in words: the line of the robot file, what stands there, what should.
+//! One fault in words: the line of the file, what stands there, what should.
 
-use std::ops::Range;
+use std::{ops::Range, sync::Arc};
 
-use congruent_description::{ConstantKey, ConstantPart, DhConvention, RowKey, line_column};
+use congruent_description::{ConstantKey, ConstantPart, DhConvention, RowKey, SourceFile, line_column};
 use congruent_kinematics::{
     Pose,
     agreement::{Case, Cause, Entry, Part, Place, Suspect},
@@ -19,8 +19,14 @@ use super::{
 pub(super) struct Accusation {
     pub(super) blame: Blame,
     pub(super) message: String,
-    pub(super) span: Option<Range<usize>>,
+    pub(super) spot: Option<Spot>,
     cause: Cause,
+}
+
+/// A place in a file.
+pub(super) struct Spot {
+    pub(super) source: Arc<SourceFile>,
+    pub(super) span: Range<usize>,
 }
 
 impl Accusation {
@@ -48,44 +54,42 @@ impl Accusation {
 }
 
 /// Both models before and after a fault is undone, with their names.
-struct Witness<'a> {
-    part: &'a Part,
-    before: &'a Case,
-    after: &'a Case,
+pub(super) struct Witness<'a> {
+    pub(super) part: &'a Part,
+    pub(super) before: &'a Case,
+    pub(super) after: &'a Case,
     names: &'a Names<'a>,
 }
 
 /// Says what a part of an explanation accuses.
 pub(super) fn accuse(part: &Part, before: &Case, after: &Case, names: &Names<'_>) -> Accusation {
     let witness = Witness { part, before, after, names };
-    let (mut blame, message, span) = match &part.place {
+    let (mut blame, message, spot) = match &part.place {
         Place::Model => witness.model(),
         Place::Rows(rows) => witness.rows(rows),
         Place::Entries(entry, rows) => witness.entries(*entry, rows),
-        Place::Column(entries) => witness.column(entries),
+        Place::Column(entries) => witness.columns(entries),
         Place::Base => witness.constant(ConstantKey::BaseFromDh0),
         Place::Tool => witness.constant(ConstantKey::DhnFromTip),
         Place::ReferenceJoints(joints) => witness.reference_joints(joints),
     };
     blame.cause = part.cause.name();
-    let line = |span: &Range<usize>| {
-        names.places.as_ref().map(|places| line_column(&places.source().text, span.start).0)
-    };
-    blame.line = span.as_ref().and_then(line);
-    Accusation { blame, message, span, cause: part.cause }
+    if let Some(Spot { source, span }) = &spot {
+        blame.file = Some(source.path.display().to_string());
+        blame.line = Some(line_column(&source.text, span.start).0);
+    }
+    Accusation { blame, message, spot, cause: part.cause }
 }
 
 /// What is said, and where it stands.
-type Said = (Blame, String, Option<Range<usize>>);
+pub(super) type Said = (Blame, String, Option<Spot>);
 
 impl Witness<'_> {
     fn model(&self) -> Said {
-        let span = self.names.places.as_ref().and_then(congruent_description::RobotFilePlaces::convention);
         if self.part.cause != Cause::ConventionSwapped {
-            let suggestion = "write all lengths in metres, or under keys that end in _mm".to_owned();
-            let message = "all lengths of the model are in another unit than their keys say".to_owned();
-            return (Blame { suggestion, ..Blame::default() }, message, span);
+            return self.columns(&[Entry::A, Entry::D]);
         }
+        let span = self.names.places.as_ref().and_then(congruent_description::RobotFilePlaces::convention);
         let word = |suspect: &Suspect| match suspect.convention {
             Some(DhConvention::Modified) => "modified",
             _ => "standard",
@@ -97,7 +101,7 @@ impl Witness<'_> {
             suggestion: format!("write convention = \"{expected}\""),
             ..Blame::default()
         };
-        (blame, format!("the table is read as {found}, its figures are {expected}"), span)
+        (blame, format!("the table is read as {found}, its figures are {expected}"), self.in_robot_file(span))
     }
 
     fn rows(&self, rows: &[usize]) -> Said {
@@ -146,7 +150,7 @@ impl Witness<'_> {
             ),
         };
         let key = if self.part.cause == Cause::AxisFlipped { RowKey::Sign } else { RowKey::Joint };
-        (Blame { suggestion, ..blame }, message, self.span(rows[0], key))
+        (Blame { suggestion, ..blame }, message, self.spot(rows[0], key))
     }
 
     fn lengths_exchanged(&self, named: Blame, row: usize) -> (Blame, String, String) {
@@ -181,7 +185,7 @@ impl Witness<'_> {
                 self.written(second, entry, value(self.after, second))
             );
             let blame = Blame { joints, parameter, suggestion, ..Blame::default() };
-            return (blame, message, self.span(second, row_key(entry)));
+            return (blame, message, self.spot(second, row_key(entry)));
         }
         let joint = self.joint(row);
         let message = format!(
@@ -198,32 +202,7 @@ impl Witness<'_> {
             suggestion: format!("write {}", self.written(row, entry, expected)),
             ..Blame::default()
         };
-        (blame, message, self.span(row, row_key(entry)))
-    }
-
-    fn column(&self, entries: &[Entry]) -> Said {
-        let listed = entries.iter().map(|&entry| entry_name(entry)).collect::<Vec<_>>().join(", ");
-        let differs = |&row: &usize| {
-            entries
-                .iter()
-                .any(|&entry| self.before.suspect.entry(row, entry) != self.after.suspect.entry(row, entry))
-        };
-        let row = (0..self.before.suspect.rows.len()).find(differs).unwrap_or_default();
-        let keys = |suffix| {
-            entries
-                .iter()
-                .map(|&entry| format!("{}_{suffix}", entry_name(entry)))
-                .collect::<Vec<_>>()
-                .join(" and ")
-        };
-        let suggestion = match self.part.cause {
-            Cause::DegreesAsRadians => format!("the figures are degrees: write them under {}", keys("deg")),
-            Cause::RadiansAsDegrees => format!("the figures are radians: write them under {}", keys("rad")),
-            _ => "metres go under keys that end in _m, millimetres under _mm".to_owned(),
-        };
-        let message = format!("{listed} of the whole table are in another unit than their keys say");
-        let span = self.span(row, row_key(entries[0]));
-        (Blame { parameter: Some(listed), suggestion, ..Blame::default() }, message, span)
+        (blame, message, self.spot(row, row_key(entry)))
     }
 
     fn constant(&self, key: ConstantKey) -> Said {
@@ -255,7 +234,7 @@ impl Witness<'_> {
         };
         let part = if shift.norm() > turn.norm() { ConstantPart::Shift } else { ConstantPart::Turn };
         let span = self.names.places.as_ref().map(|places| places.constant(key, part));
-        (blame, format!("the declared transform {name} {how}"), span)
+        (blame, format!("the declared transform {name} {how}"), self.in_robot_file(span))
     }
 
     fn reference_joints(&self, joints: &[usize]) -> Said {
@@ -287,19 +266,27 @@ impl Witness<'_> {
                 )
             }
         };
+        let spot = self.names.urdf.as_ref().and_then(|urdf| {
+            Some(Spot { source: Arc::clone(urdf.source()), span: urdf.joint_origin(names.first()?)? })
+        });
         match <[String; 1]>::try_from(names) {
             Ok([name]) => blame.joint = Some(name),
             Err(names) => blame.joints = names,
         }
-        (Blame { suggestion, ..blame }, message, None)
+        (Blame { suggestion, ..blame }, message, spot)
     }
 
     fn joint(&self, row: usize) -> String {
         self.names.moving_joint(self.before.suspect.rows[row].joint)
     }
 
-    fn span(&self, row: usize, key: RowKey) -> Option<Range<usize>> {
-        Some(self.names.places.as_ref()?.figure(row, key)?.span)
+    fn in_robot_file(&self, span: Option<Range<usize>>) -> Option<Spot> {
+        Some(Spot { source: Arc::clone(self.names.places.as_ref()?.source()), span: span? })
+    }
+
+    /// Where a figure of a row stands.
+    pub(super) fn spot(&self, row: usize, key: RowKey) -> Option<Spot> {
+        self.in_robot_file(Some(self.names.places.as_ref()?.figure(row, key)?.span))
     }
 
     /// Whether the figures have changed places with the names.
@@ -327,11 +314,11 @@ fn off(entry: Entry, found: f64, expected: f64) -> f64 {
     if is_angle(entry) { off.sin().atan2(off.cos()) } else { off }
 }
 
-fn is_angle(entry: Entry) -> bool {
+pub(super) fn is_angle(entry: Entry) -> bool {
     matches!(entry, Entry::Alpha | Entry::Theta)
 }
 
-fn entry_name(entry: Entry) -> &'static str {
+pub(super) fn entry_name(entry: Entry) -> &'static str {
     match entry {
         Entry::A => "a",
         Entry::Alpha => "alpha",
@@ -340,7 +327,7 @@ fn entry_name(entry: Entry) -> &'static str {
     }
 }
 
-fn row_key(entry: Entry) -> RowKey {
+pub(super) fn row_key(entry: Entry) -> RowKey {
     match entry {
         Entry::A => RowKey::A,
         Entry::Alpha => RowKey::Alpha,

@@ -4,13 +4,13 @@
 mod blame;
 mod figures;
 mod report;
+mod units;
 
-use congruent_description::{JointIndex, RobotDescription, RobotFilePlaces};
+use congruent_description::{JointIndex, RobotDescription, RobotFilePlaces, UrdfPlaces};
 use congruent_kinematics::{
-    Pose, ScrewChain,
+    ScrewChain,
     agreement::{Case, Constant, Question, Reference, Suspect, diagnose},
 };
-use congruent_simulation::{SimulationError, World};
 
 pub use figures::Figure;
 pub use report::{Blame, Ladder, ReportedAlternative, ReportedCause, ReportedDifference};
@@ -34,35 +34,34 @@ pub(crate) struct Names<'a> {
     /// All joints of the chain.
     pub(crate) chain: Vec<JointIndex>,
     pub(crate) places: Option<RobotFilePlaces>,
+    pub(crate) urdf: Option<UrdfPlaces>,
 }
 
 /// Climbs the ladder wherever two models of the chain from base to tip differ.
 ///
-/// `configurations` are those of the whole robot at which residuals are measured.
-///
-/// # Errors
-/// [`SimulationError`] when the physics refuses a configuration.
+/// `configurations` are those of the whole robot at which residuals are measured, `physics` the
+/// chain that the physics shows when it is probed.
 pub fn climb(
     description: &RobotDescription,
-    world: &mut World,
+    physics: &ScrewChain,
     configurations: &[Vec<f64>],
-) -> Result<Vec<Ladder>, SimulationError> {
+) -> Vec<Ladder> {
     let robot = &description.robot;
     let Some((urdf, chain)) = Reference::from_urdf(robot, description.base, description.tip) else {
-        return Ok(Vec::new());
+        return Vec::new();
     };
     let moving: Vec<JointIndex> =
         chain.iter().copied().filter(|&joint| robot.joint(joint).kind.is_movable()).collect();
     let coordinates: Vec<usize> = moving.iter().filter_map(|&joint| robot.coordinate(joint)).collect();
     let places = description.dh.as_ref().and_then(|_| RobotFilePlaces::read(&description.path));
-    let physics = Reference::from_screws(&probe(description, world, &coordinates)?);
+    let physics = Reference::from_screws(physics);
     let of_chain = |q: &Vec<f64>| coordinates.iter().map(|&coordinate| q[coordinate]).collect();
     let question = Question {
         position_m: description.tolerance.position_m,
         orientation_rad: description.tolerance.orientation_rad,
         configurations: configurations.iter().map(of_chain).collect(),
     };
-    let names = Names { description, moving, chain, places };
+    let names = Names { description, moving, chain, places, urdf: UrdfPlaces::read(&description.urdf_path) };
     let cases = if let Some(suspect) = suspect(&names) {
         let against_physics = Case { suspect: suspect.clone(), reference: physics };
         vec![(MODEL_URDF, Case { suspect, reference: urdf }), (MODEL_SIMULATION, against_physics)]
@@ -72,7 +71,7 @@ pub fn climb(
     };
     let ladder =
         |(title, case): &(Title, Case)| report::ladder(*title, case, &diagnose(case, &question), &names);
-    Ok(cases.iter().map(ladder).collect())
+    cases.iter().map(ladder).collect()
 }
 
 /// The table, with the roll, pitch and yaw of its declared transforms as they are written.
@@ -88,26 +87,4 @@ fn suspect(names: &Names<'_>) -> Option<Suspect> {
         tool: written(suspect.tool, DhnFromTip),
         ..suspect
     })
-}
-
-/// The physics as a black box: `q -> base_from_tip`, all other joints at zero.
-fn probe(
-    description: &RobotDescription,
-    world: &mut World,
-    coordinates: &[usize],
-) -> Result<ScrewChain, SimulationError> {
-    let mut q = vec![0.0; description.robot.dof()];
-    let at_rest = q.clone();
-    let mut refused = None;
-    let chain = ScrewChain::probe(coordinates.len(), |values| {
-        for (&coordinate, &value) in coordinates.iter().zip(values) {
-            q[coordinate] = value;
-        }
-        if let Err(error) = world.set_state(&q, &at_rest) {
-            refused = Some(error);
-        }
-        let root_from = |link| Pose::from(world.root_from_link(link));
-        root_from(description.base).inverse() * root_from(description.tip)
-    });
-    refused.map_or(Ok(chain), Err)
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{
     Names, Title,
-    blame::{Accusation, accuse},
+    blame::{Accusation, Spot, accuse},
     figures::{Figure, angle, length},
 };
 
@@ -67,7 +67,7 @@ pub struct Blame {
     /// `a`, `alpha`, `d`, `theta`, or several of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parameter: Option<String>,
-    /// How far off: found less expected in rad or m; of a ratio, found by expected.
+    /// How far off: found less expected in rad or m; of a ratio or a column's unit, found by expected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// What stands there.
@@ -82,7 +82,10 @@ pub struct Blame {
     /// Of a declared transform: the turn from expected to found, axis times angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_rad: Option<[f64; 3]>,
-    /// Line in the robot file, from 1.
+    /// The file at fault: the robot file, or the URDF.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Line in it, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
     /// What to change.
@@ -96,7 +99,7 @@ pub struct ReportedDifference {
     pub invariant: &'static str,
     /// The joint; of consecutive axes the first.
     pub joint: String,
-    /// Of the model; of `base` and `tool` the distance.
+    /// Of the model; of `base` and `tool` the distance; `null` where it has no such quantity.
     pub found: f64,
     /// Of the other; `null` where it has no such quantity.
     pub expected: f64,
@@ -124,8 +127,9 @@ fn tell(case: &Case, explanation: &Explanation, names: &Names<'_>) -> (ReportedC
         explanation.parts.iter().map(|part| accuse(part, case, &explanation.mended, names)).collect();
     let residual = explanation.residual;
     let left = format!("that leaves {} and {}", length(residual.position_m), angle(residual.orientation_rad));
-    let findings = accusations.iter().map(|accusation| finding(accusation, &left, names)).collect();
+    let findings = accusations.iter().map(|accusation| finding(accusation, &left)).collect();
     let mut parts: Vec<Blame> = accusations.into_iter().map(|accusation| accusation.blame).collect();
+    let located = parts.iter().find(|part| part.line.is_some());
     let blame = match parts.len() {
         0 => Blame {
             cause: Cause::Unexplained.name(),
@@ -137,7 +141,8 @@ fn tell(case: &Case, explanation: &Explanation, names: &Names<'_>) -> (ReportedC
         _ => Blame {
             cause: Cause::Several.name(),
             joints: involved(&parts),
-            line: parts.iter().find_map(|part| part.line),
+            file: located.and_then(|part| part.file.clone()),
+            line: located.and_then(|part| part.line),
             suggestion: parts.iter().map(|part| part.suggestion.as_str()).collect::<Vec<_>>().join("; "),
             ..Blame::default()
         },
@@ -159,14 +164,14 @@ fn involved(parts: &[Blame]) -> Vec<String> {
     joints
 }
 
-/// A fault as a finding about the robot file.
-fn finding(accusation: &Accusation, left: &str, names: &Names<'_>) -> Diagnostic {
-    let Accusation { blame, message, span, .. } = accusation;
+/// A fault as a finding about its file.
+fn finding(accusation: &Accusation, left: &str) -> Diagnostic {
+    let Accusation { blame, message, spot, .. } = accusation;
     let finding = Diagnostic::error(accusation.code(), message.clone())
         .with_help(format!("{}; {left}", blame.suggestion));
-    match (&names.places, span) {
-        (Some(places), Some(span)) => finding.at(span.clone()).in_file(places.source()),
-        _ => finding,
+    match spot {
+        Some(Spot { source, span }) => finding.at(span.clone()).in_file(source),
+        None => finding,
     }
 }
 

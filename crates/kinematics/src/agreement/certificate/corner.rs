@@ -1,7 +1,7 @@
 //! Corners of a polygon around what a joint's features run through: an arc of the unit circle for
 //! a turn, a segment for a shift.
 
-use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
+use std::f64::consts::{FRAC_PI_4, PI, SQRT_2, TAU};
 
 /// One corner: where a joint's pair of features is taken, on the curve or outside of it.
 ///
@@ -29,24 +29,53 @@ pub(super) fn on_line(position: f64) -> Corner {
     Corner { features: [position, 0.0], position }
 }
 
+/// Corners of an arc that wraps: a polygon with so many exceeds the circle by 2 %.
+const WRAPPED_CORNERS: u8 = 16;
 /// Most corners that one joint has.
-pub(super) const MOST_CORNERS: usize = 4;
+pub(super) const MOST_CORNERS: usize = WRAPPED_CORNERS as usize;
+
+/// Whether an arc goes round so often that dividing it hardly helps: it has all corners then.
+pub(super) fn wraps(rate: f64, (lower, upper): Interval) -> bool {
+    rate * (upper - lower) > 1.5 * TAU
+}
+
+/// Number of corners of a turn.
+pub(super) fn corner_count(rate: f64, interval: Interval) -> usize {
+    let angle = rate * (interval.1 - interval.0);
+    if wraps(rate, interval) {
+        MOST_CORNERS
+    } else if angle > 2.0 * FRAC_PI_4 {
+        4
+    } else {
+        3
+    }
+}
 
 /// How far out the corners of [`around_arc`] lie: 1 for an arc of no length, at most the square root
 /// of 2.
 pub(super) fn outermost_radius(rate: f64, (lower, upper): Interval) -> f64 {
+    if wraps(rate, (lower, upper)) {
+        return (PI / f64::from(WRAPPED_CORNERS)).cos().recip();
+    }
     let angle = rate * (upper - lower);
     let between_tangents = if angle <= 2.0 * FRAC_PI_4 { angle / 2.0 } else { angle / 4.0 };
     if between_tangents < FRAC_PI_4 { between_tangents.cos().recip() } else { SQRT_2 }
 }
 
 /// Corners around an arc: its ends and the point where the tangents at the ends meet; beyond a
-/// quarter of a turn also the tangent in the middle; beyond half a turn the square around the circle.
+/// quarter of a turn also the tangent in the middle; beyond half a turn the square around the circle,
+/// and where the arc wraps a polygon that hardly exceeds it.
 pub(super) fn around_arc(rate: f64, interval: Interval, corners: &mut Vec<Corner>) {
     let (lower, upper) = interval;
     let middle = f64::midpoint(lower, upper);
     let radius = outermost_radius(rate, interval);
     let angle = rate * (upper - lower);
+    if wraps(rate, interval) {
+        let turn = |corner: u8| (f64::from(corner) / f64::from(WRAPPED_CORNERS) - 0.5) * TAU;
+        corners
+            .extend((0..WRAPPED_CORNERS).map(|corner| on_circle(rate, middle + turn(corner) / rate, radius)));
+        return;
+    }
     if angle > PI {
         corners.extend([-3.0, -1.0, 1.0, 3.0].map(|eighths| {
             let corner = on_circle(rate, middle + eighths * FRAC_PI_4 / rate, radius);

@@ -15,7 +15,8 @@
 use nalgebra::{Matrix4, Vector4};
 
 use super::corner::{
-    Corner, Interval, MOST_CORNERS, around_arc, around_segment, on_circle, on_line, outermost_radius,
+    Corner, Interval, MOST_CORNERS, around_arc, around_segment, corner_count, on_circle, on_line,
+    outermost_radius, wraps,
 };
 
 /// Rounding of one motion and its product with a vector, in units of the largest vector: entries of
@@ -24,6 +25,10 @@ use super::corner::{
 const ROUNDING_PER_MOTION: f64 = 32.0 * f64::EPSILON;
 /// The same for each radian of the largest turn, whose angle is a product of three roundings.
 const ROUNDING_PER_RADIAN: f64 = 6.0 * f64::EPSILON;
+
+/// Motions whose entries differ by less, over a whole range, are one. Kind: rounding; one axis written
+/// for two rates differs by some 1e-16. What it leaves is added.
+const SHARED: f64 = 1e-14;
 
 /// One joint's motion in one chain.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,6 +96,29 @@ impl Slot {
         self.rate.map_or_else(|| on_line(position), |rate| on_circle(rate, position, 1.0))
     }
 
+    fn wraps(&self, cell: &[Interval]) -> bool {
+        self.rate.is_some_and(|rate| wraps(rate, cell[self.joint]))
+    }
+
+    /// A corner of this slot moved onto the curve, to where the joint is at `position`; a turn that
+    /// wraps stays where it is, since it comes there again next to any position.
+    fn on_curve(&self, cell: &[Interval], corner: Corner, position: f64) -> Corner {
+        if !self.wraps(cell) {
+            return self.corner(position);
+        }
+        let [x, y] = corner.features;
+        let radius = x.hypot(y);
+        Corner { features: [x / radius, y / radius], ..corner }
+    }
+
+    /// The position next to `position` at which a turn that wraps is where `corner` is.
+    fn phase(&self, corner: &Corner, position: f64, (lower, upper): Interval) -> f64 {
+        let rate = self.rate.unwrap_or(1.0);
+        let [x, y] = corner.features;
+        let ahead = y.atan2(x) - rate * position;
+        (position + ahead.sin().atan2(ahead.cos()) / rate).clamp(lower, upper)
+    }
+
     /// Largest stretch of a vector, largest shift of the origin for each metre that the motion
     /// carries, and rounding of one product.
     fn growth(&self, interval: Interval) -> (f64, f64, f64) {
@@ -121,7 +149,11 @@ pub(super) struct Enclosure {
     pub(super) bound: f64,
     /// The joint whose division promises most.
     pub(super) divide: usize,
-    /// Number of corners that were evaluated.
+    /// How much it promises.
+    pub(super) promise: f64,
+    /// How much the divisions of all joints promise together.
+    pub(super) promises: f64,
+    /// Number of corners that were evaluated, and what the rest costs in corners.
     pub(super) corners: u64,
 }
 
@@ -146,6 +178,28 @@ impl Gap {
         Self { slots, tips }
     }
 
+    /// The same without leading slots that move both chains alike: they turn the difference, and its
+    /// length stays. What rounding has left between their motions is the second figure.
+    pub(super) fn without_shared_lead(mut self, positions: &[Interval]) -> (Self, f64) {
+        let unlike = |slot: &Slot| {
+            let [a, b] = &slot.motions;
+            let parts = [a.constant - b.constant, a.first - b.first, a.second - b.second];
+            let furthest = positions[slot.joint].0.abs().max(positions[slot.joint].1.abs()).max(1.0);
+            parts.iter().map(Matrix4::norm).sum::<f64>() * furthest
+        };
+        let mut price = 0.0;
+        while let Some(first) = self.slots.first() {
+            let unlike = unlike(first);
+            if unlike > SHARED || first.like.is_some() || self.slots.iter().any(|slot| slot.like == Some(0)) {
+                break;
+            }
+            price += unlike * self.sizes(positions)[1];
+            self.slots.remove(0);
+            self.slots.iter_mut().for_each(|slot| slot.like = slot.like.map(|like| like - 1));
+        }
+        (self, price)
+    }
+
     /// The same with the other sign of the second chain.
     pub(super) fn negated(self) -> Self {
         Self { tips: [self.tips[0], -self.tips[1]], ..self }
@@ -156,15 +210,28 @@ impl Gap {
         self.slots.iter().any(|slot| slot.joint == joint)
     }
 
+    /// Whether it depends on no joint position.
+    pub(super) fn is_constant(&self) -> bool {
+        self.slots.is_empty()
+    }
+
     /// The gap at joint positions `q`.
     pub(super) fn at(&self, q: &[f64]) -> f64 {
         self.at_corners(self.slots.iter().map(|slot| slot.corner(q[slot.joint])))
     }
 
-    /// Most corners that a box has.
-    pub(super) fn most_corners(&self) -> u64 {
+    /// Most corners that a part of a box has.
+    pub(super) fn most_corners(&self, cell: &[Interval]) -> u64 {
         let own = self.slots.iter().filter(|slot| slot.like.is_none());
-        own.fold(1, |count, _| count.saturating_mul(MOST_CORNERS as u64))
+        let count = |slot: &Slot| slot.rate.map_or(2, |rate| corner_count(rate, cell[slot.joint]));
+        own.fold(1, |product, slot| product.saturating_mul(count(slot) as u64))
+    }
+
+    /// What a box costs besides its corners, in corners: time for its motions and for looking where to
+    /// divide, and memory. Measured.
+    pub(super) fn overhead(&self) -> u64 {
+        let slots = self.slots.len() as u64;
+        32 + 20 * slots + 6 * slots * slots
     }
 
     /// Bounds the gap over a box; `nearest` receives the configuration of the box that is next to
@@ -181,11 +248,15 @@ impl Gap {
             }
         }
         self.decode(worst, room);
-        for (slot, corner) in self.slots.iter().zip(&room.best) {
+        for (slot, corner) in self.slots.iter().zip(&room.best).filter(|(slot, _)| !slot.wraps(cell)) {
             nearest[slot.joint] = corner.position;
         }
+        for (slot, corner) in self.slots.iter().zip(&room.best).filter(|(slot, _)| slot.wraps(cell)) {
+            nearest[slot.joint] = slot.phase(corner, nearest[slot.joint], cell[slot.joint]);
+        }
         let bound = largest.sqrt() + self.rounding(cell);
-        Enclosure { bound, divide: self.most_promising(cell, &room.best), corners: room.pairs.len() as u64 }
+        let corners = room.pairs.len() as u64 + self.overhead();
+        Enclosure { corners, ..self.promises(cell, &room.best, bound) }
     }
 
     fn at_corners(&self, corners: impl DoubleEndedIterator<Item = Corner> + ExactSizeIterator) -> f64 {
@@ -252,24 +323,35 @@ impl Gap {
         }
     }
 
-    /// The joint whose corner lies outside of its arc by most, measured in the gap; where no corner
-    /// does, the joint that can turn or shift furthest.
-    fn most_promising(&self, cell: &[Interval], worst: &[Corner]) -> usize {
+    /// The joint whose corners lie outside of its arcs, or apart from one another, by most, measured
+    /// in the gap; where none does, the joint that can turn or shift furthest.
+    fn promises(&self, cell: &[Interval], worst: &[Corner], bound: f64) -> Enclosure {
         let here = self.at_corners(worst.iter().copied());
-        let (mut divide, mut most) = (None, 0.0);
+        let (mut divide, mut promise, mut promises) = (None, 0.0, 0.0);
         for (index, slot) in self.slots.iter().enumerate() {
-            let pulled_in = worst
-                .iter()
-                .enumerate()
-                .map(|(at, &corner)| if at == index { slot.corner(corner.position) } else { corner });
-            let drop = here - self.at_corners(pulled_in);
-            if drop > most {
-                (divide, most) = (Some(slot.joint), drop);
+            if self.slots[..index].iter().any(|before| before.joint == slot.joint) {
+                continue;
+            }
+            let of_joint = self.slots.iter().zip(worst).filter(|(other, _)| other.joint == slot.joint);
+            let pulled_in = of_joint.map(|(_, taken)| self.at_one_position(cell, worst, (slot.joint, taken)));
+            let drop = here - pulled_in.fold(0.0, f64::max);
+            promises += drop.max(0.0);
+            if drop > promise {
+                (divide, promise) = (Some(slot.joint), drop);
             }
         }
         let width = |slot: &&Slot| slot.rate.unwrap_or(1.0) * (cell[slot.joint].1 - cell[slot.joint].0);
         let widest = || self.slots.iter().max_by(|a, b| width(a).total_cmp(&width(b)));
-        divide.or_else(|| widest().map(|slot| slot.joint)).unwrap_or(0)
+        let divide = divide.or_else(|| widest().map(|slot| slot.joint)).unwrap_or(0);
+        Enclosure { bound, divide, promise, promises, corners: 0 }
+    }
+
+    /// The gap with all corners of one joint moved onto their curves, to where one of them is.
+    fn at_one_position(&self, cell: &[Interval], worst: &[Corner], (joint, taken): (usize, &Corner)) -> f64 {
+        let moved = |(slot, &corner): (&Slot, &Corner)| {
+            if slot.joint == joint { slot.on_curve(cell, corner, taken.position) } else { corner }
+        };
+        self.at_corners(self.slots.iter().zip(worst).map(moved))
     }
 
     /// What rounding can take from the largest gap that [`Gap::enclose`] finds.
@@ -277,15 +359,19 @@ impl Gap {
     /// A step's own rounding is its share of the vector that it gives, and all later steps stretch
     /// both alike: so the sum of the shares times the largest vector at the base covers them all.
     pub(super) fn rounding(&self, cell: &[Interval]) -> f64 {
+        let shares = self.slots.iter().map(|slot| slot.growth(cell[slot.joint]).2).sum::<f64>();
+        (ROUNDING_PER_MOTION + shares) * self.sizes(cell).iter().sum::<f64>()
+    }
+
+    /// The largest vectors that corners can give, of both chains.
+    fn sizes(&self, cell: &[Interval]) -> [f64; 2] {
         let mut sizes = self.tips.map(|tip| tip.norm());
-        let mut shares = ROUNDING_PER_MOTION;
         for slot in self.slots.iter().rev() {
-            let (stretch, shift, share) = slot.growth(cell[slot.joint]);
+            let (stretch, shift, _) = slot.growth(cell[slot.joint]);
             for (size, motion) in sizes.iter_mut().zip(&slot.motions) {
                 *size = stretch * *size + shift * motion.carries;
             }
-            shares += share;
         }
-        shares * (sizes[0] + sizes[1])
+        sizes
     }
 }

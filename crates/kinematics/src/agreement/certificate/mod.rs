@@ -1,10 +1,12 @@
 //! A bracket around the worst disagreement of two chains over the whole joint range: from below a
 //! configuration that attains it, from above a bound that holds everywhere.
 //!
-//! Three steps. The telescoped sum (`telescope.rs`) settles chains that agree, in microseconds. What
-//! is left is reduced to the joints that matter (`reduce.rs`); climbing from many starts
-//! (`search.rs`) finds a bad configuration, and branch and bound (`branch.rs`) proves that none is
-//! much worse, with bounds from corners of polygons (`gap.rs`, `corner.rs`).
+//! Four steps. Chains with their joints in different orders are laid side by side (`order.rs`). The
+//! telescoped sum (`telescope.rs`) settles chains that agree, in microseconds. What is left is reduced to
+//! the joints that matter (`reduce.rs`); climbing from many starts (`search.rs`) finds a bad
+//! configuration, and branch and bound (`branch.rs`) proves that none is much worse, with bounds from
+//! corners of polygons (`gap.rs`, `corner.rs`), and where these do not do, from chains that stand
+//! between the two (`way.rs`).
 //!
 //! The bound is rigorous in floating point: each file states what rounding can take from it, and
 //! adds that. It speaks of the two [`ScrewChain`]s as they are given.
@@ -12,19 +14,23 @@
 mod branch;
 mod corner;
 mod gap;
+mod order;
 mod reduce;
 mod search;
 mod telescope;
+mod way;
 
 use std::f64::consts::PI;
 
 use self::{
-    branch::{Outcome, bracket},
+    branch::{Bound, Outcome, Scale, Task, bracket},
     corner::Interval,
     gap::Gap,
+    order::SideBySide,
     reduce::{Reduced, Tidied},
     search::Attained,
     telescope::Telescope,
+    way::Way,
 };
 use crate::{error::KinematicsError, screw_chain::ScrewChain};
 
@@ -33,20 +39,26 @@ use crate::{error::KinematicsError, screw_chain::ScrewChain};
 const ROUNDING_LEVEL: f64 = 1e-12;
 /// Part of the attained disagreement that may be spent on leaving out a joint that hardly matters.
 const ALLOWANCE: f64 = 1e-4;
+/// One part in so many of the budget goes to the gap alone, before other bounds are looked for.
+const ALONE: u64 = 16;
+/// Ways whose steps are not worse together than this many times what is attained may help.
+const PROMISING: f64 = 1.25;
+/// Most ways that are followed.
+const MOST_WAYS: usize = 4;
 
 /// When to stop dividing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
     /// The bracket is narrow enough when `certified <= attained (1 + relative_gap)`.
     pub relative_gap: f64,
-    /// Most corners that are evaluated for each of the two brackets, some 10 ns each; a box counts
-    /// for 256 more than it has.
+    /// Most corners that are evaluated for each of the two brackets, some 5 ns each; a box counts for
+    /// some hundred more than it has.
     pub corners: u64,
 }
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { relative_gap: 0.02, corners: 100_000_000 }
+        Self { relative_gap: 0.02, corners: 250_000_000 }
     }
 }
 
@@ -115,14 +127,15 @@ pub fn certify(
     ranges: &[(f64, f64)],
     budget: Budget,
 ) -> Result<Certificate, KinematicsError> {
+    KinematicsError::check_joint_count(a.joint_count(), b.joint_count())?;
     KinematicsError::check_joint_count(a.joint_count(), ranges.len())?;
     let each_its_own: Vec<usize> = (0..a.joint_count()).collect();
-    certify_driven((a, b), &each_its_own, ranges, budget)
+    certify_driven((a, &each_its_own), (b, &each_its_own), ranges, budget)
 }
 
-/// The same where one position may drive several joints: `drivers` has, for each joint of the
-/// chains, the index of its position in `ranges`. So joints that mimic others are held, and chains
-/// whose joints stand in different orders: either then has joints that do not move.
+/// The same where the joints of the chains are driven in any order: beside each chain stands, for
+/// each of its joints, the index of its position in `ranges`. So joints that mimic others are held, and
+/// chains that have their joints in different orders.
 ///
 /// # Errors
 /// As [`certify`]; [`KinematicsError::JointCount`] also for a driver that has no range.
@@ -131,37 +144,35 @@ pub fn certify(
 /// ```
 /// use congruent_kinematics::{Budget, Pose, ScrewChain, Twist, certify_driven};
 /// use nalgebra::Vector3;
-/// let (still, turn) = (Vector3::zeros(), Vector3::z());
-/// let chain = |turns: [Vector3<f64>; 2]| ScrewChain {
-///     twists_in_base: turns.map(|angular| Twist { angular, linear: still }).to_vec(),
-///     base_from_tip_at_zero: Pose::identity(),
-/// };
-/// let (once, twice) = (chain([turn, still]), chain([turn, turn]));
-/// let certificate = certify_driven((&once, &twice), &[0, 0], &[(0.0, 0.5)], Budget::default())?;
+/// let turn = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
+/// let chain = |twists_in_base| ScrewChain { twists_in_base, base_from_tip_at_zero: Pose::identity() };
+/// let (once, twice) = (chain(vec![turn]), chain(vec![turn, turn]));
+/// let certificate = certify_driven((&once, &[0]), (&twice, &[0, 0]), &[(0.0, 0.5)], Budget::default())?;
 /// assert!((certificate.orientation_rad.attained - 0.5).abs() < 1e-7);
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())
 /// ```
 pub fn certify_driven(
-    (a, b): (&ScrewChain, &ScrewChain),
-    drivers: &[usize],
+    a: (&ScrewChain, &[usize]),
+    b: (&ScrewChain, &[usize]),
     ranges: &[(f64, f64)],
     budget: Budget,
 ) -> Result<Certificate, KinematicsError> {
-    KinematicsError::check_joint_count(a.joint_count(), b.joint_count())?;
-    KinematicsError::check_joint_count(a.joint_count(), drivers.len())?;
-    check_ranges(drivers, ranges)?;
+    KinematicsError::check_joint_count(a.0.joint_count(), a.1.len())?;
+    KinematicsError::check_joint_count(b.0.joint_count(), b.1.len())?;
+    let SideBySide { chains: [a, b], drivers } = SideBySide::new(a, b);
+    check_ranges(&drivers, ranges)?;
     let rest: Vec<f64> = ranges.iter().map(|&(lower, upper)| 0.0_f64.clamp(lower, upper)).collect();
     let ranges_of_joints: Vec<Interval> = drivers.iter().map(|&driver| ranges[driver]).collect();
-    let first = Telescope::new(a, b, &ranges_of_joints);
-    let tidied = Tidied::new((a, b), drivers, ranges);
+    let first = Telescope::new(&a, &b, &ranges_of_joints);
+    let tidied = Tidied::new((&a, &b), &drivers, ranges);
     let problem = Problem { tidied: &tidied, rest: &rest, budget };
     let mut position_m = problem.bracket(&POSITION, first.total_m());
     let mut orientation_rad = problem.bracket(&ORIENTATION, first.total_rad());
     let at = |chain: &ScrewChain, positions: &[f64]| {
         chain.base_from_tip(&drivers.iter().map(|&driver| positions[driver]).collect::<Vec<_>>())
     };
-    position_m.attain(at(a, &position_m.at)?.distance_m(&at(b, &position_m.at)?));
-    orientation_rad.attain(at(a, &orientation_rad.at)?.angle_rad(&at(b, &orientation_rad.at)?));
+    position_m.attain(at(&a, &position_m.at)?.distance_m(&at(&b, &position_m.at)?));
+    orientation_rad.attain(at(&a, &orientation_rad.at)?.angle_rad(&at(&b, &orientation_rad.at)?));
     Ok(Certificate { position_m, orientation_rad })
 }
 
@@ -187,26 +198,27 @@ impl Bracket {
 /// What is bracketed: how it is made a gap, and how a gap is read.
 struct Measure {
     reduce: fn(&Tidied, f64) -> Reduced,
-    /// The disagreement for a gap.
-    of_gap: fn(f64) -> f64,
-    /// Gaps beyond it are no larger disagreements.
-    ceiling: f64,
+    scale: Scale,
     price_of_tidying: fn(&Tidied) -> f64,
+    ways: fn(&ScrewChain, &ScrewChain) -> Vec<Way>,
 }
 
 const POSITION: Measure = Measure {
     reduce: Tidied::position,
-    of_gap: |gap_m| gap_m,
-    ceiling: f64::INFINITY,
+    scale: Scale { of_gap: |gap_m| gap_m, ceiling: f64::INFINITY },
     price_of_tidying: |tidied| tidied.price_m,
+    ways: |a, b| [way::over_faults(a, b), way::over_points(a, b)].concat(),
 };
 
 const ORIENTATION: Measure = Measure {
     reduce: Tidied::orientation,
-    // Half a turn is the most that two orientations differ, and their quaternions sqrt(2) then.
-    of_gap: |gap| if gap < std::f64::consts::SQRT_2 { 4.0 * (gap / 2.0).asin() } else { PI },
-    ceiling: std::f64::consts::SQRT_2,
+    scale: Scale {
+        // Half a turn is the most that two orientations differ, and their quaternions sqrt(2) then.
+        of_gap: |gap| if gap < std::f64::consts::SQRT_2 { 4.0 * (gap / 2.0).asin() } else { PI },
+        ceiling: std::f64::consts::SQRT_2,
+    },
     price_of_tidying: |tidied| tidied.price_rad,
+    ways: way::over_faults,
 };
 
 struct Problem<'a> {
@@ -222,18 +234,66 @@ impl Problem<'_> {
             return Bracket { attained: 0.0, certified: telescoped, at: self.rest.to_vec(), cells: 0 };
         }
         let ranges: &[Interval] = &self.tidied.positions;
+        let of_gap = measure.scale.of_gap;
         let whole = (measure.reduce)(self.tidied, ROUNDING_LEVEL);
         let found = Attained::search(&whole.gap, ranges);
-        let allowance = (ALLOWANCE * (measure.of_gap)(found.gap)).max(ROUNDING_LEVEL);
-        let reduced = (measure.reduce)(self.tidied, allowance);
-        let found = Attained::new(&reduced.gap, self.at_rest_elsewhere(&reduced.gap, &found.at));
-        let Outcome { attained, certified, cells } =
-            bracket(&reduced.gap, ranges, found, (measure.ceiling, self.budget));
-        let price = reduced.price + (measure.price_of_tidying)(self.tidied);
-        // The reading of the gap and the sum are some four roundings.
-        let certified = ((measure.of_gap)(certified) + price) * (1.0 + 16.0 * f64::EPSILON);
-        let certified = certified.min(telescoped).min((measure.of_gap)(f64::INFINITY));
-        Bracket { attained: (measure.of_gap)(attained.gap), certified, at: attained.at, cells }
+        let allowance = (ALLOWANCE * of_gap(found.gap)).max(ROUNDING_LEVEL);
+        let Reduced { gap, price } = (measure.reduce)(self.tidied, allowance);
+        let found = Attained::new(&gap, self.at_rest_elsewhere(&gap, &found.at));
+        let price = price + (measure.price_of_tidying)(self.tidied);
+        let itself = Bound { steps: vec![gap.clone()], price };
+        let affordable = |bounds: Vec<Bound>| -> Vec<Bound> {
+            bounds.into_iter().filter(|bound| bound.is_affordable(ranges, self.budget)).collect()
+        };
+        let Budget { corners, relative_gap } = self.budget;
+        let mut task = Task {
+            gap: &gap,
+            bounds: affordable(vec![itself.clone()]),
+            ranges,
+            scale: measure.scale,
+            budget: Budget { corners: corners / ALONE, relative_gap },
+        };
+        let mut outcome = bracket(&task, found);
+        let attained = of_gap(outcome.attained.gap);
+        if outcome.certified > (attained * (1.0 + relative_gap)).max(ROUNDING_LEVEL) {
+            let ways = self.ways(measure, &outcome.attained, allowance);
+            task.bounds = affordable([vec![itself], ways].concat());
+            task.budget = Budget { corners: corners - corners / ALONE, relative_gap };
+            let further = bracket(&task, outcome.attained);
+            outcome = Outcome {
+                certified: outcome.certified.min(further.certified),
+                cells: outcome.cells + further.cells,
+                ..further
+            };
+        }
+        let Outcome { attained, certified, cells } = outcome;
+        // The readings of the gaps and their sum are some dozen roundings.
+        let certified = certified * (1.0 + 64.0 * f64::EPSILON);
+        let certified = certified.min(telescoped).min(of_gap(f64::INFINITY));
+        Bracket { attained: of_gap(attained.gap), certified, at: attained.at, cells }
+    }
+
+    /// Bounds over chains between the two, those that promise most.
+    fn ways(&self, measure: &Measure, attained: &Attained, allowance: f64) -> Vec<Bound> {
+        let Tidied { a, b, drivers, positions, .. } = self.tidied;
+        let step = |[from, to]: &[ScrewChain; 2]| -> (Gap, f64) {
+            let tidied = Tidied::new((from, to), drivers, positions);
+            let Reduced { gap, price } = (measure.reduce)(&tidied, allowance);
+            (gap, price + (measure.price_of_tidying)(&tidied))
+        };
+        let to_tidied = (measure.price_of_tidying)(self.tidied);
+        let bound = |way: &Way| {
+            let (steps, prices): (Vec<Gap>, Vec<f64>) = way.iter().map(step).unzip();
+            let price = to_tidied + prices.iter().sum::<f64>();
+            let worst = |gap: &Gap| (measure.scale.of_gap)(Attained::near(gap, positions, &attained.at).gap);
+            (price + steps.iter().map(worst).sum::<f64>(), Bound { steps, price })
+        };
+        let mut ways: Vec<(f64, Bound)> = (measure.ways)(a, b).iter().map(bound).collect();
+        let worth = PROMISING * (measure.scale.of_gap)(attained.gap);
+        ways.retain(|(sum, _)| *sum <= worth);
+        ways.sort_by(|one, two| one.0.total_cmp(&two.0));
+        ways.truncate(MOST_WAYS);
+        ways.into_iter().map(|(_, bound)| bound).collect()
     }
 
     /// Joints that the gap does not depend on go to where they rest.

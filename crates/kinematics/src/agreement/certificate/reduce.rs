@@ -101,7 +101,9 @@ impl Tidied {
             last -= 1;
         }
         let slots = (first..last).flat_map(|joint| self.point_slots(joint)).collect();
-        Reduced { gap: Gap::new(slots, tips.map(|tip| tip.push(1.0))), price }
+        let gap = Gap::new(slots, tips.map(|tip| tip.push(1.0)));
+        let (gap, of_lead) = gap.without_shared_lead(&self.positions);
+        Reduced { gap, price: price + of_lead }
     }
 
     /// The gap between the tips' unit quaternions, `2 sin(angle / 4)` along the way from the middle of
@@ -127,6 +129,9 @@ impl Tidied {
         }
         let slots = (first..last).flat_map(|joint| self.quaternion_slots(joint)).collect();
         let gap = Gap::new(slots, homes.map(|home| Vector4::from(quaternion_of(&home))));
+        let (gap, of_lead) = gap.without_shared_lead(&self.positions);
+        // A chord of quaternions is about half of the angle, and at least a quarter.
+        let price = price + 4.0 * of_lead;
         let middle: Vec<f64> = self.positions.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
         // A quaternion and its negative are one orientation: the nearer one.
         let gap = if gap.at(&middle) > SQRT_2 { gap.negated() } else { gap };

@@ -42,6 +42,15 @@ impl Attained {
         best
     }
 
+    /// The better of climbs from a configuration and from the middle of the ranges.
+    pub(super) fn near(gap: &Gap, ranges: &[Interval], at: &[f64]) -> Self {
+        let middle = ranges.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
+        let [mut one, mut two] = [Self::new(gap, at.to_vec()), Self::new(gap, middle)];
+        one.climb(gap, ranges);
+        two.climb(gap, ranges);
+        if two.gap > one.gap { two } else { one }
+    }
+
     /// Moves one joint at a time, as long as that widens the gap, in ever smaller steps.
     pub(super) fn climb(&mut self, gap: &Gap, ranges: &[Interval]) {
         let mut step = FIRST_STEP;
