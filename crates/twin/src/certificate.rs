@@ -1,15 +1,17 @@
 //! The certificates of a robot: how far two of its models can be apart at link `tip`, over the whole
 //! joint range, sampled or not. Table and URDF are known, the physics as far as it was probed.
 
-use congruent_description::{Mimic, Robot, RobotDescription};
-use congruent_kinematics::{Bracket, Budget, DhChain, Pose, ScrewChain, Twist, UrdfTree, certify_driven};
+use congruent_description::{DhTable, JointIndex, Mimic, Robot, RobotDescription};
+use congruent_kinematics::{
+    Bracket, Budget, Certificate, DhChain, Pose, ScrewChain, Twist, UrdfTree, certify_driven,
+};
 use congruent_simulation::World;
 use serde::Serialize;
 
 use crate::{
     check::CheckError,
     configurations::range,
-    probed::{Probed, base_from_tip},
+    probed::{KEPT, Probed, base_from_tip},
     sample::LinkError,
     verdict::NamedValue,
 };
@@ -52,6 +54,22 @@ pub struct Brackets {
 }
 
 impl Brackets {
+    /// The configurations of the robot that attain them; joints that do not move the tip stand at
+    /// zero, or at the limit nearest to it.
+    pub(crate) fn attained_at(&self, robot: &Robot) -> [Vec<f64>; 2] {
+        [&self.position_m, &self.orientation_rad].map(|bracket| {
+            let position = |&joint: &JointIndex| {
+                let joint = robot.joint(joint);
+                let (lower, upper) = range(joint);
+                let named = bracket.at.iter().find(|named| named.joint == joint.name);
+                named.map_or_else(|| lower.max(0.0).min(upper), |named| named.value)
+            };
+            let mut q = robot.movable_joints().iter().map(position).collect::<Vec<f64>>();
+            robot.apply_mimic(&mut q);
+            q
+        })
+    }
+
     /// The bounds alone.
     pub fn bounds(&self) -> Bounds {
         Bounds { position_m: self.position_m.certified, orientation_rad: self.orientation_rad.certified }
@@ -101,44 +119,39 @@ pub(crate) fn certificates(
     if robot.chain(description.base, description.tip).is_none() {
         return Ok(Vec::new());
     }
-    let coordinates = description.moving_coordinates();
-    let tree = UrdfTree::new(robot);
-    let urdf = Side {
-        driven: Driven::new(
-            robot,
-            &coordinates,
-            &ScrewChain::from_urdf(robot, (description.base, description.tip), &coordinates)?,
-        ),
-        residual: LinkError::default(),
-        base_from_tip: Box::new(|_, q| {
-            let root_from = |link| tree.root_from_link(q, link);
-            Ok(root_from(description.base)?.inverse() * root_from(description.tip)?)
-        }),
-    };
-    let Premise { residual_m: position_m, residual_rad: orientation_rad, holds, .. } = probed.premise;
-    let physics = Side {
-        driven: Driven::new(robot, &coordinates, &probed.chain),
-        residual: LinkError { position_m, orientation_rad },
-        base_from_tip: Box::new(|world, q| Ok(base_from_tip(description, world, q)?)),
-    };
-    let mut with_physics = |name, between, side: &Side<'_>| -> Result<_, CheckError> {
-        let brackets = if holds { brackets(robot, [side, &physics], world)? } else { None };
-        Ok(ReportedCertificate { name, between, brackets, premise: Some(probed.premise) })
-    };
+    let (urdf, physics) = (Side::urdf(description)?, Side::physics(description, probed));
+    let urdf_physics = if probed.premise.holds { certified(robot, [&urdf, &physics])? } else { None };
+    let premise = Some(probed.premise);
     let Some(table) = &description.dh else {
-        return Ok(vec![with_physics("urdf_simulation", "URDF and physics", &urdf)?]);
+        let brackets = report(robot, [&urdf, &physics], urdf_physics, world)?;
+        let (name, between) = ("urdf_simulation", "URDF and physics");
+        return Ok(vec![ReportedCertificate { name, between, brackets, premise }]);
     };
-    let by_table = DhChain::new(table, robot);
-    let table = Side {
-        driven: Driven::new(robot, by_table.coordinates(), &ScrewChain::from_dh(&by_table, robot.dof())?),
-        residual: LinkError::default(),
-        base_from_tip: Box::new(|_, q| Ok(by_table.base_from_tip(q)?)),
+    let table = Side::table(robot, table)?;
+    let table_urdf = certified(robot, [&table, &urdf])?;
+    let table_physics = match (&table_urdf, urdf_physics) {
+        (Some(table_urdf), Some(urdf_physics)) if is_rounding(&urdf_physics) => {
+            Some(by_way_of(table_urdf, &urdf_physics))
+        }
+        (_, Some(_)) => certified(robot, [&table, &physics])?,
+        (_, None) => None,
     };
-    let of_physics = with_physics("model_simulation", "table and physics", &table)?;
-    let brackets = brackets(robot, [&table, &urdf], world)?;
-    let of_urdf =
-        ReportedCertificate { name: "model_urdf", between: "table and URDF", brackets, premise: None };
-    Ok(vec![of_urdf, of_physics])
+    let of_urdf = report(robot, [&table, &urdf], table_urdf, world)?;
+    let of_physics = report(robot, [&table, &physics], table_physics, world)?;
+    Ok(vec![
+        ReportedCertificate {
+            name: "model_urdf",
+            between: "table and URDF",
+            brackets: of_urdf,
+            premise: None,
+        },
+        ReportedCertificate {
+            name: "model_simulation",
+            between: "table and physics",
+            brackets: of_physics,
+            premise,
+        },
+    ])
 }
 
 /// A model of the chain from base to tip.
@@ -153,34 +166,102 @@ struct Side<'a> {
 /// Pose of the tip in the base; the physics is asked in its world.
 type Forward<'a> = dyn Fn(&mut World, &[f64]) -> Result<Pose, CheckError> + 'a;
 
-/// `None` where a joint that moves one of them has no end.
-fn brackets(robot: &Robot, sides: [&Side<'_>; 2], world: &mut World) -> Result<Option<Brackets>, CheckError> {
+impl<'a> Side<'a> {
+    fn table(robot: &Robot, table: &DhTable) -> Result<Self, CheckError> {
+        let by_table = DhChain::new(table, robot);
+        let chain = ScrewChain::from_dh(&by_table, robot.dof())?;
+        Ok(Self {
+            driven: Driven::new(robot, by_table.coordinates(), &chain),
+            residual: LinkError::default(),
+            base_from_tip: Box::new(move |_, q| Ok(by_table.base_from_tip(q)?)),
+        })
+    }
+
+    fn urdf(description: &RobotDescription) -> Result<Self, CheckError> {
+        let RobotDescription { robot, base, tip, .. } = description;
+        let (tree, base, tip, coordinates) =
+            (UrdfTree::new(robot), *base, *tip, description.moving_coordinates());
+        let chain = ScrewChain::from_urdf(robot, (base, tip), &coordinates)?;
+        Ok(Self {
+            driven: Driven::new(robot, &coordinates, &chain),
+            residual: LinkError::default(),
+            base_from_tip: Box::new(move |_, q| {
+                Ok(tree.root_from_link(q, base)?.inverse() * tree.root_from_link(q, tip)?)
+            }),
+        })
+    }
+
+    fn physics(description: &'a RobotDescription, probed: &Probed) -> Self {
+        let Premise { residual_m: position_m, residual_rad: orientation_rad, .. } = probed.premise;
+        Self {
+            driven: Driven::new(&description.robot, &description.moving_coordinates(), &probed.chain),
+            residual: LinkError { position_m, orientation_rad },
+            base_from_tip: Box::new(|world, q| Ok(base_from_tip(description, world, q)?)),
+        }
+    }
+}
+
+/// The bracket with what probing may have missed; `None` where a joint that moves one of them has no
+/// end.
+fn certified(robot: &Robot, sides: [&Side<'_>; 2]) -> Result<Option<Certificate>, CheckError> {
     let [a, b] = sides.map(|side| &side.driven);
-    let drives = |coordinate: &usize| a.drivers.contains(coordinate) || b.drivers.contains(coordinate);
     // Positions that drive nothing may have any range.
     let joints = robot.movable_joints().iter().enumerate();
     let ranges: Vec<(f64, f64)> = joints
-        .map(|(index, &joint)| if drives(&index) { range(robot.joint(joint)) } else { (0.0, 0.0) })
+        .map(|(index, &joint)| if drives(sides, index) { range(robot.joint(joint)) } else { (0.0, 0.0) })
         .collect();
     if !ranges.iter().all(|range| range.0.is_finite() && range.1.is_finite()) {
         return Ok(None);
     }
-    let found = certify_driven((&a.chain, &a.drivers), (&b.chain, &b.drivers), &ranges, Budget::default())?;
-    let mut report = |bracket: Bracket, measure: fn(LinkError) -> f64| -> Result<_, CheckError> {
-        let mut q = bracket.at;
-        robot.apply_mimic(&mut q);
-        let [pose_a, pose_b] = sides.map(|side| (side.base_from_tip)(world, &q));
-        let residual = sides.map(|side| measure(side.residual));
-        let certified = bracket.certified + a.rounding() + b.rounding() + residual[0] + residual[1];
-        let attained = measure(LinkError::of(&pose_a?, &pose_b?)).min(certified);
+    let mut found =
+        certify_driven((&a.chain, &a.drivers), (&b.chain, &b.drivers), &ranges, Budget::default())?;
+    let rounding = a.rounding() + b.rounding();
+    let residual = sides.map(|side| side.residual);
+    found.position_m.certified += rounding + residual[0].position_m + residual[1].position_m;
+    found.orientation_rad.certified += rounding + residual[0].orientation_rad + residual[1].orientation_rad;
+    Ok(Some(found))
+}
+
+/// Whether a position moves one of the two.
+fn drives(sides: [&Side<'_>; 2], index: usize) -> bool {
+    sides.iter().any(|side| side.driven.drivers.contains(&index))
+}
+
+/// Whether two models are the same but for rounding.
+fn is_rounding(certificate: &Certificate) -> bool {
+    certificate.position_m.certified.max(certificate.orientation_rad.certified) <= KEPT
+}
+
+/// From a to c by way of b, which is all but c: no further than both ways together.
+fn by_way_of(a_b: &Certificate, b_c: &Certificate) -> Certificate {
+    let sum =
+        |far: &Bracket, near: &Bracket| Bracket { certified: far.certified + near.certified, ..far.clone() };
+    Certificate {
+        position_m: sum(&a_b.position_m, &b_c.position_m),
+        orientation_rad: sum(&a_b.orientation_rad, &b_c.orientation_rad),
+    }
+}
+
+/// A certificate in names, with what the models themselves attain.
+fn report(
+    robot: &Robot,
+    sides: [&Side<'_>; 2],
+    certificate: Option<Certificate>,
+    world: &mut World,
+) -> Result<Option<Brackets>, CheckError> {
+    let Some(certificate) = certificate else { return Ok(None) };
+    let mut bracket = |Bracket { mut at, certified, .. }: Bracket, measure: fn(LinkError) -> f64| {
+        robot.apply_mimic(&mut at);
+        let [a, b] = sides.map(|side| (side.base_from_tip)(world, &at));
+        let attained = measure(LinkError::of(&a?, &b?)).min(certified);
         let name = |index: usize| robot.joint(robot.movable_joints()[index]).name.clone();
-        let driving = q.iter().enumerate().filter(|(index, _)| drives(index));
+        let driving = at.iter().enumerate().filter(|&(index, _)| drives(sides, index));
         let at = driving.map(|(index, &value)| NamedValue { joint: name(index), value }).collect();
-        Ok(ReportedBracket { attained, certified, at })
+        Ok::<_, CheckError>(ReportedBracket { attained, certified, at })
     };
     Ok(Some(Brackets {
-        position_m: report(found.position_m, |error| error.position_m)?,
-        orientation_rad: report(found.orientation_rad, |error| error.orientation_rad)?,
+        position_m: bracket(certificate.position_m, |error| error.position_m)?,
+        orientation_rad: bracket(certificate.orientation_rad, |error| error.orientation_rad)?,
     }))
 }
 

@@ -94,7 +94,7 @@ pub struct CheckReport {
     pub worst: Worst,
     /// When two poses count as the same.
     pub tolerance: ReportedTolerance,
-    /// Number of configurations: zero, single axes, random ones, limits.
+    /// Number of configurations: zero, single axes, random ones, limits, the worst of each certificate.
     pub configurations: usize,
     /// Seed of the random ones.
     pub seed: u64,
@@ -141,8 +141,13 @@ pub const RANDOM_CONFIGURATIONS: usize = 200;
 /// [`CheckError`] where a witness refuses the robot.
 pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, CheckError> {
     let robot = &description.robot;
-    let configurations = probe_configurations(robot, seed, RANDOM_CONFIGURATIONS);
+    let mut configurations = probe_configurations(robot, seed, RANDOM_CONFIGURATIONS);
     let mut witnesses = Witnesses::new(description)?;
+    let probed = Probed::new(description, &mut witnesses.world, &configurations)?;
+    let certificates = certificates(description, &probed, &mut witnesses.world)?;
+    // What the certificates have found counts: a draw seldom meets the worst.
+    let brackets = certificates.iter().filter_map(|certificate| certificate.brackets.as_ref());
+    configurations.extend(brackets.flat_map(|brackets| brackets.attained_at(robot)));
     let mut tallies = Vec::new();
     if description.dh.is_some() {
         let decides = |source| source == PoseSource::Dh;
@@ -161,11 +166,9 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
     }
     let comparisons: Vec<Comparison> =
         tallies.iter().map(|tally| tally.finish(description, &configurations)).collect();
-    let probed = Probed::new(description, &mut witnesses.world, &configurations)?;
     let ladders = climb(description, &probed.chain, &configurations);
     let named = ladders.iter().find(|ladder| !ladder.diagnosis.is_empty());
     let agree = comparisons.iter().all(|comparison| comparison.verdict == Agreement::Agree);
-    let certificates = certificates(description, &probed, &mut witnesses.world)?;
     let brackets = worst(&certificates);
     let Tolerance { position_m, orientation_rad: angle } = description.tolerance;
     Ok(CheckReport {

@@ -100,7 +100,10 @@ enum Recording {
 }
 
 impl Recording {
-    #[cfg_attr(not(feature = "recording"), expect(unused_variables, reason = "nothing is recorded"))]
+    #[cfg_attr(
+        not(feature = "recording"),
+        expect(unused_variables, clippy::unnecessary_wraps, reason = "nothing is recorded")
+    )]
     fn start(
         options: &Options,
         folder: &OutputFolder,
@@ -125,7 +128,10 @@ impl Recording {
         }
     }
 
-    #[cfg_attr(not(feature = "recording"), expect(unused_variables, reason = "nothing is recorded"))]
+    #[cfg_attr(
+        not(feature = "recording"),
+        expect(unused_variables, clippy::unnecessary_wraps, reason = "nothing is recorded")
+    )]
     fn finish(self, report: &RunReport) -> Result<(), RecordingError> {
         match self {
             Self::None(_) => Ok(()),

@@ -10,7 +10,7 @@ use crate::sample::LinkError;
 
 /// What is left of screws that were probed, over a whole joint range. Unit: m or rad; kind: rounding,
 /// which certificates add; worst seen 3.8e-14.
-const KEPT: f64 = 1e-10;
+pub(crate) const KEPT: f64 = 1e-10;
 
 /// A black box is a chain of screws only as far as one has looked: how far the physics was from the
 /// chain that was probed, at worst.
