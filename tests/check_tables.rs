@@ -88,3 +88,13 @@ fn a_ur5_is_no_ur5e() {
         Pairing { table: "ur5_rtb", urdf: "ur5e", base: "base", tip: "tool0", joints: &UR5E_JOINTS };
     disagrees(&pairing, 94.8e-3, 0.2e-3);
 }
+
+#[test]
+fn a_baxter_whose_base_and_tool_are_off_is_certified() {
+    let Some(corpus) = corpus() else { return };
+    let joints = ["left_s0", "left_s1", "left_e0", "left_e1", "left_w0", "left_w1", "left_w2"];
+    let (base, tip) = ("base", "left_gripper");
+    let answer =
+        check(&Pairing { table: "baxter_left_rtb", urdf: "baxter", base, tip, joints: &joints }, &corpus);
+    assert_certified(&answer.json());
+}

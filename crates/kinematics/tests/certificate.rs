@@ -206,6 +206,18 @@ fn a_small_turn_beside_a_large_one_adds_up_too() {
 }
 
 #[test]
+fn a_turned_base_of_twelve_joints_is_worst_at_full_reach() {
+    // All axes parallel but the last, which lies across: stretched, the arm is 2.4 m long.
+    let mut rows = vec![RowFigures::revolute(0.2, 0.0, 0.0); 12];
+    rows[10].alpha_rad = PI / 2.0;
+    let arm = TableFigures::new(DhConvention::Standard, &rows);
+    let off = changed(&arm, |arm| arm.base_from_dh0 = Isometry3::rotation(Vector3::y() * 0.01));
+    let certificate = certificate(&off, &arm);
+    assert_close(&certificate.position_m, 2.0 * (0.01_f64 / 2.0).sin() * 2.4);
+    assert_close(&certificate.orientation_rad, 0.01);
+}
+
+#[test]
 fn a_joint_in_degrees_is_worst_at_its_furthest_reach_on_both_sides() {
     // Joint 2 turns 57 times as fast, about the axis from which the elbow and the tool stand out.
     let fast = changed(&planar(0.4), |arm| arm.rows[0].sign = 180.0 / PI);

@@ -46,9 +46,11 @@ fn sample(each: usize) -> Vec<(String, Mutable)> {
     for Mutable { name, case, ranges } in robots::all() {
         let faults = faults::all(&case);
         for number in 0..2 * each {
-            let chosen: Vec<&Fault> = (0..1 + number % 2).map(|_| pick(&faults, &mut generator)).collect();
+            let chosen: Vec<&Fault> = (0..=number % 2).map(|_| pick(&faults, &mut generator)).collect();
             let mut case = case.clone();
-            chosen.iter().for_each(|fault| fault.inject(&mut case));
+            for fault in &chosen {
+                fault.inject(&mut case);
+            }
             let told: Vec<String> =
                 chosen.iter().map(|fault| format!("{} {:?}", fault.cause, fault.place)).collect();
             let label = format!("{name}: {}", told.join(" and "));

@@ -57,6 +57,7 @@ struct Cell {
     bound: f64,
     number: u64,
     intervals: Vec<Interval>,
+    /// The joint to divide; none of them where no bound depends on one.
     divide: usize,
     /// Which bound was least.
     by: usize,
@@ -136,7 +137,7 @@ impl Search<'_> {
     /// the cell is its own, says where to divide.
     fn bound_by(&mut self, by: usize, cell: &mut Cell) -> f64 {
         let Bound { steps, price } = &self.task.bounds[by];
-        let (mut sum, mut promises, mut best) = (*price, 0.0, (-1.0, 0));
+        let (mut sum, mut promises, mut best) = (*price, 0.0, (-1.0, usize::MAX));
         self.nearest.copy_from_slice(&self.attained.at);
         for step in steps {
             let enclosure = step.enclose(&cell.intervals, &mut self.room, &mut self.nearest);
@@ -200,8 +201,12 @@ pub(super) fn bracket(task: &Task<'_>, attained: Attained) -> Outcome {
 impl Bound {
     /// Whether its boxes are few enough corners for a budget.
     pub(super) fn is_affordable(&self, ranges: &[Interval], budget: Budget) -> bool {
-        let cost = |gap: &Gap| gap.most_corners(ranges).saturating_add(gap.overhead());
-        let most = self.steps.iter().map(cost).fold(0, u64::saturating_add);
-        most <= MOST_CORNERS_OF_CELL.min(budget.corners)
+        self.steps.iter().all(|gap| is_affordable(gap, ranges, budget))
     }
+}
+
+/// Whether the boxes of a gap have few enough corners for a budget.
+pub(super) fn is_affordable(gap: &Gap, ranges: &[Interval], budget: Budget) -> bool {
+    let cost = gap.most_corners(ranges).saturating_add(gap.overhead());
+    cost <= MOST_CORNERS_OF_CELL.min(budget.corners)
 }

@@ -23,7 +23,7 @@ mod way;
 use std::f64::consts::PI;
 
 use self::{
-    branch::{Bound, Outcome, Scale, Task, bracket},
+    branch::{Bound, Outcome, Scale, Task, bracket, is_affordable},
     corner::Interval,
     gap::Gap,
     order::SideBySide,
@@ -58,7 +58,7 @@ pub struct Budget {
 
 impl Default for Budget {
     fn default() -> Self {
-        Self { relative_gap: 0.02, corners: 250_000_000 }
+        Self { relative_gap: 0.02, corners: 200_000_000 }
     }
 }
 
@@ -200,6 +200,8 @@ struct Measure {
     reduce: fn(&Tidied, f64) -> Reduced,
     scale: Scale,
     price_of_tidying: fn(&Tidied) -> f64,
+    /// Its figure of a pair in m and in rad.
+    of_both: fn([f64; 2]) -> f64,
     ways: fn(&ScrewChain, &ScrewChain) -> Vec<Way>,
 }
 
@@ -207,6 +209,7 @@ const POSITION: Measure = Measure {
     reduce: Tidied::position,
     scale: Scale { of_gap: |gap_m| gap_m, ceiling: f64::INFINITY },
     price_of_tidying: |tidied| tidied.price_m,
+    of_both: |[position_m, _]| position_m,
     ways: |a, b| [way::over_faults(a, b), way::over_points(a, b)].concat(),
 };
 
@@ -218,6 +221,7 @@ const ORIENTATION: Measure = Measure {
         ceiling: std::f64::consts::SQRT_2,
     },
     price_of_tidying: |tidied| tidied.price_rad,
+    of_both: |[_, orientation_rad]| orientation_rad,
     ways: way::over_faults,
 };
 
@@ -256,7 +260,7 @@ impl Problem<'_> {
         let mut outcome = bracket(&task, found);
         let attained = of_gap(outcome.attained.gap);
         if outcome.certified > (attained * (1.0 + relative_gap)).max(ROUNDING_LEVEL) {
-            let ways = self.ways(measure, &outcome.attained, allowance);
+            let ways = self.ways(measure, (&gap, &outcome.attained), allowance);
             task.bounds = affordable([vec![itself], ways].concat());
             task.budget = Budget { corners: corners - corners / ALONE, relative_gap };
             let further = bracket(&task, outcome.attained);
@@ -274,23 +278,36 @@ impl Problem<'_> {
     }
 
     /// Bounds over chains between the two, those that promise most.
-    fn ways(&self, measure: &Measure, attained: &Attained, allowance: f64) -> Vec<Bound> {
+    fn ways(&self, measure: &Measure, (gap, attained): (&Gap, &Attained), allowance: f64) -> Vec<Bound> {
         let Tidied { a, b, drivers, positions, .. } = self.tidied;
-        let step = |[from, to]: &[ScrewChain; 2]| -> (Gap, f64) {
+        let ranges: Vec<Interval> = drivers.iter().map(|&driver| positions[driver]).collect();
+        let step = |[from, to]: &[ScrewChain; 2]| -> (Option<Gap>, f64) {
             let tidied = Tidied::new((from, to), drivers, positions);
             let Reduced { gap, price } = (measure.reduce)(&tidied, allowance);
-            (gap, price + (measure.price_of_tidying)(&tidied))
+            match way::of_move(from, to, &ranges) {
+                Some(bounds) if !is_affordable(&gap, positions, self.budget) => {
+                    (None, (measure.of_both)(bounds))
+                }
+                _ => (Some(gap), price + (measure.price_of_tidying)(&tidied)),
+            }
         };
         let to_tidied = (measure.price_of_tidying)(self.tidied);
         let bound = |way: &Way| {
-            let (steps, prices): (Vec<Gap>, Vec<f64>) = way.iter().map(step).unzip();
+            let (steps, prices): (Vec<Option<Gap>>, Vec<f64>) = way.iter().map(step).unzip();
+            let steps: Vec<Gap> = steps.into_iter().flatten().collect();
             let price = to_tidied + prices.iter().sum::<f64>();
             let worst = |gap: &Gap| (measure.scale.of_gap)(Attained::near(gap, positions, &attained.at).gap);
             (price + steps.iter().map(worst).sum::<f64>(), Bound { steps, price })
         };
         let mut ways: Vec<(f64, Bound)> = (measure.ways)(a, b).iter().map(bound).collect();
-        let worth = PROMISING * (measure.scale.of_gap)(attained.gap);
-        ways.retain(|(sum, _)| *sum <= worth);
+        if is_affordable(gap, positions, self.budget) {
+            let worth = PROMISING * (measure.scale.of_gap)(attained.gap);
+            ways.retain(|(sum, _)| *sum <= worth);
+        } else {
+            ways.push(bound(&vec![[b.clone(), a.clone()]]));
+        }
+        // Ways with a step that no box can be bounded for lead nowhere.
+        ways.retain(|(_, bound)| bound.is_affordable(positions, self.budget));
         ways.sort_by(|one, two| one.0.total_cmp(&two.0));
         ways.truncate(MOST_WAYS);
         ways.into_iter().map(|(_, bound)| bound).collect()

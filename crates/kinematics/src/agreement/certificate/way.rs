@@ -8,6 +8,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::{
+    corner::Interval,
+    telescope::{Telescope, furthest},
+};
 use crate::{pose::Pose, screw_chain::ScrewChain, twist::Twist};
 
 /// Screws that differ by less than this part of what the chains differ are taken for one: it decides
@@ -17,6 +21,8 @@ const ALIKE: f64 = 1e-4;
 const LEAST_ALIKE: f64 = 1e-12;
 /// Axes whose angle has a smaller sine are parallel, and closer axes one.
 const PARALLEL: f64 = 1e-6;
+/// Roundings of a move's figures and of a sum over axes, by far.
+const ROUNDINGS: f64 = 1024.0;
 /// Places at fault that are told apart; of more, one at a time is split off.
 const MOST_SPLIT: usize = 4;
 
@@ -154,6 +160,43 @@ fn resting(chain: &ScrewChain, point: &Vector3<f64>) -> ScrewChain {
         twists_in_base: chain.twists_in_base.iter().enumerate().map(twist).collect(),
         base_from_tip_at_zero: Pose::from_parts(Matrix3::identity(), *point),
     }
+}
+
+/// A bound in closed form of a step that moves everything behind some joint as a whole, for chains of so
+/// many joints that no box can be bounded: position in m, orientation in rad. `None` for other steps.
+///
+/// With `D` the move, `R` its turn, and `c` a point on the first axis that is moved,
+/// `|D p - p| <= |D c - c| + |R - 1| |p - c|`, and a tip is no further from there than the axes between
+/// are apart.
+pub(super) fn of_move(from: &ScrewChain, to: &ScrewChain, ranges: &[Interval]) -> Option<[f64; 2]> {
+    let pairs = from.twists_in_base.iter().zip(&to.twists_in_base);
+    let first = pairs.take_while(|(from, to)| distance(from, to) <= LEAST_ALIKE).count();
+    let moved = |pose: &Pose| spliced(to, from, first, pose);
+    let by = placements(to, from).into_iter().find(|pose| is_same(&moved(pose), to))?;
+    let left = Telescope::new(&moved(&by), to, ranges);
+    let tip = from.base_from_tip_at_zero.translation;
+    let mut reach_m = 0.0;
+    let mut point = tip;
+    for (twist, range) in from.twists_in_base.iter().zip(ranges).skip(first).rev() {
+        let rate = twist.angular.norm();
+        if rate <= PARALLEL {
+            reach_m += twist.linear.norm() * furthest(*range);
+            continue;
+        }
+        let direction = twist.angular / rate;
+        let along = direction * direction.dot(&twist.linear);
+        let through = direction.cross(&twist.linear) / rate;
+        let next = through + direction * direction.dot(&(point - through));
+        reach_m += (point - next).norm() + along.norm() * furthest(*range);
+        point = next;
+    }
+    let shift_m = (by.rotation * point + by.translation - point).norm();
+    let turn_rad = by.angle_rad(&Pose::identity());
+    let outward = 1.0 + ROUNDINGS * f64::EPSILON;
+    Some([
+        (shift_m + 2.0 * (turn_rad / 2.0).sin() * reach_m) * outward + left.total_m() + LEAST_ALIKE,
+        turn_rad * outward + left.total_rad() + LEAST_ALIKE,
+    ])
 }
 
 /// How unlike two twists are, the larger of their parts.
