@@ -89,7 +89,7 @@ fn case_10_one_degree_of_joint_offset_for_two_arm_lengths() {
 }
 
 #[test]
-fn case_1_the_reachable_area_of_the_planar_arm() {
+fn case_01_the_reachable_area_of_the_planar_arm() {
     let folder = tempfile::tempdir().unwrap();
     let svg = text(&folder.path().join("workspace.svg"));
     let document = congruent_json(&["workspace", "robots/planar_2r", "--plot", &svg]).json();

@@ -6,8 +6,9 @@ use congruent_description::{Diagnostic, load_robot};
 use congruent_twin::{
     basics::{Basics, ByWitness},
     certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate},
-    check::{Agreement, CheckReport, Comparison, check},
+    check::{Agreement, CheckOptions, CheckReport, Comparison, check},
     ladder::{Blame, Ladder, ReportedCause},
+    read_configurations,
 };
 
 use crate::{
@@ -18,7 +19,7 @@ use crate::{
 /// Whether a robot's table, its URDF and its physics twin are the same robot.
 ///
 /// Compared at zero, one axis at a time, at 200 seeded random configurations within the limits,
-/// and at the limits. Exit code 1 where they disagree.
+/// at the limits, and where the certificates find the worst. Exit code 1 where they disagree.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Folders with robot.toml, robot files, or bare .urdf files.
@@ -27,6 +28,10 @@ pub(crate) struct Arguments {
     /// Seed of the random configurations.
     #[arg(long, default_value_t = 0)]
     seed: u64,
+    /// Compare at these as well and show the difference at each: a JSON array of
+    /// {"q": {"joint": value}} in rad and m; joints that are not named are at 0.
+    #[arg(long, value_name = "FILE")]
+    configurations: Option<PathBuf>,
     /// Show too where the TCP is at zero and which way each joint moves it; JSON always has it.
     #[arg(long)]
     basics: bool,
@@ -37,7 +42,11 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     for path in &arguments.robots {
         let description = load_robot(path)?;
         printer.warnings(&description.warnings);
-        let report = check(&description, arguments.seed)
+        let configurations = match &arguments.configurations {
+            Some(path) => read_configurations(path, &description.robot)?,
+            None => Vec::new(),
+        };
+        let report = check(&description, &CheckOptions { seed: arguments.seed, configurations })
             .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
         reports.push(report);
     }
@@ -73,6 +82,10 @@ fn text(report: &CheckReport) -> String {
         let at: Vec<String> =
             report.worst.at.iter().map(|named| format!("{} {:.4}", named.joint, named.value)).collect();
         let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, at.join(", "));
+    }
+    for (at, difference) in report.at_configurations.iter().enumerate() {
+        let (position, orientation) = (length(difference.position_m), angle(difference.orientation_rad));
+        let _ = writeln!(text, "  at configuration {at}: {position} and {orientation}");
     }
     certified(&mut text, report);
     if let Some(ladder) = report.ladders.iter().find(|ladder| !ladder.diagnosis.is_empty()) {

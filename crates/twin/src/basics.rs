@@ -5,7 +5,7 @@ use congruent_description::{JointKind, LinkIndex, RobotDescription};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree, rotation_log};
 use serde::Serialize;
 
-use crate::{check::larger, configurations::axis_steps, forward::ReportedPose};
+use crate::{configurations::axis_steps, forward::ReportedPose, sample::larger};
 
 /// Below this a shift is rounding and has no direction. Kind: rounding, of arms that reach some metres.
 const NO_SHIFT_M: f64 = 1e-12;

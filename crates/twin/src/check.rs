@@ -15,7 +15,7 @@ use crate::{
     model::{Model, PoseSource},
     probed::Probed,
     report::Finding,
-    sample::LinkError,
+    sample::{LinkError, larger},
     verdict::NamedValue,
 };
 
@@ -100,6 +100,9 @@ pub struct CheckReport {
     pub seed: u64,
     /// Two witnesses at a time.
     pub comparisons: Vec<Comparison>,
+    /// The worst of all comparisons at each configuration that was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at_configurations: Vec<DifferenceAt>,
     /// What a person tries first: zero, one axis at a time, whether the transforms are rigid.
     pub basics: Basics,
     /// How far models are apart at most, over the whole joint range: the largest of `certificates`.
@@ -128,6 +131,27 @@ pub struct ReportedTolerance {
     pub orientation_rad: f64,
 }
 
+/// How far witnesses are apart at one configuration that was asked for.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DifferenceAt {
+    /// The configuration: every movable joint, rad or m.
+    #[serde(serialize_with = "as_map")]
+    pub q: Vec<NamedValue>,
+    /// Largest distance of the origins of a link that decides.
+    pub position_m: f64,
+    /// Largest angle between the orientations of such a link.
+    pub orientation_rad: f64,
+}
+
+/// What a check asks beside zero, single axes, and limits.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct CheckOptions {
+    /// Seed of the random configurations.
+    pub seed: u64,
+    /// Further configuration vectors of the robot; the report has the difference at each.
+    pub configurations: Vec<Vec<f64>>,
+}
+
 /// Random configurations of a check.
 pub const RANDOM_CONFIGURATIONS: usize = 200;
 
@@ -139,9 +163,9 @@ pub const RANDOM_CONFIGURATIONS: usize = 200;
 ///
 /// # Errors
 /// [`CheckError`] where a witness refuses the robot.
-pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, CheckError> {
+pub fn check(description: &RobotDescription, options: &CheckOptions) -> Result<CheckReport, CheckError> {
     let robot = &description.robot;
-    let mut configurations = probe_configurations(robot, seed, RANDOM_CONFIGURATIONS);
+    let mut configurations = probe_configurations(robot, options.seed, RANDOM_CONFIGURATIONS);
     let mut witnesses = Witnesses::new(description)?;
     let probed = Probed::new(description, &mut witnesses.world, &configurations)?;
     let certificates = certificates(description, &probed, &mut witnesses.world)?;
@@ -158,10 +182,15 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
     let all = |_| true;
     tallies.push(Tally::new("poe_urdf", "screws (POE) against URDF chain", poe_urdf, &urdf, all));
     tallies.push(Tally::new("urdf_simulation", "URDF chain against physics", urdf_simulation, &urdf, all));
+    let asked_from = configurations.len();
+    configurations.extend_from_slice(&options.configurations);
+    let mut asked = Vec::with_capacity(options.configurations.len());
     for (index, q) in configurations.iter().enumerate() {
         witnesses.look(q)?;
-        for tally in &mut tallies {
-            tally.observe(index, &witnesses);
+        let here = tallies.iter_mut().map(|tally| tally.observe(index, &witnesses));
+        let LinkError { position_m, orientation_rad } = here.fold(LinkError::default(), LinkError::larger);
+        if index >= asked_from {
+            asked.push(DifferenceAt { q: named(description, q), position_m, orientation_rad });
         }
     }
     let comparisons: Vec<Comparison> =
@@ -177,8 +206,9 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
         worst: worst_of(&comparisons),
         tolerance: ReportedTolerance { position_m, orientation_rad: angle },
         configurations: configurations.len(),
-        seed,
+        seed: options.seed,
         comparisons,
+        at_configurations: asked,
         basics: basics(description, &configurations)?,
         certificate: brackets.as_ref().map(Brackets::bounds),
         certificate_bracket: brackets,
@@ -192,13 +222,13 @@ pub fn check(description: &RobotDescription, seed: u64) -> Result<CheckReport, C
 
 /// The largest difference of all comparisons, position and orientation each for itself.
 fn worst_of(comparisons: &[Comparison]) -> Worst {
-    let further = |a: Worst, b: &Comparison| {
-        let orientation_rad = larger(a.orientation_rad, b.worst.orientation_rad);
-        let furthest = if b.worst.position_m > a.position_m { b.worst.clone() } else { a };
+    let larger = |a: Worst, b: Worst| {
+        let orientation_rad = larger(a.orientation_rad, b.orientation_rad);
+        let furthest = if a.position_m.is_nan() || b.position_m <= a.position_m { a } else { b };
         Worst { orientation_rad, ..furthest }
     };
-    let nowhere = Worst { position_m: -1.0, orientation_rad: 0.0, link: String::new(), at: Vec::new() };
-    comparisons.iter().fold(nowhere, further)
+    let worst = comparisons.iter().map(|comparison| comparison.worst.clone());
+    worst.reduce(larger).expect("screws and physics are always held against the URDF")
 }
 
 /// All poses at one configuration, by each witness.
@@ -288,24 +318,27 @@ impl Tally {
         }
     }
 
-    fn observe(&mut self, configuration: usize, witnesses: &Witnesses) {
+    /// Looks at one configuration; gives the largest difference there of the links that decide.
+    fn observe(&mut self, configuration: usize, witnesses: &Witnesses) -> LinkError {
+        let mut here = LinkError::default();
         for link in 0..self.worst.len() {
             let error = (self.difference)(witnesses, link);
-            if self.decides[link] && error.position_m > self.worst[self.furthest.0].position_m {
-                self.furthest = (link, configuration);
+            if self.decides[link] {
+                here = here.larger(error);
+                if error.position_m > self.worst[self.furthest.0].position_m {
+                    self.furthest = (link, configuration);
+                }
             }
-            let worst = &mut self.worst[link];
-            // `max` would drop a NaN, and a NaN is the worst of all.
-            worst.position_m = larger(worst.position_m, error.position_m);
-            worst.orientation_rad = larger(worst.orientation_rad, error.orientation_rad);
+            self.worst[link] = self.worst[link].larger(error);
         }
+        here
     }
 
     fn finish(&self, description: &RobotDescription, configurations: &[Vec<f64>]) -> Comparison {
         let robot = &description.robot;
         let deciding = || self.worst.iter().zip(&self.decides).filter(|(_, decides)| **decides);
-        let position_m = deciding().map(|(error, _)| error.position_m).fold(0.0, larger);
-        let orientation_rad = deciding().map(|(error, _)| error.orientation_rad).fold(0.0, larger);
+        let worst = deciding().fold(LinkError::default(), |worst, (error, _)| worst.larger(*error));
+        let LinkError { position_m, orientation_rad } = worst;
         let Tolerance { position_m: most_m, orientation_rad: most_rad } = description.tolerance;
         let agrees = position_m <= most_m && orientation_rad <= most_rad;
         let (link, configuration) = self.furthest;
@@ -330,11 +363,6 @@ impl Tally {
                 .collect(),
         }
     }
-}
-
-/// The larger of two; a NaN is the largest of all.
-pub(crate) fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b <= a { a } else { b }
 }
 
 fn named(description: &RobotDescription, q: &[f64]) -> Vec<NamedValue> {

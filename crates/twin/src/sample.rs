@@ -24,6 +24,20 @@ impl LinkError {
     pub fn between(model: &Pose, twin: &Isometry3<f64>) -> Self {
         Self::of(model, &Pose::from(*twin))
     }
+
+    /// The larger of each.
+    #[must_use]
+    pub(crate) fn larger(self, other: Self) -> Self {
+        Self {
+            position_m: larger(self.position_m, other.position_m),
+            orientation_rad: larger(self.orientation_rad, other.orientation_rad),
+        }
+    }
+}
+
+/// The larger of two. `max` would drop a NaN, and a NaN is the largest of all.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b <= a { a } else { b }
 }
 
 /// One instant: borrowed from the run loop, nothing is copied.
