@@ -55,8 +55,9 @@ fn disagrees(pairing: &Pairing<'_>, by_m: f64, give_or_take_m: f64) {
 fn ur5e_agrees_with_its_vendors_table() {
     let pairing =
         Pairing { table: "ur5e_vendor", urdf: "ur5e", base: "base", tip: "tool0", joints: &UR5E_JOINTS };
-    // The URDF writes pi/2 as 1.570796327: 2.05e-10 m at the tool, not less.
-    agrees(&pairing, 2.1e-10);
+    // The URDF writes pi/2 as 1.570796327: 2.05e-10 m at the tool in the study's draws, 2.18e-10 m
+    // where the certificate finds the worst.
+    agrees(&pairing, 2.2e-10);
 }
 
 #[test]
