@@ -62,6 +62,51 @@ fn a_target_out_of_reach_is_a_result_and_a_slip_is_bad_input() {
 }
 
 #[test]
+fn an_empty_list_asks_nothing_and_a_slip_has_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |json: &str| congruent_json(&["ik", "robots/ur5e", "--targets", &targets(&folder, json)]);
+    assert_eq!(run("[]").code, 4);
+    let human = congruent(&["ik", "robots/ur5e", "--targets", &targets(&folder, "[]")]);
+    assert!(human.code == 4 && human.stdout.contains("nothing was asked"), "{}", human.stdout);
+    for (second, mention) in [
+        (r#"{"translation_m": [0.4, 0.1, 0.3], "quaternion_wxyz": [0, 0, 0, 0]}"#, "norm"),
+        (r#"{"translation_m": [0.4, 0.1, 0.3], "start": {"elbo": 0}}"#, "elbo"),
+        (r#"{"translation_m": [0.4, 0.1]}"#, "length 2"),
+        (r#"{"translation_m": [0.4, 0.1, 1e308]}"#, "beyond"),
+    ] {
+        let answer = run(&format!("[{{\"translation_m\": [0.4, 0.1, 0.3]}},\n\n {second}]"));
+        let finding = answer.json()["findings"][0].clone();
+        assert_eq!((answer.code, &finding["line"]), (2, &Value::from(3)), "{finding}");
+        let message = finding["message"].as_str().unwrap();
+        assert!(message.contains("target 2") && message.contains(mention), "{message}");
+    }
+}
+
+#[test]
+fn a_start_outside_the_limits_is_warned_of_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let target = |start: f64| {
+        let json = format!(
+            "[{{\"translation_m\": [0.4, 0.1, 0.3]}},\n\
+             {{\"translation_m\": [0.4, 0.1, 0.3], \"start\": {{\"elbow_joint\": {start}}}}}]"
+        );
+        congruent_json(&["ik", "robots/ur5e", "--targets", &targets(&folder, &json)])
+    };
+    let answer = target(4.0);
+    let document = answer.json();
+    // A whole turn less is within half a turn.
+    assert!(answer.code == 0 && document.get("warnings").is_none(), "{document}");
+    let planar = targets(&folder, r#"[{"translation_m": [0.4, 0.1, 0], "start": {"joint_2": 3}}]"#);
+    let answer = congruent_json(&["ik", "robots/planar_2r", "--targets", &planar]);
+    let warning = answer.json()["warnings"][0].clone();
+    assert_eq!((&warning["line"], &warning["severity"]), (&Value::from(1), &Value::from("warning")));
+    let message = warning["message"].as_str().unwrap();
+    assert!(message.contains("target 1") && message.contains("joint_2"), "{message}");
+    let human = congruent(&["ik", "robots/planar_2r", "--targets", &planar]);
+    assert!(human.stderr.contains("outside its limits"), "{}", human.stderr);
+}
+
+#[test]
 fn case_10_one_degree_of_joint_offset_for_two_arm_lengths() {
     /// Local search ends within its last step; worst seen 2e-12.
     const SEARCH_MM: f64 = 1e-6;

@@ -24,14 +24,14 @@ joint_1_deg,joint_2_deg,x_m,y_m
 ";
 
 /// A folder with files of measurements.
-struct Bench(TempDir);
+pub(crate) struct Bench(TempDir);
 
 impl Bench {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(tempfile::tempdir().unwrap())
     }
 
-    fn write(&self, name: &str, contents: &str) -> String {
+    pub(crate) fn write(&self, name: &str, contents: &str) -> String {
         let path = self.0.path().join(name);
         fs::write(&path, contents).unwrap();
         text(&path)
@@ -39,7 +39,7 @@ impl Bench {
 
     /// A copy of a robot with pieces of its robot file replaced.
     #[track_caller]
-    fn robot(&self, name: &str, changes: &[(&str, &str)]) -> String {
+    pub(crate) fn robot(&self, name: &str, changes: &[(&str, &str)]) -> String {
         let folder = self.0.path().join(name);
         fs::create_dir(&folder).unwrap();
         for entry in fs::read_dir(workspace().join("robots").join(name)).unwrap().flatten() {
@@ -79,7 +79,12 @@ impl Random {
 }
 
 /// Where the TCP of a robot file's table is at random configurations, with noise, as JSON rows.
-fn measured(robot: &str, joints: &[&str], rows: usize, (noise_m, noise_rad): (f64, f64)) -> Vec<Value> {
+pub(crate) fn measured(
+    robot: &str,
+    joints: &[&str],
+    rows: usize,
+    (noise_m, noise_rad): (f64, f64),
+) -> Vec<Value> {
     let mut random = Random(4);
     let configuration = |random: &mut Random| -> BTreeMap<String, f64> {
         // Within the limits of every robot here; the Panda's fourth joint bends one way only.
@@ -126,7 +131,7 @@ fn calibrate(arguments: &[&str]) -> Value {
     answer.json()
 }
 
-fn number(value: &Value) -> f64 {
+pub(crate) fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
@@ -140,7 +145,7 @@ fn names(list: &Value) -> Vec<&str> {
 }
 
 /// Known errors of a UR5e: four zeros, two lengths and a twist.
-const UR5E_ERRORS: [(&str, &str); 4] = [
+pub(crate) const UR5E_ERRORS: [(&str, &str); 4] = [
     (
         "a_m = -0.425\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = 0.0",
         "a_m = -0.4262\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = 0.35",
@@ -200,6 +205,9 @@ fn case_04_zero_offset_of_the_planar_arm() {
     assert!(report["next"].as_array().unwrap().len() == 5);
     let human = congruent(&["calibrate", "robots/planar_2r", &file, "--free", "joint_1.zero"]);
     assert!(human.stdout.contains("+1.0191"), "{}", human.stdout);
+    // What is suggested reads in the robot's order.
+    let next = human.stdout.split("most telling next").nth(1).unwrap();
+    assert!(next.find("joint_1") < next.find("joint_2"), "{next}");
 }
 
 #[test]

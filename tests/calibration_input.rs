@@ -25,6 +25,14 @@ fn bad_measurements_are_refused_with_their_place() {
     refuse("joint_1_deg,joint_2_deg,x_m,y_m\n0,0,1\n", 2, &["3 cells", "4 columns"]);
     refuse("joint_1_deg,joint_2_deg,x_m,y_m\n0,,1,0\n", 2, &["joint_2_deg"]);
     refuse("joint_1_deg,joint_2_deg,x_m,y_m\n0,nan,1,0\n", 2, &["nan", "joint_2_deg"]);
+    refuse("joint_1_deg,joint_2_deg,x_mm,y_m\n0,0,1,0\n0,0,1e15,0\n", 3, &["1e15", "x_mm"]);
+    refuse("joint_1_deg,joint_2_deg,x_m,y_m\n0,1e308,1,0\n", 2, &["1e308", "joint_2_deg"]);
+    refuse("joint_1_deg,joint_2_deg,x_m,y_m\n0,0,1e999,0\n", 2, &["1e999", "x_m"]);
+    refuse(
+        "[{\"q\": {\"joint_1\": 0, \"joint_2\": 0},\n\"translation_m\": [1, 1e30]}]",
+        1,
+        &["measurement 1"],
+    );
     refuse("joint_1,joint_2_deg,x_m,y_m\n0,0,1,0\n", 1, &["joint_1", "unit"]);
     refuse("joint_1_mm,joint_2_deg,x_m,y_m\n0,0,1,0\n", 1, &["joint_1_mm", "joint_1_deg"]);
     refuse("joint_1_deg,joint_3_deg,x_m,y_m\n0,0,1,0\n", 1, &["joint_3_deg", "joint_2"]);

@@ -7,6 +7,7 @@ mod arm_studies;
 mod bad_input;
 mod calibration;
 mod calibration_input;
+mod calibration_verdicts;
 mod check_configurations;
 mod check_tables;
 mod clearance_goldens;

@@ -16,16 +16,21 @@ use congruent_twin::{
     report::write_whole,
 };
 
-use crate::{failure::Failure, input::RobotArgument, print::Printer};
-
-/// Exit code where nothing could be identified: nothing was checked.
-const NOTHING: u8 = 4;
+use crate::{
+    failure::{FAILED, Failure, NOTHING},
+    input::RobotArgument,
+    print::Printer,
+};
 
 /// Corrections of a robot's model from measured poses or points of its tip (or TCP) in the base.
 ///
 /// MEASUREMENTS is CSV with a header (`<joint>_rad` or `_deg`, then x_m, y_m, z_m or _mm, optionally qw, qx, qy,
 /// qz or roll_deg, pitch_deg, yaw_deg), or JSON: [{"q": {joint: rad}, "translation_m": [x, y, z],
-/// "quaternion_wxyz": [w, x, y, z]}]. Coordinates that were not measured are left out.
+/// "quaternion_wxyz": [w, x, y, z]}]. Coordinates that were not measured are left out. Measurements count
+/// from 1, in the order of the file.
+///
+/// Exit code 1 where the corrections do not explain the measurements (what is left is no noise, or more than
+/// the stated noise allows), 4 where nothing can be identified or nothing is left to judge it by.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -93,12 +98,16 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         write_whole(path, figure.as_bytes()).map_err(|error| Failure::Machine(error.to_string()))?;
     }
     printer.result(&report, text)?;
-    Ok(if report.verdict == Explanation::NothingIdentified { NOTHING } else { 0 })
+    Ok(match report.verdict {
+        Explanation::Explained | Explanation::UnexplainedRows | Explanation::NoImprovement => 0,
+        Explanation::Unexplained | Explanation::NoiseExceeded => FAILED,
+        Explanation::NothingToJudgeBy | Explanation::NothingIdentified => NOTHING,
+    })
 }
 
 impl Arguments {
     fn options(&self, rows: &[MeasuredRow]) -> Result<CalibrationOptions, Diagnostic> {
-        let has_orientation = rows.iter().any(|row| row.base_from_tip.is_some());
+        let has_orientation = rows.iter().any(|row| row.orientation.is_some());
         let positive = |name: &str, value: f64| {
             if value.is_finite() && value > 0.0 {
                 return Ok(value);
@@ -159,7 +168,8 @@ fn estimates(text: &mut String, report: &CalibrationReport) {
         let plain = corrected(each, each.correction, each.standard_deviation);
         let robust = corrected(each, each.robust_correction, each.robust_standard_deviation);
         let mark = if each.significant { "significant" } else { "-" };
-        let table = each.in_table.as_ref().map_or_else(String::new, |entry| {
+        let is_recommended = report.recommended != Recommendation::Nominal;
+        let table = each.in_table.as_ref().filter(|_| is_recommended).map_or_else(String::new, |entry| {
             let found = figure(each.unit, entry.found);
             format!(
                 "  line {}: {} {} -> {}",
@@ -181,6 +191,9 @@ fn estimates(text: &mut String, report: &CalibrationReport) {
 
 fn corrected(of: &Estimate, value: f64, deviation: f64) -> String {
     let (scale, unit) = handy(of.unit);
+    if deviation.is_nan() {
+        return format!("{:+.4} ± unknown {unit}", value * scale);
+    }
     format!("{:+.4} ± {:.4} {unit}", value * scale, deviation * scale)
 }
 
@@ -217,7 +230,7 @@ fn fits(text: &mut String, report: &CalibrationReport) {
     let mut line = |word: &str, left: &Remainder, noise: Option<&Estimation>| {
         let rms = size(left.rms_m, left.rms_rad);
         let worst = size(left.worst_m, left.worst_rad);
-        let noise = noise.map_or_else(String::new, |of| {
+        let noise = noise.filter(|of| of.noise_m.is_finite()).map_or_else(String::new, |of| {
             format!(
                 "  noise of a component {}",
                 size(of.noise_m, if left.worst_rad > 0.0 { of.noise_rad } else { 0.0 })
@@ -264,8 +277,7 @@ fn next(text: &mut String, report: &CalibrationReport) {
     }
     let _ = writeln!(text, "\n  most telling next (within the joint limits; not checked for collisions)");
     for pose in &report.next {
-        let q: Vec<String> = pose.q.iter().map(|(joint, value)| format!("{joint} {value:.3}")).collect();
-        let _ = writeln!(text, "  {:5.2} bit  {}", pose.gain_bits, q.join(", "));
+        let _ = writeln!(text, "  {:5.2} bit  {}", pose.gain_bits, pose.q.listed(3));
     }
 }
 

@@ -48,7 +48,7 @@ fn text(report: &DistanceReport) -> String {
     }
     let mut text = String::new();
     for (index, result) in report.results.iter().enumerate() {
-        let _ = writeln!(text, "configuration {index}: nearest pairs first");
+        let _ = writeln!(text, "configuration {}: nearest pairs first", index + 1);
         let mut order: Vec<usize> = (0..report.pairs.len()).collect();
         order.sort_by(|&a, &b| result.distances_m[a].total_cmp(&result.distances_m[b]));
         for pair in order {

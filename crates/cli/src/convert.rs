@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use clap::ValueEnum;
+use congruent_description::{Diagnostic, RobotDescription};
 use congruent_twin::conversion::{
     Conversion, ConversionReport, DEFAULT_ACCURACY, Origin, PoeReport, ScrewReport, Target, convert,
 };
@@ -72,7 +73,17 @@ fn accuracy(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.chain.choose(arguments.robot.load(printer)?)?;
+    let declared = arguments.robot.load(printer)?;
+    let table_along = declared.dh.is_some().then(|| chain_of(&declared));
+    let description = arguments.chain.choose(declared)?;
+    if let (Some(table_along), None, Some(OriginArgument::Dh)) =
+        (table_along, &description.dh, arguments.from)
+    {
+        let message = format!("the [dh] table leads {table_along}, not {}", chain_of(&description));
+        return Err(Diagnostic::error("convert::no_dh", message)
+            .with_help("leave --base and --tip out, or convert the chain of the URDF there with --from urdf")
+            .into());
+    }
     let to = match arguments.to {
         TargetArgument::Standard => Target::Standard,
         TargetArgument::Modified => Target::Modified,
@@ -87,6 +98,11 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let report = convert(&description, &Conversion { from, to, accuracy, seed })?;
     printer.result(&report, text)?;
     Ok(0)
+}
+
+fn chain_of(description: &RobotDescription) -> String {
+    let name = |link| &description.robot.link(link).name;
+    format!("from \"{}\" to \"{}\"", name(description.base), name(description.tip))
 }
 
 /// What can be pasted or saved as it is: everything besides the model itself is a comment.

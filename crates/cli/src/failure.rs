@@ -2,10 +2,15 @@
 
 use congruent_description::Diagnostic;
 
+/// A check failed.
+pub(crate) const FAILED: u8 = 1;
 /// The input is wrong.
 pub(crate) const BAD_INPUT: u8 = 2;
 /// The simulation or the machine failed.
 pub(crate) const BROKEN: u8 = 3;
+
+/// Nothing was checked, which is never success.
+pub(crate) const NOTHING: u8 = 4;
 
 /// Why a command has no answer.
 #[derive(Debug)]

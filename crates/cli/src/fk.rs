@@ -60,7 +60,7 @@ fn text(report: &ForwardReport) -> String {
     let width =
         report.results.iter().flat_map(|poses| &poses.links).map(|(name, _)| name.len()).max().unwrap_or(0);
     for (index, poses) in report.results.iter().enumerate() {
-        let _ = writeln!(text, "configuration {index}: translation in m, quaternion w x y z");
+        let _ = writeln!(text, "configuration {}: translation in m, quaternion w x y z", index + 1);
         for (name, pose) in &poses.links {
             let [x, y, z] = pose.translation_m;
             let [qw, qx, qy, qz] = pose.quaternion_wxyz;

@@ -6,12 +6,16 @@ use clap::ValueEnum;
 use congruent_description::Diagnostic;
 use congruent_twin::inverse::{IkMethod, IkOptions, InverseReport, TargetPart, inverse, read_targets};
 
-use crate::{failure::Failure, input::RobotArgument, print::Printer};
+use crate::{
+    failure::{FAILED, Failure, NOTHING},
+    input::RobotArgument,
+    print::Printer,
+};
 
 /// Joint positions that bring the tip, or the TCP where one is declared, to given poses.
 ///
-/// Exit code 1 where a target is not reached; what is left and which joints stand at a limit is
-/// reported.
+/// Targets count from 1, in the order of the file. Exit code 1 where one is not reached, with what is left
+/// and which joints stand at a limit; 4 where the file has none.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -68,8 +72,9 @@ fn tolerance(text: &str) -> Result<f64, String> {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.robot.load(printer)?;
     let mut targets = read_targets(&arguments.targets, &description.robot)?;
+    printer.warnings(&targets.warnings);
     if arguments.position_only {
-        for target in &mut targets {
+        for target in &mut targets.targets {
             target.target.part = TargetPart::Position;
         }
     }
@@ -83,24 +88,33 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let report = inverse(&description, &targets, &options)
         .map_err(|error| Diagnostic::error("ik::robot", error.to_string()))?;
     printer.result(&report, text)?;
-    Ok(u8::from(!report.results.iter().all(|result| result.converged)))
+    Ok(match &report.results[..] {
+        [] => NOTHING,
+        results if results.iter().all(|result| result.converged) => 0,
+        _ => FAILED,
+    })
 }
 
 fn text(report: &InverseReport) -> String {
     let mut text = String::new();
     let width = report.joints.iter().map(String::len).max().unwrap_or(0);
+    if report.results.is_empty() {
+        text += "no target: nothing was asked\n";
+    }
     for (index, result) in report.results.iter().enumerate() {
         let _ = writeln!(
             text,
-            "target {index}: {} after {} steps, {:.2e} m and {:.2e} rad left",
+            "target {}: {} after {} steps, {:.2e} m and {:.2e} rad left",
+            index + 1,
             if result.converged { "reached" } else { "NOT REACHED" },
             result.iterations,
             result.residual_position_m,
             result.residual_orientation_rad
         );
-        for joint in &report.joints {
-            let held = if result.limits_held.contains(joint) { "  at its limit" } else { "" };
-            let _ = writeln!(text, "  {joint:width$}  {:13.9}{held}", result.q[joint]);
+        for (joint, value) in result.q.iter() {
+            let is_held = result.limits_held.iter().any(|held| held == joint);
+            let held = if is_held { "  at its limit" } else { "" };
+            let _ = writeln!(text, "  {joint:width$}  {value:13.9}{held}");
         }
     }
     text

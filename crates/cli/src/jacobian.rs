@@ -76,7 +76,7 @@ fn text(report: &JacobianReport) -> String {
     let mut text =
         format!("{} Jacobian of {}, columns: {}\n", report.kind, report.link, report.joints.join(", "));
     for (index, result) in report.results.iter().enumerate() {
-        let _ = writeln!(text, "configuration {index}");
+        let _ = writeln!(text, "configuration {}", index + 1);
         rows(&mut text, &result.jacobian);
         if let Some(derivative) = &result.derivative {
             let _ = writeln!(text, "  derivative, per s");

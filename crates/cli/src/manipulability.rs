@@ -44,7 +44,7 @@ fn text(report: &ManipulabilityReport) -> String {
     let mut text = String::new();
     for (index, result) in report.results.iter().enumerate() {
         let [x, y, z] = result.tcp_in_base_m;
-        let _ = writeln!(text, "configuration {index}: tool at {x:.6}, {y:.6}, {z:.6} m in the base");
+        let _ = writeln!(text, "configuration {}: tool at {x:.6}, {y:.6}, {z:.6} m in the base", index + 1);
         ellipsoid(&mut text, "linear", &result.linear, "m");
         ellipsoid(&mut text, "angular", &result.angular, "rad");
         let _ = writeln!(text, "  whole, 1 rad = {:.4} m: {}", report.metres_per_rad, figures(&result.whole));

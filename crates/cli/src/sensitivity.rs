@@ -55,8 +55,6 @@ fn text(report: &SensitivityReport) -> String {
         );
         let width = arm.parameters.iter().map(|parameter| parameter.joint.len()).max().unwrap_or(0);
         for parameter in &arm.parameters {
-            let at: Vec<String> =
-                parameter.worst_at.iter().map(|(joint, value)| format!("{joint} {value:.3}")).collect();
             let _ = writeln!(
                 text,
                 "  {:width$} {:5} {:5}  worst {:8.4} mm  mean {:8.4} mm  turn {:6.3} deg  at {}",
@@ -66,7 +64,7 @@ fn text(report: &SensitivityReport) -> String {
                 parameter.worst_mm,
                 parameter.mean_mm,
                 parameter.worst_deg,
-                at.join(", ")
+                parameter.worst_at.listed(3)
             );
         }
     }

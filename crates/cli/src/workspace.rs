@@ -41,8 +41,7 @@ fn text(report: &WorkspaceReport) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}: the tool in link base, {} configurations", report.robot, report.samples);
     for (name, reach) in ["nearest", "farthest"].iter().zip(&report.reach) {
-        let at: Vec<String> = reach.at.iter().map(|(joint, value)| format!("{joint} {value:.4}")).collect();
-        let _ = writeln!(text, "  {name:8} {:9.6} m at {}", reach.distance_m, at.join(", "));
+        let _ = writeln!(text, "  {name:8} {:9.6} m at {}", reach.distance_m, reach.at.listed(4));
     }
     for (axis, (lower, upper)) in ["x", "y", "z"].iter().zip(report.lower_m.iter().zip(&report.upper_m)) {
         let _ = writeln!(text, "  {axis}  {lower:9.6} to {upper:9.6} m");

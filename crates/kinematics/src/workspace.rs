@@ -1,6 +1,6 @@
 //! Where the tool can be within the joint limits: by seeded samples, with the extremes refined.
 
-use std::collections::BTreeSet;
+use std::{array::from_fn, collections::BTreeSet};
 
 use nalgebra::Vector3;
 
@@ -11,6 +11,10 @@ const FLAT_M: f64 = 1e-12;
 /// Cells along the largest reach for the estimate of a volume and of an area: with some 10^5 samples
 /// a cell inside holds a dozen.
 const CELLS: [f64; 4] = [1.0, 400.0, 100.0, 20.0];
+
+/// Parts of the samples, the best of each of which starts a search: an extreme has side peaks, and the
+/// best sample of all may lie on one.
+const STARTS: usize = 16;
 
 /// The positions that the tool centre point can take.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,12 +49,13 @@ impl Arm {
         // Nearest, farthest, and both ends along each axis, each with the best configuration.
         let values: [fn(&Vector3<f64>) -> f64; 8] =
             [|p| -p.norm(), |p| p.norm(), |p| -p.x, |p| -p.y, |p| -p.z, |p| p.x, |p| p.y, |p| p.z];
-        let mut best: [(f64, Vec<f64>); 8] = std::array::from_fn(|_| (f64::NEG_INFINITY, q.clone()));
-        for _ in 0..sampling.samples {
+        let none = || (f64::NEG_INFINITY, q.clone());
+        let mut starts: [[(f64, Vec<f64>); STARTS]; 8] = from_fn(|_| from_fn(|_| none()));
+        for sample in 0..sampling.samples {
             self.draw(&mut random, &mut q);
             let point = self.tcp_in_base(&q);
-            for (best, value) in best.iter_mut().zip(values) {
-                let value = value(&point);
+            for (starts, value) in starts.iter_mut().zip(values) {
+                let (value, best) = (value(&point), &mut starts[sample % STARTS]);
                 if value > best.0 {
                     best.0 = value;
                     best.1.copy_from_slice(&q);
@@ -59,10 +64,14 @@ impl Arm {
             points_in_base.push(point);
         }
         let joints = self.joints().to_vec();
-        for ((best, q), value) in best.iter_mut().zip(values) {
-            *best = climb(&joints, q, |q| value(&self.tcp_in_base(q)));
-        }
-        let [nearest, farthest, ends @ ..] = best;
+        let mut value = values.into_iter();
+        let [nearest, farthest, ends @ ..] = starts.map(|starts| {
+            let value = value.next().expect("a figure for each of the extremes");
+            starts.into_iter().fold((f64::NEG_INFINITY, self.middle()), |best, (_, mut q)| {
+                let top = climb(&joints, &mut q, |q| value(&self.tcp_in_base(q)));
+                if top > best.0 { (top, q) } else { best }
+            })
+        });
         let end = |at: usize, sign: f64| sign * ends[at].0;
         let lower_in_base = Vector3::new(end(0, -1.0), end(1, -1.0), end(2, -1.0));
         let upper_in_base = Vector3::new(end(3, 1.0), end(4, 1.0), end(5, 1.0));

@@ -5,8 +5,16 @@ use std::{collections::BTreeMap, path::Path};
 use congruent_description::{Diagnostic, Robot, known_names, read_text};
 use serde::Deserialize;
 
+use crate::json_list::JsonList;
+
 /// How far a given mimic position or speed may be from what its master implies. Kind: digits of the file.
 const MIMIC_DIGITS: f64 = 1e-9;
+/// What a file of configurations is.
+const LIST: JsonList = JsonList {
+    entry: "configuration",
+    code: "configurations::json",
+    help: r#"expected a JSON array: [{"q": {"joint name": 0.1}}]"#,
+};
 /// Largest file of configurations that is read.
 const MOST_BYTES: u64 = 256 << 20;
 
@@ -38,7 +46,7 @@ pub struct JointState {
 ///
 /// # Errors
 /// Where the file cannot be read, is no such array, or names an unknown joint.
-pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, Diagnostic> {
+pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, Vec<Diagnostic>> {
     read(path, robot, |written| configuration(&written.q, robot))
 }
 
@@ -47,7 +55,7 @@ pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, 
 ///
 /// # Errors
 /// As [`read_configurations`], and where a mimic joint is not as fast as its master makes it.
-pub fn read_states(path: &Path, robot: &Robot) -> Result<Vec<JointState>, Diagnostic> {
+pub fn read_states(path: &Path, robot: &Robot) -> Result<Vec<JointState>, Vec<Diagnostic>> {
     let state = |written: &Written| {
         let qd = followed(&written.v, robot, Robot::apply_mimic_to_speeds)?;
         Ok(JointState { q: configuration(&written.q, robot)?, qd })
@@ -59,23 +67,16 @@ fn read<T>(
     path: &Path,
     robot: &Robot,
     vectors: impl Fn(&Written) -> Result<T, Diagnostic>,
-) -> Result<Vec<T>, Diagnostic> {
+) -> Result<Vec<T>, Vec<Diagnostic>> {
     let source = read_text(path, MOST_BYTES)?;
-    let refused = |error: &serde_json::Error| {
-        let offset = offset_of(&source.text, error.line(), error.column());
-        Diagnostic::error("configurations::json", error.to_string())
-            .with_help(r#"expected a JSON array: [{"q": {"joint name": 0.1}}]"#)
-            .at(offset..offset)
-    };
-    let written: Vec<Written> =
-        serde_json::from_str(&source.text).map_err(|error| refused(&error).in_file(&source))?;
-    let entry = |(index, entry): (usize, &Written)| {
-        for group in [&entry.v, &entry.tau, &entry.a] {
-            place(group, robot).map_err(|error| at_index(error, index).in_file(&source))?;
+    let entry = |written: Written, _| {
+        for group in [&written.v, &written.tau, &written.a] {
+            place(group, robot)?;
         }
-        vectors(entry).map_err(|error| at_index(error, index).in_file(&source))
+        vectors(&written)
     };
-    written.iter().enumerate().map(entry).collect()
+    LIST.read(&source.text, entry)
+        .map_err(|faults| faults.into_iter().map(|fault| fault.in_file(&source)).collect())
 }
 
 /// The configuration vector that has these joints at these positions (rad or m), others at 0,
@@ -121,15 +122,4 @@ fn place(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Vec<f64>, Diag
         vector[coordinate] = value;
     }
     Ok(vector)
-}
-
-fn at_index(mut error: Diagnostic, index: usize) -> Diagnostic {
-    error.message = format!("configuration {index}: {}", error.message);
-    error
-}
-
-/// Byte offset of a line and column, both from 1.
-pub(crate) fn offset_of(text: &str, line: usize, column: usize) -> usize {
-    let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
-    (before + column.saturating_sub(1)).min(text.len())
 }

@@ -1,6 +1,6 @@
 //! `congruent ik`: which joint positions bring the tool to given poses?
 
-use std::{collections::BTreeMap, path::Path};
+use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path};
 
 use congruent_description::{Diagnostic, Robot, RobotDescription, read_text};
 use congruent_kinematics::{Arm, IkResult, IkSolver, IkTarget, KinematicsError, Pose};
@@ -8,8 +8,16 @@ pub use congruent_kinematics::{IkMethod, IkOptions, TargetPart};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
-use crate::batch::{configuration, offset_of};
+use crate::{batch::configuration, by_joint::ByJoint, json_list::JsonList, report::Finding};
 
+/// What a file of targets is.
+const LIST: JsonList = JsonList {
+    entry: "target",
+    code: "targets::json",
+    help: r#"expected [{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint": 0.1}}]"#,
+};
+/// Farthest that a target may be: the square of anything larger drowns all else.
+const MOST_M: f64 = 1e6;
 /// Largest file of targets that is read.
 const MOST_BYTES: u64 = 256 << 20;
 /// How far the norm of a written quaternion may be from 1. Kind: six digits in the file.
@@ -34,6 +42,15 @@ pub struct Target {
     pub start: BTreeMap<String, f64>,
 }
 
+/// A file of targets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Targets {
+    /// In the order of the file.
+    pub targets: Vec<Target>,
+    /// Starts that the limits do not allow: the search begins at the nearest position within.
+    pub warnings: Vec<Diagnostic>,
+}
+
 /// The answer of `congruent ik`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct InverseReport {
@@ -45,6 +62,9 @@ pub struct InverseReport {
     pub method: &'static str,
     /// One entry for each target, in input order.
     pub results: Vec<Solution>,
+    /// Starts outside the limits.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
 }
 
 /// What came of one target.
@@ -53,7 +73,7 @@ pub struct Solution {
     /// Whether the residuals are within tolerance.
     pub converged: bool,
     /// The best positions that were found, rad or m, always within the limits.
-    pub q: BTreeMap<String, f64>,
+    pub q: ByJoint,
     /// Distance that is left.
     pub residual_position_m: f64,
     /// Angle that is left; 0 where no orientation was asked for.
@@ -69,26 +89,50 @@ pub struct Solution {
 ///
 /// # Errors
 /// Where the file cannot be read, is no such array, names an unknown joint or holds no unit quaternion.
-pub fn read_targets(path: &Path, robot: &Robot) -> Result<Vec<Target>, Diagnostic> {
+pub fn read_targets(path: &Path, robot: &Robot) -> Result<Targets, Vec<Diagnostic>> {
     let source = read_text(path, MOST_BYTES)?;
-    let written: Vec<Written> = serde_json::from_str(&source.text).map_err(|error| {
-        let offset = offset_of(&source.text, error.line(), error.column());
-        Diagnostic::error("targets::json", error.to_string())
-            .with_help(r#"expected [{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint": 0.1}}]"#)
-            .at(offset..offset)
-            .in_file(&source)
-    })?;
-    let checked = |(index, written): (usize, Written)| {
-        checked(written, robot).map_err(|mut error| {
-            error.message = format!("target {index}: {}", error.message);
-            error.in_file(&source)
-        })
+    let in_file = |found: Vec<Diagnostic>| -> Vec<Diagnostic> {
+        found.into_iter().map(|each| each.in_file(&source)).collect()
     };
-    written.into_iter().enumerate().map(checked).collect()
+    let (mut warnings, mut index) = (Vec::new(), 0);
+    let entry = |written: Written, place: Range<usize>| {
+        index += 1;
+        let target = checked(written, robot)?;
+        let outside = target.start.iter().filter_map(|(name, &value)| outside(robot, name, value));
+        warnings.extend(outside.map(|what| {
+            Diagnostic::warning("targets::start", format!("target {index}: {what}"))
+                .with_help("the search begins at the nearest position within the limits")
+                .at(place.clone())
+        }));
+        Ok(target)
+    };
+    let targets = LIST.read(&source.text, entry).map_err(in_file)?;
+    Ok(Targets { targets, warnings: in_file(warnings) })
+}
+
+/// What a start is beyond, unless whole turns of the joint bring it within.
+fn outside(robot: &Robot, name: &str, value: f64) -> Option<String> {
+    let joint = robot.joint(robot.find_joint(name)?);
+    let limit = joint.limit?;
+    let turned = if joint.kind.is_angular() && value > limit.upper {
+        value - TAU * ((value - limit.upper) / TAU).ceil()
+    } else if joint.kind.is_angular() && value < limit.lower {
+        value + TAU * ((limit.lower - value) / TAU).ceil()
+    } else {
+        value
+    };
+    let is_outside = turned < limit.lower || turned > limit.upper;
+    is_outside.then(|| {
+        format!("start {value} of \"{name}\" is outside its limits {} to {}", limit.lower, limit.upper)
+    })
 }
 
 fn checked(written: Written, robot: &Robot) -> Result<Target, Diagnostic> {
     configuration(&written.start, robot)?;
+    if let Some(far) = written.translation_m.iter().find(|figure| figure.abs() > MOST_M) {
+        let message = format!("translation_m has {far}, which is beyond {MOST_M:e} m");
+        return Err(Diagnostic::error("targets::translation", message));
+    }
     let (part, rotation) = match written.quaternion_wxyz {
         Some(wxyz) => (TargetPart::Pose, unit_quaternion(wxyz)?),
         None => (TargetPart::Position, UnitQuaternion::identity()),
@@ -115,7 +159,7 @@ fn unit_quaternion([w, x, y, z]: [f64; 4]) -> Result<UnitQuaternion<f64>, Diagno
 /// [`KinematicsError::NoJoint`] where the robot has no arm.
 pub fn inverse(
     description: &RobotDescription,
-    targets: &[Target],
+    Targets { targets, warnings }: &Targets,
     options: &IkOptions,
 ) -> Result<InverseReport, KinematicsError> {
     let arm = Arm::of(description)?;
@@ -135,13 +179,14 @@ pub fn inverse(
         joints,
         method: name(options.method),
         results,
+        warnings: warnings.iter().map(Finding::from).collect(),
     })
 }
 
 fn solution(result: &IkResult<'_>, joints: &[String]) -> Solution {
     Solution {
         converged: result.converged,
-        q: joints.iter().cloned().zip(result.q.iter().copied()).collect(),
+        q: ByJoint::new(joints, &result.q),
         residual_position_m: result.residual_position_m,
         residual_orientation_rad: result.residual_orientation_rad,
         iterations: result.iterations,

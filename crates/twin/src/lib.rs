@@ -3,6 +3,7 @@
 
 pub mod basics;
 mod batch;
+mod by_joint;
 pub mod calibration;
 pub mod certificate;
 pub mod check;
@@ -14,6 +15,7 @@ mod execute;
 pub mod forward;
 pub mod inverse;
 pub mod jacobians;
+mod json_list;
 pub mod ladder;
 pub mod model;
 pub mod monitor;
@@ -32,6 +34,7 @@ pub mod study;
 pub mod verdict;
 
 pub use batch::{JointState, configuration, read_configurations, read_states};
+pub use by_joint::ByJoint;
 pub use configurations::{AxisStep, axis_steps, probe_configurations, random_configurations};
 pub use execute::{ExecuteError, Options, execute};
 pub use run::{Outcome, Run, RunError};

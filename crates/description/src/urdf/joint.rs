@@ -92,19 +92,29 @@ impl Reader<'_, '_> {
 
     fn axis(&mut self, kind: JointKind) -> Unit<Vector3<f64>> {
         let axis = Vector3::from(self.joint.axis.xyz.0);
-        let length = axis.norm();
+        // The squares of entries beyond 1e154 overflow, so the largest entry goes first.
+        let largest = axis.amax();
+        let scaled = axis / largest;
+        let length = largest * scaled.norm();
         // Exporters write a zero axis for fixed joints, where it means nothing.
         if !kind.is_movable() {
             return Vector3::z_axis();
         }
-        if length == 0.0 {
+        if largest == 0.0 {
             self.error("urdf::axis", "axis is the zero vector", "axis");
             return Vector3::z_axis();
         }
+        if !length.is_finite() {
+            self.error("urdf::axis", "the length of the axis is larger than any number", "axis");
+            return Vector3::z_axis();
+        }
         if (length - 1.0).abs() > AXIS_LENGTH {
+            // All digits of 1e300 are hundreds.
+            let is_handy = (1e-6..1e6).contains(&length);
+            let length = if is_handy { length.to_string() } else { format!("{length:e}") };
             self.warn("urdf::axis", format!("axis is normalised from length {length}"), "axis");
         }
-        Unit::new_normalize(axis)
+        Unit::new_normalize(scaled)
     }
 
     fn limit(&mut self, kind: JointKind) -> Option<JointLimit> {

@@ -139,6 +139,7 @@ fn joints_are_checked() {
         "effort -1 is negative",
     );
     joint_error(&format!("{LIMIT}<axis xyz='0 0 0'/>"), "urdf::axis", "zero vector");
+    joint_error(&format!("{LIMIT}<axis xyz='1.7e308 1.7e308 0'/>"), "urdf::axis", "larger than any number");
     joint_error(
         &format!("{LIMIT}<axis xzy='0 0 1' xyz='0 0 1'/>"),
         "urdf::unknown_attribute",
@@ -193,6 +194,17 @@ fn suspicious_joints_are_warned_of() {
     one(&arm(LIMIT, ""), Severity::Warning, 7, "urdf::massless", "link \"tip\" moves but has no <inertial>");
     let text = arm(LIMIT, INERTIAL).replace("revolute", "continuous");
     one(&text, Severity::Warning, 5, "urdf::limit", "ignores the limits");
+}
+
+/// Squares of entries this large or small are no numbers any more.
+#[test]
+fn an_axis_of_any_length_keeps_its_direction() {
+    for axis in ["3e307 4e307 0", "3e160 4e160 0", "3e-170 4e-170 0", "3e-310 4e-310 0"] {
+        let (robot, findings) = read(&arm(&format!("{LIMIT}<axis xyz='{axis}'/>"), INERTIAL));
+        assert!(findings.iter().all(|finding| finding.message.contains("normalised from length")));
+        let axis = robot.unwrap().joints()[0].axis_in_joint;
+        assert!((axis.into_inner() - Vector3::new(0.6, 0.8, 0.0)).norm() < 1e-12, "{axis:?}");
+    }
 }
 
 #[test]

@@ -28,7 +28,8 @@ const NOISE_ROUNDS: usize = 8;
 pub struct Fit {
     /// One entry for each correction of the chain, rad or m; 0 for those that were not estimated.
     pub corrections: Vec<f64>,
-    /// Standard deviations of the same, from the noise; 0 for those that were not estimated.
+    /// Standard deviations of the same, from the noise; 0 for those that were not estimated, not a number
+    /// where the noise is not known and nothing is left to estimate it from.
     pub standard_deviations: Vec<f64>,
     /// Covariance of those that were, in their order.
     pub covariance: DMatrix<f64>,
@@ -66,7 +67,20 @@ pub fn fit_with_estimated_noise(problem: &Problem<'_>, kept: &[usize]) -> Fit {
         let start = best.corrections.clone();
         best = weighted_fit(problem, kept, start, &Weighting { noise, rows: &[] });
     }
-    best
+    best.with_redundancy(problem.redundancy(kept))
+}
+
+impl Fit {
+    /// Without redundancy the residuals vanish whatever the noise was, so it leaves no deviations.
+    #[must_use]
+    pub(super) fn with_redundancy(mut self, redundancy: usize) -> Self {
+        if redundancy == 0 {
+            self.covariance.fill(f64::NAN);
+            let estimated = self.standard_deviations.iter_mut().filter(|deviation| **deviation != 0.0);
+            estimated.for_each(|deviation| *deviation = f64::NAN);
+        }
+        self
+    }
 }
 
 /// The noise of positions and orientations that the residuals of a fit show.

@@ -8,6 +8,7 @@
 //! seen, and [`most_telling`] says where to measure next. Nothing here draws a random number:
 //! candidates are passed in.
 
+mod configurations;
 mod estimate;
 mod identify;
 mod model;
@@ -20,6 +21,7 @@ mod residuals;
 mod robust;
 mod validate;
 
+pub use configurations::configurations;
 pub use estimate::{Fit, fit, fit_with_estimated_noise};
 pub use identify::{Frozen, Identification, identify};
 pub use model::CorrectedChain;

@@ -3,11 +3,15 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use crate::{
-    calibration::{model::CorrectedChain, noise::Noise},
+    calibration::{configurations::configurations, model::CorrectedChain, noise::Noise},
     pose::Pose,
     rotation::{hat, rotation_log},
     twist::{Twist, log_ratio},
 };
+
+/// A correction that moves a measured component by less, per unit of both, does not show in it. Kind:
+/// rounding; what a correction leaves alone moves by 1e-15.
+const SHOWS: f64 = 1e-9;
 
 /// What was measured at one configuration.
 ///
@@ -88,6 +92,31 @@ impl Problem<'_> {
     /// Number of measured components.
     pub fn component_count(&self) -> usize {
         self.measurements.iter().map(|each| each.position_count() + each.orientation_count()).sum()
+    }
+
+    /// Measured components in which one of the corrections `kept` shows at nominal, less the number of these
+    /// corrections: what is left to judge them by. Repetitions at one configuration count once.
+    ///
+    /// # Panics
+    /// When a measurement's `q` has another length than the chain has joints.
+    pub fn redundancy(&self, kept: &[usize]) -> usize {
+        let none = vec![0.0; self.chain.parameters().len()];
+        let mut twists = vec![Twist::zero(); none.len()];
+        let configuration_of = configurations(self.measurements);
+        let mut seen = vec![[false; 6]; configuration_of.iter().max().map_or(0, |last| last + 1)];
+        for (measurement, &configuration) in self.measurements.iter().zip(&configuration_of) {
+            let pose = self.chain.linearise(&measurement.q, &none, &mut twists);
+            for twist in kept.iter().map(|&at| twists[at]) {
+                let velocity = twist.linear + twist.angular.cross(&pose.translation);
+                for at in 0..3 {
+                    let is_measured = measurement.tip_in_base_m[at].is_some();
+                    seen[configuration][at] |= is_measured && velocity[at].abs() > SHOWS;
+                    let is_measured = measurement.base_from_tip.is_some();
+                    seen[configuration][3 + at] |= is_measured && twist.angular[at].abs() > SHOWS;
+                }
+            }
+        }
+        seen.as_flattened().iter().filter(|&&seen| seen).count().saturating_sub(kept.len())
     }
 
     /// Largest distance of the nominal tip from the base over the measurements: what turns an angle

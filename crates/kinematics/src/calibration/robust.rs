@@ -9,6 +9,9 @@ use crate::calibration::{
 
 /// Most reweightings. Kind: bound; a dozen is usual.
 const MOST_ROUNDS: usize = 100;
+/// How small the noise of one kind of component is let be against that of the other, an angle times
+/// the reach. Kind: conditioning; its square stays well above rounding.
+const LEAST_RATIO: f64 = 1e-4;
 /// Reweighting ends when no correction moves by more, in rad or m. Kind: solver stop.
 const MOVE: f64 = 1e-12;
 
@@ -93,7 +96,7 @@ pub struct RobustFit {
 /// Estimates the corrections `kept` with a robust loss; the noise comes from the median row unless
 /// it is known.
 ///
-/// It starts at the half of the rows that agree best, takes the scale there, holds it, and reweights
+/// It starts at the half of the rows that agree best, searched for from least squares and from nominal, takes the scale there, holds it, and reweights
 /// (an MM estimate), since from plain least squares a bounded loss may settle at the wrong rows.
 ///
 /// Source: Yohai, *High breakdown-point and high efficiency robust estimates for regression* (1987);
@@ -108,7 +111,7 @@ pub fn fit_robustly(
     loss: Loss,
     (start, known_noise): (&Fit, Option<Noise>),
 ) -> RobustFit {
-    let mut fit = concentrated(problem, kept, start);
+    let mut fit = start_of_agreement(problem, kept, (start, known_noise));
     let found = |fit: &Fit, factor: f64| {
         known_noise.unwrap_or_else(|| median_noise(problem, &fit.residuals, factor)).floored()
     };
@@ -140,6 +143,9 @@ pub fn fit_robustly(
         residual.whitened_squared(&fit.noise).sqrt() > outlying_norm(components)
     };
     let outliers = (0..weights.len()).filter(outlies).collect();
+    if known_noise.is_none() {
+        fit = fit.with_redundancy(problem.redundancy(kept));
+    }
     RobustFit { fit, weights, scale, outliers }
 }
 
@@ -150,29 +156,75 @@ pub(super) fn distance(measurement: &Measurement, residual: &Residual, noise: &N
     residual.whitened_squared(noise).sqrt() * median_norm(1) / median_norm(components)
 }
 
-/// Least squares over that half of the rows which it fits best, found from all rows by leaving the
-/// worst half aside again and again: up to nearly half of the rows may be wrong.
+/// Of the halves found from least squares and from nominal the one that agrees better: a row that is
+/// off by more than the reach drags least squares to where no half is right any more.
+fn start_of_agreement(
+    problem: &Problem<'_>,
+    kept: &[usize],
+    (plain, known_noise): (&Fit, Option<Noise>),
+) -> Fit {
+    let noise_of = |residuals: &[Residual]| {
+        known_noise.unwrap_or_else(|| comparable_noise(problem, residuals)).floored()
+    };
+    let nothing = vec![0.0; plain.corrections.len()];
+    let nominal = problem.residuals(&nothing);
+    let found = [(plain.corrections.clone(), &plain.residuals), (nothing, &nominal)].map(
+        |(corrections, residuals)| concentrated(problem, kept, (corrections, residuals, noise_of(residuals))),
+    );
+    let size = |fit: &Fit| {
+        let Noise { position_m, orientation_rad } = comparable_noise(problem, &fit.residuals).floored();
+        let count = |of: fn(&Measurement) -> usize| as_f64(problem.measurements.iter().map(of).sum());
+        count(Measurement::position_count) * position_m.ln()
+            + count(Measurement::orientation_count) * orientation_rad.ln()
+    };
+    let [from_plain, from_nominal] = found;
+    if size(&from_nominal) < size(&from_plain) { from_nominal } else { from_plain }
+}
+
+/// Noise of the median row, neither kind so small against the other that it alone would decide.
+fn comparable_noise(problem: &Problem<'_>, residuals: &[Residual]) -> Noise {
+    let Noise { position_m, orientation_rad } = median_noise(problem, residuals, 1.0);
+    let reach_m = problem.reach_m();
+    Noise {
+        position_m: position_m.max(LEAST_RATIO * orientation_rad * reach_m),
+        orientation_rad: orientation_rad.max(LEAST_RATIO * position_m / reach_m),
+    }
+}
+
+/// Least squares over that half of the rows which it fits best, found by leaving the worst half aside
+/// again and again: up to nearly half of the rows may be wrong.
 ///
 /// Source: Rousseeuw & Van Driessen, *Computing LTS regression for large data sets* (2006), the
 /// concentration step.
-fn concentrated(problem: &Problem<'_>, kept: &[usize], start: &Fit) -> Fit {
+fn concentrated(
+    problem: &Problem<'_>,
+    kept: &[usize],
+    (start, residuals, noise): (Vec<f64>, &[Residual], Noise),
+) -> Fit {
     let rows = problem.measurements.len();
     // Half, and as many more as the corrections need.
     let per_row = (problem.component_count() / rows.max(1)).max(1);
     let half = (rows + kept.len().div_ceil(per_row)).div_ceil(2).min(rows);
-    let (mut fit, mut chosen) = (start.clone(), vec![1.0; rows]);
-    for _ in 0..MOST_ROUNDS {
+    let nearest_half = |residuals: &[Residual]| {
+        let distance = |row: &usize| distance(&problem.measurements[*row], &residuals[*row], &noise);
         let mut nearest: Vec<usize> = (0..rows).collect();
-        let distance =
-            |row: &usize| distance(&problem.measurements[*row], &fit.residuals[*row], &start.noise);
         nearest.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let mut next = vec![0.0; rows];
-        nearest.iter().take(half).for_each(|&row| next[row] = 1.0);
+        let mut chosen = vec![0.0; rows];
+        nearest.iter().take(half).for_each(|&row| chosen[row] = 1.0);
+        chosen
+    };
+    let fit_of = |start: Vec<f64>, chosen: &[f64]| {
+        weighted_fit(problem, kept, start, &Weighting { noise, rows: chosen })
+    };
+    let mut chosen = nearest_half(residuals);
+    let mut fit = fit_of(start, &chosen);
+    for _ in 0..MOST_ROUNDS {
+        let next = nearest_half(&fit.residuals);
         if next == chosen {
             break;
         }
         chosen = next;
-        fit = weighted_fit(problem, kept, fit.corrections, &Weighting { noise: start.noise, rows: &chosen });
+        fit = fit_of(fit.corrections, &chosen);
     }
     fit
 }

@@ -1,12 +1,13 @@
 //! What an estimate is worth on measurements that it has not seen.
 
 use crate::calibration::{
+    configurations::configurations,
     identify::identify,
     model::CorrectedChain,
     residuals::{Measurement, Problem, Residual},
 };
 
-/// Most parts that the measurements are divided into; fewer rows are left out one at a time.
+/// Most parts that the measurements are divided into; fewer configurations are left out one at a time.
 const MOST_FOLDS: usize = 10;
 
 /// Error on rows that the estimate had not seen.
@@ -22,35 +23,36 @@ pub struct HeldOut {
     pub residuals: Vec<Residual>,
 }
 
-/// Leaves out each part once, estimates on the rest and measures on the part; row i is in part
-/// i modulo the number of parts, so the result is always the same.
+/// Leaves out each part once, estimates on the rest and measures on the part; configuration i is in
+/// part i modulo the number of parts, so the result is always the same. Rows that repeat a
+/// configuration are left out with it: its twin in the rest would vouch for it.
 ///
 /// `estimate` gives the corrections from a problem and the corrections that it may estimate, which
-/// are identified anew for each round with `threshold`. `None` for fewer than two rows.
+/// are identified anew for each round with `threshold`. `None` for fewer than two
+/// configurations.
 pub fn held_out(
     chain: &CorrectedChain,
     measurements: &[Measurement],
     threshold: f64,
     mut estimate: impl FnMut(&Problem<'_>, &[usize]) -> Vec<f64>,
 ) -> Option<HeldOut> {
-    if measurements.len() < 2 {
+    let configuration_of = configurations(measurements);
+    let count = configuration_of.iter().max().map_or(0, |last| last + 1);
+    if count < 2 {
         return None;
     }
-    let folds = measurements.len().min(MOST_FOLDS);
+    let folds = count.min(MOST_FOLDS);
     let nothing =
         Residual { position_m: nalgebra::Vector3::zeros(), orientation_rad: nalgebra::Vector3::zeros() };
     let mut residuals = vec![nothing; measurements.len()];
     for fold in 0..folds {
-        let seen: Vec<Measurement> = measurements
-            .iter()
-            .enumerate()
-            .filter(|(row, _)| row % folds != fold)
-            .map(|(_, each)| each.clone())
-            .collect();
+        let rows = measurements.iter().zip(&configuration_of);
+        let (unseen, seen): (Vec<_>, Vec<_>) =
+            rows.enumerate().partition(|(_, (_, configuration))| *configuration % folds == fold);
+        let seen: Vec<Measurement> = seen.into_iter().map(|(_, (each, _))| each.clone()).collect();
         let problem = Problem { chain, measurements: &seen };
         let corrections = estimate(&problem, &identify(&problem, threshold).kept);
-        for row in (fold..measurements.len()).step_by(folds) {
-            let measurement = &measurements[row];
+        for (row, (measurement, _)) in unseen {
             residuals[row] = measurement.residual(&chain.base_from_tip(&measurement.q, &corrections));
         }
     }

@@ -1,20 +1,20 @@
 //! From figures to the report.
 
-use std::collections::BTreeMap;
-
 use congruent_description::DhRow;
 use congruent_kinematics::calibration::{
     Entry, Fit, Frozen, Loss, Measurement, Noise, ParameterUnit, Problem, Residual, Suggestion, cost_curve,
 };
 
 use super::{
-    Computed,
+    Computed, reading,
     report::{
         CalibrationReport, CostCurve, Estimate, Estimation, Explanation, FrozenParameter, HeldOutError,
         Identifiability, NextPose, Recommendation, Remainder, RowResidual, TableEntry,
     },
     statements,
+    yardstick::{Left, Yardstick},
 };
+use crate::by_joint::ByJoint;
 
 /// A correction of fewer standard deviations is not significant: 95 % of normal noise.
 const SIGNIFICANT_SIGMAS: f64 = 2.0;
@@ -29,10 +29,16 @@ pub(super) fn report(computed: &Computed<'_>) -> CalibrationReport {
     let nothing = vec![0.0; computed.chain.parameters().len()];
     let nominal = residuals(computed, &nothing);
     let held_out = held_out(computed, &nominal);
-    let verdict = explanation(computed, held_out.as_ref());
+    let (left, before) = left(computed, &nominal);
+    let verdict = explanation(computed, held_out.as_ref(), (&left, &before));
+    let likely_reason = (verdict == Explanation::Unexplained)
+        .then(|| reading::likely_reason(&computed.nominal, computed.rows, computed.options, &left))
+        .flatten();
     let recommended = match verdict {
-        Explanation::NothingIdentified | Explanation::NoImprovement => Recommendation::Nominal,
-        _ => computed.best().1,
+        Explanation::Explained | Explanation::UnexplainedRows | Explanation::NoiseExceeded => {
+            computed.best().1
+        }
+        _ => Recommendation::Nominal,
     };
     let row_residuals = rows(computed, &nominal);
     let mut report = CalibrationReport {
@@ -45,7 +51,9 @@ pub(super) fn report(computed: &Computed<'_>) -> CalibrationReport {
             .iter()
             .map(|each| each.position_count() + each.orientation_count())
             .sum(),
+        redundancy: computed.redundancy,
         verdict,
+        likely_reason,
         recommended,
         statements: Vec::new(),
         parameters: estimates(computed),
@@ -56,8 +64,8 @@ pub(super) fn report(computed: &Computed<'_>) -> CalibrationReport {
             kept_ratio: computed.identification.kept_ratio,
         },
         nominal: remainder(&nominal),
-        least_squares: estimation(&computed.least_squares),
-        robust: estimation(&computed.robust.fit),
+        least_squares: estimation(computed, &computed.least_squares),
+        robust: estimation(computed, &computed.robust.fit),
         loss: match computed.options.loss {
             Loss::Huber => "huber",
             Loss::Cauchy => "cauchy",
@@ -108,12 +116,14 @@ fn angle(residual: &Residual) -> f64 {
     residual.orientation_rad.norm()
 }
 
-fn estimation(fit: &Fit) -> Estimation {
+fn estimation(computed: &Computed<'_>, fit: &Fit) -> Estimation {
     let Noise { position_m, orientation_rad } = fit.noise;
+    let is_known = computed.redundancy > 0 || computed.options.noise.is_some();
+    let known = |noise: f64| if is_known { noise } else { f64::NAN };
     Estimation {
         left: remainder(&fit.residuals),
-        noise_m: position_m,
-        noise_rad: orientation_rad,
+        noise_m: known(position_m),
+        noise_rad: known(orientation_rad),
         converged: fit.converged,
         iterations: fit.iterations,
     }
@@ -135,9 +145,31 @@ fn held_out(computed: &Computed<'_>, nominal: &[Residual]) -> Option<HeldOutErro
     })
 }
 
-fn explanation(computed: &Computed<'_>, held_out: Option<&HeldOutError>) -> Explanation {
+/// What is left of the rows that fit, on rows that were left out where some could be; and before.
+fn left(computed: &Computed<'_>, nominal: &[Residual]) -> (Left, Left) {
+    let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
+    let yardstick = Yardstick::of(&problem);
+    let unseen = computed.held_out.as_ref().map(|held_out| &held_out.residuals);
+    let residuals = unseen.unwrap_or(&computed.best().0.residuals);
+    let left = |residuals: &[Residual]| yardstick.left(residuals, &computed.robust.outliers);
+    (left(residuals), left(nominal))
+}
+
+fn explanation(
+    computed: &Computed<'_>,
+    held_out: Option<&HeldOutError>,
+    (left, before): (&Left, &Left),
+) -> Explanation {
     if computed.identification.kept.is_empty() {
         return Explanation::NothingIdentified;
+    }
+    // Where the noise is stated, that is the yardstick.
+    let is_noise = computed.options.noise.is_some() && !exceeds_noise(computed);
+    if left.explains_nothing(before) && !is_noise {
+        return Explanation::Unexplained;
+    }
+    if computed.redundancy == 0 || held_out.is_none() {
+        return Explanation::NothingToJudgeBy;
     }
     if !computed.robust.outliers.is_empty() {
         return Explanation::UnexplainedRows;
@@ -276,11 +308,10 @@ fn curve(computed: &Computed<'_>) -> Option<CostCurve> {
 }
 
 fn next(computed: &Computed<'_>) -> Vec<NextPose> {
-    let names = computed.nominal.joint_names();
+    let names: Vec<String> = computed.nominal.joint_names().into_iter().map(str::to_owned).collect();
     let pose = |suggestion: &Suggestion| {
         let q = computed.nominal.of_configuration(&computed.candidates[suggestion.candidate]);
-        let q: BTreeMap<String, f64> = names.iter().map(|&name| name.to_owned()).zip(q).collect();
-        NextPose { q, gain_bits: suggestion.gain_bits }
+        NextPose { q: ByJoint::new(&names, &q), gain_bits: suggestion.gain_bits }
     };
     computed.next.iter().map(pose).collect()
 }

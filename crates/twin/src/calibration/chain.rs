@@ -3,6 +3,13 @@
 use congruent_description::{DhTable, Diagnostic, LinkIndex, Robot, RobotDescription};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, ScrewChain};
 
+/// How a joint moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Motion {
+    Turning,
+    Sliding,
+}
+
 /// A robot's chain from `base` to the measured frame, in the form that is corrected.
 #[derive(Debug, Clone)]
 pub(super) struct NominalChain<'a> {
@@ -34,6 +41,13 @@ impl<'a> NominalChain<'a> {
         let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
         chain.base_from_tip_at_zero = chain.base_from_tip_at_zero * tip_from_tcp;
         Ok(Self { robot, table, chain, coordinates })
+    }
+
+    /// The coordinates of its turning joints, or of its sliding ones.
+    pub(super) fn coordinates_of(&self, motion: Motion) -> Vec<usize> {
+        let turns =
+            |&coordinate: &usize| self.robot.joint(self.robot.movable_joints()[coordinate]).kind.is_angular();
+        self.coordinates.iter().copied().filter(|each| turns(each) == (motion == Motion::Turning)).collect()
     }
 
     /// Names of the chain's joints, base to tip.

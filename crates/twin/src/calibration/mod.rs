@@ -5,8 +5,10 @@ mod chain;
 mod free;
 pub mod measurements;
 pub mod plot;
+mod reading;
 pub mod report;
 mod statements;
+mod yardstick;
 
 use congruent_description::{Diagnostic, RobotDescription};
 use congruent_kinematics::calibration::{
@@ -24,6 +26,10 @@ use crate::configurations::random_configurations;
 
 /// Configurations among which the most telling are chosen.
 const CANDIDATES: usize = 400;
+
+/// Noise of an ordinary measurement, as a share of the reach and in rad. Kind: judgement; it only weighs
+/// suggestions against what is known.
+const ORDINARY_NOISE: f64 = 1e-3;
 
 /// What to estimate, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +76,8 @@ struct Computed<'a> {
     rows: &'a [MeasuredRow],
     measurements: Vec<Measurement>,
     identification: Identification,
+    /// Measured components beyond those that the estimated corrections need.
+    redundancy: usize,
     least_squares: Fit,
     robust: RobustFit,
     held_out: Option<HeldOut>,
@@ -97,14 +105,10 @@ pub fn calibrate(
     let nominal = NominalChain::new(description)?;
     let parameters = free::parameters(&nominal, &options.free, &options.hold)?;
     let chain = CorrectedChain::new(nominal.chain.clone(), parameters);
-    let measurement = |row: &MeasuredRow| Measurement {
-        q: nominal.of_configuration(&row.q),
-        tip_in_base_m: row.tip_in_base_m,
-        base_from_tip: row.base_from_tip,
-    };
-    let measurements: Vec<Measurement> = rows.iter().map(measurement).collect();
+    let measurements: Vec<Measurement> = rows.iter().map(|row| measurement(&nominal, row)).collect();
     let problem = Problem { chain: &chain, measurements: &measurements };
     let identification = identify(&problem, options.threshold);
+    let redundancy = problem.redundancy(&identification.kept);
     let plain = |problem: &Problem<'_>, kept: &[usize]| match options.noise {
         Some(noise) => fit(problem, kept, noise),
         None => fit_with_estimated_noise(problem, kept),
@@ -121,7 +125,9 @@ pub fn calibrate(
     let candidates = random_configurations(&description.robot, options.seed, CANDIDATES);
     let in_chain: Vec<Vec<f64>> = candidates.iter().map(|q| nominal.of_configuration(q)).collect();
     let best = if use_robust { &robust.fit } else { &least_squares };
-    let next = most_telling(&problem, (&best.corrections, &best.noise), &in_chain, options.suggestions);
+    let is_noise_known = redundancy > 0 || options.noise.is_some();
+    let noise = if is_noise_known { best.noise } else { ordinary_noise(&problem) };
+    let next = most_telling(&problem, (&best.corrections, &noise), &in_chain, options.suggestions);
     let computed = Computed {
         description,
         options,
@@ -130,6 +136,7 @@ pub fn calibrate(
         rows,
         measurements,
         identification,
+        redundancy,
         least_squares,
         robust,
         held_out,
@@ -137,6 +144,20 @@ pub fn calibrate(
         next,
     };
     Ok(assemble::report(&computed))
+}
+
+/// A row as the chain sees it.
+fn measurement(nominal: &NominalChain<'_>, row: &MeasuredRow) -> Measurement {
+    Measurement {
+        q: nominal.of_configuration(&row.q),
+        tip_in_base_m: row.tip_in_base_m,
+        base_from_tip: row.orientation.map(|orientation| orientation.base_from_tip()),
+    }
+}
+
+/// What is taken for the noise where the measurements leave nothing to estimate it from.
+fn ordinary_noise(problem: &Problem<'_>) -> Noise {
+    Noise { position_m: ORDINARY_NOISE * problem.reach_m(), orientation_rad: ORDINARY_NOISE }
 }
 
 impl Computed<'_> {

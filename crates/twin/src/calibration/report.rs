@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::by_joint::ByJoint;
+
 /// The answer of `congruent calibrate`. Metres and radians throughout.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CalibrationReport {
@@ -17,8 +19,14 @@ pub struct CalibrationReport {
     pub rows: usize,
     /// Number of measured components.
     pub components: usize,
+    /// Those in which an estimated correction shows, each configuration once, less the number of these
+    /// corrections: what is left to judge by.
+    pub redundancy: usize,
     /// Whether the measurements are explained, in one word.
     pub verdict: Explanation,
+    /// What else the file may have meant, where that would explain it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub likely_reason: Option<LikelyReason>,
     /// Which estimate to use.
     pub recommended: Recommendation,
     /// The same in sentences.
@@ -37,7 +45,7 @@ pub struct CalibrationReport {
     pub robust: Estimation,
     /// The loss of the robust estimate.
     pub loss: &'static str,
-    /// Error on rows that the recommended estimate had not seen; `null` for a single row.
+    /// Error on rows that the recommended estimate had not seen; `null` for a single configuration.
     pub held_out: Option<HeldOutError>,
     /// Rows that do not fit.
     pub outliers: Vec<RowResidual>,
@@ -76,8 +84,24 @@ pub enum Explanation {
     NoiseExceeded,
     /// On rows that were left out the corrections are no better than the nominal model.
     NoImprovement,
+    /// What is left is no noise: too large for the arm, or large and hardly less than without corrections.
+    Unexplained,
+    /// There are no more measurements than corrections, or all at one configuration: nothing is left to
+    /// judge the estimate by.
+    NothingToJudgeBy,
     /// Nothing could be identified.
     NothingIdentified,
+}
+
+/// Another reading of the measurements under which the same corrections explain them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LikelyReason {
+    /// A clause that follows "if".
+    pub what: String,
+    /// Root mean square distance that would be left.
+    pub rms_m: f64,
+    /// Root mean square angle that would be left.
+    pub rms_rad: f64,
 }
 
 /// Which estimate to use.
@@ -172,9 +196,10 @@ pub struct Estimation {
     /// What it leaves.
     #[serde(flatten)]
     pub left: Remainder,
-    /// Noise of one coordinate of a position that it implies, or that was stated.
+    /// Noise of one coordinate of a position that it implies, or that was stated; `null` where it is not
+    /// known.
     pub noise_m: f64,
-    /// Noise of one component of an orientation.
+    /// Noise of one component of an orientation; likewise.
     pub noise_rad: f64,
     /// Whether the iteration ended below rounding.
     pub converged: bool,
@@ -224,7 +249,7 @@ pub struct RowResidual {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NextPose {
     /// Joint positions, rad or m.
-    pub q: BTreeMap<String, f64>,
+    pub q: ByJoint,
     /// With each bit the volume of the uncertainty is halved.
     pub gain_bits: f64,
 }

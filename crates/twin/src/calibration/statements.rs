@@ -35,16 +35,10 @@ pub(super) fn why_frozen(unit: &str, terms: &[(&str, f64, &'static str)]) -> Str
 /// What one should know before using a correction, the most important first.
 pub(super) fn statements(report: &CalibrationReport) -> Vec<String> {
     let mut statements = vec![verdict(report)];
-    if report.components <= report.parameters.len() {
-        statements.push(format!(
-            "{} measured components for {} corrections leave nothing to check them by",
-            report.components,
-            report.parameters.len()
-        ));
-    }
     let insignificant: Vec<&str> =
         report.parameters.iter().filter(|each| !each.significant).map(|each| each.name.as_str()).collect();
-    if !insignificant.is_empty() {
+    let is_known = report.parameters.iter().all(|each| each.standard_deviation.is_finite());
+    if !insignificant.is_empty() && is_known {
         statements.push(format!(
             "not significantly different from zero (within two standard deviations): {}",
             insignificant.join(", ")
@@ -70,6 +64,8 @@ pub(super) fn statements(report: &CalibrationReport) -> Vec<String> {
 fn verdict(report: &CalibrationReport) -> String {
     match report.verdict {
         Explanation::NothingIdentified => "nothing can be identified from these measurements".to_owned(),
+        Explanation::Unexplained => nothing_explained(report),
+        Explanation::NothingToJudgeBy => nothing_to_judge_by(report),
         Explanation::UnexplainedRows => unexplained(report),
         Explanation::NoiseExceeded => format!(
             "what is left ({} root mean square) is larger than the stated noise allows: the free corrections \
@@ -91,6 +87,40 @@ fn verdict(report: &CalibrationReport) -> String {
             })
         }
     }
+}
+
+fn nothing_explained(report: &CalibrationReport) -> String {
+    let (left, before) = match &report.held_out {
+        Some(error) => (
+            format!("{} on rows that were left out", size(error.rms_m, error.rms_rad)),
+            size(error.nominal_rms_m, error.nominal_rms_rad),
+        ),
+        None => (
+            size(report.least_squares.left.rms_m, report.least_squares.left.rms_rad),
+            size(report.nominal.rms_m, report.nominal.rms_rad),
+        ),
+    };
+    let mut text =
+        format!("the free corrections do NOT explain the measurements: they leave {left}, {before} before");
+    let _ = match &report.likely_reason {
+        Some(reason) => {
+            write!(text, "; if {}, {} would be left", reason.what, size(reason.rms_m, reason.rms_rad))
+        }
+        None => write!(text, "; no common slip of units, order, sign or frame explains them either"),
+    };
+    text
+}
+
+fn nothing_to_judge_by(report: &CalibrationReport) -> String {
+    if report.redundancy > 0 {
+        return "all measurements are at one configuration: whether the corrections hold elsewhere is not known"
+            .to_owned();
+    }
+    format!(
+        "the measurements say no more than the {} corrections take (repetitions at one configuration count \
+         once): nothing is left to judge them by",
+        report.parameters.len()
+    )
 }
 
 fn unexplained(report: &CalibrationReport) -> String {

@@ -1,7 +1,5 @@
 //! `congruent manipulability`: how well the tool moves in each direction.
 
-use std::collections::BTreeMap;
-
 use congruent_description::{LinkIndex, RobotDescription};
 use congruent_kinematics::{
     Arm, Dexterity, KinematicsError, Manipulability, Pose, UrdfTree, VelocityEllipsoid,
@@ -9,8 +7,11 @@ use congruent_kinematics::{
 use nalgebra::{Matrix2x3, Vector3};
 use serde::Serialize;
 
-use super::{by_name, joint_names};
-use crate::plot::{Curve, PlaneView, PlotError, views};
+use super::joint_names;
+use crate::{
+    by_joint::ByJoint,
+    plot::{Curve, PlaneView, PlotError, views},
+};
 
 /// The answer of `congruent manipulability`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -29,7 +30,7 @@ pub struct ManipulabilityReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ConfigurationDexterity {
     /// The configuration, rad or m.
-    pub q: BTreeMap<String, f64>,
+    pub q: ByJoint,
     /// Where the tool is, in the base.
     pub tcp_in_base_m: [f64; 3],
     /// Velocity of the tool centre point, m per unit of joint speed.
@@ -101,7 +102,7 @@ pub fn manipulability(
         let q = arm.from_robot(q_robot);
         let Manipulability { linear, angular, whole } = arm.manipulability(&q)?;
         results.push(ConfigurationDexterity {
-            q: by_name(&joints, &q),
+            q: ByJoint::new(&joints, &q),
             tcp_in_base_m: arm.base_from_tcp(&q)?.translation.into(),
             linear: (&linear).into(),
             angular: (&angular).into(),

@@ -5,17 +5,10 @@ pub mod manipulability;
 pub mod sensitivity;
 pub mod workspace;
 
-use std::collections::BTreeMap;
-
 use congruent_description::RobotDescription;
 pub use congruent_kinematics::{Arm, KinematicsError, Sampling};
 
 /// Names of the arm's joints.
 fn joint_names(description: &RobotDescription, arm: &Arm) -> Vec<String> {
     arm.joints().iter().map(|joint| description.robot.joint(joint.joint).name.clone()).collect()
-}
-
-/// A configuration by joint names.
-fn by_name(names: &[String], q: &[f64]) -> BTreeMap<String, f64> {
-    names.iter().cloned().zip(q.iter().copied()).collect()
 }

@@ -1,15 +1,16 @@
 //! `congruent sensitivity`: what 1 degree or 1 mm in each parameter does at the tool.
 
-use std::collections::BTreeMap;
-
 use congruent_description::{DhRow, DhRowKind, DhTable, RobotDescription};
 use congruent_kinematics::{
     Arm, ArmJoint, DhChain, Displacement, KinematicsError, Pose, Sampling, displacement,
 };
 use serde::Serialize;
 
-use super::{by_name, joint_names};
-use crate::plot::{Bar, BarChart, PlotError, bars};
+use super::joint_names;
+use crate::{
+    by_joint::ByJoint,
+    plot::{Bar, BarChart, PlotError, bars},
+};
 
 /// The error of an angle: 1 degree.
 const ANGLE_RAD: f64 = std::f64::consts::PI / 180.0;
@@ -54,7 +55,7 @@ pub struct ParameterEffect {
     /// Largest turn of the tool.
     pub worst_deg: f64,
     /// The configuration of the largest displacement, rad or m.
-    pub worst_at: BTreeMap<String, f64>,
+    pub worst_at: ByJoint,
 }
 
 /// One parameter that may be off.
@@ -183,7 +184,7 @@ fn effect(
         worst_mm: found.worst_m * factor * 1e3,
         mean_mm: found.mean_m * factor * 1e3,
         worst_deg: found.worst_rad.to_degrees(),
-        worst_at: by_name(names, &worst_at),
+        worst_at: ByJoint::new(names, &worst_at),
     }
 }
 

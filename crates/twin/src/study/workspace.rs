@@ -1,16 +1,19 @@
 //! `congruent workspace`: where the tool can be within the joint limits.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use congruent_description::RobotDescription;
 use congruent_kinematics::{Arm, KinematicsError, Sampling, Workspace};
 use serde::Serialize;
 
 use super::{
-    by_name, joint_names,
+    joint_names,
     manipulability::{AXES, PLANES},
 };
-use crate::plot::{Curve, PlaneView, PlotError, views};
+use crate::{
+    by_joint::ByJoint,
+    plot::{Curve, PlaneView, PlotError, views},
+};
 
 /// The answer of `congruent workspace`; positions of the tool centre point in link `base`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -41,7 +44,7 @@ pub struct Reach {
     /// The distance.
     pub distance_m: f64,
     /// The configuration that has it, rad or m.
-    pub at: BTreeMap<String, f64>,
+    pub at: ByJoint,
 }
 
 /// The workspace of the robot's arm, as figures and as what a plot needs.
@@ -56,8 +59,8 @@ pub fn workspace(
     let names = joint_names(description, &arm);
     let found = arm.workspace(sampling);
     let of_size = |dimensions| (found.dimensions == dimensions).then_some(found.extent);
-    let reach =
-        [0, 1].map(|end| Reach { distance_m: found.reach_m[end], at: by_name(&names, &found.reach_at[end]) });
+    let reach = [0, 1]
+        .map(|end| Reach { distance_m: found.reach_m[end], at: ByJoint::new(&names, &found.reach_at[end]) });
     let report = WorkspaceReport {
         robot: description.robot.name().to_owned(),
         samples: sampling.samples,

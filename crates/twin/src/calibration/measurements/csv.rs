@@ -7,9 +7,9 @@ use congruent_description::{Diagnostic, Robot, line_column};
 use csv::{ByteRecord, ReaderBuilder};
 
 use super::{
-    MeasuredRow,
+    MeasuredRow, WrittenOrientation,
     columns::{Column, Quantity},
-    from_quaternion_wxyz, from_rpy_rad, missing_joints,
+    missing_joints, plausible,
 };
 
 /// Faults after this many are not listed: one wrong column spoils every row.
@@ -154,11 +154,17 @@ fn row(
         line: record.line,
         q: vec![0.0; robot.dof()],
         tip_in_base_m: [None; 3],
-        base_from_tip: None,
+        orientation: None,
     };
     let (mut quaternion, mut rpy) = ([None; 4], [None; 3]);
     for ((column, (cell, span)), (name, _)) in columns.iter().zip(&record.cells).zip(&header.cells) {
-        let figure = figure(cell, span, (name, record.line))?.map(|figure| column.to_si(figure));
+        let beyond = |what: String| {
+            let message = format!("line {}, column \"{name}\": \"{cell}\" {what}", record.line);
+            Diagnostic::error("measurements::number", message).at(span.clone())
+        };
+        let figure = figure(cell, span, (name, record.line))?
+            .map(|figure| plausible(column.to_si(figure)).map_err(beyond))
+            .transpose()?;
         match column.quantity {
             Quantity::Joint(coordinate) => {
                 row.q[coordinate] = figure.ok_or_else(|| {
@@ -176,9 +182,11 @@ fn row(
         Diagnostic::error("measurements::orientation", format!("line {}: {message}", record.line))
             .at(record.span.clone())
     };
-    row.base_from_tip = match (complete(quaternion), complete(rpy)) {
-        (Some(Ok(quaternion)), _) => Some(from_quaternion_wxyz(quaternion).map_err(fault)?),
-        (None, Some(Ok(rpy))) => Some(from_rpy_rad(rpy)),
+    row.orientation = match (complete(quaternion), complete(rpy)) {
+        (Some(Ok(quaternion)), _) => {
+            Some(WrittenOrientation::from_quaternion_wxyz(quaternion).map_err(fault)?)
+        }
+        (None, Some(Ok(rpy))) => Some(WrittenOrientation::RpyRad(rpy)),
         (None, None) => None,
         (Some(Err(())), _) | (None, Some(Err(()))) => {
             return Err(fault("the orientation is not complete".to_owned()));

@@ -1,13 +1,19 @@
 //! Measurements as JSON: an array of objects in the shape in which `congruent fk` answers.
 
-use std::{collections::BTreeMap, ops::Range};
+use std::collections::BTreeMap;
 
 use congruent_description::{Diagnostic, Robot, line_column, units::Unit};
 use serde::Deserialize;
-use serde_json::value::RawValue;
 
-use super::{MeasuredRow, from_quaternion_wxyz, from_rpy_rad, missing_joints};
-use crate::batch::configuration;
+use super::{MeasuredRow, WrittenOrientation, missing_joints, plausible};
+use crate::{batch::configuration, json_list::JsonList};
+
+/// What a file of measurements is.
+const LIST: JsonList = JsonList {
+    entry: "measurement",
+    code: "measurements::json",
+    help: r#"expected [{"q": {"joint": 0.1}, "translation_m": [0.5, 0, 0.3], "quaternion_wxyz": [1, 0, 0, 0]}]"#,
+};
 
 /// One measurement as written.
 #[derive(Debug, Deserialize)]
@@ -27,22 +33,9 @@ pub(super) fn parse(
     robot: &Robot,
     needed: &[usize],
 ) -> Result<Vec<MeasuredRow>, Vec<Diagnostic>> {
-    let entries: Vec<&RawValue> =
-        serde_json::from_str(text).map_err(|error| vec![malformed(text, 0, &error)])?;
-    let (mut rows, mut faults) = (Vec::new(), Vec::new());
-    for (index, entry) in entries.iter().enumerate() {
-        // The entry borrows from the text, so the difference of the addresses is its place.
-        let start = entry.get().as_ptr().addr() - text.as_ptr().addr();
-        let span = start..start + entry.get().len();
-        match serde_json::from_str::<Written>(entry.get()) {
-            Ok(written) => match row(&written, robot, needed) {
-                Ok(row) => rows.push(MeasuredRow { line: line_column(text, start).0, ..row }),
-                Err(fault) => faults.push(at_index(fault, index).at(first_line(text, span))),
-            },
-            Err(error) => faults.push(at_index(malformed(text, start, &error), index)),
-        }
-    }
-    if faults.is_empty() { Ok(rows) } else { Err(faults) }
+    LIST.read(text, |written: Written, place| {
+        Ok(MeasuredRow { line: line_column(text, place.start).0, ..row(&written, robot, needed)? })
+    })
 }
 
 fn row(written: &Written, robot: &Robot, needed: &[usize]) -> Result<MeasuredRow, Diagnostic> {
@@ -69,43 +62,29 @@ fn row(written: &Written, robot: &Robot, needed: &[usize]) -> Result<MeasuredRow
         return Err(Diagnostic::error("measurements::translation", message)
             .with_help("give x, y, z, or x, y for a planar measurement"));
     }
+    for &figure in q.iter().chain(&translation) {
+        let refused = |what| Diagnostic::error("measurements::number", format!("{figure} {what}"));
+        plausible(figure).map_err(refused)?;
+    }
     let mut tip_in_base_m = [None; 3];
     for (coordinate, figure) in tip_in_base_m.iter_mut().zip(&translation) {
         *coordinate = Some(*figure);
     }
-    let base_from_tip = match (written.quaternion_wxyz, written.rpy_deg, written.rpy_rad) {
+    let orientation = match (written.quaternion_wxyz, written.rpy_deg, written.rpy_rad) {
         (None, None, None) => None,
         (Some(wxyz), None, None) => {
             let refused = |message| Diagnostic::error("measurements::orientation", message);
-            Some(from_quaternion_wxyz(wxyz).map_err(refused)?)
+            Some(WrittenOrientation::from_quaternion_wxyz(wxyz).map_err(refused)?)
         }
-        (None, Some(degrees), None) => Some(from_rpy_rad(degrees.map(|figure| Unit::Angle.convert(figure)))),
-        (None, None, Some(radians)) => Some(from_rpy_rad(radians)),
+        (None, Some(degrees), None) => {
+            Some(WrittenOrientation::RpyRad(degrees.map(|figure| Unit::Angle.convert(figure))))
+        }
+        (None, None, Some(radians)) => Some(WrittenOrientation::RpyRad(radians)),
         _ => return Err(Diagnostic::error("measurements::orientation", "the orientation is given twice")),
     };
-    if translation.is_empty() && base_from_tip.is_none() {
+    if translation.is_empty() && orientation.is_none() {
         return Err(Diagnostic::error("measurements::nothing_measured", "nothing was measured here")
             .with_help("add \"translation_m\": [x, y, z], and \"quaternion_wxyz\" where the orientation was measured"));
     }
-    Ok(MeasuredRow { line: 0, q, tip_in_base_m, base_from_tip })
-}
-
-/// Only the first line of an entry is shown.
-fn first_line(text: &str, span: Range<usize>) -> Range<usize> {
-    let length = text[span.clone()].find('\n').unwrap_or(span.len());
-    span.start..span.start + length
-}
-
-fn malformed(text: &str, start: usize, error: &serde_json::Error) -> Diagnostic {
-    let lines = text[start..].split_inclusive('\n');
-    let before: usize = lines.take(error.line().saturating_sub(1)).map(str::len).sum();
-    let offset = (start + before + error.column().saturating_sub(1)).min(text.len());
-    Diagnostic::error("measurements::json", error.to_string())
-        .with_help(r#"expected [{"q": {"joint": 0.1}, "translation_m": [0.5, 0, 0.3], "quaternion_wxyz": [1, 0, 0, 0]}]"#)
-        .at(offset..offset)
-}
-
-fn at_index(mut fault: Diagnostic, index: usize) -> Diagnostic {
-    fault.message = format!("measurement {}: {}", index + 1, fault.message);
-    fault
+    Ok(MeasuredRow { line: 0, q, tip_in_base_m, orientation })
 }

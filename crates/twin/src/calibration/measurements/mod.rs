@@ -7,12 +7,14 @@ mod json;
 use std::path::Path;
 
 use congruent_description::{Diagnostic, Robot, read_text};
-use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion};
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector4};
 
 /// Largest file that is read.
 const MOST_BYTES: u64 = 64 << 20;
 /// How far a quaternion's norm may be from 1. Kind: digits of the file; four decimals give 1e-4.
 const NORM_DIGITS: f64 = 1e-3;
+/// Largest joint position or coordinate of the tip, rad and m.
+const MOST: f64 = 1e6;
 
 /// One measured row.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +26,38 @@ pub struct MeasuredRow {
     /// Measured position in link `base`, m; `None` where a coordinate was not measured.
     pub tip_in_base_m: [Option<f64>; 3],
     /// Measured orientation in link `base`.
-    pub base_from_tip: Option<Matrix3<f64>>,
+    pub orientation: Option<WrittenOrientation>,
+}
+
+/// An orientation in the figures of the file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WrittenOrientation {
+    /// A quaternion that is of unit length but for its digits.
+    QuaternionWxyz([f64; 4]),
+    /// `Rz(yaw) Ry(pitch) Rx(roll)`, rad.
+    RpyRad([f64; 3]),
+}
+
+impl WrittenOrientation {
+    /// # Errors
+    /// The figures are not of unit length.
+    fn from_quaternion_wxyz(figures: [f64; 4]) -> Result<Self, String> {
+        let norm = Quaternion::from(Vector4::from(figures)).norm();
+        if (norm - 1.0).abs() > NORM_DIGITS {
+            return Err(format!("quaternion of norm {norm:.6}, a rotation has norm 1"));
+        }
+        Ok(Self::QuaternionWxyz(figures))
+    }
+
+    /// The rotation.
+    pub fn base_from_tip(&self) -> Matrix3<f64> {
+        match *self {
+            Self::QuaternionWxyz([w, x, y, z]) => {
+                UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)).to_rotation_matrix().into_inner()
+            }
+            Self::RpyRad([roll, pitch, yaw]) => Rotation3::from_euler_angles(roll, pitch, yaw).into_inner(),
+        }
+    }
 }
 
 /// Reads a CSV or JSON file of measurements; each of `needed` (coordinates of the configuration
@@ -69,16 +102,7 @@ fn missing_joints(robot: &Robot, needed: &[usize], is_given: impl Fn(usize) -> b
     (!missing.is_empty()).then(|| missing.join(", "))
 }
 
-/// A rotation from a quaternion that is of unit length but for its digits.
-fn from_quaternion_wxyz([w, x, y, z]: [f64; 4]) -> Result<Matrix3<f64>, String> {
-    let quaternion = Quaternion::new(w, x, y, z);
-    if (quaternion.norm() - 1.0).abs() > NORM_DIGITS {
-        return Err(format!("quaternion of norm {:.6}, a rotation has norm 1", quaternion.norm()));
-    }
-    Ok(UnitQuaternion::new_normalize(quaternion).to_rotation_matrix().into_inner())
-}
-
-/// `Rz(yaw) Ry(pitch) Rx(roll)`.
-fn from_rpy_rad([roll, pitch, yaw]: [f64; 3]) -> Matrix3<f64> {
-    Rotation3::from_euler_angles(roll, pitch, yaw).into_inner()
+/// Refuses a figure, in rad or m, that no robot has and whose square would drown all others.
+fn plausible(figure: f64) -> Result<f64, String> {
+    if figure.abs() <= MOST { Ok(figure) } else { Err(format!("is beyond {MOST:e} rad or m")) }
 }
