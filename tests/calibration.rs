@@ -145,7 +145,7 @@ fn names(list: &Value) -> Vec<&str> {
 }
 
 /// Known errors of a UR5e: four zeros, two lengths and a twist.
-pub(crate) const UR5E_ERRORS: [(&str, &str); 4] = [
+const UR5E_ERRORS: [(&str, &str); 4] = [
     (
         "a_m = -0.425\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = 0.0",
         "a_m = -0.4262\nalpha_deg = 0.0\nd_m = 0.0\ntheta_deg = 0.35",

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use crate::{
-    calibration::{Bench, UR5E_ERRORS, measured, number},
+    calibration::{Bench, measured, number},
     command::{Answer, congruent, congruent_json},
     pairing::UR5E_JOINTS,
 };
@@ -22,10 +22,14 @@ fn judged(rows: &[Value], free: &str) -> Answer {
     congruent_json(&["calibrate", "robots/ur5e", &file, "--free", free])
 }
 
-/// Poses of a UR5e with known errors.
+/// Poses of a UR5e with two zeros known to be off.
 fn poses(rows: usize) -> Vec<Value> {
+    let zeros = [
+        ("d_m = 0.1333\ntheta_deg = 0.0", "d_m = 0.1333\ntheta_deg = 0.2"),
+        ("d_m = 0.0997\ntheta_deg = 0.0", "d_m = 0.0997\ntheta_deg = -0.15"),
+    ];
     let bench = Bench::new();
-    measured(&bench.robot("ur5e", &UR5E_ERRORS), &UR5E_JOINTS, rows, NOISE)
+    measured(&bench.robot("ur5e", &zeros), &UR5E_JOINTS, rows, NOISE)
 }
 
 fn figures<const N: usize>(value: &Value) -> [f64; N] {
@@ -37,9 +41,10 @@ fn figures<const N: usize>(value: &Value) -> [f64; N] {
 fn named(slip: impl Fn(&mut Value), words: &str) {
     let mut rows = poses(40);
     rows.iter_mut().for_each(slip);
-    let answer = judged(&rows, "zero-offsets,dh");
+    let answer = judged(&rows, "zero-offsets");
     let report = answer.json();
-    assert_eq!((answer.code, &report["verdict"]), (1, &json!("unexplained")), "{words}: {}", answer.stdout);
+    let heard = format!("{words}: {}", report["statements"]);
+    assert_eq!((answer.code, &report["verdict"]), (1, &json!("unexplained")), "{heard}");
     assert_eq!(report["recommended"], "nominal");
     let reason = &report["likely_reason"];
     assert!(reason["what"].as_str().is_some_and(|what| what.contains(words)), "{words}: {reason}");
@@ -67,6 +72,20 @@ fn slips_of_units_are_named() {
         }
     };
     named(degrees, "joint angles under rad were degrees");
+}
+
+#[test]
+fn lengths_a_thousand_times_as_short_do_not_explain_a_slip_of_units() {
+    let mut rows = poses(40);
+    for row in &mut rows {
+        let metres = row.as_object_mut().unwrap().remove("translation_m").unwrap();
+        row["translation_mm"] = metres;
+    }
+    let answer = judged(&rows, "dh");
+    let report = answer.json();
+    let heard = report["statements"][0].as_str().unwrap();
+    assert_eq!((answer.code, &report["verdict"]), (1, &json!("misread")), "{heard}");
+    assert!(heard.contains("under mm were metres") && report["recommended"] == "nominal", "{heard}");
 }
 
 #[test]

@@ -30,7 +30,7 @@ use crate::{
 /// from 1, in the order of the file.
 ///
 /// Exit code 1 where the corrections do not explain the measurements (what is left is no noise, or more than
-/// the stated noise allows), 4 where nothing can be identified or nothing is left to judge it by.
+/// the stated noise allows, or the file is likely read in the wrong units, order or frame), 4 where nothing can be identified or nothing is left to judge it by.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -100,7 +100,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     printer.result(&report, text)?;
     Ok(match report.verdict {
         Explanation::Explained | Explanation::UnexplainedRows | Explanation::NoImprovement => 0,
-        Explanation::Unexplained | Explanation::NoiseExceeded => FAILED,
+        Explanation::Unexplained | Explanation::Misread | Explanation::NoiseExceeded => FAILED,
         Explanation::NothingToJudgeBy | Explanation::NothingIdentified => NOTHING,
     })
 }

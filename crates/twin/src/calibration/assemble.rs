@@ -6,13 +6,14 @@ use congruent_kinematics::calibration::{
 };
 
 use super::{
-    Computed, reading,
+    Computed,
+    reading::{self, Doubt},
     report::{
         CalibrationReport, CostCurve, Estimate, Estimation, Explanation, FrozenParameter, HeldOutError,
-        Identifiability, NextPose, Recommendation, Remainder, RowResidual, TableEntry,
+        Identifiability, LikelyReason, NextPose, Recommendation, Remainder, RowResidual, TableEntry,
     },
     statements,
-    yardstick::{Left, Yardstick},
+    yardstick::{LARGE_CORRECTION, Left, Yardstick},
 };
 use crate::by_joint::ByJoint;
 
@@ -31,9 +32,7 @@ pub(super) fn report(computed: &Computed<'_>) -> CalibrationReport {
     let held_out = held_out(computed, &nominal);
     let (left, before) = left(computed, &nominal);
     let verdict = explanation(computed, held_out.as_ref(), (&left, &before));
-    let likely_reason = (verdict == Explanation::Unexplained)
-        .then(|| reading::likely_reason(&computed.nominal, computed.rows, computed.options, &left))
-        .flatten();
+    let (verdict, likely_reason) = read_again(computed, verdict, &left);
     let recommended = match verdict {
         Explanation::Explained | Explanation::UnexplainedRows | Explanation::NoiseExceeded => {
             computed.best().1
@@ -72,7 +71,7 @@ pub(super) fn report(computed: &Computed<'_>) -> CalibrationReport {
             Loss::Tukey => "tukey",
         },
         held_out,
-        outliers: computed.robust.outliers.iter().map(|&row| row_residuals[row]).collect(),
+        outliers: computed.aside.iter().map(|&row| row_residuals[row]).collect(),
         row_residuals,
         covariance: computed
             .least_squares
@@ -133,7 +132,7 @@ fn held_out(computed: &Computed<'_>, nominal: &[Residual]) -> Option<HeldOutErro
     let held_out = computed.held_out.as_ref()?;
     let fits = |residuals: &[Residual]| -> Vec<Residual> {
         let rows = residuals.iter().enumerate();
-        rows.filter(|(row, _)| !computed.robust.outliers.contains(row)).map(|(_, each)| *each).collect()
+        rows.filter(|(row, _)| !computed.aside.contains(row)).map(|(_, each)| *each).collect()
     };
     let (left, before) = (remainder(&fits(&held_out.residuals)), remainder(&fits(nominal)));
     Some(HeldOutError {
@@ -151,8 +150,28 @@ fn left(computed: &Computed<'_>, nominal: &[Residual]) -> (Left, Left) {
     let yardstick = Yardstick::of(&problem);
     let unseen = computed.held_out.as_ref().map(|held_out| &held_out.residuals);
     let residuals = unseen.unwrap_or(&computed.best().0.residuals);
-    let left = |residuals: &[Residual]| yardstick.left(residuals, &computed.robust.outliers);
+    let left = |residuals: &[Residual]| yardstick.left(residuals, &computed.aside);
     (left(residuals), left(nominal))
+}
+
+/// Tries other readings of the file where the corrections explain nothing, and where they do so only by
+/// being large: `dh` turns metres into millimetres by lengths a thousand times as short.
+fn read_again(
+    computed: &Computed<'_>,
+    verdict: Explanation,
+    left: &Left,
+) -> (Explanation, Option<LikelyReason>) {
+    let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
+    let size = Yardstick::of(&problem).size_of(&computed.chain, &computed.best().0.corrections);
+    let doubt = match verdict {
+        Explanation::Unexplained => Doubt::Left(left.share()),
+        Explanation::Explained | Explanation::UnexplainedRows if size > LARGE_CORRECTION => Doubt::Size(size),
+        _ => return (verdict, None),
+    };
+    match reading::likely_reason(&computed.nominal, computed.rows, computed.options, doubt) {
+        Some(reason) if verdict != Explanation::Unexplained => (Explanation::Misread, Some(reason)),
+        reason => (verdict, reason),
+    }
 }
 
 fn explanation(
@@ -171,7 +190,7 @@ fn explanation(
     if computed.redundancy == 0 || held_out.is_none() {
         return Explanation::NothingToJudgeBy;
     }
-    if !computed.robust.outliers.is_empty() {
+    if !computed.aside.is_empty() {
         return Explanation::UnexplainedRows;
     }
     if computed.options.noise.is_some() && exceeds_noise(computed) {

@@ -80,6 +80,8 @@ struct Computed<'a> {
     redundancy: usize,
     least_squares: Fit,
     robust: RobustFit,
+    /// Rows that stand apart from the others; none where they would be more than half.
+    aside: Vec<usize>,
     held_out: Option<HeldOut>,
     candidates: Vec<Vec<f64>>,
     next: Vec<Suggestion>,
@@ -118,7 +120,9 @@ pub fn calibrate(
     };
     let least_squares = plain(&problem, &identification.kept);
     let robust = robustly(&problem, &identification.kept);
-    let use_robust = !robust.outliers.is_empty();
+    let is_most = 2 * robust.outliers.len() > measurements.len();
+    let aside = if is_most { Vec::new() } else { robust.outliers.clone() };
+    let use_robust = !aside.is_empty();
     let held_out = held_out(&chain, &measurements, options.threshold, |problem, kept| {
         if use_robust { robustly(problem, kept).fit.corrections } else { plain(problem, kept).corrections }
     });
@@ -139,6 +143,7 @@ pub fn calibrate(
         redundancy,
         least_squares,
         robust,
+        aside,
         held_out,
         candidates,
         next,
@@ -163,7 +168,7 @@ fn ordinary_noise(problem: &Problem<'_>) -> Noise {
 impl Computed<'_> {
     /// The estimate that the words are about: the robust one as soon as a row stands apart.
     fn best(&self) -> (&Fit, Recommendation) {
-        if self.robust.outliers.is_empty() {
+        if self.aside.is_empty() {
             (&self.least_squares, Recommendation::LeastSquares)
         } else {
             (&self.robust.fit, Recommendation::Robust)

@@ -39,33 +39,59 @@ struct Reading<'a> {
     free: &'static [&'static str],
 }
 
-/// The reading under which the corrections explain the measurements, if there is one: of several the one
-/// that leaves least, and of nearly equal ones the first of the list.
+/// What is wrong with the file as it is read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Doubt {
+    /// So large a share of the reach is left.
+    Left(f64),
+    /// So large corrections are needed, as a share of the reach or as an angle.
+    Size(f64),
+}
+
+/// What an estimate under a reading comes to.
+#[derive(Debug, Clone, Copy)]
+struct Tried {
+    left: Left,
+    size: f64,
+}
+
+impl Doubt {
+    fn is_settled_by(self, tried: &Tried) -> bool {
+        let is_much_better = match self {
+            Self::Left(share) => tried.left.share() < MUCH_BETTER * share,
+            Self::Size(size) => tried.size < MUCH_BETTER * size,
+        };
+        is_much_better && !tried.left.is_large()
+    }
+}
+
+/// The reading that settles the doubt, if there is one: of several the one that leaves least, and of nearly
+/// equal ones the first of the list.
 pub(super) fn likely_reason(
     nominal: &NominalChain<'_>,
     rows: &[MeasuredRow],
     options: &CalibrationOptions,
-    left: &Left,
+    doubt: Doubt,
 ) -> Option<LikelyReason> {
-    let explains = |found: &Left| !found.is_large() && found.share() < MUCH_BETTER * left.share();
     let mut best: Option<(String, Left)> = None;
     for reading in readings(nominal) {
-        let found = left_by(nominal, rows, options, &reading).filter(explains);
-        let Some(found) = found else { continue };
-        if best.as_ref().is_none_or(|(_, best)| found.share() < BETTER * best.share()) {
-            best = Some((reading.what, found));
+        let tried = tried(nominal, rows, options, &reading).filter(|tried| doubt.is_settled_by(tried));
+        let Some(Tried { left, .. }) = tried else { continue };
+        if best.as_ref().is_none_or(|(_, best)| left.share() < BETTER * best.share()) {
+            best = Some((reading.what, left));
         }
     }
     best.map(|(what, Left { rms_m, rms_rad, .. })| LikelyReason { what, rms_m, rms_rad })
 }
 
-/// What a robust estimate leaves of the rows that fit; `None` where the reading does not apply.
-fn left_by(
+/// A robust estimate under a reading; `None` where the reading does not apply, or leaves half of the rows
+/// far off.
+fn tried(
     nominal: &NominalChain<'_>,
     rows: &[MeasuredRow],
     options: &CalibrationOptions,
     reading: &Reading<'_>,
-) -> Option<Left> {
+) -> Option<Tried> {
     let rows: Vec<MeasuredRow> = rows.iter().map(|row| (reading.reread)(row)).collect::<Option<_>>()?;
     let more = reading.free.iter().map(|&group| group.to_owned());
     let free: Vec<String> = options.free.iter().cloned().chain(more).collect();
@@ -85,7 +111,8 @@ fn left_by(
     }
     let plain = fit_with_estimated_noise(&problem, &kept);
     let robust = fit_robustly(&problem, &kept, Loss::Tukey, (&plain, None));
-    Some(yardstick.left(&robust.fit.residuals, &robust.outliers))
+    let left = yardstick.left(&robust.fit.residuals, &robust.outliers);
+    Some(Tried { left, size: yardstick.size_of(&chain, &robust.fit.corrections) })
 }
 
 fn readings<'a>(nominal: &NominalChain<'a>) -> Vec<Reading<'a>> {

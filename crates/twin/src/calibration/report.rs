@@ -86,6 +86,9 @@ pub enum Explanation {
     NoImprovement,
     /// What is left is no noise: too large for the arm, or large and hardly less than without corrections.
     Unexplained,
+    /// The corrections explain the measurements only by being as large as the arm, and another reading of the
+    /// file does so with small ones.
+    Misread,
     /// There are no more measurements than corrections, or all at one configuration: nothing is left to
     /// judge the estimate by.
     NothingToJudgeBy,

@@ -65,6 +65,7 @@ fn verdict(report: &CalibrationReport) -> String {
     match report.verdict {
         Explanation::NothingIdentified => "nothing can be identified from these measurements".to_owned(),
         Explanation::Unexplained => nothing_explained(report),
+        Explanation::Misread => misread(report),
         Explanation::NothingToJudgeBy => nothing_to_judge_by(report),
         Explanation::UnexplainedRows => unexplained(report),
         Explanation::NoiseExceeded => format!(
@@ -109,6 +110,17 @@ fn nothing_explained(report: &CalibrationReport) -> String {
         None => write!(text, "; no common slip of units, order, sign or frame explains them either"),
     };
     text
+}
+
+fn misread(report: &CalibrationReport) -> String {
+    report.likely_reason.as_ref().map_or_else(String::new, |reason| {
+        format!(
+            "the measurements are explained only by corrections as large as parts of the arm; if {}, small ones \
+             would do and leave {}",
+            reason.what,
+            size(reason.rms_m, reason.rms_rad)
+        )
+    })
 }
 
 fn nothing_to_judge_by(report: &CalibrationReport) -> String {

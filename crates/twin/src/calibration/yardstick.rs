@@ -1,6 +1,6 @@
 //! What counts as explained: a residual against the size of the arm.
 
-use congruent_kinematics::calibration::{Problem, Residual};
+use congruent_kinematics::calibration::{CorrectedChain, Parameter, ParameterUnit, Problem, Residual};
 
 /// What is left beyond this share of the reach, or as an angle in rad, is no noise of a measurement. Kind:
 /// judgement: a ruler reads to 1 %, a slip of a unit, an axis or a frame leaves tens of per cent.
@@ -8,6 +8,10 @@ const LARGE_SHARE: f64 = 0.03;
 /// From this share on corrections must also remove more than they leave. Kind: judgement; an arm whose
 /// zeros are off by half a degree is off by a hundredth of its reach.
 const NOTABLE_SHARE: f64 = 0.01;
+
+/// From this share of the reach on, or from this angle in rad, a correction is doubted. Kind: judgement: six
+/// degrees are more than assembly leaves, yet a zero may be a quarter turn off, so it is a doubt only.
+pub(super) const LARGE_CORRECTION: f64 = 0.1;
 
 /// The size of an arm, which turns lengths into shares.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,6 +30,15 @@ pub(super) struct Left {
 impl Yardstick {
     pub(super) fn of(problem: &Problem<'_>) -> Self {
         Self { reach_m: problem.reach_m() }
+    }
+
+    /// The largest correction, as a share of the reach or as an angle.
+    pub(super) fn size_of(&self, chain: &CorrectedChain, corrections: &[f64]) -> f64 {
+        let size = |(parameter, correction): (&Parameter, &f64)| match parameter.unit() {
+            ParameterUnit::Angle => correction.abs(),
+            ParameterUnit::Length => correction.abs() / self.reach_m,
+        };
+        chain.parameters().iter().zip(corrections).map(size).fold(0.0, f64::max)
     }
 
     /// What is left of the rows besides `aside`; of all rows where that is more than half of them, since
