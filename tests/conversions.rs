@@ -187,3 +187,17 @@ fn a_mimic_joint_in_the_chain_is_told() {
     let notes = report["notes"].to_string();
     assert!(notes.contains("left_finger_joint") && notes.contains("drive_joint"), "{notes}");
 }
+
+#[test]
+fn a_table_is_not_there_from_another_base() {
+    let arguments = ["convert", "robots/ur5e", "--to", "urdf", "--from", "dh", "--base", "shoulder_link"];
+    let answer = congruent(&arguments);
+    assert_eq!(answer.code, 2);
+    for words in
+        ["[dh] table leads from \"base_link\" to \"tool0\"", "not from \"shoulder_link\"", "--from urdf"]
+    {
+        assert!(answer.stderr.contains(words), "no {words:?} in {}", answer.stderr);
+    }
+    let bare = congruent(&["convert", "robots/ur5e/ur5e.urdf", "--to", "urdf", "--from", "dh"]);
+    assert!(bare.code == 2 && bare.stderr.contains("has no [dh] table"), "{}", bare.stderr);
+}

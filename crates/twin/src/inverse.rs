@@ -186,7 +186,7 @@ pub fn inverse(
 fn solution(result: &IkResult<'_>, joints: &[String]) -> Solution {
     Solution {
         converged: result.converged,
-        q: ByJoint::new(joints, &result.q),
+        q: ByJoint::new(joints, result.q),
         residual_position_m: result.residual_position_m,
         residual_orientation_rad: result.residual_orientation_rad,
         iterations: result.iterations,

@@ -158,7 +158,9 @@ fn positions<'a>(factor: f64) -> Reread<'a> {
 fn joints<'a>(coordinates: Vec<usize>, factor: f64) -> Reread<'a> {
     Box::new(move |row| {
         let mut row = row.clone();
-        coordinates.iter().for_each(|&coordinate| row.q[coordinate] *= factor);
+        for &coordinate in &coordinates {
+            row.q[coordinate] *= factor;
+        }
         (!coordinates.is_empty()).then_some(row)
     })
 }

@@ -33,7 +33,7 @@ impl Yardstick {
     }
 
     /// The largest correction, as a share of the reach or as an angle.
-    pub(super) fn size_of(&self, chain: &CorrectedChain, corrections: &[f64]) -> f64 {
+    pub(super) fn size_of(self, chain: &CorrectedChain, corrections: &[f64]) -> f64 {
         let size = |(parameter, correction): (&Parameter, &f64)| match parameter.unit() {
             ParameterUnit::Angle => correction.abs(),
             ParameterUnit::Length => correction.abs() / self.reach_m,
@@ -43,7 +43,7 @@ impl Yardstick {
 
     /// What is left of the rows besides `aside`; of all rows where that is more than half of them, since
     /// then it is the estimate that stands apart.
-    pub(super) fn left(&self, residuals: &[Residual], aside: &[usize]) -> Left {
+    pub(super) fn left(self, residuals: &[Residual], aside: &[usize]) -> Left {
         let aside = if 2 * aside.len() > residuals.len() { &[] } else { aside };
         let fitting = || residuals.iter().enumerate().filter(|(row, _)| !aside.contains(row));
         #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 rows")]
@@ -58,7 +58,7 @@ impl Yardstick {
     }
 
     /// The same of the median row alone, which gross errors in fewer than half of the rows leave as it is.
-    pub(super) fn of_median_row(&self, residuals: &[Residual]) -> Left {
+    pub(super) fn of_median_row(self, residuals: &[Residual]) -> Left {
         let median = |of: fn(&Residual) -> f64| {
             let mut each: Vec<f64> = residuals.iter().map(of).collect();
             each.sort_by(f64::total_cmp);
