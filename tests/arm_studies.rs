@@ -170,6 +170,27 @@ fn the_extremes_of_the_workspace_do_not_depend_on_the_seed() {
     }
 }
 
+#[test]
+fn an_axis_of_any_length_is_normalised_or_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("arm.urdf");
+    let urdf =
+        std::fs::read_to_string(crate::corpus::workspace().join("robots/planar_2r/planar_2r.urdf")).unwrap();
+    let workspace = |axis: &str| {
+        let axis = format!("<axis xyz=\"{axis}\"/>");
+        std::fs::write(&file, urdf.replacen("<axis xyz=\"0 0 1\"/>", &axis, 1)).unwrap();
+        congruent_json(&["workspace", &text(&file), "--samples", "1000"])
+    };
+    for axis in ["0 0 1e300", "0 0 1e-300"] {
+        let answer = workspace(axis);
+        assert_eq!(answer.code, 0, "{}", answer.stderr);
+        assert!((number(&answer.json()["reach"][1]["distance_m"]) - 1.0).abs() < 1e-9, "{}", answer.stdout);
+    }
+    let answer = workspace("1.7e308 1.7e308 0");
+    let finding = answer.json()["findings"][0].clone();
+    assert_eq!((answer.code, &finding["line"]), (2, &Value::from(101)), "{finding}");
+}
+
 /// `w = l1 l2 |sin q2|` for two links (Yoshikawa 1985, eq. 15).
 #[test]
 fn case_12_manipulability_of_the_planar_arm() {

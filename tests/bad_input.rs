@@ -385,19 +385,3 @@ fn a_configuration_with_an_unknown_joint() {
     assert_eq!(answer.code, 2);
     assert!(answer.stderr.contains("did you mean \"elbow_joint\"?"), "{}", answer.stderr);
 }
-
-#[test]
-fn an_axis_longer_than_any_number() {
-    let bench = Workbench::new();
-    bench.edit("robot/planar_2r.urdf", "<axis xyz=\"0 0 1\"/>", "<axis xyz=\"1.7e308 1.7e308 0\"/>");
-    bench.refused("planar_2r.urdf", 0, &["joint_1", "axis", "larger than any number"]);
-    // Its squares overflow, its direction does not.
-    bench.edit("robot/planar_2r.urdf", "<axis xyz=\"1.7e308 1.7e308 0\"/>", "<axis xyz=\"0 0 1e300\"/>");
-    let answer = congruent_json(&["workspace", &text(&bench.path("robot"))]);
-    assert_eq!(answer.code, 0, "{}", answer.stderr);
-    assert!(
-        (answer.json()["reach"][1]["distance_m"].as_f64().unwrap() - 1.0).abs() < 1e-9,
-        "{}",
-        answer.stdout
-    );
-}

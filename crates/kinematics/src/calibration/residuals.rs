@@ -97,6 +97,21 @@ impl Problem<'_> {
     /// Measured components in which one of the corrections `kept` shows at nominal, less the number of these
     /// corrections: what is left to judge them by. Repetitions at one configuration count once.
     ///
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::{Pose, ScrewChain, Twist};
+    /// use congruent_kinematics::calibration::{CorrectedChain, Measurement, Problem, zero_offsets};
+    /// use nalgebra::{Matrix3, Vector3};
+    /// let turn = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
+    /// let at_zero = Pose::from_parts(Matrix3::identity(), Vector3::x());
+    /// let nominal = ScrewChain { twists_in_base: vec![turn], base_from_tip_at_zero: at_zero };
+    /// let chain = CorrectedChain::new(nominal.clone(), zero_offsets(&nominal, &["joint"]));
+    /// let at = |q: f64| Measurement { q: vec![q], tip_in_base_m: [Some(0.0); 3], base_from_tip: None };
+    /// // The zero shows in x and y but not in z, and the repetition says nothing new.
+    /// let measurements = [at(0.3), at(0.9), at(0.3)];
+    /// assert_eq!(Problem { chain: &chain, measurements: &measurements }.redundancy(&[0]), 3);
+    /// ```
+    ///
     /// # Panics
     /// When a measurement's `q` has another length than the chain has joints.
     pub fn redundancy(&self, kept: &[usize]) -> usize {

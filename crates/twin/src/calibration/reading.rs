@@ -14,7 +14,7 @@ use super::{
     free, measurement,
     measurements::{MeasuredRow, WrittenOrientation},
     report::LikelyReason,
-    yardstick::{Left, Yardstick},
+    yardstick::{LARGE_CORRECTION, Left, Yardstick},
 };
 
 /// Millimetres in a metre.
@@ -26,6 +26,9 @@ const MUCH_BETTER: f64 = 0.1;
 /// A later reading of the list must leave less than this share of what an earlier one does: more free
 /// corrections always leave a little less.
 const BETTER: f64 = 0.5;
+
+/// So many rows tell whether a reading is worth all of them.
+const SOME_ROWS: usize = 60;
 
 /// A row read differently; `None` where the reading does not apply to it.
 type Reread<'a> = Box<dyn Fn(&MeasuredRow) -> Option<MeasuredRow> + 'a>;
@@ -56,12 +59,14 @@ struct Tried {
 }
 
 impl Doubt {
+    /// By little that is left and small corrections: an arm that shrinks to nothing leaves nothing of
+    /// positions in millimetres.
     fn is_settled_by(self, tried: &Tried) -> bool {
         let is_much_better = match self {
             Self::Left(share) => tried.left.share() < MUCH_BETTER * share,
             Self::Size(size) => tried.size < MUCH_BETTER * size,
         };
-        is_much_better && !tried.left.is_large()
+        is_much_better && !tried.left.is_large() && tried.size < LARGE_CORRECTION
     }
 }
 
@@ -104,9 +109,12 @@ fn tried(
         return None;
     }
     let yardstick = Yardstick::of(&problem);
-    // Estimates that explain nothing converge slowly, so half of the rows must come near at once.
+    // Estimates that explain nothing converge slowly, so half of some rows must come near at once.
+    let step = measurements.len().div_ceil(SOME_ROWS);
+    let some: Vec<_> = measurements.iter().step_by(step).cloned().collect();
     let alike = Noise { position_m: 1.0, orientation_rad: 1.0 / problem.reach_m() };
-    if yardstick.of_median_row(&fit(&problem, &kept, alike).residuals).is_large() {
+    let first = fit(&Problem { chain: &chain, measurements: &some }, &kept, alike);
+    if yardstick.of_median_row(&first.residuals).is_large() {
         return None;
     }
     let plain = fit_with_estimated_noise(&problem, &kept);

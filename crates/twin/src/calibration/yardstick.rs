@@ -1,6 +1,6 @@
 //! What counts as explained: a residual against the size of the arm.
 
-use congruent_kinematics::calibration::{CorrectedChain, Parameter, ParameterUnit, Problem, Residual};
+use congruent_kinematics::calibration::{CorrectedChain, Entry, Parameter, ParameterUnit, Problem, Residual};
 
 /// What is left beyond this share of the reach, or as an angle in rad, is no noise of a measurement. Kind:
 /// judgement: a ruler reads to 1 %, a slip of a unit, an axis or a frame leaves tens of per cent.
@@ -32,11 +32,13 @@ impl Yardstick {
         Self { reach_m: problem.reach_m() }
     }
 
-    /// The largest correction, as a share of the reach or as an angle.
+    /// The largest correction of the arm, as a share of the reach or as an angle; where it stands and what
+    /// it holds may be anywhere.
     pub(super) fn size_of(self, chain: &CorrectedChain, corrections: &[f64]) -> f64 {
-        let size = |(parameter, correction): (&Parameter, &f64)| match parameter.unit() {
-            ParameterUnit::Angle => correction.abs(),
-            ParameterUnit::Length => correction.abs() / self.reach_m,
+        let size = |(parameter, correction): (&Parameter, &f64)| match (parameter.entry, parameter.unit()) {
+            (Entry::Base | Entry::Tool, _) => 0.0,
+            (_, ParameterUnit::Angle) => correction.abs(),
+            (_, ParameterUnit::Length) => correction.abs() / self.reach_m,
         };
         chain.parameters().iter().zip(corrections).map(size).fold(0.0, f64::max)
     }
