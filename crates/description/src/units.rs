@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use crate::diagnostic::Diagnostic;
+use crate::{diagnostic::Diagnostic, written_figure::fitted_list};
 
 /// A figure that a file may give in the unit of the program or in a handier one.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +31,20 @@ impl Unit {
             // 1000 is exact in binary and 0.001 is not: dividing rounds once.
             Self::Length => figure / 1000.0,
             Self::Angle => figure.to_radians(),
+        }
+    }
+
+    /// A fitted vector under the key that says its unit.
+    pub(crate) fn fitted(self, quantity: &str, value: [f64; 3], is_handy: bool) -> String {
+        let [plain_key, handy_key] = self.keys(quantity);
+        let handy = |value: f64| match self {
+            Self::Length => value * 1000.0,
+            Self::Angle => value.to_degrees(),
+        };
+        if is_handy {
+            format!("{handy_key} = {}", fitted_list(value.map(handy)))
+        } else {
+            format!("{plain_key} = {}", fitted_list(value))
         }
     }
 

@@ -9,6 +9,7 @@ use crate::{
     diagnostic::Diagnostic,
     fixed_array::{fixed_array, fixed_matrix},
     units::{Unit, check_finite},
+    written_figure::{fitted_list, fitted_rpy_fixed_xyz_rad},
 };
 
 /// How far the norm of a written quaternion may be from 1: six digits in the file, rounding of
@@ -73,6 +74,31 @@ impl WrittenTransform {
         vectors.into_iter().chain([quaternion, matrix]).flatten().collect()
     }
 
+    /// The keys with which another transform is written as this one is: in its units and by its kind
+    /// of rotation. `is_handy` says which unit of lengths and of angles a new key has.
+    pub(crate) fn with_keys(&self, pose: &Isometry3<f64>, is_handy: [bool; 2]) -> Vec<String> {
+        if self.matrix.is_some() {
+            let matrix = pose.to_homogeneous();
+            let rows = (0..4).map(|row| fitted_list(matrix.row(row).iter().copied()));
+            return vec![format!("matrix = [{}]", rows.collect::<Vec<_>>().join(", "))];
+        }
+        let shift = (pose.translation.vector.norm() > 0.0 || self.xyz_m.is_some() || self.xyz_mm.is_some())
+            .then(|| {
+                let is_handy = self.xyz_mm.is_some() || (self.xyz_m.is_none() && is_handy[0]);
+                Unit::Length.fitted("xyz", pose.translation.vector.into(), is_handy)
+            });
+        let turn = if self.quaternion_wxyz.is_some() {
+            let Quaternion { coords } = *pose.rotation.quaternion();
+            Some(format!("quaternion_wxyz = {}", fitted_list([coords.w, coords.x, coords.y, coords.z])))
+        } else {
+            let is_handy = self.rpy_deg.is_some() || (self.rpy_rad.is_none() && is_handy[1]);
+            let rpy_rad = fitted_rpy_fixed_xyz_rad(pose);
+            let has_turn = self.has_rotation() || rpy_rad.iter().any(|angle| angle.abs() > 0.0);
+            has_turn.then(|| Unit::Angle.fitted("rpy", rpy_rad, is_handy))
+        };
+        shift.into_iter().chain(turn).collect()
+    }
+
     /// The transform.
     ///
     /// # Errors
@@ -97,6 +123,13 @@ impl WrittenTransform {
         };
         Ok(Isometry3::from_parts(Translation3::from(translation.unwrap_or_default()), rotation))
     }
+}
+
+/// A fitted transform in metres and radians, as a robot file could write it.
+pub fn fitted_transform(pose: &Isometry3<f64>) -> String {
+    let xyz = Unit::Length.fitted("xyz", pose.translation.vector.into(), false);
+    let rpy = Unit::Angle.fitted("rpy", fitted_rpy_fixed_xyz_rad(pose), false);
+    format!("{{ {xyz}, {rpy} }}")
 }
 
 /// The rotation that turns about the fixed axes x, then y, then z: `Rz(yaw) Ry(pitch) Rx(roll)`.

@@ -1,22 +1,37 @@
-//! Which of several explanations is named first: a price for every free number and every part,
-//! then what is left, then what is likelier to be written wrong.
+//! Which of several explanations is named first.
+//!
+//! The measure is how much an explanation must say: a price for every free number and every part, and
+//! what it leaves over. The two cannot be added, since nobody knows how exact a file is meant to be;
+//! but the best explanation shows it. What leaves orders of magnitude more than that is refuted at
+//! any price, and of the others, which leave what a file's rounding leaves, the cheapest is named.
 
 use super::{
-    diagnosis::Question,
-    hypothesis::{Cause, Hypothesis},
+    diagnosis::{Question, Residual},
+    hypothesis::{Case, Cause, Hypothesis, Place},
     suspect::{Parameter, Suspect},
     trial::{Bench, Trial},
 };
 
+/// Residuals below this, in m or rad, are rounding: of a fit, or of ten digits in a file.
+const ROUNDING: f64 = 1e-11;
+/// A residual so many times the best one's is no rounding of the same file.
+const FAR: f64 = 100.0;
+/// A figure that is not so many times the residual that is left could as well be zero.
+const EVIDENT: f64 = 3.0;
+/// Entries of a rotation by quarter turns are 0 or 1 within this: four decimals of an angle.
+const QUARTER_TURNS: f64 = 1e-3;
+
 /// The order in which explanations are named; smaller is first.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Rank {
-    /// Free numbers, and one for each part beyond the first.
+    /// Free numbers, what counts as one, and one for each part beyond the first.
     price: usize,
     /// What is left: far below the tolerance, below it, or at it.
     left: u8,
-    /// Figures that are blamed although nothing stands there.
-    unwritten: usize,
+    /// Figures that are blamed although nothing stands there, or that a slip leaves near nothing.
+    unlikely: usize,
+    /// Blames of the other file.
+    elsewhere: usize,
     /// The causes, in the catalogue's order.
     causes: Vec<Cause>,
     /// The hypotheses, so that the order is the same on every machine.
@@ -25,19 +40,85 @@ pub(super) struct Rank {
 
 pub(super) fn rank(bench: &Bench<'_>, trial: &Trial, question: &Question) -> Rank {
     let parts = || trial.hypotheses.iter().map(|&at| &bench.hypotheses[at]);
-    let free: usize = parts().map(|hypothesis| hypothesis.free.len()).sum();
     let residual = trial.mended.residual(question);
-    let share =
-        (residual.position_m / question.position_m).max(residual.orientation_rad / question.orientation_rad);
+    let share = question.share(&residual);
     let mut causes: Vec<Cause> = parts().map(|hypothesis| hypothesis.cause).collect();
     causes.sort_unstable();
+    let slips = parts().filter(|hypothesis| is_slip_to_nothing(bench, trial, hypothesis, &residual)).count();
+    let unwritten = parts().filter(|hypothesis| is_unwritten(&bench.case.suspect, hypothesis)).count();
+    let numbers: usize = parts().map(|hypothesis| numbers(bench, trial, hypothesis)).sum();
     Rank {
-        price: free + trial.hypotheses.len() - 1,
+        price: numbers + slips + trial.hypotheses.len() - 1,
         left: if share <= 0.1 { 0 } else { u8::from(share > 0.3) + 1 },
-        unwritten: parts().filter(|hypothesis| is_unwritten(&bench.case.suspect, hypothesis)).count(),
+        unlikely: unwritten + slips,
+        elsewhere: parts().filter(|hypothesis| is_elsewhere(hypothesis)).count(),
         causes,
         hypotheses: trial.hypotheses.clone(),
     }
+}
+
+/// Whether an explanation leaves so much more than another that both cannot be right.
+pub(super) fn is_refuted(left: &Residual, by: &Residual, question: &Question) -> bool {
+    let above = |residual: &Residual| {
+        question.share(&Residual {
+            position_m: residual.position_m.max(ROUNDING),
+            orientation_rad: residual.orientation_rad.max(ROUNDING),
+        })
+    };
+    above(left) > FAR * above(by)
+}
+
+impl Question {
+    /// A residual in tolerances.
+    pub(super) fn share(&self, residual: &Residual) -> f64 {
+        (residual.position_m / self.position_m).max(residual.orientation_rad / self.orientation_rad)
+    }
+}
+
+/// What a hypothesis is free to choose, in numbers. Another order of angles in the other file is a
+/// choice as well: of quarter turns, where every order is some quarter turn, as good as any three.
+fn numbers(bench: &Bench<'_>, trial: &Trial, hypothesis: &Hypothesis) -> usize {
+    let Place::ReferenceJoints(joints) = &hypothesis.place else { return hypothesis.free.len() };
+    if !is_elsewhere(hypothesis) {
+        return hypothesis.free.len();
+    }
+    let by_quarters = |case: &Case| {
+        let mut rotations =
+            joints.iter().map(|&joint| case.reference.joints[joint].parent_from_joint.rotation);
+        rotations.all(|rotation| (rotation - rotation.map(f64::round)).amax() < QUARTER_TURNS)
+    };
+    if by_quarters(bench.case) && by_quarters(&trial.mended) { 3 } else { 1 }
+}
+
+/// Whether the other file is blamed for what it says, not the model for how it was made from it.
+fn is_elsewhere(hypothesis: &Hypothesis) -> bool {
+    hypothesis.cause == Cause::RpyOrder && matches!(hypothesis.place, Place::ReferenceJoints(_))
+}
+
+/// Whether a slip of a unit leaves a figure so small that zero would do as well: then nothing speaks
+/// for the slip, only for that the figure is wrong.
+fn is_slip_to_nothing(bench: &Bench<'_>, trial: &Trial, hypothesis: &Hypothesis, left: &Residual) -> bool {
+    if !matches!(hypothesis.cause, Cause::DegreesAsRadians | Cause::MillimetresAsMetres) {
+        return false;
+    }
+    let turns = hypothesis.cause == Cause::DegreesAsRadians;
+    let size = |suspect: &Suspect| match &hypothesis.place {
+        Place::Entries(entry, rows) => suspect.entry(rows[0], *entry).map(f64::abs),
+        Place::Base | Place::Tool => {
+            let constant = if hypothesis.place == Place::Base { &suspect.base } else { &suspect.tool };
+            Some(if turns {
+                crate::rotation_log(&constant.pose.rotation).norm()
+            } else {
+                constant.pose.translation.norm()
+            })
+        }
+        _ => None,
+    };
+    let (Some(found), Some(expected)) = (size(&bench.case.suspect), size(&trial.mended.suspect)) else {
+        return false;
+    };
+    let residual = if turns { left.orientation_rad } else { left.position_m };
+    (turns || expected < found) && expected < EVIDENT * residual
 }
 
 /// Whether a single figure is blamed that is zero as it stands: a zero is rarely a slip of the pen.
