@@ -22,3 +22,4 @@ mod robots;
 mod safety;
 mod scenarios;
 mod servo;
+mod suggestions;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use crate::{diagnostic::Diagnostic, written_figure::fitted_list};
+use crate::{diagnostic::Diagnostic, written_figure::fitted_in};
 
 /// A figure that a file may give in the unit of the program or in a handier one.
 #[derive(Debug, Clone, Copy)]
@@ -34,18 +34,20 @@ impl Unit {
         }
     }
 
-    /// A fitted vector under the key that says its unit.
-    pub(crate) fn fitted(self, quantity: &str, value: [f64; 3], is_handy: bool) -> String {
-        let [plain_key, handy_key] = self.keys(quantity);
-        let handy = |value: f64| match self {
-            Self::Length => value * 1000.0,
-            Self::Angle => value.to_degrees(),
-        };
-        if is_handy {
-            format!("{handy_key} = {}", fitted_list(value.map(handy)))
-        } else {
-            format!("{plain_key} = {}", fitted_list(value))
+    /// A fitted value (m, rad) as it is written: in the unit of the program, or in the handier one.
+    pub fn fitted(self, value: f64, is_handy: bool) -> String {
+        match (is_handy, self) {
+            (false, _) => fitted_in(value, 1.0),
+            (true, Self::Length) => fitted_in(value * 1000.0, 1000.0),
+            (true, Self::Angle) => fitted_in(value.to_degrees(), 1_f64.to_degrees()),
         }
+    }
+
+    /// A fitted vector under the key that says its unit.
+    pub(crate) fn fitted_vector(self, quantity: &str, values: [f64; 3], is_handy: bool) -> String {
+        let [plain_key, handy_key] = self.keys(quantity);
+        let key = if is_handy { handy_key } else { plain_key };
+        format!("{key} = [{}]", values.map(|value| self.fitted(value, is_handy)).join(", "))
     }
 
     /// The value of `quantity` from its two keys, of which at most one may be given.

@@ -1,5 +1,7 @@
 //! Figures as they are written into files: short where that loses nothing, with all digits otherwise.
 
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::{Isometry3, Rotation3, Vector3};
 
 use crate::written_transform::rotation_from_rpy_fixed_xyz;
@@ -15,30 +17,32 @@ pub(crate) fn number(value: f64) -> String {
     format!("{:?}", value + 0.0)
 }
 
-/// How far a fitted figure may be from the one that is written for it, relative above 1. Kind:
-/// rounding of a fit on some hundred numbers, three digits above eps.
-const FITTED: f64 = 1e-13;
+/// How far a fitted figure may be from the one that is written for it, in m or rad, relative above 1.
+/// Kind: rounding of a fit on some hundred numbers, two digits above eps.
+const FITTED: f64 = 5e-14;
 
-/// A fitted number by the fewest decimals that say the same: a fit fills all digits with its rounding.
+/// A fitted number (m, rad, or without unit) by the fewest decimals that say the same: a fit fills all
+/// digits with its rounding.
 pub fn fitted_number(value: f64) -> String {
+    fitted_in(value, 1.0)
+}
+
+/// The same in a unit of which `one` make a metre or a radian.
+pub(crate) fn fitted_in(value: f64, one: f64) -> String {
     /// More decimals than any number within [`FITTED`] needs.
-    const MOST_DECIMALS: usize = 14;
+    const MOST_DECIMALS: usize = 15;
     let is_near = |text: &String| {
         let off = text.parse::<f64>().map_or(f64::INFINITY, |written| (written - value).abs());
-        off <= FITTED * value.abs().max(1.0)
+        off <= FITTED * value.abs().max(one)
     };
     let near = (0..MOST_DECIMALS).map(|decimals| format!("{value:.decimals$}")).find(is_near);
-    let shortest = near.unwrap_or_else(|| format!("{value:?}"));
-    if shortest.bytes().any(|byte| byte.is_ascii_digit() && byte != b'0') {
-        shortest
-    } else if value.is_finite() {
-        "0".to_owned()
-    } else {
-        shortest
+    match near.unwrap_or_else(|| format!("{value:?}")) {
+        negative if negative == "-0" => "0".to_owned(),
+        shortest => shortest,
     }
 }
 
-/// Fitted numbers as a list.
+/// Fitted numbers without unit as a list.
 pub(crate) fn fitted_list(values: impl IntoIterator<Item = f64>) -> String {
     format!("[{}]", values.into_iter().map(fitted_number).collect::<Vec<_>>().join(", "))
 }
@@ -61,13 +65,14 @@ pub(crate) fn rpy_fixed_xyz_rad(pose: &Isometry3<f64>) -> [f64; 3] {
     rpy_at_yaw(&matrix, matrix[(1, 0)].atan2(matrix[(0, 0)]))
 }
 
-/// The same for a fitted rotation: without yaw where the rest says the same, as at a pitch of a
-/// quarter turn, where yaw would be what the fit's rounding makes of it.
+/// The same for a fitted rotation: without yaw where roll and a pitch within a quarter turn say the
+/// same, as where pitch is one and yaw would be what the fit's rounding makes of it.
 pub(crate) fn fitted_rpy_fixed_xyz_rad(pose: &Isometry3<f64>) -> [f64; 3] {
     let matrix = pose.rotation.to_rotation_matrix();
     let without_yaw = rpy_at_yaw(&matrix, 0.0);
     let off = rotation_from_rpy_fixed_xyz(without_yaw).to_rotation_matrix().matrix() - matrix.matrix();
-    if off.amax() <= FITTED { without_yaw } else { rpy_fixed_xyz_rad(pose) }
+    let is_within = without_yaw[1].abs() <= FRAC_PI_2 + FITTED;
+    if is_within && off.amax() <= FITTED { without_yaw } else { rpy_fixed_xyz_rad(pose) }
 }
 
 fn rpy_at_yaw(matrix: &Rotation3<f64>, yaw: f64) -> [f64; 3] {
@@ -85,8 +90,6 @@ pub(crate) fn is_identity(pose: &Isometry3<f64>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::FRAC_PI_2;
-
     use nalgebra::UnitQuaternion;
 
     use super::*;
@@ -123,8 +126,8 @@ mod tests {
             (0.1 - 1e-16, "0.1"),
             (-1e-14, "0"),
             (-0.392_200_000_000_000_3, "-0.3922"),
-            (90.0 + 1e-13, "90"),
-            (FRAC_PI_2, "1.570796326795"),
+            (90.0 + 1e-12, "90"),
+            (FRAC_PI_2, "1.5707963267949"),
             (1e-12, "0.000000000001"),
             (f64::NAN, "NaN"),
         ] {

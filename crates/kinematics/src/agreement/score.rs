@@ -8,16 +8,19 @@
 use super::{
     diagnosis::{Question, Residual},
     hypothesis::{Case, Cause, Hypothesis, Place},
-    suspect::{Parameter, Suspect},
+    suspect::{Constant, Entry, Parameter, Suspect},
     trial::{Bench, Trial},
 };
 
 /// Residuals below this, in m or rad, are rounding: of a fit, or of ten digits in a file.
 const ROUNDING: f64 = 1e-11;
 /// A residual so many times the best one's is no rounding of the same file.
-const FAR: f64 = 100.0;
+const FAR: f64 = 10.0;
 /// A figure that is not so many times the residual that is left could as well be zero.
 const EVIDENT: f64 = 3.0;
+/// A slip that gives a figure so many times the residual is no coincidence, even where a free number
+/// takes the file's rounding with it and leaves less.
+const CERTAIN: f64 = 1e3;
 /// Entries of a rotation by quarter turns are 0 or 1 within this: four decimals of an angle.
 const QUARTER_TURNS: f64 = 1e-3;
 
@@ -44,7 +47,10 @@ pub(super) fn rank(bench: &Bench<'_>, trial: &Trial, question: &Question) -> Ran
     let share = question.share(&residual);
     let mut causes: Vec<Cause> = parts().map(|hypothesis| hypothesis.cause).collect();
     causes.sort_unstable();
-    let slips = parts().filter(|hypothesis| is_slip_to_nothing(bench, trial, hypothesis, &residual)).count();
+    let slips: usize = parts()
+        .filter_map(|hypothesis| Slip::of(bench, trial, hypothesis))
+        .map(|slip| slip.unproved(&residual))
+        .sum();
     let unwritten = parts().filter(|hypothesis| is_unwritten(&bench.case.suspect, hypothesis)).count();
     let numbers: usize = parts().map(|hypothesis| numbers(bench, trial, hypothesis)).sum();
     Rank {
@@ -57,15 +63,19 @@ pub(super) fn rank(bench: &Bench<'_>, trial: &Trial, question: &Question) -> Ran
     }
 }
 
-/// Whether an explanation leaves so much more than another that both cannot be right.
-pub(super) fn is_refuted(left: &Residual, by: &Residual, question: &Question) -> bool {
+/// Whether an explanation leaves so much more than the best that both cannot be right.
+pub(super) fn is_refuted(bench: &Bench<'_>, trial: &Trial, question: &Question, best: &Residual) -> bool {
+    let left = trial.mended.residual(question);
     let above = |residual: &Residual| {
         question.share(&Residual {
             position_m: residual.position_m.max(ROUNDING),
             orientation_rad: residual.orientation_rad.max(ROUNDING),
         })
     };
-    above(left) > FAR * above(by)
+    let is_certain = |at: &usize| {
+        Slip::of(bench, trial, &bench.hypotheses[*at]).is_some_and(|slip| slip.is_above(CERTAIN, &left))
+    };
+    above(&left) > FAR * above(best) && !trial.hypotheses.iter().all(is_certain)
 }
 
 impl Question {
@@ -95,30 +105,67 @@ fn is_elsewhere(hypothesis: &Hypothesis) -> bool {
     hypothesis.cause == Cause::RpyOrder && matches!(hypothesis.place, Place::ReferenceJoints(_))
 }
 
-/// Whether a slip of a unit leaves a figure so small that zero would do as well: then nothing speaks
-/// for the slip, only for that the figure is wrong.
-fn is_slip_to_nothing(bench: &Bench<'_>, trial: &Trial, hypothesis: &Hypothesis, left: &Residual) -> bool {
-    if !matches!(hypothesis.cause, Cause::DegreesAsRadians | Cause::MillimetresAsMetres) {
-        return false;
+/// The figures that a slip of a unit changes.
+struct Slip {
+    is_angle: bool,
+    /// How many are not zero.
+    figures: usize,
+    /// The largest as it stands, and as it should be.
+    found: f64,
+    expected: f64,
+}
+
+impl Slip {
+    /// Of a hypothesis about the unit of some figures; a unit of positions is none of those.
+    fn of(bench: &Bench<'_>, trial: &Trial, hypothesis: &Hypothesis) -> Option<Self> {
+        let is_angle = match hypothesis.cause {
+            Cause::DegreesAsRadians | Cause::RadiansAsDegrees => true,
+            Cause::MillimetresAsMetres => false,
+            _ => return None,
+        };
+        let figures = |suspect: &Suspect| -> Vec<f64> {
+            let column = |entries: &[Entry]| {
+                let rows = 0..suspect.rows.len();
+                let figures =
+                    rows.flat_map(|row| entries.iter().filter_map(move |&entry| suspect.entry(row, entry)));
+                figures.collect()
+            };
+            let constant = |constant: &Constant| match constant.written_rpy_rad {
+                Some(rpy) if is_angle => rpy.to_vec(),
+                _ if is_angle => crate::rotation_log(&constant.pose.rotation).as_slice().to_vec(),
+                _ => constant.pose.translation.as_slice().to_vec(),
+            };
+            match &hypothesis.place {
+                Place::Entries(entry, rows) => suspect.entry(rows[0], *entry).into_iter().collect(),
+                Place::Column(entries) => column(entries),
+                Place::Base => constant(&suspect.base),
+                Place::Tool => constant(&suspect.tool),
+                Place::Model => {
+                    [column(&[Entry::A, Entry::D]), constant(&suspect.base), constant(&suspect.tool)].concat()
+                }
+                Place::Rows(_) | Place::ReferenceJoints(_) => Vec::new(),
+            }
+        };
+        let largest = |figures: &[f64]| figures.iter().fold(0.0_f64, |most, figure| most.max(figure.abs()));
+        let (found, expected) = (figures(&bench.case.suspect), figures(&trial.mended.suspect));
+        let count = found.iter().filter(|figure| **figure != 0.0).count();
+        (count > 0).then(|| Self {
+            is_angle,
+            figures: count,
+            found: largest(&found),
+            expected: largest(&expected),
+        })
     }
-    let turns = hypothesis.cause == Cause::DegreesAsRadians;
-    let size = |suspect: &Suspect| match &hypothesis.place {
-        Place::Entries(entry, rows) => suspect.entry(rows[0], *entry).map(f64::abs),
-        Place::Base | Place::Tool => {
-            let constant = if hypothesis.place == Place::Base { &suspect.base } else { &suspect.tool };
-            Some(if turns {
-                crate::rotation_log(&constant.pose.rotation).norm()
-            } else {
-                constant.pose.translation.norm()
-            })
-        }
-        _ => None,
-    };
-    let (Some(found), Some(expected)) = (size(&bench.case.suspect), size(&trial.mended.suspect)) else {
-        return false;
-    };
-    let residual = if turns { left.orientation_rad } else { left.position_m };
-    (turns || expected < found) && expected < EVIDENT * residual
+
+    fn is_above(&self, times: f64, left: &Residual) -> bool {
+        self.expected >= times * if self.is_angle { left.orientation_rad } else { left.position_m }
+    }
+
+    /// How many figures become so small that zero would do as well: nothing speaks for the slip then,
+    /// only for that the figures are wrong.
+    fn unproved(&self, left: &Residual) -> usize {
+        if self.expected < self.found && !self.is_above(EVIDENT, left) { self.figures } else { 0 }
+    }
 }
 
 /// Whether a single figure is blamed that is zero as it stands: a zero is rarely a slip of the pen.

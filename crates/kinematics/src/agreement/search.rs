@@ -254,15 +254,13 @@ impl Search<'_> {
     }
 
     fn explaining(&self, trials: &[Trial]) -> Vec<Trial> {
-        let left = |trial: &Trial| trial.mended.residual(self.question);
-        let accepted: Vec<(Residual, &Trial)> =
-            trials.iter().filter(|trial| self.accepts(trial)).map(|trial| (left(trial), trial)).collect();
-        let by_share =
-            |a: &&Residual, b: &&Residual| self.question.share(a).total_cmp(&self.question.share(b));
-        let Some(best) = accepted.iter().map(|(left, _)| left).min_by(by_share) else { return Vec::new() };
-        let refuted = |left: &Residual| is_refuted(left, best, self.question);
+        let accepted: Vec<&Trial> = trials.iter().filter(|trial| self.accepts(trial)).collect();
+        let left = accepted.iter().map(|trial| trial.mended.residual(self.question));
+        let by_share = |a: &Residual, b: &Residual| self.question.share(a).total_cmp(&self.question.share(b));
+        let Some(best) = left.min_by(by_share) else { return Vec::new() };
+        let refuted = |trial: &Trial| is_refuted(&self.bench, trial, self.question, &best);
         let mut explaining: Vec<(bool, Rank, &Trial)> =
-            accepted.iter().map(|(left, trial)| (refuted(left), self.rank(trial), *trial)).collect();
+            accepted.iter().map(|trial| (refuted(trial), self.rank(trial), *trial)).collect();
         explaining.sort_by(|(a, rank_a, _), (b, rank_b, _)| (a, rank_a).cmp(&(b, rank_b)));
         // Of the same blame with more or fewer free numbers the first says it all.
         explaining.into_iter().map(|(.., trial)| trial).filter(self.once()).cloned().collect()

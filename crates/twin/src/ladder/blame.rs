@@ -4,7 +4,7 @@ use std::{ops::Range, sync::Arc};
 
 use congruent_description::{
     ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, SourceFile, fitted_number,
-    fitted_transform, line_column,
+    fitted_transform, line_column, units::Unit,
 };
 use congruent_kinematics::{
     Pose,
@@ -14,7 +14,7 @@ use congruent_kinematics::{
 
 use super::{
     Names,
-    figures::{Figure, isometry},
+    figures::{Figure, angle, isometry, length},
     report::Blame,
 };
 
@@ -250,13 +250,7 @@ impl Witness<'_> {
         let turn = rotation_log(&(expected.rotation.transpose() * found.rotation));
         let how = match self.part.cause {
             Cause::RpyOrder => "has its roll, pitch and yaw in another order".to_owned(),
-            Cause::Tool | Cause::Base => {
-                format!(
-                    "is off by {} mm and {} deg",
-                    fitted_number(shift.norm() * 1e3),
-                    fitted_number(turn.norm().to_degrees())
-                )
-            }
+            Cause::Tool | Cause::Base => format!("is off by {}", off_by(shift.norm(), turn.norm())),
             _ => "is in another unit than its keys say".to_owned(),
         };
         let places = self.names.places.as_ref();
@@ -344,15 +338,21 @@ impl Witness<'_> {
     /// A figure of a row as the file writes it, in the unit of its key there.
     fn written(&self, row: usize, entry: Entry, value: f64) -> String {
         let place = self.names.places.as_ref().and_then(|places| places.figure(row, row_key(entry)));
+        let unit = if is_angle(entry) { Unit::Angle } else { Unit::Length };
         match place {
-            Some(place) if place.is_handy && is_angle(entry) => {
-                format!("{} = {}", place.key, fitted_number(value.to_degrees()))
-            }
-            Some(place) if place.is_handy => format!("{} = {}", place.key, fitted_number(value * 1e3)),
-            Some(place) => format!("{} = {}", place.key, fitted_number(value)),
-            None => format!("{} = {}", entry_name(entry), fitted_number(value)),
+            Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.is_handy)),
+            None => format!("{} = {}", entry_name(entry), unit.fitted(value, false)),
         }
     }
+}
+
+/// How far a transform is off, without the part that is only rounding.
+fn off_by(shift_m: f64, turn_rad: f64) -> String {
+    /// Rounding of a fit, in m or rad.
+    const NOTHING: f64 = 1e-12;
+    let shift = (shift_m > NOTHING).then(|| length(shift_m));
+    let turn = (turn_rad > NOTHING).then(|| angle(turn_rad));
+    shift.into_iter().chain(turn).collect::<Vec<_>>().join(" and ")
 }
 
 /// Found less expected; of angles within half a turn.
