@@ -8,7 +8,7 @@ use toml::Spanned;
 use crate::{
     diagnostic::Diagnostic,
     fixed_array::{fixed_array, fixed_matrix},
-    units::{Unit, check_finite},
+    units::{Scale, Unit, check_finite},
     written_figure::{fitted_list, fitted_rpy_fixed_xyz_rad},
 };
 
@@ -75,8 +75,8 @@ impl WrittenTransform {
     }
 
     /// The keys with which another transform is written as this one is: in its units and by its kind
-    /// of rotation. `is_handy` says which unit of lengths and of angles a new key has.
-    pub(crate) fn with_keys(&self, pose: &Isometry3<f64>, is_handy: [bool; 2]) -> Vec<String> {
+    /// of rotation. `others` are the scales of lengths and of angles that a new key has.
+    pub(crate) fn with_keys(&self, pose: &Isometry3<f64>, others: [Scale; 2]) -> Vec<String> {
         if self.matrix.is_some() {
             let matrix = pose.to_homogeneous();
             let rows = (0..4).map(|row| fitted_list(matrix.row(row).iter().copied()));
@@ -84,17 +84,17 @@ impl WrittenTransform {
         }
         let shift = (pose.translation.vector.norm() > 0.0 || self.xyz_m.is_some() || self.xyz_mm.is_some())
             .then(|| {
-                let is_handy = self.xyz_mm.is_some() || (self.xyz_m.is_none() && is_handy[0]);
-                Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), is_handy)
+                let scale = Scale::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), others[0]);
+                Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), scale)
             });
         let turn = if self.quaternion_wxyz.is_some() {
             let Quaternion { coords } = *pose.rotation.quaternion();
             Some(format!("quaternion_wxyz = {}", fitted_list([coords.w, coords.x, coords.y, coords.z])))
         } else {
-            let is_handy = self.rpy_deg.is_some() || (self.rpy_rad.is_none() && is_handy[1]);
+            let scale = Scale::of(self.rpy_rad.as_ref(), self.rpy_deg.as_ref(), others[1]);
             let rpy_rad = fitted_rpy_fixed_xyz_rad(pose);
             let has_turn = self.has_rotation() || rpy_rad.iter().any(|angle| angle.abs() > 0.0);
-            has_turn.then(|| Unit::Angle.fitted_vector("rpy", rpy_rad, is_handy))
+            has_turn.then(|| Unit::Angle.fitted_vector("rpy", rpy_rad, scale))
         };
         shift.into_iter().chain(turn).collect()
     }
@@ -127,8 +127,8 @@ impl WrittenTransform {
 
 /// A fitted transform in metres and radians, as a robot file could write it.
 pub fn fitted_transform(pose: &Isometry3<f64>) -> String {
-    let xyz = Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), false);
-    let rpy = Unit::Angle.fitted_vector("rpy", fitted_rpy_fixed_xyz_rad(pose), false);
+    let xyz = Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), Scale::Plain);
+    let rpy = Unit::Angle.fitted_vector("rpy", fitted_rpy_fixed_xyz_rad(pose), Scale::Plain);
     format!("{{ {xyz}, {rpy} }}")
 }
 
@@ -299,7 +299,7 @@ mod tests {
     fn read_again(like: &str, pose: &Isometry3<f64>) -> Isometry3<f64> {
         let mut findings = Findings::default();
         let like = parse_toml::<WrittenTransform>(like, &mut findings).unwrap();
-        let keys = like.with_keys(pose, [false, true]).join("\n");
+        let keys = like.with_keys(pose, [Scale::Plain, Scale::Handy]).join("\n");
         parse_toml::<WrittenTransform>(&keys, &mut findings).expect(&keys).isometry().unwrap()
     }
 
@@ -330,7 +330,7 @@ mod tests {
     fn a_transform_is_written_as_the_file_writes_it() {
         let written = |like: &str, pose: &Isometry3<f64>| {
             let like = parse_toml::<WrittenTransform>(like, &mut Findings::default()).unwrap();
-            like.with_keys(pose, [true, true]).join(", ")
+            like.with_keys(pose, [Scale::Handy; 2]).join(", ")
         };
         let down = Isometry3::from_parts(
             Translation3::new(0.0, 0.0, 0.12),

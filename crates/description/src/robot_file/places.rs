@@ -10,7 +10,11 @@ use super::{
     written::{WrittenDh, WrittenRobot, WrittenRow},
 };
 use crate::{
-    diagnostic::SourceFile, file::read_text, findings::Findings, toml_text::parse_toml, units::Unit,
+    diagnostic::SourceFile,
+    file::read_text,
+    findings::Findings,
+    toml_text::parse_toml,
+    units::{Scale, Unit},
     written_transform::WrittenTransform,
 };
 
@@ -66,8 +70,8 @@ impl ConstantKey {
 pub struct FigurePlace {
     /// The key under which it stands, or would: `alpha_deg`.
     pub key: String,
-    /// Whether the file writes degrees or millimetres there.
-    pub is_handy: bool,
+    /// In which of its units.
+    pub scale: Scale,
     /// Whether the file writes the figure; one that it leaves out is zero.
     pub is_written: bool,
     /// Byte range of the value, or of the row's joint where the figure is left out.
@@ -102,17 +106,17 @@ impl RobotFilePlaces {
     /// A figure of a row, by the row's number from 0.
     pub fn figure(&self, row: usize, key: RowKey) -> Option<FigurePlace> {
         let row = self.dh.get_ref().row.get(row)?.get_ref();
-        let place = |key: String, is_handy, span: Option<Range<usize>>| FigurePlace {
+        let place = |key: String, scale, span: Option<Range<usize>>| FigurePlace {
             key,
-            is_handy,
+            scale,
             is_written: span.is_some(),
             span: span.unwrap_or_else(|| row.joint.span()),
         };
         let (quantity, unit) = match key {
-            RowKey::Joint => return Some(place("joint".to_owned(), false, Some(row.joint.span()))),
-            RowKey::Kind => return Some(place("kind".to_owned(), false, Some(row.kind.span()))),
+            RowKey::Joint => return Some(place("joint".to_owned(), Scale::Plain, Some(row.joint.span()))),
+            RowKey::Kind => return Some(place("kind".to_owned(), Scale::Plain, Some(row.kind.span()))),
             RowKey::Sign => {
-                return Some(place("sign".to_owned(), false, row.sign.as_ref().map(Spanned::span)));
+                return Some(place("sign".to_owned(), Scale::Plain, row.sign.as_ref().map(Spanned::span)));
             }
             RowKey::A => ("a", Unit::Length),
             RowKey::Alpha => ("alpha", Unit::Angle),
@@ -121,19 +125,20 @@ impl RobotFilePlaces {
         };
         let [plain, handy] = figures(row, key);
         let [plain_key, handy_key] = unit.keys(quantity);
-        let is_handy = handy.is_some() || (plain.is_none() && self.is_handy(unit));
+        let scale = Scale::of(plain, handy, self.scale(unit));
         let span = plain.or(handy).map(Spanned::span);
-        Some(place(if is_handy { handy_key } else { plain_key }, is_handy, span))
+        Some(place(if scale == Scale::Handy { handy_key } else { plain_key }, scale, span))
     }
 
-    /// Whether the rows write a unit's handier keys: those that a new figure should have.
-    fn is_handy(&self, unit: Unit) -> bool {
+    /// How the rows write a unit, and a new figure should be written.
+    fn scale(&self, unit: Unit) -> Scale {
         let keys = match unit {
             Unit::Length => [RowKey::A, RowKey::D],
             Unit::Angle => [RowKey::Alpha, RowKey::Theta],
         };
         let rows = self.dh.get_ref().row.iter().map(Spanned::get_ref);
-        rows.flat_map(|row| keys.map(|key| figures(row, key))).any(|[_, handy]| handy.is_some())
+        let mut all = rows.flat_map(|row| keys.map(|key| figures(row, key)));
+        if all.any(|[_, handy]| handy.is_some()) { Scale::Handy } else { Scale::Plain }
     }
 
     /// How the file would write another value of a declared transform, to be put at
@@ -141,8 +146,8 @@ impl RobotFilePlaces {
     pub fn constant_as(&self, key: ConstantKey, pose: &Isometry3<f64>) -> String {
         let name = key.name();
         let (written, default) = (self.written(key), WrittenTransform::default());
-        let handy = [Unit::Length, Unit::Angle].map(|unit| self.is_handy(unit));
-        let keys = written.map_or(&default, Spanned::get_ref).with_keys(pose, handy);
+        let scales = [Unit::Length, Unit::Angle].map(|unit| self.scale(unit));
+        let keys = written.map_or(&default, Spanned::get_ref).with_keys(pose, scales);
         match written.map(|written| self.source.text[written.span()].trim_start()) {
             Some(text) if text.starts_with('{') => format!("write {name} = {{ {} }}", keys.join(", ")),
             Some(text) if text.starts_with('[') => {

@@ -59,22 +59,26 @@ pub(super) fn gauge(case: &Case, question: &Question, named: &Explanation, other
     if !is_same_model(question, named, other) {
         return Gauge::WithinTolerance;
     }
-    let changes = [named, other].map(|explanation| Changes::of(case, &explanation.mended));
-    let either = |one: fn(&Changes) -> bool, two: &dyn Fn(&Changes) -> bool| {
-        (one(&changes[0]) && two(&changes[1])) || (one(&changes[1]) && two(&changes[0]))
+    let both = [named, other].map(|explanation| changes(case, &explanation.mended));
+    let either = |one: Change, other: &dyn Fn(&Change) -> bool| {
+        (both[0] == [one] && both[1].iter().all(other)) || (both[1] == [one] && both[0].iter().all(other))
     };
+    let along_axis = |entry: Entry| matches!(entry, Entry::Theta | Entry::D);
     let modified = case.suspect.convention == Some(DhConvention::Modified);
     let last = case.suspect.rows.len().saturating_sub(1);
-    let along_axis = |entry: Entry| matches!(entry, Entry::Theta | Entry::D);
-    if Changes::of(&named.mended, &other.mended).is_none() {
+    let before_first =
+        |change: &Change| matches!(change, Change::Entry(0, entry) if modified || along_axis(*entry));
+    let behind_last = |change: &Change| matches!(change, Change::Entry(row, entry) if *row == last && (!modified || along_axis(*entry)));
+    let flips = both.each_ref().map(|changes| changes.iter().any(|change| matches!(change, Change::Flip(_))));
+    if changes(&named.mended, &other.mended).is_empty() {
         Gauge::SameFigures
-    } else if either(Changes::is_base, &|of| of.is_row(0, |entry| modified || along_axis(entry))) {
+    } else if either(Change::Base, &before_first) {
         Gauge::BaseAndFirstRow
-    } else if either(Changes::is_tool, &|of| of.is_row(last, |entry| !modified || along_axis(entry))) {
+    } else if either(Change::Tool, &behind_last) {
         Gauge::ToolAndLastRow
-    } else if changes.iter().all(Changes::are_offsets) && are_parallel(case, &changes) {
+    } else if are_offsets_along_parallels(case, &both.concat()) {
         Gauge::ParallelOffsets
-    } else if changes[0].flipped != changes[1].flipped {
+    } else if flips[0] != flips[1] {
         Gauge::FlipAndSign
     } else {
         Gauge::SameEffect
@@ -101,105 +105,67 @@ fn is_same_model(question: &Question, named: &Explanation, other: &Explanation) 
         && apart.orientation_rad <= same(named.residual.orientation_rad)
 }
 
-/// What differs between two states of a case.
-#[derive(Debug, Default)]
-struct Changes {
-    base: bool,
-    tool: bool,
-    /// Figures of rows.
-    entries: Vec<(usize, Entry)>,
-    /// Rows that move the other way.
-    flipped: Vec<usize>,
+/// One thing in which two states of a case differ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Change {
+    Base,
+    Tool,
+    /// A figure of a row.
+    Entry(usize, Entry),
+    /// A row moves the other way.
+    Flip(usize),
     /// Anything else: rates, names, kinds, the convention, the reference.
-    more: bool,
+    Other,
 }
 
-impl Changes {
-    fn of(from: &Case, to: &Case) -> Self {
-        let (before, after) = (&from.suspect, &to.suspect);
-        let mut changes = Self {
-            base: differ(&before.base.pose, &after.base.pose),
-            tool: differ(&before.tool.pose, &after.tool.pose),
-            more: before.convention != after.convention || from.reference != to.reference,
-            ..Self::default()
-        };
-        for (row, (one, two)) in before.rows.iter().zip(&after.rows).enumerate() {
-            changes.row(row, (before, one), (after, two));
-        }
-        changes
-    }
-
-    fn row(&mut self, row: usize, before: (&Suspect, &SuspectRow), after: (&Suspect, &SuspectRow)) {
-        let kind = |row: &SuspectRow| match row.link {
-            SuspectLink::Dh { kind, .. } => Some(kind),
-            SuspectLink::Screw { .. } => None,
-        };
-        let twist = |row: &SuspectRow| match row.link {
-            SuspectLink::Dh { .. } => None,
-            SuspectLink::Screw { twist, .. } => Some(twist),
-        };
-        let (one, two) = (before.1, after.1);
-        if one.rate * two.rate < 0.0 {
-            self.flipped.push(row);
-        }
-        self.more |= (one.rate.abs() - two.rate.abs()).abs() > SAME
-            || one.joint != two.joint
-            || kind(one) != kind(two)
-            || twist(one) != twist(two);
+fn changes(from: &Case, to: &Case) -> Vec<Change> {
+    let (before, after) = (&from.suspect, &to.suspect);
+    let mut list = Vec::new();
+    list.extend(differ(&before.base.pose, &after.base.pose).then_some(Change::Base));
+    list.extend(differ(&before.tool.pose, &after.tool.pose).then_some(Change::Tool));
+    for (row, (one, two)) in before.rows.iter().zip(&after.rows).enumerate() {
+        list.extend((one.rate * two.rate < 0.0).then_some(Change::Flip(row)));
+        list.extend(is_another(one, two).then_some(Change::Other));
         for entry in [Entry::A, Entry::Alpha, Entry::D, Entry::Theta] {
             let value = |suspect: &Suspect| suspect.entry(row, entry).unwrap_or_default();
-            if (value(before.0) - value(after.0)).abs() > SAME {
-                self.entries.push((row, entry));
-            }
+            let is_off = (value(before) - value(after)).abs() > SAME;
+            list.extend(is_off.then_some(Change::Entry(row, entry)));
         }
     }
+    let has_more = before.convention != after.convention || from.reference != to.reference;
+    list.extend(has_more.then_some(Change::Other));
+    list
+}
 
-    fn is_none(&self) -> bool {
-        let Self { base, tool, entries, flipped, more } = self;
-        !(*base || *tool || *more) && entries.is_empty() && flipped.is_empty()
-    }
-
-    fn is_base(&self) -> bool {
-        let Self { base, tool, entries, flipped, more } = self;
-        *base && !(*tool || *more) && entries.is_empty() && flipped.is_empty()
-    }
-
-    fn is_tool(&self) -> bool {
-        let Self { base, tool, entries, flipped, more } = self;
-        *tool && !(*base || *more) && entries.is_empty() && flipped.is_empty()
-    }
-
-    /// Whether figures of rows alone have changed.
-    fn are_figures(&self) -> bool {
-        let Self { base, tool, entries, flipped, more } = self;
-        !(*base || *tool || *more) && flipped.is_empty() && !entries.is_empty()
-    }
-
-    /// Whether such figures of one row alone have changed.
-    fn is_row(&self, row: usize, is_such: impl Fn(Entry) -> bool) -> bool {
-        self.are_figures() && self.entries.iter().all(|&(at, entry)| at == row && is_such(entry))
-    }
-
-    fn are_offsets(&self) -> bool {
-        self.are_figures() && self.entries.iter().all(|&(_, entry)| entry == Entry::D)
-    }
+/// Whether two rows differ in more than figures and direction.
+fn is_another(one: &SuspectRow, two: &SuspectRow) -> bool {
+    let is_another_link = match (one.link, two.link) {
+        (SuspectLink::Dh { kind: one, .. }, SuspectLink::Dh { kind: two, .. }) => one != two,
+        (SuspectLink::Screw { twist: one, .. }, SuspectLink::Screw { twist: two, .. }) => one != two,
+        _ => true,
+    };
+    is_another_link || one.joint != two.joint || (one.rate.abs() - two.rate.abs()).abs() > SAME
 }
 
 fn differ(one: &Pose, two: &Pose) -> bool {
     one.distance_m(two) > SAME || one.angle_rad(two) > SAME
 }
 
-/// Whether nothing between the rows that two changes touch turns but about the direction of their
-/// joints.
-fn are_parallel(case: &Case, changes: &[Changes; 2]) -> bool {
-    let rows = || changes.iter().flat_map(|changes| &changes.entries).map(|&(row, _)| row);
-    let (Some(first), Some(last)) = (rows().min(), rows().max()) else { return false };
+/// Whether all changes are offsets, and nothing between their rows turns but about the direction of
+/// their joints.
+fn are_offsets_along_parallels(case: &Case, changes: &[Change]) -> bool {
+    let offset = |change: &Change| match change {
+        Change::Entry(row, Entry::D) => Some(*row),
+        _ => None,
+    };
+    let Some(rows) = changes.iter().map(offset).collect::<Option<Vec<usize>>>() else { return false };
+    let (Some(&first), Some(&last)) = (rows.iter().min(), rows.iter().max()) else { return false };
     let screws = case.reference.screws();
     let direction = |row: usize| -> Option<Vector3<f64>> {
         let Twist { angular, linear } = screws.twists_in_base.get(case.suspect.rows[row].joint)?;
         if angular.norm() > PARALLEL {
             Some(angular.normalize())
-        } else if rows().any(|at| at == row) {
+        } else if rows.contains(&row) {
             linear.try_normalize(PARALLEL)
         } else {
             None // what only shifts turns nothing

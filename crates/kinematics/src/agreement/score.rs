@@ -108,7 +108,7 @@ fn is_elsewhere(hypothesis: &Hypothesis) -> bool {
 /// The figures that a slip of a unit changes.
 struct Slip {
     is_angle: bool,
-    /// How many are not zero.
+    /// How many are not zero; of a vector all.
     figures: usize,
     /// The largest as it stands, and as it should be.
     found: f64,
@@ -148,8 +148,10 @@ impl Slip {
         };
         let largest = |figures: &[f64]| figures.iter().fold(0.0_f64, |most, figure| most.max(figure.abs()));
         let (found, expected) = (figures(&bench.case.suspect), figures(&trial.mended.suspect));
-        let count = found.iter().filter(|figure| **figure != 0.0).count();
-        (count > 0).then(|| Self {
+        let is_written = found.iter().any(|figure| *figure != 0.0);
+        let is_vector = matches!(hypothesis.place, Place::Base | Place::Tool);
+        let count = found.iter().filter(|figure| is_vector || **figure != 0.0).count();
+        is_written.then(|| Self {
             is_angle,
             figures: count,
             found: largest(&found),

@@ -4,7 +4,8 @@ use std::{ops::Range, sync::Arc};
 
 use congruent_description::{
     ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, SourceFile, fitted_number,
-    fitted_transform, line_column, units::Unit,
+    fitted_transform, line_column,
+    units::{Scale, Unit},
 };
 use congruent_kinematics::{
     Pose,
@@ -340,8 +341,8 @@ impl Witness<'_> {
         let place = self.names.places.as_ref().and_then(|places| places.figure(row, row_key(entry)));
         let unit = if is_angle(entry) { Unit::Angle } else { Unit::Length };
         match place {
-            Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.is_handy)),
-            None => format!("{} = {}", entry_name(entry), unit.fitted(value, false)),
+            Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.scale)),
+            None => format!("{} = {}", entry_name(entry), unit.fitted(value, Scale::Plain)),
         }
     }
 }
