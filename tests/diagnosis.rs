@@ -16,11 +16,11 @@ use crate::{
 const FITTED: f64 = 1e-9;
 
 /// Within the row of a joint, or anywhere for an empty name, the first text becomes the second.
-type Change<'a> = (&'a str, &'a str, &'a str);
+pub(crate) type Change<'a> = (&'a str, &'a str, &'a str);
 
 /// Checks a robot of `robots/` after changes to its file.
 #[track_caller]
-fn check_changed(robot: &str, changes: &[Change<'_>]) -> (Answer, String) {
+pub(crate) fn check_changed(robot: &str, changes: &[Change<'_>]) -> (Answer, String) {
     let folder = workspace().join("robots").join(robot);
     let mut file = fs::read_to_string(folder.join("robot.toml")).unwrap();
     for &(joint, from, to) in changes {
@@ -40,7 +40,7 @@ fn check_changed(robot: &str, changes: &[Change<'_>]) -> (Answer, String) {
 
 /// The first cause of a disagreement.
 #[track_caller]
-fn first(answer: &Answer) -> Value {
+pub(crate) fn first(answer: &Answer) -> Value {
     assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
     let report = answer.json();
     assert_eq!(report["verdict"], "disagree");
@@ -48,14 +48,14 @@ fn first(answer: &Answer) -> Value {
 }
 
 #[track_caller]
-fn near(found: &Value, expected: f64) {
+pub(crate) fn near(found: &Value, expected: f64) {
     let number = found.as_f64().unwrap_or_else(|| panic!("no number: {found}"));
     assert!((number - expected).abs() < FITTED, "{number} not {expected}");
 }
 
 /// The line at fault, as an editor counts.
 #[track_caller]
-fn stands_at(cause: &Value, file: &str, line: &str) {
+pub(crate) fn stands_at(cause: &Value, file: &str, line: &str) {
     let number = usize::try_from(cause["line"].as_u64().expect("a line")).unwrap();
     assert_eq!(file.lines().nth(number - 1), Some(line));
 }

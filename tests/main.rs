@@ -24,3 +24,4 @@ mod robots;
 mod safety;
 mod scenarios;
 mod servo;
+mod suggestions;

@@ -198,8 +198,11 @@ fn diagnosed(text: &mut String, ladder: &Ladder) {
         for difference in &ladder.invariants {
             let _ = writeln!(
                 text,
-                "    {:14} {:24} found {:12.6} expected {:12.6}",
-                difference.invariant, difference.joint, difference.found, difference.expected
+                "    {:14} {:24} found {:>12} expected {:>12}",
+                difference.invariant,
+                difference.joint,
+                invariant(difference.invariant, difference.found),
+                invariant(difference.invariant, difference.expected)
             );
         }
     }
@@ -211,6 +214,15 @@ fn diagnosed(text: &mut String, ladder: &Ladder) {
     }
     for next in &ladder.diagnosis[1..] {
         let _ = writeln!(text, "  next best: {}", cause(next));
+    }
+}
+
+/// A quantity for people: a kind by its name, and what a chain does not have as such.
+fn invariant(name: &str, value: f64) -> String {
+    match name {
+        _ if value.is_nan() => "none".to_owned(),
+        "kind" => if value > 0.0 { "prismatic" } else { "revolute" }.to_owned(),
+        _ => format!("{value:.6}"),
     }
 }
 

@@ -41,4 +41,5 @@ pub use load::load_robot;
 pub use robot::{JointParts, Robot, RobotError};
 pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey, dh_section};
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
-pub use written_transform::WrittenTransform;
+pub use written_figure::fitted_number;
+pub use written_transform::{WrittenTransform, fitted_transform};

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use crate::diagnostic::Diagnostic;
+use crate::{diagnostic::Diagnostic, written_figure::fitted_in};
 
 /// A figure that a file may give in the unit of the program or in a handier one.
 #[derive(Debug, Clone, Copy)]
@@ -13,6 +13,26 @@ pub enum Unit {
     Length,
     /// Keys end in `_rad` or `_deg`; the value is in radians.
     Angle,
+}
+
+/// Which of the two keys of a figure is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Metres, radians.
+    Plain,
+    /// Millimetres, degrees.
+    Handy,
+}
+
+impl Scale {
+    /// That of a figure by its two keys; of one that is not written what others have.
+    pub(crate) fn of<T>(plain: Option<&T>, handy: Option<&T>, others: Self) -> Self {
+        match (plain, handy) {
+            (_, Some(_)) => Self::Handy,
+            (Some(_), None) => Self::Plain,
+            (None, None) => others,
+        }
+    }
 }
 
 impl Unit {
@@ -32,6 +52,22 @@ impl Unit {
             Self::Length => figure / 1000.0,
             Self::Angle => figure.to_radians(),
         }
+    }
+
+    /// A fitted value (m, rad) as it is written: in the unit of the program, or in the handier one.
+    pub fn fitted(self, value: f64, scale: Scale) -> String {
+        match (scale, self) {
+            (Scale::Plain, _) => fitted_in(value, 1.0),
+            (Scale::Handy, Self::Length) => fitted_in(value * 1000.0, 1000.0),
+            (Scale::Handy, Self::Angle) => fitted_in(value.to_degrees(), 1_f64.to_degrees()),
+        }
+    }
+
+    /// A fitted vector under the key that says its unit.
+    pub(crate) fn fitted_vector(self, quantity: &str, values: [f64; 3], scale: Scale) -> String {
+        let [plain_key, handy_key] = self.keys(quantity);
+        let key = if scale == Scale::Handy { handy_key } else { plain_key };
+        format!("{key} = [{}]", values.map(|value| self.fitted(value, scale)).join(", "))
     }
 
     /// The value of `quantity` from its two keys, of which at most one may be given.

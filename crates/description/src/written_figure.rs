@@ -1,6 +1,10 @@
 //! Figures as they are written into files: short where that loses nothing, with all digits otherwise.
 
-use nalgebra::{Isometry3, Vector3};
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Isometry3, Rotation3, Vector3};
+
+use crate::written_transform::rotation_from_rpy_fixed_xyz;
 
 /// How far an angle written in degrees may be from the one in memory. Kind: rounding of the unit
 /// change, two operations on numbers up to pi.
@@ -11,6 +15,36 @@ const DEGREE_STEPS: f64 = 1e6;
 /// A number with all its digits, without a negative zero.
 pub(crate) fn number(value: f64) -> String {
     format!("{:?}", value + 0.0)
+}
+
+/// How far a fitted figure may be from the one that is written for it, in m or rad, relative above 1.
+/// Kind: rounding of a fit on some hundred numbers, two digits above eps.
+const FITTED: f64 = 5e-14;
+
+/// A fitted number (m, rad, or without unit) by the fewest decimals that say the same: a fit fills all
+/// digits with its rounding.
+pub fn fitted_number(value: f64) -> String {
+    fitted_in(value, 1.0)
+}
+
+/// The same in a unit of which `one` make a metre or a radian.
+pub(crate) fn fitted_in(value: f64, one: f64) -> String {
+    /// More decimals than any number within [`FITTED`] needs.
+    const MOST_DECIMALS: usize = 15;
+    let is_near = |text: &String| {
+        let off = text.parse::<f64>().map_or(f64::INFINITY, |written| (written - value).abs());
+        off <= FITTED * value.abs().max(one)
+    };
+    let near = (0..MOST_DECIMALS).map(|decimals| format!("{value:.decimals$}")).find(is_near);
+    match near.unwrap_or_else(|| format!("{value:?}")) {
+        negative if negative == "-0" => "0".to_owned(),
+        shortest => shortest,
+    }
+}
+
+/// Fitted numbers without unit as a list.
+pub(crate) fn fitted_list(values: impl IntoIterator<Item = f64>) -> String {
+    format!("[{}]", values.into_iter().map(fitted_number).collect::<Vec<_>>().join(", "))
 }
 
 /// Numbers with this between them.
@@ -28,8 +62,21 @@ pub(crate) fn short_degrees(angle_rad: f64) -> Option<f64> {
 /// the other two counts, yaw takes what it can and roll follows, so that no digit is lost.
 pub(crate) fn rpy_fixed_xyz_rad(pose: &Isometry3<f64>) -> [f64; 3] {
     let matrix = pose.rotation.to_rotation_matrix();
+    rpy_at_yaw(&matrix, matrix[(1, 0)].atan2(matrix[(0, 0)]))
+}
+
+/// The same for a fitted rotation: without yaw where roll and a pitch within a quarter turn say the
+/// same, as where pitch is one and yaw would be what the fit's rounding makes of it.
+pub(crate) fn fitted_rpy_fixed_xyz_rad(pose: &Isometry3<f64>) -> [f64; 3] {
+    let matrix = pose.rotation.to_rotation_matrix();
+    let without_yaw = rpy_at_yaw(&matrix, 0.0);
+    let off = rotation_from_rpy_fixed_xyz(without_yaw).to_rotation_matrix().matrix() - matrix.matrix();
+    let is_within = without_yaw[1].abs() <= FRAC_PI_2 + FITTED;
+    if is_within && off.amax() <= FITTED { without_yaw } else { rpy_fixed_xyz_rad(pose) }
+}
+
+fn rpy_at_yaw(matrix: &Rotation3<f64>, yaw: f64) -> [f64; 3] {
     let m = |row: usize, column: usize| matrix[(row, column)];
-    let yaw = m(1, 0).atan2(m(0, 0));
     let (sin, cos) = yaw.sin_cos();
     let pitch = (-m(2, 0)).atan2(cos * m(0, 0) + sin * m(1, 0));
     let roll = (sin * m(0, 2) - cos * m(1, 2)).atan2(cos * m(1, 1) - sin * m(0, 1));
@@ -43,12 +90,9 @@ pub(crate) fn is_identity(pose: &Isometry3<f64>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::FRAC_PI_2;
-
     use nalgebra::UnitQuaternion;
 
     use super::*;
-    use crate::written_transform::rotation_from_rpy_fixed_xyz;
 
     #[test]
     fn turns_come_back_from_their_angles() {
@@ -74,5 +118,20 @@ mod tests {
         assert_eq!(short_degrees(FRAC_PI_2), Some(90.0));
         assert_eq!(short_degrees(FRAC_PI_2 + 2.05e-10), None);
         assert_eq!(number(-0.0), "0.0");
+    }
+
+    #[test]
+    fn fitted_numbers_are_as_short_as_they_may_be() {
+        for (value, written) in [
+            (0.1 - 1e-16, "0.1"),
+            (-1e-14, "0"),
+            (-0.392_200_000_000_000_3, "-0.3922"),
+            (90.0 + 1e-12, "90"),
+            (FRAC_PI_2, "1.5707963267949"),
+            (1e-12, "0.000000000001"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(fitted_number(value), written);
+        }
     }
 }

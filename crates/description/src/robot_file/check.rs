@@ -117,7 +117,10 @@ fn chain(
 
 fn table(written: &Spanned<WrittenDh>, context: &Context<'_>, findings: &mut Findings) -> Option<DhTable> {
     let dh = written.get_ref();
-    let transform = |written: &WrittenTransform, findings: &mut Findings| findings.keep(written.isometry());
+    let transform = |written: &Option<Spanned<WrittenTransform>>, findings: &mut Findings| match written {
+        Some(written) => findings.keep(written.get_ref().isometry()),
+        None => Some(Isometry3::identity()),
+    };
     let base_from_dh0 = transform(&dh.base_from_dh0, findings);
     let dhn_from_tip = transform(&dh.dhn_from_tip, findings);
     let rows = rows::check(written, context, findings);

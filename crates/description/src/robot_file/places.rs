@@ -2,6 +2,7 @@
 
 use std::{ops::Range, path::Path, sync::Arc};
 
+use nalgebra::Isometry3;
 use toml::Spanned;
 
 use super::{
@@ -9,7 +10,11 @@ use super::{
     written::{WrittenDh, WrittenRobot, WrittenRow},
 };
 use crate::{
-    diagnostic::SourceFile, file::read_text, findings::Findings, toml_text::parse_toml, units::Unit,
+    diagnostic::SourceFile,
+    file::read_text,
+    findings::Findings,
+    toml_text::parse_toml,
+    units::{Scale, Unit},
     written_transform::WrittenTransform,
 };
 
@@ -28,6 +33,8 @@ pub enum RowKey {
     D,
     /// Joint angle at position zero.
     Theta,
+    /// What the joint drives.
+    Kind,
 }
 
 /// One of the two declared transforms of a table.
@@ -48,13 +55,25 @@ pub enum ConstantPart {
     Turn,
 }
 
+impl ConstantKey {
+    /// The key as files write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::BaseFromDh0 => "base_from_dh0",
+            Self::DhnFromTip => "dhn_from_tip",
+        }
+    }
+}
+
 /// A figure where it stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FigurePlace {
     /// The key under which it stands, or would: `alpha_deg`.
     pub key: String,
-    /// Whether the file writes degrees or millimetres there.
-    pub is_handy: bool,
+    /// In which of its units.
+    pub scale: Scale,
+    /// Whether the file writes the figure; one that it leaves out is zero.
+    pub is_written: bool,
     /// Byte range of the value, or of the row's joint where the figure is left out.
     pub span: Range<usize>,
 }
@@ -87,33 +106,68 @@ impl RobotFilePlaces {
     /// A figure of a row, by the row's number from 0.
     pub fn figure(&self, row: usize, key: RowKey) -> Option<FigurePlace> {
         let row = self.dh.get_ref().row.get(row)?.get_ref();
-        let WrittenRow {
-            joint, sign, a_m, a_mm, alpha_rad, alpha_deg, d_m, d_mm, theta_rad, theta_deg, ..
-        } = row;
-        let place = |key: String, is_handy, span: Option<Range<usize>>| FigurePlace {
+        let place = |key: String, scale, span: Option<Range<usize>>| FigurePlace {
             key,
-            is_handy,
-            span: span.unwrap_or_else(|| joint.span()),
+            scale,
+            is_written: span.is_some(),
+            span: span.unwrap_or_else(|| row.joint.span()),
         };
-        let (quantity, unit, plain, handy) = match key {
-            RowKey::Joint => return Some(place("joint".to_owned(), false, None)),
-            RowKey::Sign => return Some(place("sign".to_owned(), false, sign.as_ref().map(Spanned::span))),
-            RowKey::A => ("a", Unit::Length, a_m, a_mm),
-            RowKey::Alpha => ("alpha", Unit::Angle, alpha_rad, alpha_deg),
-            RowKey::D => ("d", Unit::Length, d_m, d_mm),
-            RowKey::Theta => ("theta", Unit::Angle, theta_rad, theta_deg),
+        let (quantity, unit) = match key {
+            RowKey::Joint => return Some(place("joint".to_owned(), Scale::Plain, Some(row.joint.span()))),
+            RowKey::Kind => return Some(place("kind".to_owned(), Scale::Plain, Some(row.kind.span()))),
+            RowKey::Sign => {
+                return Some(place("sign".to_owned(), Scale::Plain, row.sign.as_ref().map(Spanned::span)));
+            }
+            RowKey::A => ("a", Unit::Length),
+            RowKey::Alpha => ("alpha", Unit::Angle),
+            RowKey::D => ("d", Unit::Length),
+            RowKey::Theta => ("theta", Unit::Angle),
         };
+        let [plain, handy] = figures(row, key);
         let [plain_key, handy_key] = unit.keys(quantity);
-        let is_handy = handy.is_some();
-        let span = plain.as_ref().or(handy.as_ref()).map(Spanned::span);
-        Some(place(if is_handy { handy_key } else { plain_key }, is_handy, span))
+        let scale = Scale::of(plain, handy, self.scale(unit));
+        let span = plain.or(handy).map(Spanned::span);
+        Some(place(if scale == Scale::Handy { handy_key } else { plain_key }, scale, span))
+    }
+
+    /// How the rows write a unit, and a new figure should be written.
+    fn scale(&self, unit: Unit) -> Scale {
+        let keys = match unit {
+            Unit::Length => [RowKey::A, RowKey::D],
+            Unit::Angle => [RowKey::Alpha, RowKey::Theta],
+        };
+        let rows = self.dh.get_ref().row.iter().map(Spanned::get_ref);
+        let mut all = rows.flat_map(|row| keys.map(|key| figures(row, key)));
+        if all.any(|[_, handy]| handy.is_some()) { Scale::Handy } else { Scale::Plain }
+    }
+
+    /// How the file would write another value of a declared transform, to be put at
+    /// [`RobotFilePlaces::constant`]: in its units, its kind of rotation and its form.
+    pub fn constant_as(&self, key: ConstantKey, pose: &Isometry3<f64>) -> String {
+        let name = key.name();
+        let (written, default) = (self.written(key), WrittenTransform::default());
+        let scales = [Unit::Length, Unit::Angle].map(|unit| self.scale(unit));
+        let keys = written.map_or(&default, Spanned::get_ref).with_keys(pose, scales);
+        match written.map(|written| self.source.text[written.span()].trim_start()) {
+            Some(text) if text.starts_with('{') => format!("write {name} = {{ {} }}", keys.join(", ")),
+            Some(text) if text.starts_with('[') => {
+                format!("write under [dh.{name}]: {}", keys.join(" and "))
+            }
+            Some(_) => {
+                let dotted: Vec<String> = keys.iter().map(|line| format!("{name}.{line}")).collect();
+                format!("write {}", dotted.join(" and "))
+            }
+            None => format!("write under [dh]: {name} = {{ {} }}", keys.join(", ")),
+        }
     }
 
     /// Where a declared transform stands: the part that is asked for, or what is given of it; the
     /// table's first line where it is left out.
     pub fn constant(&self, key: ConstantKey, part: ConstantPart) -> Range<usize> {
-        let written = self.written(key);
-        let WrittenTransform { xyz_m, xyz_mm, rpy_rad, rpy_deg, quaternion_wxyz, matrix } = written;
+        let start = self.dh.span().start;
+        let header = self.source.text[start..].find('\n').map_or(self.dh.span().end, |length| start + length);
+        let Some(written) = self.written(key) else { return start..header };
+        let WrittenTransform { xyz_m, xyz_mm, rpy_rad, rpy_deg, quaternion_wxyz, matrix } = written.get_ref();
         let shift = xyz_m.as_ref().or(xyz_mm.as_ref()).map(Spanned::span);
         let turn = rpy_rad.as_ref().or(rpy_deg.as_ref()).map(Spanned::span);
         let turn = turn.or(quaternion_wxyz.as_ref().map(Spanned::span));
@@ -121,21 +175,31 @@ impl RobotFilePlaces {
             ConstantPart::Shift => [shift, turn],
             ConstantPart::Turn => [turn, shift],
         };
-        let start = self.dh.span().start;
-        let header = self.source.text[start..].find('\n').map_or(self.dh.span().end, |length| start + length);
-        first.or(second).or(matrix.as_ref().map(Spanned::span)).unwrap_or(start..header)
+        first.or(second).or(matrix.as_ref().map(Spanned::span)).unwrap_or(written.span())
     }
 
     /// Roll, pitch and yaw of a declared transform, where the file writes them.
     pub fn rpy_rad(&self, key: ConstantKey) -> Option<[f64; 3]> {
-        let WrittenTransform { rpy_rad, rpy_deg, .. } = self.written(key);
+        let WrittenTransform { rpy_rad, rpy_deg, .. } = self.written(key)?.get_ref();
         Unit::Angle.vector("rpy", rpy_rad.as_ref(), rpy_deg.as_ref()).ok().flatten()
     }
 
-    fn written(&self, key: ConstantKey) -> &WrittenTransform {
+    fn written(&self, key: ConstantKey) -> Option<&Spanned<WrittenTransform>> {
         match key {
-            ConstantKey::BaseFromDh0 => &self.dh.get_ref().base_from_dh0,
-            ConstantKey::DhnFromTip => &self.dh.get_ref().dhn_from_tip,
+            ConstantKey::BaseFromDh0 => self.dh.get_ref().base_from_dh0.as_ref(),
+            ConstantKey::DhnFromTip => self.dh.get_ref().dhn_from_tip.as_ref(),
         }
     }
+}
+
+/// A figure of a row under its two keys: in the unit of the program, then in the handier one.
+fn figures(row: &WrittenRow, key: RowKey) -> [Option<&Spanned<f64>>; 2] {
+    let [plain, handy] = match key {
+        RowKey::A => [&row.a_m, &row.a_mm],
+        RowKey::Alpha => [&row.alpha_rad, &row.alpha_deg],
+        RowKey::D => [&row.d_m, &row.d_mm],
+        RowKey::Theta => [&row.theta_rad, &row.theta_deg],
+        RowKey::Joint | RowKey::Sign | RowKey::Kind => return [None, None],
+    };
+    [plain.as_ref(), handy.as_ref()]
 }

@@ -31,10 +31,8 @@ pub(crate) struct WrittenDh {
     /// Optional here so that its absence gets a message of its own.
     pub(crate) convention: Option<Spanned<WrittenConvention>>,
     pub(crate) source: Option<String>,
-    #[serde(default)]
-    pub(crate) base_from_dh0: WrittenTransform,
-    #[serde(default)]
-    pub(crate) dhn_from_tip: WrittenTransform,
+    pub(crate) base_from_dh0: Option<Spanned<WrittenTransform>>,
+    pub(crate) dhn_from_tip: Option<Spanned<WrittenTransform>>,
     #[serde(default)]
     pub(crate) row: Vec<Spanned<WrittenRow>>,
 }

@@ -73,13 +73,14 @@ pub struct Diagnosis {
 }
 
 impl Case {
-    /// The worst difference of the tips over the question's configurations.
+    /// The worst difference of the tips over the question's configurations; not a number where a
+    /// figure is so large that no tip comes out.
     pub fn residual(&self, question: &Question) -> Residual {
         let mut worst = Residual::default();
         for q in &question.configurations {
             let (found, expected) = (self.suspect.base_from_tip(q), self.reference.base_from_tip(q));
-            worst.position_m = worst.position_m.max(found.distance_m(&expected));
-            worst.orientation_rad = worst.orientation_rad.max(found.angle_rad(&expected));
+            worst.position_m = larger(worst.position_m, found.distance_m(&expected));
+            worst.orientation_rad = larger(worst.orientation_rad, found.angle_rad(&expected));
         }
         worst
     }
@@ -90,4 +91,9 @@ impl Question {
     pub fn accepts(&self, residual: &Residual) -> bool {
         residual.position_m <= self.position_m && residual.orientation_rad <= self.orientation_rad
     }
+}
+
+/// The larger of two figures; what is not a number is larger than all.
+fn larger(one: f64, other: f64) -> f64 {
+    if one.is_nan() || other <= one { one } else { other }
 }

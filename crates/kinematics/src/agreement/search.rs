@@ -2,11 +2,11 @@
 
 use super::{
     cause,
-    diagnosis::{Diagnosis, Explanation, Part, Question},
+    diagnosis::{Diagnosis, Explanation, Part, Question, Residual},
     gauge,
     hypothesis::{Case, Cause, Hypothesis, Place},
     invariants,
-    score::{Rank, rank},
+    score::{Rank, is_refuted, rank},
     trial::{Bench, Trial},
 };
 
@@ -68,7 +68,7 @@ pub fn diagnose(case: &Case, question: &Question) -> Diagnosis {
     let mut found: Vec<Explanation> = explained.iter().map(|trial| search.explanation(trial)).collect();
     let others_alike = found.split_off(found.len().min(1));
     let alike = |other: Explanation| {
-        let gauge = gauge::gauge(case, &found[0], &other);
+        let gauge = gauge::gauge(case, question, &found[0], &other);
         (other, gauge)
     };
     let indistinguishable = others_alike.into_iter().map(alike).collect();
@@ -254,14 +254,16 @@ impl Search<'_> {
     }
 
     fn explaining(&self, trials: &[Trial]) -> Vec<Trial> {
-        let mut explaining: Vec<(Rank, &Trial)> = trials
-            .iter()
-            .filter(|trial| self.accepts(trial))
-            .map(|trial| (self.rank(trial), trial))
-            .collect();
-        explaining.sort_by(|a, b| a.0.cmp(&b.0));
-        // Of the same blame with more or fewer free numbers the cheapest says it all.
-        explaining.into_iter().map(|(_, trial)| trial).filter(self.once()).cloned().collect()
+        let accepted: Vec<&Trial> = trials.iter().filter(|trial| self.accepts(trial)).collect();
+        let left = accepted.iter().map(|trial| trial.mended.residual(self.question));
+        let by_share = |a: &Residual, b: &Residual| self.question.share(a).total_cmp(&self.question.share(b));
+        let Some(best) = left.min_by(by_share) else { return Vec::new() };
+        let refuted = |trial: &Trial| is_refuted(&self.bench, trial, self.question, &best);
+        let mut explaining: Vec<(bool, Rank, &Trial)> =
+            accepted.iter().map(|trial| (refuted(trial), self.rank(trial), *trial)).collect();
+        explaining.sort_by(|(a, rank_a, _), (b, rank_b, _)| (a, rank_a).cmp(&(b, rank_b)));
+        // Of the same blame with more or fewer free numbers the first says it all.
+        explaining.into_iter().map(|(.., trial)| trial).filter(self.once()).cloned().collect()
     }
 
     /// What a trial blames, in an order of its own.
@@ -274,7 +276,8 @@ impl Search<'_> {
 
     /// Those that leave least beyond the tolerance, each blame once.
     fn next_best(&self, trials: &[Trial]) -> Vec<Trial> {
-        let mut others: Vec<&Trial> = trials.iter().filter(|trial| !self.accepts(trial)).collect();
+        let is_other = |trial: &&Trial| trial.norm.is_finite() && !self.accepts(trial);
+        let mut others: Vec<&Trial> = trials.iter().filter(is_other).collect();
         others.sort_by(|a, b| a.norm.total_cmp(&b.norm));
         others.into_iter().filter(self.once()).take(NEXT_BEST).cloned().collect()
     }

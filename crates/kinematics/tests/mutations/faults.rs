@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use congruent_description::DhConvention;
+use congruent_description::{DhConvention, DhRowKind};
 use congruent_kinematics::{
     Pose,
     agreement::{Case, Cause, Entry, Place, ReferenceJoint, SuspectLink},
@@ -78,6 +78,14 @@ fn of_row(case: &Case, row: usize, list: &mut Vec<Fault>) {
             list.push(Fault::new(cause, place.clone(), move |case| *entry(case, row, what) *= factor));
         }
     }
+    list.push(Fault::new(Cause::Parameter, Place::Rows(vec![row]), move |case| {
+        if let SuspectLink::Dh { kind, .. } = &mut case.suspect.rows[row].link {
+            *kind = match *kind {
+                DhRowKind::Revolute => DhRowKind::Prismatic,
+                DhRowKind::Prismatic => DhRowKind::Revolute,
+            };
+        }
+    }));
     let swap_lengths = move |case: &mut Case| {
         let (a, d) = (*entry(case, row, Entry::A), *entry(case, row, Entry::D));
         (*entry(case, row, Entry::A), *entry(case, row, Entry::D)) = (d, a);

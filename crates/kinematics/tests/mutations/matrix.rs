@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, fmt};
 
-use congruent_kinematics::agreement::{Cause, Diagnosis, Explanation, Part};
+use congruent_kinematics::agreement::{Cause, Diagnosis, Explanation, Gauge, Part};
 
 use crate::faults::Fault;
 
@@ -29,7 +29,7 @@ impl Outcome {
         let first = &diagnosis.explanations[0];
         let verdict = if is_true(first, faults) {
             Verdict::First
-        } else if diagnosis.indistinguishable.iter().any(|(each, _)| is_true(each, faults)) {
+        } else if is_listed(diagnosis, faults) {
             Verdict::Listed
         } else if !first.parts.is_empty() && first.parts.len() < faults.len() {
             Verdict::Simpler
@@ -38,6 +38,13 @@ impl Outcome {
         };
         Self { named: first.cause(), verdict, parts: first.parts.clone() }
     }
+}
+
+/// Whether the true cause is listed as equal to the first; one that is only within the tolerance too
+/// does not count.
+fn is_listed(diagnosis: &Diagnosis, faults: &[&Fault]) -> bool {
+    let mut equal = diagnosis.indistinguishable.iter().filter(|(_, gauge)| *gauge != Gauge::WithinTolerance);
+    equal.any(|(each, _)| is_true(each, faults))
 }
 
 fn is_true(explanation: &Explanation, faults: &[&Fault]) -> bool {

@@ -2,16 +2,20 @@
 
 use std::{ops::Range, sync::Arc};
 
-use congruent_description::{ConstantKey, ConstantPart, DhConvention, RowKey, SourceFile, line_column};
+use congruent_description::{
+    ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, SourceFile, fitted_number,
+    fitted_transform, line_column,
+    units::{Scale, Unit},
+};
 use congruent_kinematics::{
     Pose,
-    agreement::{Case, Cause, Entry, Part, Place, Suspect},
+    agreement::{Case, Cause, Entry, Part, Place, Suspect, SuspectLink},
     rotation_log,
 };
 
 use super::{
     Names,
-    figures::{Figure, short, transform},
+    figures::{Figure, angle, isometry, length},
     report::Blame,
 };
 
@@ -89,7 +93,7 @@ impl Witness<'_> {
         if self.part.cause != Cause::ConventionSwapped {
             return self.columns(&[Entry::A, Entry::D]);
         }
-        let span = self.names.places.as_ref().and_then(congruent_description::RobotFilePlaces::convention);
+        let span = self.names.places.as_ref().and_then(RobotFilePlaces::convention);
         let word = |suspect: &Suspect| match suspect.convention {
             Some(DhConvention::Modified) => "modified",
             _ => "standard",
@@ -105,6 +109,9 @@ impl Witness<'_> {
     }
 
     fn rows(&self, rows: &[usize]) -> Said {
+        if self.part.cause == Cause::Parameter {
+            return self.kind(rows[0]);
+        }
         let names: Vec<String> = rows.iter().map(|&row| self.joint(row)).collect();
         let listed = names.join("\", \"");
         let joint = if let [name] = &names[..] { Some(name.clone()) } else { None };
@@ -123,14 +130,17 @@ impl Witness<'_> {
                 ratio(named),
                 format!(
                     "joint \"{listed}\" moves the other way: sign is {}, it should be {}",
-                    short(found),
-                    short(expected)
+                    fitted_number(found),
+                    fitted_number(expected)
                 ),
-                format!("write sign = {}, or turn the joint's axis round", short(expected)),
+                format!("write sign = {}, or turn the joint's axis round", fitted_number(expected)),
             ),
             Cause::Ratio => (
                 ratio(named),
-                format!("joint \"{listed}\" moves {} times as far as it should", short(found / expected)),
+                format!(
+                    "joint \"{listed}\" moves {} times as far as it should",
+                    fitted_number(found / expected)
+                ),
                 "check the joint's gear ratio and unit".to_owned(),
             ),
             Cause::JointsSwapped => {
@@ -149,14 +159,37 @@ impl Witness<'_> {
                 "give joint positions in rad".to_owned(),
             ),
         };
-        let key = if self.part.cause == Cause::AxisFlipped { RowKey::Sign } else { RowKey::Joint };
+        let key = match self.part.cause {
+            Cause::AxisFlipped => RowKey::Sign,
+            Cause::ParametersExchanged if self.is_written(rows[0], RowKey::A) => RowKey::A,
+            Cause::ParametersExchanged => RowKey::D,
+            _ => RowKey::Joint,
+        };
         (Blame { suggestion, ..blame }, message, self.spot(rows[0], key))
+    }
+
+    fn kind(&self, row: usize) -> Said {
+        let kind = |case: &Case| match case.suspect.rows[row].link {
+            SuspectLink::Dh { kind: DhRowKind::Prismatic, .. } => "prismatic",
+            _ => "revolute",
+        };
+        let (found, expected, joint) = (kind(self.before), kind(self.after), self.joint(row));
+        let message = format!("the row of joint \"{joint}\" is {found}, the joint is {expected}");
+        let blame = Blame {
+            joint: Some(joint),
+            parameter: Some("kind".to_owned()),
+            found: Some(Figure::Text(found.to_owned())),
+            expected: Some(Figure::Text(expected.to_owned())),
+            suggestion: format!("write kind = \"{expected}\""),
+            ..Blame::default()
+        };
+        (blame, message, self.spot(row, RowKey::Kind))
     }
 
     fn lengths_exchanged(&self, named: Blame, row: usize) -> (Blame, String, String) {
         let pair = |case: &Case| {
-            let figure = |entry| short(case.suspect.entry(row, entry).unwrap_or_default());
-            format!("a_m = {}, d_m = {}", figure(Entry::A), figure(Entry::D))
+            let figure = |entry| self.written(row, entry, case.suspect.entry(row, entry).unwrap_or_default());
+            format!("{}, {}", figure(Entry::A), figure(Entry::D))
         };
         let (found, expected) = (pair(self.before), pair(self.after));
         let blame = Blame {
@@ -188,11 +221,13 @@ impl Witness<'_> {
             return (blame, message, self.spot(second, row_key(entry)));
         }
         let joint = self.joint(row);
-        let message = format!(
-            "joint \"{joint}\": {} stands there, it should be {}",
-            self.written(row, entry, found),
-            self.written(row, entry, expected)
-        );
+        let stands = if self.is_written(row, row_key(entry)) {
+            format!("{} stands there", self.written(row, entry, found))
+        } else {
+            format!("{} is not written, so 0", entry_name(entry))
+        };
+        let message =
+            format!("joint \"{joint}\": {stands}, it should be {}", self.written(row, entry, expected));
         let blame = Blame {
             joint: Some(joint),
             parameter,
@@ -206,34 +241,35 @@ impl Witness<'_> {
     }
 
     fn constant(&self, key: ConstantKey) -> Said {
-        let (name, pose): (_, fn(&Case) -> Pose) = match key {
-            ConstantKey::BaseFromDh0 => ("base_from_dh0", |case| case.suspect.base.pose),
-            ConstantKey::DhnFromTip => ("dhn_from_tip", |case| case.suspect.tool.pose),
+        let pose: fn(&Case) -> Pose = match key {
+            ConstantKey::BaseFromDh0 => |case| case.suspect.base.pose,
+            ConstantKey::DhnFromTip => |case| case.suspect.tool.pose,
         };
+        let name = key.name();
         let (found, expected) = (pose(self.before), pose(self.after));
         let shift = found.translation - expected.translation;
         let turn = rotation_log(&(expected.rotation.transpose() * found.rotation));
         let how = match self.part.cause {
             Cause::RpyOrder => "has its roll, pitch and yaw in another order".to_owned(),
-            Cause::Tool | Cause::Base => {
-                format!(
-                    "is off by {} mm and {} deg",
-                    short(shift.norm() * 1e3),
-                    short(turn.norm().to_degrees())
-                )
-            }
+            Cause::Tool | Cause::Base => format!("is off by {}", off_by(shift.norm(), turn.norm())),
             _ => "is in another unit than its keys say".to_owned(),
         };
+        let places = self.names.places.as_ref();
+        let [found, expected] = [found, expected].map(|pose| isometry(&pose));
+        let suggestion = match places {
+            Some(places) => places.constant_as(key, &expected),
+            None => format!("write {name} = {}", fitted_transform(&expected)),
+        };
         let blame = Blame {
-            found: Some(Figure::Text(transform(&found))),
-            expected: Some(Figure::Text(transform(&expected))),
+            found: Some(Figure::Text(fitted_transform(&found))),
+            expected: Some(Figure::Text(fitted_transform(&expected))),
             translation_m: Some(shift.into()),
             rotation_rad: Some(turn.into()),
-            suggestion: format!("write {name} = {}", transform(&expected)),
+            suggestion,
             ..Blame::default()
         };
         let part = if shift.norm() > turn.norm() { ConstantPart::Shift } else { ConstantPart::Turn };
-        let span = self.names.places.as_ref().map(|places| places.constant(key, part));
+        let span = places.map(|places| places.constant(key, part));
         (blame, format!("the declared transform {name} {how}"), self.in_robot_file(span))
     }
 
@@ -284,6 +320,12 @@ impl Witness<'_> {
         Some(Spot { source: Arc::clone(self.names.places.as_ref()?.source()), span: span? })
     }
 
+    /// Whether the file writes a figure of a row; where there is no file nothing is left out.
+    fn is_written(&self, row: usize, key: RowKey) -> bool {
+        let place = self.names.places.as_ref().and_then(|places| places.figure(row, key));
+        place.is_none_or(|place| place.is_written)
+    }
+
     /// Where a figure of a row stands.
     pub(super) fn spot(&self, row: usize, key: RowKey) -> Option<Spot> {
         self.in_robot_file(Some(self.names.places.as_ref()?.figure(row, key)?.span))
@@ -297,15 +339,21 @@ impl Witness<'_> {
     /// A figure of a row as the file writes it, in the unit of its key there.
     fn written(&self, row: usize, entry: Entry, value: f64) -> String {
         let place = self.names.places.as_ref().and_then(|places| places.figure(row, row_key(entry)));
+        let unit = if is_angle(entry) { Unit::Angle } else { Unit::Length };
         match place {
-            Some(place) if place.is_handy && is_angle(entry) => {
-                format!("{} = {}", place.key, short(value.to_degrees()))
-            }
-            Some(place) if place.is_handy => format!("{} = {}", place.key, short(value * 1e3)),
-            Some(place) => format!("{} = {}", place.key, short(value)),
-            None => format!("{} = {}", entry_name(entry), short(value)),
+            Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.scale)),
+            None => format!("{} = {}", entry_name(entry), unit.fitted(value, Scale::Plain)),
         }
     }
+}
+
+/// How far a transform is off, without the part that is only rounding.
+fn off_by(shift_m: f64, turn_rad: f64) -> String {
+    /// Rounding of a fit, in m or rad.
+    const NOTHING: f64 = 1e-12;
+    let shift = (shift_m > NOTHING).then(|| length(shift_m));
+    let turn = (turn_rad > NOTHING).then(|| angle(turn_rad));
+    shift.into_iter().chain(turn).collect::<Vec<_>>().join(" and ")
 }
 
 /// Found less expected; of angles within half a turn.

@@ -1,7 +1,7 @@
 //! Figures as reports print them.
 
 use congruent_kinematics::Pose;
-use nalgebra::Rotation3;
+use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 use serde::Serialize;
 
 /// What stands somewhere, or should.
@@ -14,20 +14,10 @@ pub enum Figure {
     Text(String),
 }
 
-/// A fitted number without the digits that only its rounding fills.
-pub(super) fn short(value: f64) -> String {
-    /// Decimals that a fit can stand for.
-    const FITTED: f64 = 1e12;
-    let rounded = (value * FITTED).round() / FITTED;
-    format!("{}", rounded + 0.0)
-}
-
-/// A transform as a robot file writes it.
-pub(super) fn transform(pose: &Pose) -> String {
-    let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(pose.rotation).euler_angles();
-    let list = |numbers: [f64; 3]| numbers.map(short).join(", ");
-    let translation = [pose.translation.x, pose.translation.y, pose.translation.z];
-    format!("{{ xyz_m = [{}], rpy_rad = [{}] }}", list(translation), list([roll, pitch, yaw]))
+/// A pose as files know it.
+pub(super) fn isometry(pose: &Pose) -> Isometry3<f64> {
+    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(pose.rotation));
+    Isometry3::from_parts(Translation3::from(pose.translation), rotation)
 }
 
 /// Millimetres where a hand could measure them, otherwise metres with an exponent.

@@ -1,10 +1,11 @@
 //! A unit slip of whole columns in words.
 
+use congruent_description::fitted_number;
 use congruent_kinematics::agreement::{Case, Entry, Place};
 
 use super::{
     blame::{Said, Witness, entry_name, is_angle, row_key},
-    figures::{Figure, short},
+    figures::Figure,
     report::Blame,
 };
 
@@ -21,7 +22,8 @@ impl Witness<'_> {
         let (row, entry) = places.clone().find(differs).unwrap_or((0, entries[0]));
         let factor = value(self.before, row, entry) / value(self.after, row, entry);
         let column = |case: &Case, entry: Entry| {
-            let figures: Vec<String> = rows.clone().map(|row| short(value(case, row, entry))).collect();
+            let figures: Vec<String> =
+                rows.clone().map(|row| fitted_number(value(case, row, entry))).collect();
             format!("{} = [{}]", entry_name(entry), figures.join(", "))
         };
         let table = |case: &Case| {

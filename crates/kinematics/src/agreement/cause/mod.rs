@@ -6,6 +6,7 @@ mod constants;
 mod convention;
 mod exchange;
 mod fixed_joint;
+mod kind;
 mod order;
 mod parameter;
 mod ratio;
@@ -20,10 +21,11 @@ use super::hypothesis::{Case, Hypothesis};
 type Family = fn(&Case) -> Vec<Hypothesis>;
 
 /// All families.
-const FAMILIES: [Family; 12] = [
+const FAMILIES: [Family; 13] = [
     axis::hypotheses,
     convention::hypotheses,
     order::hypotheses,
+    kind::hypotheses,
     units::hypotheses,
     exchange::hypotheses,
     rpy::hypotheses,

@@ -1,4 +1,5 @@
-//! `parameter`: one entry of one row is off. The entry that the joint drives is `zero_offset`.
+//! `parameter`: one entry of one row is off. The angle that the joint drives is `zero_offset`; the
+//! offset that a prismatic joint drives is both.
 
 use crate::agreement::{
     hypothesis::{Case, Cause, Hypothesis, Place},
@@ -10,7 +11,8 @@ pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
     let mut list = Vec::new();
     for row in 0..suspect.rows.len() {
         for entry in [Entry::A, Entry::Alpha, Entry::D, Entry::Theta] {
-            if entry != suspect.zero_entry(row) && suspect.entry(row, entry).is_some() {
+            let is_zero = entry == suspect.zero_entry(row) && entry == Entry::Theta;
+            if !is_zero && suspect.entry(row, entry).is_some() {
                 let place = Place::Entries(entry, vec![row]);
                 list.push(Hypothesis::fit(Cause::Parameter, place, vec![Parameter::Row(row, entry)]));
             }
