@@ -76,13 +76,24 @@ impl Case {
     /// The worst difference of the tips over the question's configurations; not a number where a
     /// figure is so large that no tip comes out.
     pub fn residual(&self, question: &Question) -> Residual {
-        let mut worst = Residual::default();
-        for q in &question.configurations {
-            let (found, expected) = (self.suspect.base_from_tip(q), self.reference.base_from_tip(q));
-            worst.position_m = larger(worst.position_m, found.distance_m(&expected));
-            worst.orientation_rad = larger(worst.orientation_rad, found.angle_rad(&expected));
-        }
-        worst
+        question.configurations.iter().map(|q| self.residual_at(q)).fold(
+            Residual::default(),
+            |worst, here| Residual {
+                position_m: larger(worst.position_m, here.position_m),
+                orientation_rad: larger(worst.orientation_rad, here.orientation_rad),
+            },
+        )
+    }
+
+    /// Whether the residual counts as none; the first configuration where it does not is enough to
+    /// know.
+    pub(super) fn is_accepted(&self, question: &Question) -> bool {
+        question.configurations.iter().all(|q| question.accepts(&self.residual_at(q)))
+    }
+
+    fn residual_at(&self, q: &[f64]) -> Residual {
+        let (found, expected) = (self.suspect.base_from_tip(q), self.reference.base_from_tip(q));
+        Residual { position_m: found.distance_m(&expected), orientation_rad: found.angle_rad(&expected) }
     }
 }
 

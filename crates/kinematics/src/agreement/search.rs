@@ -58,7 +58,7 @@ const SAME_EDIT: f64 = 1e-13;
 /// ```
 pub fn diagnose(case: &Case, question: &Question) -> Diagnosis {
     let differences = invariants::compare(case);
-    if question.accepts(&case.residual(question)) {
+    if case.is_accepted(question) {
         return Diagnosis { explanations: Vec::new(), indistinguishable: Vec::new(), differences };
     }
     let hypotheses = cause::hypotheses(case);
@@ -300,7 +300,7 @@ impl Search<'_> {
         const CHANCE: f64 = 1e4;
         let Self { question, bench } = self;
         let tolerance = question.orientation_rad.max(question.position_m / bench.viewpoint.length_m);
-        trial.norm <= CHANCE * tolerance && question.accepts(&trial.mended.residual(question))
+        trial.norm <= CHANCE * tolerance && trial.mended.is_accepted(question)
     }
 
     fn rank(&self, trial: &Trial) -> Rank {
