@@ -26,7 +26,8 @@ fn urdf(rpy: [f64; 3]) -> String {
              {origin}<axis xyz=\"0 0 1\"/><limit lower=\"-2\" upper=\"2\" effort=\"1\" velocity=\"1\"/></joint>\n"
         )
     };
-    let links: String = (0..4).map(|number| format!("<link name=\"link_{number}\"/>\n")).collect();
+    let links =
+        ["link_0", "link_1", "link_2", "link_3"].map(|name| format!("<link name=\"{name}\"/>\n")).concat();
     let [roll, pitch, yaw] = rpy;
     format!(
         "<robot name=\"arm\">\n{links}<link name=\"tip\"/>\n{}{}{}\
