@@ -83,7 +83,7 @@ fn text(report: &CheckReport) -> String {
             report.worst.at.iter().map(|named| format!("{} {:.4}", named.joint, named.value)).collect();
         let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, at.join(", "));
     }
-    for (at, difference) in report.at_configurations.iter().enumerate() {
+    for (at, difference) in (1..).zip(&report.at_configurations) {
         let (position, orientation) = (length(difference.position_m), angle(difference.orientation_rad));
         let _ = writeln!(text, "  at configuration {at}: {position} and {orientation}");
     }
