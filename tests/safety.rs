@@ -12,6 +12,7 @@ use crate::{
     command::{congruent, congruent_json, text},
     corpus::workspace,
     golden::{numbers, read_json},
+    pairing::UR5E_JOINTS,
 };
 
 /// Kind: rounding. Played-back positions against the closed form of the move, a few operations
@@ -22,15 +23,6 @@ const CLOSED_FORM_RAD: f64 = 1e-14;
 /// here go through their limits with 1e-4 m a step.
 const DISTANCE_M: f64 = 1e-7;
 
-/// The joints of the arm, base to tip.
-const JOINTS: [&str; 6] = [
-    "shoulder_pan_joint",
-    "shoulder_lift_joint",
-    "elbow_joint",
-    "wrist_1_joint",
-    "wrist_2_joint",
-    "wrist_3_joint",
-];
 /// Elbow up, tool pointing down: where the scenarios start.
 const START_DEG: [f64; 6] = [0.0, -90.0, 90.0, -90.0, -90.0, 0.0];
 
@@ -89,7 +81,7 @@ fn stopped_by<'a>(report: &'a Value, kind: &str, step: usize) -> &'a Value {
 #[track_caller]
 fn stands_at(violation: &Value, expected_rad: &[f64; 6]) {
     for ((found, joint), expected_rad) in
-        violation["q"].as_array().unwrap().iter().zip(JOINTS).zip(expected_rad)
+        violation["q"].as_array().unwrap().iter().zip(UR5E_JOINTS).zip(expected_rad)
     {
         assert_eq!(found["joint"], joint);
         let error_rad = (found["value"].as_f64().unwrap() - expected_rad).abs();
@@ -137,8 +129,7 @@ fn row(axis: usize, quaternion_wxyz: &[f64]) -> [f64; 3] {
 fn reaches(robot: &RobotDescription, way: &[[f64; 6]], (axis, sign): (usize, f64)) -> Vec<(f64, String)> {
     let folder = tempfile::tempdir().unwrap();
     let batch = folder.path().join("way.json");
-    let named =
-        |q: &[f64; 6]| json!({ "q": JOINTS.iter().zip(q).collect::<std::collections::BTreeMap<_, _>>() });
+    let named = |q: &[f64; 6]| json!({ "q": UR5E_JOINTS.iter().zip(q).collect::<std::collections::BTreeMap<_, _>>() });
     fs::write(&batch, json!(way.iter().map(named).collect::<Vec<_>>()).to_string()).unwrap();
     let arguments = ["fk", "robots/ur5e", "--source", "poe", "--configurations", &text(&batch)];
     let poses = congruent_json(&arguments).json();

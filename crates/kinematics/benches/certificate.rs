@@ -6,47 +6,15 @@ mod support;
 
 use std::f64::consts::PI;
 
-use congruent_description::DhConvention;
 use congruent_kinematics::{Budget, DhChain, ScrewChain, certify};
 use divan::{Bencher, black_box};
 use nalgebra::{Isometry3, Vector3};
-use support::{RowFigures, TableFigures};
+use support::{TableFigures, panda_table, ur5e_table};
 
 const BUDGET: Budget = Budget { relative_gap: 0.05, corners: 100_000_000 };
 
 fn main() {
     divan::main();
-}
-
-fn ur5e() -> TableFigures {
-    let row = RowFigures::revolute;
-    TableFigures::new(
-        DhConvention::Standard,
-        &[
-            row(0.0, 90.0, 0.1625),
-            row(-0.425, 0.0, 0.0),
-            row(-0.3922, 0.0, 0.0),
-            row(0.0, 90.0, 0.1333),
-            row(0.0, -90.0, 0.0997),
-            row(0.0, 0.0, 0.0996),
-        ],
-    )
-}
-
-fn panda() -> TableFigures {
-    let row = RowFigures::revolute;
-    TableFigures::new(
-        DhConvention::Modified,
-        &[
-            row(0.0, 0.0, 0.333),
-            row(0.0, -90.0, 0.0),
-            row(0.0, 90.0, 0.316),
-            row(0.0825, 90.0, 0.0),
-            row(-0.0825, -90.0, 0.384),
-            row(0.0, 90.0, 0.0),
-            row(0.088, 90.0, 0.107),
-        ],
-    )
 }
 
 fn chain(figures: &TableFigures) -> ScrewChain {
@@ -83,12 +51,12 @@ const FAULTS: [Fault; 8] = [
 
 #[divan::bench(args = FAULTS.map(|fault| fault.0))]
 fn six_joints(bencher: Bencher<'_, '_>, fault: &str) {
-    bench(bencher, &ur5e(), fault);
+    bench(bencher, &ur5e_table(), fault);
 }
 
 #[divan::bench(args = FAULTS.map(|fault| fault.0))]
 fn seven_joints(bencher: Bencher<'_, '_>, fault: &str) {
-    bench(bencher, &panda(), fault);
+    bench(bencher, &panda_table(), fault);
 }
 
 fn bench(bencher: Bencher<'_, '_>, arm: &TableFigures, fault: &str) {

@@ -9,7 +9,7 @@ use congruent_kinematics::{
     UrdfTree,
 };
 use divan::{Bencher, black_box};
-use support::{RowFigures, TableFigures};
+use support::{TableFigures, ur5e_table};
 
 const Q: [f64; 6] = [0.4, -1.2, 1.7, -0.6, 1.1, 0.3];
 
@@ -18,17 +18,7 @@ fn main() {
 }
 
 fn arm(convention: DhConvention) -> (Robot, DhChain) {
-    let figures = TableFigures::new(
-        convention,
-        &[
-            RowFigures::revolute(0.0, 90.0, 0.1625),
-            RowFigures::revolute(-0.425, 0.0, 0.0),
-            RowFigures::revolute(-0.3922, 0.0, 0.0),
-            RowFigures::revolute(0.0, 90.0, 0.1333),
-            RowFigures::revolute(0.0, -90.0, 0.0997),
-            RowFigures::revolute(0.0, 0.0, 0.0996),
-        ],
-    );
+    let figures = TableFigures { convention, ..ur5e_table() };
     let robot = figures.robot();
     let chain = DhChain::new(&figures.table(&robot), &robot);
     (robot, chain)

@@ -10,7 +10,7 @@ use congruent_kinematics::{
 };
 use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
-use support::{RowFigures, TableFigures};
+use support::{RowFigures, TableFigures, panda_table, ur5e_table};
 
 /// Bounds against closed forms where nothing is left to divide. Unit: m or rad; kind: rounding, which
 /// the certificate adds from the sizes of the chain, doubled for each joint of a box of full turns;
@@ -21,21 +21,6 @@ const SAMPLE_ROUNDING: f64 = 1e-13;
 /// Sum of six screws' rounding times the reach and half a turn, m or rad; worst seen 4.0e-14.
 const PROBED: f64 = 1e-12;
 const TURN: (f64, f64) = (-PI, PI);
-
-/// An arm with the lengths of a `UR5e`.
-fn arm() -> TableFigures {
-    TableFigures::new(
-        DhConvention::Standard,
-        &[
-            RowFigures::revolute(0.0, 90.0, 0.1625),
-            RowFigures::revolute(-0.425, 0.0, 0.0),
-            RowFigures::revolute(-0.3922, 0.0, 0.0),
-            RowFigures::revolute(0.0, 90.0, 0.1333),
-            RowFigures::revolute(0.0, -90.0, 0.0997),
-            RowFigures::revolute(0.0, 0.0, 0.0996),
-        ],
-    )
-}
 
 fn planar(second_m: f64) -> TableFigures {
     TableFigures::new(
@@ -79,17 +64,17 @@ fn assert_close(bracket: &Bracket, expected: f64) {
 
 #[test]
 fn equal_chains_are_zero_apart() {
-    let certificate = certificate(&arm(), &arm());
+    let certificate = certificate(&ur5e_table(), &ur5e_table());
     assert!(certificate.position_m.certified <= 0.0);
     assert!(certificate.orientation_rad.certified <= 0.0);
 }
 
 #[test]
 fn one_robot_written_twice_is_certified_at_rounding_level() {
-    let robot = arm().robot();
+    let robot = ur5e_table().robot();
     let (base, tip) = (robot.root(), robot.find_link("tip").unwrap());
     let urdf = ScrewChain::from_urdf(&robot, (base, tip), &[0, 1, 2, 3, 4, 5]).unwrap();
-    let certificate = certify(&chain(&arm()), &urdf, &[TURN; 6], Budget::default()).unwrap();
+    let certificate = certify(&chain(&ur5e_table()), &urdf, &[TURN; 6], Budget::default()).unwrap();
     assert!(support::within(certificate.position_m.certified, PROBED));
     assert!(support::within(certificate.orientation_rad.certified, PROBED));
     assert_eq!((certificate.position_m.cells, certificate.orientation_rad.cells), (0, 0));
@@ -97,22 +82,22 @@ fn one_robot_written_twice_is_certified_at_rounding_level() {
 
 #[test]
 fn a_tool_offset_is_its_length_everywhere() {
-    let off = changed(&arm(), |arm| arm.dhn_from_tip = Isometry3::translation(0.003, 0.0, 0.004));
-    let certificate = certificate(&off, &arm());
+    let off = changed(&ur5e_table(), |arm| arm.dhn_from_tip = Isometry3::translation(0.003, 0.0, 0.004));
+    let certificate = certificate(&off, &ur5e_table());
     assert_exact(&certificate.position_m, 0.005);
     assert!(certificate.orientation_rad.certified <= ROUNDING);
 }
 
 #[test]
 fn a_shifted_base_is_its_shift_everywhere() {
-    let off = changed(&arm(), |arm| arm.base_from_dh0 = Isometry3::translation(0.0, 0.002, 0.0));
-    assert_exact(&certificate(&off, &arm()).position_m, 0.002);
+    let off = changed(&ur5e_table(), |arm| arm.base_from_dh0 = Isometry3::translation(0.0, 0.002, 0.0));
+    assert_exact(&certificate(&off, &ur5e_table()).position_m, 0.002);
 }
 
 #[test]
 fn a_link_length_is_the_same_everywhere() {
-    let off = changed(&arm(), |arm| arm.rows[2].a_m += 0.001);
-    assert_exact(&certificate(&off, &arm()).position_m, 0.001);
+    let off = changed(&ur5e_table(), |arm| arm.rows[2].a_m += 0.001);
+    assert_exact(&certificate(&off, &ur5e_table()).position_m, 0.001);
 }
 
 #[test]
@@ -168,19 +153,9 @@ fn a_joint_that_moves_twice_as_far() {
 
 /// An arm with the lengths of a Panda, in its limits: seven joints, of which all matter.
 fn seven_joints() -> (TableFigures, Vec<(f64, f64)>) {
-    let row = RowFigures::revolute;
-    let rows = [
-        row(0.0, 0.0, 0.333),
-        row(0.0, -90.0, 0.0),
-        row(0.0, 90.0, 0.316),
-        row(0.0825, 90.0, 0.0),
-        row(-0.0825, -90.0, 0.384),
-        row(0.0, 90.0, 0.0),
-        row(0.088, 90.0, 0.107),
-    ];
     let limits =
         [(-2.9, 2.9), (-1.76, 1.76), (-2.9, 2.9), (-3.07, -0.07), (-2.9, 2.9), (-0.02, 3.75), (-2.9, 2.9)];
-    (TableFigures::new(DhConvention::Modified, &rows), limits.to_vec())
+    (panda_table(), limits.to_vec())
 }
 
 #[test]
@@ -267,8 +242,9 @@ fn parallel_joints_in_another_order_agree_in_orientation() {
 
 #[test]
 fn a_small_budget_leaves_a_wide_bound_that_holds() {
-    let off = changed(&arm(), |arm| arm.base_from_dh0 = Isometry3::rotation(Vector3::new(0.01, 0.02, 0.0)));
-    let (a, b) = (chain(&off), chain(&arm()));
+    let off =
+        changed(&ur5e_table(), |arm| arm.base_from_dh0 = Isometry3::rotation(Vector3::new(0.01, 0.02, 0.0)));
+    let (a, b) = (chain(&off), chain(&ur5e_table()));
     let budget = Budget { corners: 10, ..Budget::default() };
     let position_m = certify(&a, &b, &[TURN; 6], budget).unwrap().position_m;
     assert!(position_m.certified.is_finite() && !position_m.is_within(budget.relative_gap));
@@ -278,7 +254,7 @@ fn a_small_budget_leaves_a_wide_bound_that_holds() {
 
 #[test]
 fn wrong_figures_are_refused() {
-    let (two, six) = (chain(&planar(0.4)), chain(&arm()));
+    let (two, six) = (chain(&planar(0.4)), chain(&ur5e_table()));
     let refused = |ranges: &[(f64, f64)]| certify(&two, &two, ranges, Budget::default()).unwrap_err();
     assert_eq!(refused(&[TURN]), KinematicsError::JointCount { expected: 2, found: 1 });
     let unlimited = refused(&[TURN, (f64::NEG_INFINITY, 0.0)]);

@@ -202,6 +202,35 @@ impl TableFigures {
     }
 }
 
+/// A table with the lengths of a `UR5e`.
+pub fn ur5e_table() -> TableFigures {
+    let row = RowFigures::revolute;
+    let rows = [
+        row(0.0, 90.0, 0.1625),
+        row(-0.425, 0.0, 0.0),
+        row(-0.3922, 0.0, 0.0),
+        row(0.0, 90.0, 0.1333),
+        row(0.0, -90.0, 0.0997),
+        row(0.0, 0.0, 0.0996),
+    ];
+    TableFigures::new(DhConvention::Standard, &rows)
+}
+
+/// A table with the lengths of a Panda: seven joints, of which all matter.
+pub fn panda_table() -> TableFigures {
+    let row = RowFigures::revolute;
+    let rows = [
+        row(0.0, 0.0, 0.333),
+        row(0.0, -90.0, 0.0),
+        row(0.0, 90.0, 0.316),
+        row(0.0825, 90.0, 0.0),
+        row(-0.0825, -90.0, 0.384),
+        row(0.0, 90.0, 0.0),
+        row(0.088, 90.0, 0.107),
+    ];
+    TableFigures::new(DhConvention::Modified, &rows)
+}
+
 /// A random table of one to seven rows, with a random base and tip.
 pub fn table_figures() -> impl Strategy<Value = TableFigures> {
     let row = (dh_figures(), any::<bool>(), any::<bool>()).prop_map(
