@@ -224,7 +224,7 @@ fn reasons_are_those_of_the_two_figures() {
 fn what_is_not_written_has_a_place_too() {
     let (answer, file) = check_changed("rrr_arm", &[("joint_2", "theta_deg = 90.0\n", "")]);
     let cause = find(&answer, "zero_offset", "joint_2");
-    assert_eq!(cause["suggestion"], "write theta_deg = 90");
+    assert_eq!(cause["suggestion"], "add theta_deg = 90 to the row");
     stands_at(&cause, &file, "joint = \"joint_2\"");
     let told = congruent(&["check", "robots/ur5e"]).stdout;
     assert!(!told.contains("stands there"));
@@ -243,7 +243,7 @@ fn what_is_not_written_has_a_place_too() {
         &[("panda_joint7", "a_m = 0.088", "a_m = 0.0"), ("panda_joint7", "d_m = 0.0", "d_m = 0.088")],
     );
     let cause = first(&answer);
-    assert_eq!(cause["suggestion"], "write a_m = 0.088, d_m = 0");
+    assert_eq!(cause["suggestion"], "write a_m = 0.088 and d_m = 0");
     let line = usize::try_from(cause["line"].as_u64().unwrap()).unwrap();
     assert_eq!(file.lines().nth(line - 1), Some("a_m = 0.0"));
 }

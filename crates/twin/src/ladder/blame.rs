@@ -189,18 +189,18 @@ impl Witness<'_> {
     fn lengths_exchanged(&self, named: Blame, row: usize) -> (Blame, String, String) {
         let pair = |case: &Case| {
             let figure = |entry| self.written(row, entry, case.suspect.entry(row, entry).unwrap_or_default());
-            format!("{}, {}", figure(Entry::A), figure(Entry::D))
+            [figure(Entry::A), figure(Entry::D)]
         };
-        let (found, expected) = (pair(self.before), pair(self.after));
+        let (found, expected) = (pair(self.before).join(", "), pair(self.after));
         let blame = Blame {
             parameter: Some("a, d".to_owned()),
             found: Some(Figure::Text(found.clone())),
-            expected: Some(Figure::Text(expected.clone())),
+            expected: Some(Figure::Text(expected.join(", "))),
             ..named
         };
         let message =
             format!("a and d of joint \"{}\" stand in each other's place: {found}", self.joint(row));
-        (blame, message, format!("write {expected}"))
+        (blame, message, format!("write {}", expected.join(" and ")))
     }
 
     fn entries(&self, entry: Entry, rows: &[usize]) -> Said {
@@ -221,20 +221,20 @@ impl Witness<'_> {
             return (blame, message, self.spot(second, row_key(entry)));
         }
         let joint = self.joint(row);
-        let stands = if self.is_written(row, row_key(entry)) {
-            format!("{} stands there", self.written(row, entry, found))
+        let right = self.written(row, entry, expected);
+        let (stands, suggestion) = if self.is_written(row, row_key(entry)) {
+            (format!("{} stands there", self.written(row, entry, found)), format!("write {right}"))
         } else {
-            format!("{} is not written, so 0", entry_name(entry))
+            (format!("{} is not written, so 0", entry_name(entry)), format!("add {right} to the row"))
         };
-        let message =
-            format!("joint \"{joint}\": {stands}, it should be {}", self.written(row, entry, expected));
+        let message = format!("joint \"{joint}\": {stands}, it should be {right}");
         let blame = Blame {
             joint: Some(joint),
             parameter,
             value: Some(off(entry, found, expected)),
             found: Some(Figure::Number(found)),
             expected: Some(Figure::Number(expected)),
-            suggestion: format!("write {}", self.written(row, entry, expected)),
+            suggestion,
             ..Blame::default()
         };
         (blame, message, self.spot(row, row_key(entry)))

@@ -16,11 +16,18 @@ const SINGULAR_BELOW_RAD: f64 = 1e-9;
 /// What another order makes of a rotation.
 type Reading = fn([f64; 3], &Matrix3<f64>) -> Matrix3<f64>;
 
-/// The same figures in another order, by product, by its reverse, and by the place of the figures.
-const READINGS: [Reading; 3] = [
+/// The same figures in another order, by product, by its reverse (at a quarter turn of pitch, where
+/// only the sum of the other two is known, without roll and without yaw), and by the place of the
+/// figures.
+const READINGS: [Reading; 4] = [
     |rpy, _| EulerSet::Xyz.rotation(rpy),
     |_, rotation| {
         let [roll, pitch, yaw] = EulerSet::Xyz.angles_singular_below(rotation, SINGULAR_BELOW_RAD).angles_rad;
+        EulerSet::Zyx.rotation([yaw, pitch, roll])
+    },
+    |_, rotation| {
+        // Rx(r) Ry(p) Rz(y) is the transpose of Rz(-y) Ry(-p) Rx(-r).
+        let [roll, pitch, yaw] = rpy_of(&rotation.transpose()).map(|angle| -angle);
         EulerSet::Zyx.rotation([yaw, pitch, roll])
     },
     |rpy, _| EulerSet::Zyx.rotation(rpy),
@@ -59,4 +66,31 @@ fn reread(rotation: &mut Matrix3<f64>, written_rpy_rad: Option<[f64; 3]>, readin
 fn rpy_of(rotation: &Matrix3<f64>) -> [f64; 3] {
     let [yaw, pitch, roll] = EulerSet::Zyx.angles_singular_below(rotation, SINGULAR_BELOW_RAD).angles_rad;
     [roll, pitch, yaw]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use super::*;
+
+    /// Rounding of two products of three turns; worst seen 5.6e-17.
+    const ROUNDING: f64 = 4e-15;
+
+    /// A file that was written in the other order is read back, also where the pitch is a quarter turn
+    /// and roll or yaw is left out, as files do.
+    #[test]
+    fn the_other_order_is_undone() {
+        for rpy in [[0.3, -0.4, 1.2], [0.7, FRAC_PI_2, 0.0], [0.0, FRAC_PI_2, 0.7], [0.0, -FRAC_PI_2, -2.0]] {
+            let [roll, pitch, yaw] = rpy;
+            let meant = EulerSet::Zyx.rotation([yaw, pitch, roll]);
+            let mut found = READINGS.map(|reading| {
+                let mut rotation = EulerSet::Xyz.rotation(rpy);
+                reread(&mut rotation, None, reading);
+                (rotation - meant).amax()
+            });
+            found.sort_by(f64::total_cmp);
+            assert!(found[0] < ROUNDING, "{rpy:?}: {:e}", found[0]);
+        }
+    }
 }
