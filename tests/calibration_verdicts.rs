@@ -121,6 +121,16 @@ fn slips_of_order_sign_and_frame_are_named() {
         row["translation_m"] = json!([x + 0.2, y - 0.1, z + 0.4]);
     };
     named(aside, "--free base)");
+    // A tracker that stands askew by 0.3 rad, which the first joint's zero could be as well.
+    let askew = |row: &mut Value| {
+        let by = [0.15_f64.cos(), 0.0, 0.0, 0.15_f64.sin()];
+        let [w, x, y, z] = figures(&row["quaternion_wxyz"]);
+        let [c, .., s] = by;
+        row["quaternion_wxyz"] = json!([c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w]);
+        let [x, y, z] = turned(by, figures(&row["translation_m"]));
+        row["translation_m"] = json!([x + 0.3, y + 0.1, z]);
+    };
+    named(askew, "--free base)");
 }
 
 /// `v` turned by a quaternion, w first, of unit length but for its noise.

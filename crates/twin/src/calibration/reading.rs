@@ -56,17 +56,22 @@ pub(super) enum Doubt {
 struct Tried {
     left: Left,
     size: f64,
+    /// Whether a frame is free besides: what it turns, a joint's zero may turn as well, and as far.
+    is_of_a_frame: bool,
 }
 
 impl Doubt {
     /// By little that is left and small corrections: an arm that shrinks to nothing leaves nothing of
     /// positions in millimetres.
     fn is_settled_by(self, tried: &Tried) -> bool {
-        let is_much_better = match self {
-            Self::Left(share) => tried.left.share() < MUCH_BETTER * share,
-            Self::Size(size) => tried.size < MUCH_BETTER * size,
+        let is_small = tried.size < LARGE_CORRECTION;
+        let is_settled = match self {
+            Self::Left(share) => {
+                tried.left.share() < MUCH_BETTER * share && (is_small || tried.is_of_a_frame)
+            }
+            Self::Size(size) => tried.size < MUCH_BETTER * size && is_small,
         };
-        is_much_better && !tried.left.is_large() && tried.size < LARGE_CORRECTION
+        is_settled && !tried.left.is_large()
     }
 }
 
@@ -120,7 +125,8 @@ fn tried(
     let plain = fit_with_estimated_noise(&problem, &kept);
     let robust = fit_robustly(&problem, &kept, Loss::Tukey, (&plain, None));
     let left = yardstick.left(&robust.fit.residuals, &robust.outliers);
-    Some(Tried { left, size: yardstick.size_of(&chain, &robust.fit.corrections) })
+    let size = yardstick.size_of(&chain, &robust.fit.corrections);
+    Some(Tried { left, size, is_of_a_frame: !reading.free.is_empty() })
 }
 
 fn readings<'a>(nominal: &NominalChain<'a>) -> Vec<Reading<'a>> {
