@@ -73,7 +73,7 @@ impl Proof {
 }
 
 /// The larger of two residuals; what is no number is larger than all, so that it proves nothing.
-fn larger(a: f64, b: f64) -> f64 {
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 

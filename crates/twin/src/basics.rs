@@ -1,7 +1,7 @@
 //! The checks before any use, on the tool center point: where it is at zero, which way each joint
 //! moves it, and whether the transforms are rigid motions at all.
 
-use congruent_description::{JointKind, LinkIndex, RobotDescription};
+use congruent_description::{LinkIndex, RobotDescription};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree, rotation_log};
 use serde::Serialize;
 
@@ -144,7 +144,7 @@ pub fn basics(
         basics.joints.push(JointMotion {
             joint: joint.name.clone(),
             by: step.by,
-            unit: if joint.kind == JointKind::Prismatic { "m" } else { "rad" },
+            unit: joint.kind.unit(),
             motion: ByWitness {
                 model: by_table.map(|(before, after)| TcpMotion::between(before, after)),
                 urdf: TcpMotion::between(&at_zero.urdf, &moved.urdf),

@@ -1,7 +1,7 @@
 //! The certificates of a robot: how far two of its models can be apart at link `tip`, over the whole
 //! joint range, sampled or not. Table and URDF are known, the physics as far as it was probed.
 
-use congruent_description::{DhTable, JointIndex, Mimic, Robot, RobotDescription};
+use congruent_description::{DhTable, Mimic, Robot, RobotDescription};
 use congruent_kinematics::{
     Bracket, Budget, Certificate, DhChain, Pose, ScrewChain, Twist, UrdfTree, certify_driven,
 };
@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::{
     check::CheckError,
-    configurations::range,
+    configurations::{move_inside_limits, range},
     probed::{KEPT, Probed, base_from_tip},
     sample::LinkError,
     verdict::NamedValue,
@@ -58,14 +58,12 @@ impl Brackets {
     /// zero, or at the limit nearest to it.
     pub(crate) fn attained_at(&self, robot: &Robot) -> [Vec<f64>; 2] {
         [&self.position_m, &self.orientation_rad].map(|bracket| {
-            let position = |&joint: &JointIndex| {
-                let joint = robot.joint(joint);
-                let (lower, upper) = range(joint);
-                let named = bracket.at.iter().find(|named| named.joint == joint.name);
-                named.map_or_else(|| lower.max(0.0).min(upper), |named| named.value)
-            };
-            let mut q = robot.movable_joints().iter().map(position).collect::<Vec<f64>>();
-            robot.apply_mimic(&mut q);
+            let mut q = vec![0.0; robot.dof()];
+            for NamedValue { joint, value } in &bracket.at {
+                let joint = robot.find_joint(joint).expect("the bracket names joints of the robot");
+                q[robot.coordinate(joint).expect("a joint that drives the tip moves")] = *value;
+            }
+            move_inside_limits(&mut q, robot);
             q
         })
     }

@@ -79,6 +79,16 @@ pub(crate) fn range(joint: &Joint) -> (f64, f64) {
     joint.position_range().unwrap_or((-std::f64::consts::PI, std::f64::consts::PI))
 }
 
+/// Moves each position to the limit nearest to it where it is outside; mimic joints follow.
+pub(crate) fn move_inside_limits(q: &mut [f64], robot: &Robot) {
+    for (&joint, q) in robot.movable_joints().iter().zip(q.iter_mut()) {
+        if let Some((lower, upper)) = robot.joint(joint).position_range() {
+            *q = q.clamp(lower, upper);
+        }
+    }
+    robot.apply_mimic(q);
+}
+
 /// A number in [0, 1) with 53 random bits.
 #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
 fn unit_interval(generator: &mut ChaCha8Rng) -> f64 {

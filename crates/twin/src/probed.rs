@@ -64,15 +64,13 @@ impl Probed {
         for q in configurations {
             let of_chain: Vec<f64> = coordinates.iter().map(|&coordinate| q[coordinate]).collect();
             let expected = chain.base_from_tip(&of_chain).expect("as many positions as joints");
-            let error = LinkError::of(&base_from_tip(description, world, q)?, &expected);
-            worst.position_m = worst.position_m.max(error.position_m);
-            worst.orientation_rad = worst.orientation_rad.max(error.orientation_rad);
+            worst = worst.larger(LinkError::of(&base_from_tip(description, world, q)?, &expected));
         }
         let premise = Premise {
             configurations: configurations.len(),
             residual_m: worst.position_m,
             residual_rad: worst.orientation_rad,
-            holds: worst.position_m.max(worst.orientation_rad) <= KEPT,
+            holds: worst.position_m <= KEPT && worst.orientation_rad <= KEPT,
         };
         Ok(Self { chain, premise })
     }

@@ -6,6 +6,7 @@ use super::{
     invariants::JointDifference,
     suspect::Parameter,
 };
+use crate::{pose::Pose, proof::larger};
 
 /// What is held to be the same, and where a residual is measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,21 @@ pub struct Residual {
     pub position_m: f64,
     /// Angle between the orientations.
     pub orientation_rad: f64,
+}
+
+impl Residual {
+    /// Of two poses of the tip.
+    pub(super) fn between(found: &Pose, expected: &Pose) -> Self {
+        Self { position_m: found.distance_m(expected), orientation_rad: found.angle_rad(expected) }
+    }
+
+    /// The larger of each.
+    pub(super) fn larger(self, other: Self) -> Self {
+        Self {
+            position_m: larger(self.position_m, other.position_m),
+            orientation_rad: larger(self.orientation_rad, other.orientation_rad),
+        }
+    }
 }
 
 /// One fault of an explanation.
@@ -92,8 +108,7 @@ impl Case {
     }
 
     fn residual_at(&self, q: &[f64]) -> Residual {
-        let (found, expected) = (self.suspect.base_from_tip(q), self.reference.base_from_tip(q));
-        Residual { position_m: found.distance_m(&expected), orientation_rad: found.angle_rad(&expected) }
+        Residual::between(&self.suspect.base_from_tip(q), &self.reference.base_from_tip(q))
     }
 }
 
@@ -102,9 +117,4 @@ impl Question {
     pub fn accepts(&self, residual: &Residual) -> bool {
         residual.position_m <= self.position_m && residual.orientation_rad <= self.orientation_rad
     }
-}
-
-/// The larger of two figures; what is not a number is larger than all.
-fn larger(one: f64, other: f64) -> f64 {
-    if one.is_nan() || other <= one { one } else { other }
 }

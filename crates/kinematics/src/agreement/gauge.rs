@@ -93,12 +93,9 @@ fn is_same_model(question: &Question, named: &Explanation, other: &Explanation) 
         return true;
     }
     let (one, two) = (&named.mended, &other.mended);
-    let mut apart = Residual::default();
-    for q in &question.configurations {
-        let (found, expected) = (one.suspect.base_from_tip(q), two.suspect.base_from_tip(q));
-        apart.position_m = apart.position_m.max(found.distance_m(&expected));
-        apart.orientation_rad = apart.orientation_rad.max(found.angle_rad(&expected));
-    }
+    let apart_at =
+        |q: &Vec<f64>| Residual::between(&one.suspect.base_from_tip(q), &two.suspect.base_from_tip(q));
+    let apart = question.configurations.iter().map(apart_at).fold(Residual::default(), Residual::larger);
     let same = |left: f64| SAME.max(SAME_SHARE * left);
     one.reference == two.reference
         && apart.position_m <= same(named.residual.position_m)

@@ -15,7 +15,7 @@ use super::{
     section::Section,
     simulation, zone,
 };
-use crate::{monitor, motion::Trajectory, verdict::Expectation};
+use crate::{configurations::move_inside_limits, monitor, motion::Trajectory, verdict::Expectation};
 
 /// The one version of the format that exists.
 const SCHEMA_VERSION: u32 = 1;
@@ -125,7 +125,7 @@ impl<'a> Document<'a> {
         let start = start.unwrap_or_else(|| vec![0.0; description.robot.dof()]);
         let mut warnings = start_warnings(&start, &description);
         let mut start = start;
-        move_inside_limits(&mut start, &description);
+        move_inside_limits(&mut start, &description.robot);
         let trajectory =
             keep_all(&mut found, Trajectory::parse(self.motions, &description, &start, &mut warnings));
         let motions_s = trajectory.as_ref().map_or(0.0, Trajectory::duration_s);
@@ -252,16 +252,6 @@ fn start_warnings(start: &[f64], description: &RobotDescription) -> Vec<Diagnost
         }
     }
     warnings
-}
-
-fn move_inside_limits(start: &mut [f64], description: &RobotDescription) {
-    let robot = &description.robot;
-    for (&joint, q) in robot.movable_joints().iter().zip(start.iter_mut()) {
-        if let Some((lower, upper)) = robot.joint(joint).position_range() {
-            *q = q.clamp(lower, upper);
-        }
-    }
-    robot.apply_mimic(start);
 }
 
 fn read_seed(overrides: Overrides, written: Option<&Spanned<u64>>) -> Result<u64, Diagnostic> {
