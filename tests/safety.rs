@@ -5,7 +5,7 @@
 
 use std::{fs, path::Path};
 
-use congruent_description::{Geometry, Link, RobotDescription, Shape, load_robot};
+use congruent::description::{Geometry, Link, RobotDescription, Shape, load_robot};
 use serde_json::{Value, json};
 
 use crate::{

@@ -10,15 +10,32 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("description", &[]),
     ("kinematics", &["description"]),
     ("simulation", &["description"]),
-    ("twin", &["description", "kinematics", "simulation"]),
-    ("cli", &["description", "twin"]),
+    ("agreement", &["description", "kinematics"]),
+    ("calibration", &["description", "kinematics"]),
+    ("analysis", &["description", "kinematics"]),
+    ("twin", &["description", "kinematics", "simulation", "agreement"]),
+    ("recording", &["description", "kinematics", "simulation", "agreement", "twin"]),
+    (
+        "congruent",
+        &[
+            "description",
+            "kinematics",
+            "simulation",
+            "agreement",
+            "calibration",
+            "analysis",
+            "twin",
+            "recording",
+        ],
+    ),
+    ("cli", &["congruent"]),
 ];
 
 /// Crates that stand in one place of the sources only.
 const PLACES: &[(&str, &str)] = &[
     ("rapier3d_f64", "crates/simulation/src"),
-    ("parry3d_f64", "crates/twin/src/proximity.rs"),
-    ("rerun::", "crates/twin/src/recording"),
+    ("parry3d_f64", "crates/twin/src/proximity/hulls.rs"),
+    ("rerun::", "crates/recording/src"),
 ];
 
 /// Words that `kinematics` does without: no I/O, no clock, no printing.

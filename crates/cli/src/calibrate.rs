@@ -5,15 +5,15 @@
 use std::{fmt::Write, path::PathBuf};
 
 use clap::ValueEnum;
-use congruent_description::Diagnostic;
-use congruent_twin::{
+use congruent::{
     calibration::{
         CalibrationOptions, Loss, Noise, calibrate,
         measurements::{MeasuredRow, read_measurements},
-        needed_coordinates, plot,
-        report::{CalibrationReport, Estimate, Estimation, Explanation, Recommendation, Remainder},
+        needed_coordinates,
+        report::{CalibrationReport, Estimate, Estimation, Explanation, Recommendation, Remainder, plot},
     },
-    report::write_whole,
+    description::Diagnostic,
+    twin::report::write_whole,
 };
 
 use crate::{
@@ -118,9 +118,9 @@ impl Arguments {
             (None, None) => None,
             (Some(millimetres), degrees) if degrees.is_some() || !has_orientation => {
                 let position_m =
-                    congruent_description::units::Unit::Length.convert(positive("noise-mm", millimetres)?);
+                    congruent::description::units::Unit::Length.convert(positive("noise-mm", millimetres)?);
                 let degrees = positive("noise-deg", degrees.unwrap_or(1.0))?;
-                let orientation_rad = congruent_description::units::Unit::Angle.convert(degrees);
+                let orientation_rad = congruent::description::units::Unit::Angle.convert(degrees);
                 Some(Noise { position_m, orientation_rad })
             }
             _ => {

@@ -2,13 +2,16 @@
 
 use std::{fmt::Write, path::PathBuf};
 
-use congruent_description::{Diagnostic, load_robot};
-use congruent_twin::{
-    basics::{Basics, ByWitness},
-    certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate},
-    check::{Agreement, CheckOptions, CheckReport, Comparison, check},
-    ladder::{Blame, Ladder, ReportedCause},
-    read_configurations,
+use congruent::{
+    agreement::{
+        compare::{
+            basics::{Basics, ByWitness},
+            certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate},
+            check::{Agreement, CheckOptions, CheckReport, Comparison},
+        },
+        report::{Blame, Ladder, ReportedCause},
+    },
+    description::{Diagnostic, load_robot, read_configurations},
 };
 
 use crate::{
@@ -46,8 +49,9 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
             Some(path) => read_configurations(path, &description.robot)?,
             None => Vec::new(),
         };
-        let report = check(&description, &CheckOptions { seed: arguments.seed, configurations })
-            .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
+        let report =
+            congruent::check(&description, &CheckOptions { seed: arguments.seed, configurations })
+                .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
         reports.push(report);
     }
     let text = |report: &CheckReport| {
@@ -256,7 +260,7 @@ fn compared(text: &mut String, comparison: &Comparison) {
     }
     for link in &comparison.links {
         let fitted = match link.source {
-            congruent_twin::model::PoseSource::DhFitted => "(constant fitted at zero)",
+            congruent::agreement::compare::model::PoseSource::DhFitted => "(constant fitted at zero)",
             _ => "",
         };
         let _ = writeln!(

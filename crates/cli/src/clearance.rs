@@ -2,10 +2,9 @@
 
 use std::fmt::Write;
 
-use congruent_description::Diagnostic;
-use congruent_twin::{
-    clearance::PairChoice,
-    distances::{DistanceReport, Overlap, distances},
+use congruent::{
+    description::Diagnostic,
+    twin::proximity::{DistanceReport, Overlap, PairChoice, distances},
 };
 
 use crate::{

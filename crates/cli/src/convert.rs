@@ -3,9 +3,11 @@
 use std::fmt::Write;
 
 use clap::ValueEnum;
-use congruent_description::{Diagnostic, RobotDescription};
-use congruent_twin::conversion::{
-    Conversion, ConversionReport, DEFAULT_ACCURACY, Origin, PoeReport, ScrewReport, Target, convert,
+use congruent::{
+    analysis::conversion::{
+        Conversion, ConversionReport, DEFAULT_ACCURACY, Origin, PoeReport, ScrewReport, Target, convert,
+    },
+    description::{Diagnostic, RobotDescription},
 };
 
 use crate::{

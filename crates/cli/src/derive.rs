@@ -1,7 +1,7 @@
 //! `congruent derive`: a Denavit-Hartenberg table from a URDF.
 
 use clap::ValueEnum;
-use congruent_twin::conversion::{Conversion, Origin, Target, convert};
+use congruent::analysis::conversion::{Conversion, Origin, Target, convert};
 
 use crate::{
     convert::{AccuracyArguments, text},

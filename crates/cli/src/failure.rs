@@ -1,6 +1,6 @@
 //! Why a command has no answer, and the exit code that says so.
 
-use congruent_description::Diagnostic;
+use congruent::description::Diagnostic;
 
 /// A check failed.
 pub(crate) const FAILED: u8 = 1;

@@ -3,8 +3,10 @@
 use std::fmt::Write;
 
 use clap::ValueEnum;
-use congruent_description::Diagnostic;
-use congruent_twin::forward::{ForwardReport, Source, forward};
+use congruent::{
+    analysis::forward::{ForwardReport, Source},
+    description::Diagnostic,
+};
 
 use crate::{
     failure::Failure,
@@ -50,7 +52,8 @@ impl From<SourceArgument> for Source {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.robot.load(printer)?;
     let configurations = arguments.configurations.read(&description.robot)?;
-    let report = forward(&description, arguments.source.into(), &configurations).map_err(Diagnostic::from)?;
+    let report = congruent::forward(&description, arguments.source.into(), &configurations)
+        .map_err(Diagnostic::from)?;
     printer.result(&report, text)?;
     Ok(0)
 }

@@ -3,8 +3,10 @@
 use std::{fmt::Write, path::PathBuf};
 
 use clap::ValueEnum;
-use congruent_description::Diagnostic;
-use congruent_twin::inverse::{IkMethod, IkOptions, InverseReport, TargetPart, inverse, read_targets};
+use congruent::{
+    analysis::inverse::{IkMethod, IkOptions, InverseReport, TargetPart, inverse, read_targets},
+    description::Diagnostic,
+};
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},

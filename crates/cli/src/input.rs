@@ -2,8 +2,10 @@
 
 use std::{collections::BTreeMap, path::PathBuf};
 
-use congruent_description::{Diagnostic, Robot, RobotDescription, load_robot};
-use congruent_twin::{JointState, configuration, read_configurations, read_states};
+use congruent::description::{
+    Diagnostic, JointState, Robot, RobotDescription, configuration, load_robot, read_configurations,
+    read_states,
+};
 
 use crate::{failure::Failure, print::Printer};
 

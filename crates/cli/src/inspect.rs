@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use congruent_twin::recording::inspect;
+use congruent::recording::inspect;
 
 use crate::{failure::Failure, print::Printer};
 
@@ -14,8 +14,9 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let summary = inspect(&arguments.recording)
-        .map_err(|error| congruent_description::Diagnostic::error("inspect::recording", error.to_string()))?;
+    let summary = inspect(&arguments.recording).map_err(|error| {
+        congruent::description::Diagnostic::error("inspect::recording", error.to_string())
+    })?;
     printer.result(&summary, ToString::to_string)?;
     Ok(0)
 }

@@ -3,8 +3,10 @@
 use std::fmt::Write;
 
 use clap::ValueEnum;
-use congruent_description::{Diagnostic, known_names};
-use congruent_twin::jacobians::{Blocks, JacobianKind, JacobianReport, jacobians, jacobians_in_motion};
+use congruent::{
+    analysis::jacobians::{Blocks, JacobianKind, JacobianReport, jacobians, jacobians_in_motion},
+    description::{Diagnostic, known_names},
+};
 
 use crate::{
     failure::Failure,

@@ -2,9 +2,11 @@
 
 use std::fmt::Write;
 
-use congruent_description::Diagnostic;
-use congruent_twin::study::manipulability::{
-    ManipulabilityReport, ReportedDexterity, ReportedEllipsoid, manipulability, plot,
+use congruent::{
+    analysis::manipulability::{
+        ManipulabilityReport, ReportedDexterity, ReportedEllipsoid, manipulability, plot,
+    },
+    description::Diagnostic,
 };
 
 use crate::{

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use congruent_description::Diagnostic;
-use congruent_twin::{plot::PlotError, report::write_whole};
+use congruent::{analysis::plot::PlotError, description::Diagnostic, twin::report::write_whole};
 
 use crate::failure::Failure;
 

@@ -7,8 +7,7 @@ use std::{
 };
 
 use clap::ValueEnum;
-use congruent_description::Diagnostic;
-use congruent_twin::report::Finding;
+use congruent::description::{Diagnostic, Finding};
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
 
@@ -195,7 +194,7 @@ fn clip(text: &mut String) {
 mod tests {
     use std::sync::Arc;
 
-    use congruent_description::SourceFile;
+    use congruent::description::SourceFile;
 
     use super::*;
 

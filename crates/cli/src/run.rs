@@ -8,15 +8,16 @@ use std::{
     sync::Mutex,
 };
 
-use congruent_description::Diagnostic;
-use congruent_twin::{
-    ExecuteError, Options, execute,
-    report::{OutputError, OutputFolder, RunReport, sentence, write_junit},
-    scenario::{Overrides, Scenario},
-    verdict::{CheckResult, Expectation, Verdict},
+use congruent::{
+    description::Diagnostic,
+    twin::{
+        ExecuteError, Options, RecordingFormat, execute,
+        report::{OutputError, OutputFolder, RunReport, sentence, write_junit},
+        scenario::{Overrides, Scenario},
+        verdict::{CheckResult, Expectation, Verdict},
+    },
 };
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
-
 use serde::Serialize;
 
 use crate::{
@@ -169,7 +170,10 @@ fn same_folder(folder: &Path, a: &Path, b: &Path) -> Diagnostic {
 
 /// Runs scenarios on `--jobs` threads; results are in the order of the arguments.
 fn run_all(scenarios: Vec<Scenario>, arguments: &Arguments, printer: &Printer) -> Vec<Finished> {
-    let options = Options { out: arguments.out.clone(), recording: !arguments.no_recording };
+    let options = Options {
+        out: arguments.out.clone(),
+        recording: (!arguments.no_recording).then_some(recording_format()).flatten(),
+    };
     let bars = printer.is_interactive().then(MultiProgress::new);
     let jobs = usize::from(arguments.jobs).min(scenarios.len());
     let waiting = Mutex::new(scenarios.into_iter().enumerate());
@@ -192,7 +196,15 @@ fn run_all(scenarios: Vec<Scenario>, arguments: &Arguments, printer: &Printer) -
     finished.into_iter().map(|(_, result)| result).collect()
 }
 
-fn run_one(scenario: Scenario, options: &Options, bars: Option<&MultiProgress>) -> Finished {
+/// The kind of recording that is made, if this command was built with one.
+fn recording_format() -> Option<&'static dyn RecordingFormat> {
+    #[cfg(feature = "recording")]
+    return Some(&congruent::recording::RerunFormat);
+    #[cfg(not(feature = "recording"))]
+    None
+}
+
+fn run_one(scenario: Scenario, options: &Options<'_>, bars: Option<&MultiProgress>) -> Finished {
     /// Steps between two looks at the progress bar.
     const STEPS_A_TICK: u64 = 256;
     let bar = bars.map(|bars| bars.add(progress_bar(&scenario)));

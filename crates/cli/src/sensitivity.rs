@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use congruent_description::Diagnostic;
-use congruent_twin::study::{
-    Sampling,
-    sensitivity::{SensitivityReport, plot, sensitivity},
+use congruent::{
+    analysis::sensitivity::{SensitivityReport, plot, sensitivity},
+    description::Diagnostic,
+    kinematics::Sampling,
 };
 
 use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, print::Printer};

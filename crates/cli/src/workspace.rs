@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use congruent_description::Diagnostic;
-use congruent_twin::study::{
-    Sampling,
-    workspace::{WorkspaceReport, plot, workspace},
+use congruent::{
+    analysis::workspace::{WorkspaceReport, plot, workspace},
+    description::Diagnostic,
+    kinematics::Sampling,
 };
 
 use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, print::Printer};

@@ -3,42 +3,37 @@
 //!
 //! Parsers take text and give a value or diagnostics; only `file.rs` opens files.
 
-mod description;
-mod dh_table;
+mod configuration_file;
 mod diagnostic;
 mod file;
+mod finding;
 mod findings;
 mod fixed_array;
-mod geometry;
-mod inertia;
-mod joint;
-mod link;
 mod load;
 mod mesh;
+mod model;
 mod packages;
-mod robot;
 mod robot_file;
 mod srdf;
 pub mod toml_text;
-mod tree;
 pub mod units;
 mod urdf;
 mod written_figure;
 mod written_transform;
 mod xml;
 
-pub use description::{RobotDescription, Tolerance};
-pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};
+pub use configuration_file::{JointState, JsonList, configuration, read_configurations, read_states};
 pub use diagnostic::{Diagnostic, Severity, SourceFile, known_names, line_column, nearest};
 pub use file::read_text;
+pub use finding::Finding;
 pub use findings::Findings;
 pub use fixed_array::fixed_array;
-pub use geometry::{Geometry, Mesh, Shape};
-pub use inertia::Inertia;
-pub use joint::{Joint, JointIndex, JointKind, JointLimit, Mimic};
-pub use link::{Link, LinkIndex};
 pub use load::load_robot;
-pub use robot::{JointParts, Robot, RobotError};
+pub use model::{
+    ByJoint, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
+    JointLimit, JointParts, Link, LinkIndex, Mesh, Mimic, NamedValue, Robot, RobotDescription, RobotError,
+    Shape, Tolerance, as_map,
+};
 pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey, dh_section};
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use written_figure::fitted_number;

@@ -8,7 +8,7 @@ use std::{
 use crate::{
     Robot,
     diagnostic::{Diagnostic, SourceFile, known_names},
-    link::LinkIndex,
+    model::link::LinkIndex,
     xml,
 };
 

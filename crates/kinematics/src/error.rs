@@ -1,6 +1,6 @@
 //! What a caller of the kinematics can get wrong. Wrong robots are refused where they are read.
 
-use crate::euler::EulerSet;
+use crate::spatial::euler::EulerSet;
 
 /// Why figures were refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -76,7 +76,7 @@ impl KinematicsError {
     }
 
     /// Compares two numbers of joints.
-    pub(crate) fn check_joint_count(expected: usize, found: usize) -> Result<(), Self> {
+    pub fn check_joint_count(expected: usize, found: usize) -> Result<(), Self> {
         if found == expected { Ok(()) } else { Err(Self::JointCount { expected, found }) }
     }
 

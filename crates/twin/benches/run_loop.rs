@@ -65,23 +65,3 @@ fn b_and_comparison(bencher: divan::Bencher<'_, '_>) {
 fn c_and_checks_and_clearance(bencher: divan::Bencher<'_, '_>) {
     bench(bencher, Stages { compare: true, observe: true }, |_| true);
 }
-
-#[cfg(feature = "recording")]
-#[divan::bench]
-fn d_and_recording(bencher: divan::Bencher<'_, '_>) {
-    use congruent_twin::recording::RerunRecorder;
-    let path = std::env::temp_dir().join("congruent-bench.rrd");
-    bencher
-        .with_inputs(|| {
-            let mut scenario = scenario();
-            let checks = std::mem::take(&mut scenario.checks);
-            (scenario, checks)
-        })
-        .bench_local_values(|(scenario, mut checks)| {
-            let built = Run::new(&scenario).expect("the scenario runs");
-            let (names, sources) = (built.names().clone(), built.model().sources().to_vec());
-            let mut recorder =
-                RerunRecorder::create(&path, &scenario, &names, &sources).expect("a temporary file");
-            run(&scenario, &mut checks, &mut recorder, Stages { compare: true, observe: true });
-        });
-}

@@ -1,6 +1,6 @@
 //! One scenario from its file to its results on disk.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::{
     monitor::Check,
@@ -11,12 +11,44 @@ use crate::{
 };
 
 /// Where results go and which.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Options {
+#[derive(Clone)]
+pub struct Options<'a> {
     /// The folder above the scenarios' own folders.
     pub out: PathBuf,
-    /// Whether a recording is made.
-    pub recording: bool,
+    /// How a recording is made; `None` for none.
+    pub recording: Option<&'a dyn RecordingFormat>,
+}
+
+/// A recording under way: it takes samples, and in the end the report.
+pub trait Recording: Recorder {
+    /// Adds what came out and closes the file.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it cannot be written.
+    fn finish(self: Box<Self>, report: &RunReport) -> Result<(), RecordingError>;
+}
+
+/// A kind of recording.
+pub trait RecordingFormat: Sync {
+    /// Makes the file of a run that is about to start.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if it cannot be written.
+    fn begin(
+        &self,
+        path: &Path,
+        run: &Run<'_>,
+        checks: &[Check],
+    ) -> Result<Box<dyn Recording>, RecordingError>;
+}
+
+impl std::fmt::Debug for Options<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Options")
+            .field("out", &self.out)
+            .field("recording", &self.recording.is_some())
+            .finish()
+    }
 }
 
 /// Why there is no report.
@@ -55,7 +87,7 @@ pub enum ExecuteError {
 /// [`ExecuteError`] when there can be no report. A run that breaks on the way has one.
 pub fn execute(
     mut scenario: Scenario,
-    options: &Options,
+    options: &Options<'_>,
     progress: impl FnMut(u64),
 ) -> Result<(RunReport, OutputFolder), ExecuteError> {
     let folder = OutputFolder::create(&options.out, &scenario.name)?;
@@ -64,17 +96,26 @@ pub fn execute(
     let cannot_run = |source: RunError| ExecuteError::CannotRun { scenario: scenario.name.clone(), source };
     let run = Run::new(&scenario).map_err(cannot_run)?;
     let sources = run.model().sources().to_vec();
-    let mut recording = Recording::start(options, &folder, &run, (&scenario, &checks))?;
-    let (outcome, result) = run.finish(&mut checks, recording.recorder(), progress);
+    let mut recording = match options.recording {
+        Some(format) => Some(format.begin(&folder.file(PARTIAL), &run, &checks)?),
+        None => None,
+    };
+    let mut nothing = NoRecorder;
+    let recorder: &mut dyn Recorder = match &mut recording {
+        Some(recording) => &mut **recording,
+        None => &mut nothing,
+    };
+    let (outcome, result) = run.finish(&mut checks, recorder, progress);
     let mut report = RunReport::new(&scenario, &sources, outcome.clone(), result.as_ref().err());
     let mut published = Ok(());
-    if let Err(error) = recording.finish(&report) {
+    let is_recorded = recording.is_some();
+    if let Err(error) = recording.map_or(Ok(()), |recording| recording.finish(&report)) {
         // What broke the run comes before what breaks with it.
         let first = result.err().unwrap_or(error.into());
         report = RunReport::new(&scenario, &sources, outcome, Some(&first));
         // On a full disk it stands in the way of the report, which matters more.
         published = folder.remove(PARTIAL);
-    } else if options.recording && cfg!(feature = "recording") {
+    } else if is_recorded {
         published = folder.publish(PARTIAL, "recording.rrd");
     }
     // Each is tried, whatever became of the others.
@@ -91,52 +132,3 @@ pub fn execute(
 
 /// A recording under its temporary name.
 const PARTIAL: &str = "recording.rrd.partial";
-
-/// The recording of a run, or none.
-enum Recording {
-    None(NoRecorder),
-    #[cfg(feature = "recording")]
-    Rerun(Box<crate::recording::RerunRecorder>),
-}
-
-impl Recording {
-    #[cfg_attr(
-        not(feature = "recording"),
-        expect(unused_variables, clippy::unnecessary_wraps, reason = "nothing is recorded")
-    )]
-    fn start(
-        options: &Options,
-        folder: &OutputFolder,
-        run: &Run<'_>,
-        (scenario, checks): (&Scenario, &[Check]),
-    ) -> Result<Self, RecordingError> {
-        #[cfg(feature = "recording")]
-        if options.recording {
-            let path = folder.file(PARTIAL);
-            let (names, sources) = (run.names(), run.model().sources());
-            let recorder = crate::recording::RerunRecorder::create(&path, scenario, names, sources)?;
-            return Ok(Self::Rerun(Box::new(recorder.with_limits_of(checks))));
-        }
-        Ok(Self::None(NoRecorder))
-    }
-
-    fn recorder(&mut self) -> &mut dyn Recorder {
-        match self {
-            Self::None(recorder) => recorder,
-            #[cfg(feature = "recording")]
-            Self::Rerun(recorder) => &mut **recorder,
-        }
-    }
-
-    #[cfg_attr(
-        not(feature = "recording"),
-        expect(unused_variables, clippy::unnecessary_wraps, reason = "nothing is recorded")
-    )]
-    fn finish(self, report: &RunReport) -> Result<(), RecordingError> {
-        match self {
-            Self::None(_) => Ok(()),
-            #[cfg(feature = "recording")]
-            Self::Rerun(recorder) => recorder.finish(report),
-        }
-    }
-}

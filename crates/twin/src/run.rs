@@ -1,18 +1,17 @@
 //! The run loop: physics, comparison, clearance, checks and recording, one step after another.
 
-use congruent_kinematics::{KinematicsError, Pose};
+use congruent_agreement::compare::model::Model;
+use congruent_kinematics::{KinematicsError, Pose, PoseError};
 use congruent_simulation::{Controller, Reference, SimulationError, World, WorldSettings, controller};
 use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
 
 use crate::{
-    clearance::{Clearance, PairChoice},
-    model::Model,
     monitor::{Check, Names},
     motion::{Guide, Led},
-    proximity::ProximityError,
+    proximity::{Clearance, PairChoice, ProximityError},
     recorder::{Recorder, RecordingError},
-    sample::{LinkError, Sample},
+    sample::Sample,
     scenario::Scenario,
     verdict::{CheckResult, Stop},
 };
@@ -62,7 +61,7 @@ pub struct Run<'a> {
     names: Names,
     guide: Guide<'a>,
     root_from_links: Vec<Isometry3<f64>>,
-    errors: Vec<LinkError>,
+    errors: Vec<PoseError>,
     hash: Sha256,
 }
 
@@ -102,9 +101,14 @@ impl<'a> Run<'a> {
             zones,
             guide: Guide::new(&scenario.trajectory, &scenario.description)?,
             root_from_links: vec![Isometry3::identity(); robot.links().len()],
-            errors: vec![LinkError::default(); robot.links().len()],
+            errors: vec![PoseError::default(); robot.links().len()],
             hash: Sha256::new(),
         })
+    }
+
+    /// What is run.
+    pub fn scenario(&self) -> &'a Scenario {
+        self.scenario
     }
 
     /// Names for the numbers of samples.
@@ -136,7 +140,7 @@ impl<'a> Run<'a> {
         self.world.root_from_links_into(&mut self.root_from_links);
         let model: &[Pose] = self.model.root_from_links(self.world.q())?;
         for ((error, model), twin) in self.errors.iter_mut().zip(model).zip(&self.root_from_links) {
-            *error = LinkError::between(model, twin);
+            *error = PoseError::to_isometry(model, twin);
         }
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! What a check found: one shape for every check, so that every report and exit code agrees.
 
+use congruent_description::NamedValue;
 use serde::{Deserialize, Serialize};
 
 /// The outcome of one check.
@@ -39,15 +40,6 @@ pub struct Moment {
     pub value: f64,
     /// Position of every movable joint, rad or m.
     pub q: Vec<NamedValue>,
-}
-
-/// A joint with its position.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct NamedValue {
-    /// The joint.
-    pub joint: String,
-    /// Its position, rad or m.
-    pub value: f64,
 }
 
 /// One quantity that a check holds against a limit.

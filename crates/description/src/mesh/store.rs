@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 use nalgebra::{Point3, Vector3};
 
 use super::{FURTHEST_M, MeshError, MeshFile, parse};
-use crate::{diagnostic::Diagnostic, file::read_bytes, geometry::Mesh, packages::Packages};
+use crate::{diagnostic::Diagnostic, file::read_bytes, model::geometry::Mesh, packages::Packages};
 
 /// The largest mesh file that is read.
 const MESH_BYTES: u64 = 256 << 20;

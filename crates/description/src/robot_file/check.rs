@@ -8,12 +8,9 @@ use toml::Spanned;
 use super::written::{WrittenDh, WrittenRobot, WrittenTolerance};
 use crate::{
     Robot,
-    description::Tolerance,
-    dh_table::DhTable,
     diagnostic::{Diagnostic, known_names},
     findings::Findings,
-    joint::JointIndex,
-    link::LinkIndex,
+    model::{description::Tolerance, dh_table::DhTable, joint::JointIndex, link::LinkIndex},
     units::Unit,
     written_transform::WrittenTransform,
 };

@@ -6,7 +6,7 @@ use nalgebra::Isometry3;
 
 use crate::{
     Robot,
-    dh_table::{DhConvention, DhRowKind, DhTable},
+    model::dh_table::{DhConvention, DhRowKind, DhTable},
     written_figure::{is_identity, number, numbers, rpy_fixed_xyz_rad, short_degrees},
 };
 

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::{
-    dh_table::{DhConvention, DhRowKind},
+    model::dh_table::{DhConvention, DhRowKind},
     written_transform::WrittenTransform,
 };
 

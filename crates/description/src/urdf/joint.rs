@@ -11,8 +11,10 @@ use crate::{
     JointParts,
     diagnostic::Diagnostic,
     findings::Findings,
-    joint::{Joint, JointKind, JointLimit},
-    link::LinkIndex,
+    model::{
+        joint::{Joint, JointKind, JointLimit},
+        link::LinkIndex,
+    },
 };
 
 /// How far the length of an axis may be from 1 in silence: six digits in the file.

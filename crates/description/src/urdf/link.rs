@@ -4,7 +4,10 @@ use nalgebra::{Matrix3, SymmetricEigen};
 use roxmltree::Node;
 
 use super::{element, elements, label, place, pose, shape::ShapeReader};
-use crate::{diagnostic::Diagnostic, inertia::Inertia, link::Link};
+use crate::{
+    diagnostic::Diagnostic,
+    model::{inertia::Inertia, link::Link},
+};
 
 /// Rounding in files: principal moments may miss a bound by so much of the largest one. Real
 /// robots miss by up to 1e-4 where inertias are written with four digits.

@@ -35,8 +35,8 @@ use crate::{
     Robot, RobotError,
     diagnostic::{Diagnostic, known_names},
     findings::Findings,
-    link::Link,
     mesh::FoundMesh,
+    model::link::Link,
     xml,
 };
 

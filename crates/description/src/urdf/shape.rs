@@ -9,7 +9,7 @@ use super::{FindMesh, element, label, pose, tag};
 use crate::{
     diagnostic::Diagnostic,
     findings::Findings,
-    geometry::{Geometry, Mesh, Shape},
+    model::geometry::{Geometry, Mesh, Shape},
 };
 
 /// Colours of the materials that the document defines at its top, by name.

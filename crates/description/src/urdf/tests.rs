@@ -10,7 +10,7 @@ use super::*;
 use crate::{
     JointKind,
     diagnostic::{Severity, line_column},
-    geometry::Geometry,
+    model::geometry::Geometry,
 };
 
 /// Two links and a joint, each with a place for more.

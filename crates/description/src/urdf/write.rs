@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::{
     Robot,
-    joint::{Joint, JointKind},
+    model::joint::{Joint, JointKind},
     written_figure::{number, numbers, rpy_fixed_xyz_rad},
 };
 

@@ -2,7 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::{actuation::Gains, engine::Engine};
+use super::Gains;
+use crate::engine::Engine;
 
 /// The desired state at the end of the step, one entry for each movable joint, mimic joints
 /// included, in the order of `Robot::movable_joints`.

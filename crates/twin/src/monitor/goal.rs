@@ -2,14 +2,14 @@
 //! run that ends before its time has not come to it, and the check is skipped.
 
 use congruent_description::{Diagnostic, LinkIndex, RobotDescription, WrittenTransform};
-use congruent_kinematics::Pose;
+use congruent_kinematics::{Pose, PoseError};
 use nalgebra::Isometry3;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::{Findings, Monitor, Names, watch::Watch};
 use crate::{
-    sample::{LinkError, Sample},
+    sample::Sample,
     scenario::{Positive, Section},
     verdict::Bound,
 };
@@ -80,8 +80,8 @@ impl Monitor for Goal {
         }
         self.samples += 1;
         let world_from_tcp = sample.twin[self.tip.get()] * self.tip_from_tcp;
-        let LinkError { position_m, orientation_rad } =
-            LinkError::between(&self.world_from_target, &world_from_tcp);
+        let PoseError { position_m, orientation_rad } =
+            PoseError::to_isometry(&self.world_from_target, &world_from_tcp);
         self.position.0.observe(position_m, self.tip.get(), sample);
         if let Some((watch, _)) = &mut self.orientation {
             watch.observe(orientation_rad, self.tip.get(), sample);

@@ -14,7 +14,7 @@ pub use on_violation::OnViolation;
 pub(crate) use zone::NAME as ZONE;
 
 use crate::{
-    clearance::Clearance,
+    proximity::Clearance,
     sample::Sample,
     scenario::Section,
     verdict::{CheckResult, Measure, Status},

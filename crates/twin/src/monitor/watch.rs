@@ -1,8 +1,10 @@
 //! One quantity against its limit, sample after sample, without allocation.
 
+use congruent_description::NamedValue;
+
 use crate::{
     sample::Sample,
-    verdict::{Bound, Measure, Moment, NamedValue},
+    verdict::{Bound, Measure, Moment},
 };
 
 /// Remembers the worst value and the first violation of one quantity.

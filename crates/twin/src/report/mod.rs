@@ -3,19 +3,19 @@
 mod files;
 mod junit;
 
-use congruent_description::{Diagnostic, Severity};
+use congruent_description::Finding;
 use serde::Serialize;
 
 pub use files::{OutputError, OutputFolder, write_whole};
 pub use junit::{sentence, write_junit};
 
 use crate::{
-    model::PoseSource,
     motion::Led,
     run::{Outcome, RunError},
     scenario::Scenario,
     verdict::{CheckResult, Expectation, Status, Stop, Verdict},
 };
+use congruent_agreement::compare::model::PoseSource;
 
 /// The whole report of one scenario.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -84,43 +84,6 @@ pub struct Versions {
     pub congruent: &'static str,
     /// The physics engine.
     pub physics: &'static str,
-}
-
-/// A diagnostic as programs read it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Finding {
-    /// `error` or `warning`.
-    pub severity: &'static str,
-    /// Stable name of the fault.
-    pub code: &'static str,
-    /// What is wrong.
-    pub message: String,
-    /// The file, where there is one.
-    pub file: Option<String>,
-    /// Line, from 1.
-    pub line: Option<usize>,
-    /// Column, from 1.
-    pub column: Option<usize>,
-    /// What to do.
-    pub help: Option<String>,
-}
-
-impl From<&Diagnostic> for Finding {
-    fn from(diagnostic: &Diagnostic) -> Self {
-        let place = diagnostic.line_column();
-        Self {
-            severity: match diagnostic.severity {
-                Severity::Warning => "warning",
-                Severity::Error => "error",
-            },
-            code: diagnostic.code,
-            message: diagnostic.message.clone(),
-            file: diagnostic.source.as_ref().map(|source| source.path.display().to_string()),
-            line: place.map(|(line, _)| line),
-            column: place.map(|(_, column)| column),
-            help: diagnostic.help.clone(),
-        }
-    }
 }
 
 impl RunReport {

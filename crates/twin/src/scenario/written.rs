@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::{Diagnostic, Findings, RobotDescription, known_names, toml_text};
+use congruent_kinematics::move_inside_limits;
 use congruent_simulation::{Gains, controller_names};
 use serde::Deserialize;
 use toml::Spanned;
@@ -15,7 +16,7 @@ use super::{
     section::Section,
     simulation, zone,
 };
-use crate::{configurations::move_inside_limits, monitor, motion::Trajectory, verdict::Expectation};
+use crate::{monitor, motion::Trajectory, verdict::Expectation};
 
 /// The one version of the format that exists.
 const SCHEMA_VERSION: u32 = 1;

@@ -6,10 +6,12 @@ use toml::Spanned;
 
 use super::{Context, first_line};
 use crate::{
-    dh_table::{DhRow, DhRowKind},
     diagnostic::{Diagnostic, known_names, line_column},
     findings::Findings,
-    joint::JointIndex,
+    model::{
+        dh_table::{DhRow, DhRowKind},
+        joint::JointIndex,
+    },
     robot_file::written::{WrittenDh, WrittenRow},
     units::Unit,
 };

@@ -1,0 +1,84 @@
+//! Two chains side by side: joints of one position stand in one place, and what a chain lacks, or has
+//! in another place, does not move in it.
+
+use congruent_kinematics::{ScrewChain, Twist};
+use nalgebra::Vector3;
+
+/// A chain, and for each of its joints the position that drives it.
+pub(super) type Driven<'a> = (&'a ScrewChain, &'a [usize]);
+
+/// Two chains with the same joints in the same order.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SideBySide {
+    pub(super) chains: [ScrewChain; 2],
+    /// For each joint the position that drives it.
+    pub(super) drivers: Vec<usize>,
+}
+
+/// A joint of the two, and which of them have it.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    driver: usize,
+    is_in: [bool; 2],
+}
+
+impl SideBySide {
+    pub(super) fn new(a: Driven<'_>, b: Driven<'_>) -> Self {
+        let places = common_order(a.1, b.1);
+        let still = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
+        let spread = |which: usize, chain: &ScrewChain| {
+            let mut twists = chain.twists_in_base.iter();
+            let twist = |place: &Place| {
+                if place.is_in[which] { *twists.next().expect("a place for each joint") } else { still }
+            };
+            ScrewChain { twists_in_base: places.iter().map(twist).collect(), ..chain.clone() }
+        };
+        Self {
+            chains: [spread(0, a.0), spread(1, b.0)],
+            drivers: places.iter().map(|place| place.driver).collect(),
+        }
+    }
+}
+
+/// The joints of both, base to tip: those of the second, and between them those of the first that the
+/// second lacks or has in another place.
+fn common_order(first: &[usize], second: &[usize]) -> Vec<Place> {
+    let mut places: Vec<Place> =
+        second.iter().map(|&driver| Place { driver, is_in: [false, true] }).collect();
+    let mut next = 0;
+    for &driver in first {
+        match places[next..].iter().position(|place| place.driver == driver) {
+            Some(ahead) => next += ahead,
+            None => places.insert(next, Place { driver, is_in: [false, false] }),
+        }
+        places[next].is_in[0] = true;
+        next += 1;
+    }
+    places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn assert_order(first: &[usize], second: &[usize], expected: &[usize]) {
+        let places = common_order(first, second);
+        let of = |has: fn(&&Place) -> bool| -> Vec<usize> {
+            places.iter().filter(has).map(|place| place.driver).collect()
+        };
+        assert_eq!(of(|_| true), expected);
+        assert_eq!(of(|place| place.is_in[0]), first);
+        assert_eq!(of(|place| place.is_in[1]), second);
+    }
+
+    #[test]
+    fn both_keep_their_order() {
+        assert_order(&[0, 1, 2], &[0, 1, 2], &[0, 1, 2]);
+        assert_order(&[0, 2], &[0, 1, 2], &[0, 1, 2]);
+        assert_order(&[0, 1, 2], &[0, 2], &[0, 1, 2]);
+        assert_order(&[0, 2, 1], &[0, 1, 2], &[0, 1, 2, 1]);
+        assert_order(&[3, 0], &[0], &[3, 0]);
+        assert_order(&[0, 1, 0], &[0, 1, 0], &[0, 1, 0]);
+    }
+}

@@ -1,0 +1,275 @@
+//! From two chains to the smallest gap that says the same: what both chains share at the base or at
+//! the tip does not change how far they are apart. What is shared only almost is exchanged, and
+//! the exchange is paid for by the telescoped bound.
+
+use std::f64::consts::{SQRT_2, TAU};
+
+use congruent_kinematics::{ScrewChain, Twist, hat, quaternion_of};
+use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
+
+use super::{
+    corner::Interval,
+    gap::{Gap, Motion, Slot},
+    telescope::{Telescope, furthest},
+};
+
+/// Turns and shifts over a whole range below which a twist's part is taken for rounding of whoever
+/// made the chain. Unit: rad and m; kind: rounding; a probed chain shows some 1e-15. It decides only
+/// what is exchanged: the price is computed from what was there.
+const NOISE: f64 = 1e-12;
+
+/// Two chains without noise.
+#[derive(Debug, Clone)]
+pub(super) struct Tidied {
+    pub(super) a: ScrewChain,
+    pub(super) b: ScrewChain,
+    /// For each joint, the position that drives it.
+    pub(super) drivers: Vec<usize>,
+    /// Range of each position; at most one turn where it drives one joint that only turns.
+    pub(super) positions: Vec<Interval>,
+    /// The same for each joint.
+    ranges: Vec<Interval>,
+    /// How far the tidied chains may be from the given ones, together.
+    pub(super) price_m: f64,
+    /// Likewise.
+    pub(super) price_rad: f64,
+}
+
+/// A gap with what it leaves out.
+#[derive(Debug, Clone)]
+pub(super) struct Reduced {
+    pub(super) gap: Gap,
+    pub(super) price: f64,
+}
+
+impl Tidied {
+    /// Removes turns, pitches and differences of rate that are noise.
+    pub(super) fn new((a, b): (&ScrewChain, &ScrewChain), drivers: &[usize], positions: &[Interval]) -> Self {
+        let (mut tidy_a, mut tidy_b) = (a.clone(), b.clone());
+        let mut one_turn = positions.to_vec();
+        let twists = tidy_a.twists_in_base.iter_mut().zip(&mut tidy_b.twists_in_base);
+        for ((a, b), &driver) in twists.zip(drivers) {
+            let furthest = furthest(positions[driver]);
+            *a = without_noise(a, furthest);
+            *b = without_noise(b, furthest);
+            let (rate_a, rate_b) = (a.angular.norm(), b.angular.norm());
+            if rate_b > 0.0 && (rate_a - rate_b).abs() * furthest <= NOISE {
+                let scale = rate_b / rate_a;
+                *a = Twist { angular: a.angular * scale, linear: a.linear * scale };
+                let repeats = [*a, *b].iter().all(|twist| Screw::new(twist).shift == Vector3::zeros());
+                let alone = drivers.iter().filter(|&&other| other == driver).count() == 1;
+                if repeats && alone {
+                    one_turn[driver] = within_one_turn(positions[driver], rate_b);
+                }
+            }
+        }
+        let whole: Vec<Interval> = drivers.iter().map(|&driver| positions[driver]).collect();
+        let price_a = Telescope::new(a, &tidy_a, &whole);
+        let price_b = Telescope::new(b, &tidy_b, &whole);
+        Self {
+            a: tidy_a,
+            b: tidy_b,
+            drivers: drivers.to_vec(),
+            ranges: drivers.iter().map(|&driver| one_turn[driver]).collect(),
+            positions: one_turn,
+            price_m: price_a.total_m() + price_b.total_m(),
+            price_rad: price_a.total_rad() + price_b.total_rad(),
+        }
+    }
+
+    /// The gap between the tips' positions, in metres; `allowance_m` may be lost on each side.
+    pub(super) fn position(&self, allowance_m: f64) -> Reduced {
+        let telescope = Telescope::new(&self.a, &self.b, &self.ranges);
+        let first = shared_count(&telescope.position_m, allowance_m);
+        let mut price = self.exchanged(first).total_m();
+        let tips = [&self.a, &self.b].map(|chain| chain.base_from_tip_at_zero.translation);
+        let mut last = self.ranges.len();
+        while last > first {
+            let joint = last - 1;
+            let moved = |twist: &Twist, tip: &Vector3<f64>| (twist.angular.cross(tip) + twist.linear).norm();
+            let both = (moved(&self.a.twists_in_base[joint], &tips[0])
+                + moved(&self.b.twists_in_base[joint], &tips[1]))
+                * furthest(self.ranges[joint]);
+            if both > allowance_m {
+                break;
+            }
+            price += both;
+            last -= 1;
+        }
+        let slots = (first..last).flat_map(|joint| self.point_slots(joint)).collect();
+        let gap = Gap::new(slots, tips.map(|tip| tip.push(1.0)));
+        let (gap, of_lead) = gap.without_shared_lead(&self.positions);
+        Reduced { gap, price: price + of_lead }
+    }
+
+    /// The gap between the tips' unit quaternions, `2 sin(angle / 4)` along the way from the middle of
+    /// the ranges; `allowance_rad` may be lost on each side.
+    pub(super) fn orientation(&self, allowance_rad: f64) -> Reduced {
+        let telescope = Telescope::new(&self.a, &self.b, &self.ranges);
+        let first = shared_count(&telescope.orientation_rad, allowance_rad);
+        let mut price = self.exchanged(first).total_rad();
+        let homes = [&self.a, &self.b].map(|chain| chain.base_from_tip_at_zero.rotation);
+        let mut last = self.ranges.len();
+        let mut allowed = allowance_rad;
+        while last > first {
+            let in_tip = |chain: usize, twist: &Twist| homes[chain].transpose() * twist.angular;
+            let joint = last - 1;
+            let apart = in_tip(0, &self.a.twists_in_base[joint]) - in_tip(1, &self.b.twists_in_base[joint]);
+            let turned = apart.norm() * furthest(self.ranges[joint]);
+            if turned > allowed {
+                break;
+            }
+            allowed -= turned;
+            price += turned;
+            last -= 1;
+        }
+        let slots = (first..last).flat_map(|joint| self.quaternion_slots(joint)).collect();
+        let gap = Gap::new(slots, homes.map(|home| Vector4::from(quaternion_of(&home))));
+        let (gap, of_lead) = gap.without_shared_lead(&self.positions);
+        // A chord of quaternions is about half of the angle, and at least a quarter.
+        let price = price + 4.0 * of_lead;
+        let middle: Vec<f64> = self.positions.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
+        // A quaternion and its negative are one orientation: the nearer one.
+        let gap = if gap.at(&middle) > SQRT_2 { gap.negated() } else { gap };
+        Reduced { gap, price }
+    }
+
+    /// What it costs to give the first chain the second one's leading joints.
+    fn exchanged(&self, count: usize) -> Telescope {
+        let mut a = self.a.clone();
+        a.twists_in_base[..count].copy_from_slice(&self.b.twists_in_base[..count]);
+        Telescope::new(&self.a, &a, &self.ranges)
+    }
+
+    fn screws(&self, joint: usize) -> [Screw; 2] {
+        [&self.a, &self.b].map(|chain| Screw::new(&chain.twists_in_base[joint]))
+    }
+
+    fn point_slots(&self, joint: usize) -> Vec<Slot> {
+        let (screws, joint) = (self.screws(joint), self.drivers[joint]);
+        let mut slots = turns(joint, &screws, Screw::turn_of_points);
+        if screws.iter().any(|screw| screw.shift != Vector3::zeros()) {
+            slots.push(Slot::new(joint, None, screws.each_ref().map(Screw::shift_of_points)));
+        }
+        slots
+    }
+
+    fn quaternion_slots(&self, joint: usize) -> Vec<Slot> {
+        let mut slots = turns(self.drivers[joint], &self.screws(joint), Screw::turn_of_quaternions);
+        for slot in &mut slots {
+            slot.rate = slot.rate.map(|rate| rate / 2.0);
+        }
+        slots
+    }
+}
+
+/// One turn with the rate that both screws have, and one for what the faster has beyond it.
+fn turns(joint: usize, screws: &[Screw; 2], motion: fn(&Screw) -> Motion) -> Vec<Slot> {
+    let [a, b] = screws;
+    // Tidied rates differ by rounding or by more than noise.
+    let alike = (a.rate - b.rate).abs() <= 8.0 * f64::EPSILON * b.rate;
+    let shared = if alike { b.rate } else { a.rate.min(b.rate) };
+    let slot = |rate: f64, motions| Slot::new(joint, Some(rate), motions);
+    let mut slots = Vec::new();
+    if shared > 0.0 {
+        slots.push(slot(shared, [motion(a), motion(b)]));
+    }
+    if !alike && a.rate > shared {
+        slots.push(slot(a.rate - shared, [motion(a), Motion::none()]));
+    }
+    if !alike && b.rate > shared {
+        slots.push(slot(b.rate - shared, [Motion::none(), motion(b)]));
+    }
+    slots
+}
+
+/// A twist taken apart: a turn about a line, then a shift along it.
+#[derive(Debug, Clone, Copy)]
+struct Screw {
+    /// Turn per unit of the joint's position.
+    rate: f64,
+    axis: Vector3<f64>,
+    /// The line's moment: how the origin moves for a turn by one radian.
+    moment: Vector3<f64>,
+    /// Shift per unit of the joint's position.
+    shift: Vector3<f64>,
+}
+
+impl Screw {
+    fn new(twist: &Twist) -> Self {
+        let rate = twist.angular.norm();
+        if rate == 0.0 {
+            return Self { rate, axis: Vector3::zeros(), moment: Vector3::zeros(), shift: twist.linear };
+        }
+        let axis = twist.angular / rate;
+        let shift = axis * axis.dot(&twist.linear);
+        let moment = (twist.linear - shift) / rate;
+        // What is left of a removed pitch is rounding.
+        let noise = shift.norm() <= 8.0 * f64::EPSILON * twist.linear.norm();
+        Self { rate, axis, moment, shift: if noise { Vector3::zeros() } else { shift } }
+    }
+
+    /// `R = n n' + cos (I - n n') + sin [n]`, `p = sin m + (1 - cos) n x m`.
+    fn turn_of_points(&self) -> Motion {
+        let along = self.axis * self.axis.transpose();
+        let inwards = self.axis.cross(&self.moment);
+        let mut constant = homogeneous(&along, &inwards);
+        constant[(3, 3)] = 1.0;
+        Motion {
+            constant,
+            first: homogeneous(&(Matrix3::identity() - along), &-inwards),
+            second: homogeneous(&hat(&self.axis), &self.moment),
+            carries: self.moment.norm(),
+        }
+    }
+
+    fn shift_of_points(&self) -> Motion {
+        let first = homogeneous(&Matrix3::zeros(), &self.shift);
+        Motion { first, carries: self.shift.norm(), ..Motion::none() }
+    }
+
+    /// `cos + sin n` of half the angle, as a matrix that multiplies `(w, x, y, z)` from the left.
+    fn turn_of_quaternions(&self) -> Motion {
+        let [x, y, z] = self.axis.into();
+        let second = Matrix4::new(0.0, -x, -y, -z, x, 0.0, -z, y, y, z, 0.0, -x, z, -y, x, 0.0);
+        Motion { constant: Matrix4::zeros(), first: Matrix4::identity(), second, carries: 0.0 }
+    }
+}
+
+fn homogeneous(linear: &Matrix3<f64>, shift: &Vector3<f64>) -> Matrix4<f64> {
+    let mut matrix = Matrix4::zeros();
+    matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(linear);
+    matrix.fixed_view_mut::<3, 1>(0, 3).copy_from(shift);
+    matrix
+}
+
+fn without_noise(twist: &Twist, furthest: f64) -> Twist {
+    let rate = twist.angular.norm();
+    if rate * furthest <= NOISE {
+        return Twist { angular: Vector3::zeros(), ..*twist };
+    }
+    let axis = twist.angular / rate;
+    let along = axis.dot(&twist.linear);
+    let linear = if along.abs() * furthest <= NOISE { twist.linear - axis * along } else { twist.linear };
+    Twist { linear, ..*twist }
+}
+
+/// The middle turn of a range that has more than one: all others repeat it.
+fn within_one_turn((lower, upper): Interval, rate: f64) -> Interval {
+    if (upper - lower) * rate <= TAU {
+        return (lower, upper);
+    }
+    let (middle, half) = (f64::midpoint(lower, upper), TAU / rate / 2.0);
+    (middle - half, middle + half)
+}
+
+/// How many leading joints may be exchanged for the allowance.
+fn shared_count(prices: &[f64], allowance: f64) -> usize {
+    let mut spent = 0.0;
+    let affordable = |price: &&f64| {
+        spent += **price;
+        spent <= allowance
+    };
+    // The last price is that of the home pose, no joint.
+    prices[..prices.len() - 1].iter().take_while(affordable).count()
+}

@@ -1,0 +1,81 @@
+//! The first bound: one joint exchanged after the other, the differences summed.
+//!
+//! `A_1 ... A_n M_a - B_1 ... B_n M_b = sum_i A_1 ... A_(i-1) (A_i - B_i) B_(i+1) ... B_n M_b + A_1 ... A_n (M_a - M_b)`:
+//! what stands to the left only turns the difference, what stands to the right only says how far
+//! out the tip may be. No sampling, no iteration, and proportional to the difference.
+
+use congruent_kinematics::{Pose, ScrewChain, Twist};
+
+use super::corner::Interval;
+
+/// The sum is of a few dozen positive terms: what rounding can take from it.
+const OUTWARD: f64 = 1.0 + 256.0 * f64::EPSILON;
+
+/// How much each exchange can move the tip, in position and in orientation.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Telescope {
+    /// For each joint, then for the home pose.
+    pub(super) position_m: Vec<f64>,
+    /// For each joint, then for the home pose.
+    pub(super) orientation_rad: Vec<f64>,
+}
+
+impl Telescope {
+    /// Of two chains with as many joints as there are ranges.
+    ///
+    /// Source for one joint: Duhamel's formula
+    /// `exp(A) - exp(B) = integral over s in 0..1 of exp(s A) (A - B) exp((1 - s) B)`.
+    pub(super) fn new(a: &ScrewChain, b: &ScrewChain, ranges: &[Interval]) -> Self {
+        let (home_a, home_b) = (&a.base_from_tip_at_zero, &b.base_from_tip_at_zero);
+        let mut position_m = vec![home_a.distance_m(home_b)];
+        let mut orientation_rad = vec![angle_at_most_rad(home_a, home_b)];
+        let mut radius_m = home_b.translation.norm();
+        for ((a, b), range) in a.twists_in_base.iter().zip(&b.twists_in_base).zip(ranges).rev() {
+            let furthest = furthest(*range);
+            radius_m += carried_m(b, furthest);
+            let turn = (a.angular - b.angular).norm();
+            position_m.push(furthest * (turn * radius_m + (a.linear - b.linear).norm()));
+            orientation_rad.push(furthest * turn);
+        }
+        // The home pose stood first of the reversed joints.
+        position_m.reverse();
+        orientation_rad.reverse();
+        Self { position_m, orientation_rad }
+    }
+
+    /// The worst disagreement in position is at most this, in metres.
+    pub(super) fn total_m(&self) -> f64 {
+        self.position_m.iter().sum::<f64>() * OUTWARD
+    }
+
+    /// The worst disagreement in orientation is at most this, in radians.
+    pub(super) fn total_rad(&self) -> f64 {
+        (self.orientation_rad.iter().sum::<f64>() * OUTWARD).min(std::f64::consts::PI)
+    }
+}
+
+/// Largest absolute position in a range.
+pub(super) fn furthest((lower, upper): Interval) -> f64 {
+    lower.abs().max(upper.abs())
+}
+
+/// How much further from the base's origin a joint can carry a point: the way that the origin
+/// itself makes, and no more than the diameter of its circle.
+fn carried_m(twist: &Twist, furthest: f64) -> f64 {
+    let rate = twist.angular.norm();
+    let way_m = twist.linear.norm() * furthest;
+    if rate == 0.0 {
+        return way_m;
+    }
+    let axis = twist.angular / rate;
+    let along = axis.dot(&twist.linear);
+    let across = (twist.linear - axis * along).norm();
+    way_m.min(along.abs() * furthest + 2.0 * across / rate)
+}
+
+/// The angle between two orientations by the chord of their matrices, whose entries' rounding it
+/// takes for a turn: `|R_a - R_b| = 2 sqrt(2) sin(angle / 2)`.
+fn angle_at_most_rad(a: &Pose, b: &Pose) -> f64 {
+    let half_sine = (a.rotation - b.rotation).norm() / 8.0_f64.sqrt();
+    if half_sine < 0.5 { 2.0 * half_sine.asin() } else { a.angle_rad(b) }
+}

@@ -1,0 +1,86 @@
+//! The physics as a black box: the screws of the chain from base to tip that its poses show, and how
+//! well it keeps to them.
+
+use congruent_description::RobotDescription;
+use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, ScrewChain};
+use serde::Serialize;
+
+/// What is left of screws that were probed, over a whole joint range. Unit: m or rad; kind: rounding,
+/// which certificates add; worst seen 3.8e-14.
+pub(crate) const KEPT: f64 = 1e-10;
+
+/// A black box is a chain of screws only as far as one has looked: how far the physics was from the
+/// chain that was probed, at worst.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Premise {
+    /// Number of configurations of the whole robot at which it was looked.
+    pub configurations: usize,
+    /// Distance of the tips there, m.
+    pub residual_m: f64,
+    /// Angle between the tips there, rad.
+    pub residual_rad: f64,
+    /// Whether that is rounding.
+    pub holds: bool,
+}
+
+/// What probing has found.
+#[derive(Debug, Clone)]
+pub(crate) struct Probed {
+    /// Joints are the moving joints from base to tip.
+    pub(crate) chain: ScrewChain,
+    pub(crate) premise: Premise,
+}
+
+impl Probed {
+    /// Asks the physics around one configuration, all joints beside the chain at zero, and then at
+    /// `configurations`, where they are not.
+    ///
+    /// # Errors
+    /// [`LinkPosesError`] when the physics refuses a configuration.
+    pub(crate) fn new(
+        description: &RobotDescription,
+        physics: &mut dyn LinkPoses,
+        configurations: &[Vec<f64>],
+    ) -> Result<Self, LinkPosesError> {
+        let coordinates = description.moving_coordinates();
+        let mut q = vec![0.0; description.robot.dof()];
+        let mut refused = None;
+        let chain = ScrewChain::probe(coordinates.len(), |values| {
+            for (&coordinate, &value) in coordinates.iter().zip(values) {
+                q[coordinate] = value;
+            }
+            base_from_tip(description, physics, &q).unwrap_or_else(|error| {
+                refused = Some(error);
+                Pose::identity()
+            })
+        });
+        if let Some(error) = refused {
+            return Err(error);
+        }
+        let mut worst = PoseError::default();
+        for q in configurations {
+            let of_chain: Vec<f64> = coordinates.iter().map(|&coordinate| q[coordinate]).collect();
+            let expected = chain.base_from_tip(&of_chain).expect("as many positions as joints");
+            worst = worst.larger(PoseError::between(&base_from_tip(description, physics, q)?, &expected));
+        }
+        let premise = Premise {
+            configurations: configurations.len(),
+            residual_m: worst.position_m,
+            residual_rad: worst.orientation_rad,
+            holds: worst.position_m <= KEPT && worst.orientation_rad <= KEPT,
+        };
+        Ok(Self { chain, premise })
+    }
+}
+
+/// The tip's pose in the base by a source of link poses.
+pub(crate) fn base_from_tip(
+    description: &RobotDescription,
+    source: &mut dyn LinkPoses,
+    q: &[f64],
+) -> Result<Pose, LinkPosesError> {
+    let mut root_from_links = vec![Pose::identity(); description.robot.links().len()];
+    source.root_from_links_into(q, &mut root_from_links)?;
+    let [base, tip] = [description.base, description.tip].map(|link| root_from_links[link.get()]);
+    Ok(base.inverse() * tip)
+}

@@ -1,0 +1,21 @@
+//! `base` and `tool`: a declared transform is off, by one component, by a shift, by a turn, or by
+//! all of it. The narrow ones cost less, so that one figure is not explained by six.
+
+use std::ops::Range;
+
+use crate::diagnosis::{
+    hypothesis::{Case, Cause, Hypothesis, Place},
+    suspect::Parameter,
+};
+
+pub(super) fn hypotheses(_: &Case) -> Vec<Hypothesis> {
+    let single = (0..6).map(|component| component..component + 1);
+    let parts: Vec<Range<usize>> = single.chain([0..3, 3..6, 0..6]).collect();
+    let tool = |part: &Range<usize>| {
+        Hypothesis::fit(Cause::Tool, Place::Tool, part.clone().map(Parameter::Tool).collect())
+    };
+    let base = |part: &Range<usize>| {
+        Hypothesis::fit(Cause::Base, Place::Base, part.clone().map(Parameter::Base).collect())
+    };
+    parts.iter().map(tool).chain(parts.iter().map(base)).collect()
+}

@@ -1,0 +1,22 @@
+//! `fixed_joint_dropped`: the model leaves out one fixed joint of the reference.
+
+use congruent_kinematics::Pose;
+
+use crate::diagnosis::hypothesis::{Case, Cause, Hypothesis, Place};
+
+pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
+    let reference = &case.reference;
+    let dropped = |joint: usize| {
+        Hypothesis::edit(
+            Cause::FixedJointDropped,
+            Place::ReferenceJoints(vec![joint]),
+            move |case: &mut Case| case.reference.joints[joint].parent_from_joint = Pose::identity(),
+        )
+    };
+    let is_fixed = |&joint: &usize| {
+        reference.joints[joint].is_written
+            && reference.joints[joint].twist_in_joint.is_none()
+            && !reference.is_identity(joint)
+    };
+    (0..reference.joints.len()).filter(is_fixed).map(dropped).collect()
+}

@@ -1,0 +1,45 @@
+//! `parameter` in the reference: quarter turns that its file writes with too few digits.
+
+use nalgebra::Matrix3;
+
+use crate::diagnosis::{
+    hypothesis::{Case, Cause, Hypothesis, Place},
+    reference::Reference,
+};
+
+/// How far a quarter turn with four decimals (1.5708) may be off, doubled for a half turn and for
+/// two of them in one joint.
+const FOUR_DECIMALS_RAD: f64 = 1e-4;
+
+pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
+    let rounded = rounded(&case.reference);
+    let all = (rounded.len() > 1).then(|| hypothesis(rounded.clone()));
+    all.into_iter().chain(rounded.iter().map(|&joint| hypothesis(vec![joint]))).collect()
+}
+
+fn hypothesis(joints: Vec<usize>) -> Hypothesis {
+    Hypothesis::edit(Cause::Parameter, Place::ReferenceJoints(joints.clone()), move |case: &mut Case| {
+        for &joint in &joints {
+            let rotation = &mut case.reference.joints[joint].parent_from_joint.rotation;
+            if let Some(exact) = quarter_turns(rotation) {
+                *rotation = exact;
+            }
+        }
+    })
+}
+
+/// Joints whose rotation is nearly one by quarter turns.
+fn rounded(reference: &Reference) -> Vec<usize> {
+    let near = |&joint: &usize| {
+        let rotation = &reference.joints[joint].parent_from_joint.rotation;
+        reference.joints[joint].is_written
+            && quarter_turns(rotation).is_some_and(|exact| (exact - rotation).amax() > 1e-12)
+    };
+    (0..reference.joints.len()).filter(near).collect()
+}
+
+fn quarter_turns(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    let exact = rotation.map(f64::round);
+    ((exact - rotation).amax() < FOUR_DECIMALS_RAD && (exact.determinant() - 1.0).abs() < 0.5)
+        .then_some(exact)
+}

@@ -1,0 +1,189 @@
+//! The second rung: where two chains differ, in the order in which quantities survive a change of
+//! frames. The first that differs says where to look.
+
+use congruent_kinematics::{ScrewChain, Twist};
+use nalgebra::Vector3;
+
+use super::hypothesis::Case;
+
+/// Differences below this, in m, rad or without unit, are rounding of a probe.
+const ROUNDING: f64 = 1e-9;
+/// A screw whose turn is this much smaller than one shifts.
+const NO_TURN: f64 = 1e-12;
+/// Axes whose angle has a smaller sine are parallel.
+const PARALLEL: f64 = 1e-6;
+
+/// A quantity of a chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Invariant {
+    /// 0 for a joint that turns, 1 for one that shifts.
+    Kind,
+    /// Turn or shift for one unit of the joint's variable.
+    Ratio,
+    /// Distance of a joint's axis and the next, m.
+    AxisDistance,
+    /// Angle between a joint's axis and the next as lines, rad.
+    AxisAngle,
+    /// Offset along a joint's axis between the common normals on both sides, m.
+    Offset,
+    /// Direction of the axis against the one before: the cosine of their angle.
+    Sign,
+    /// Angle about a joint's axis between the common normals on both sides, rad.
+    Zero,
+    /// Pose of the first axis: distance of the screws.
+    Base,
+    /// Pose of the tip behind the last axis, m and rad together.
+    Tool,
+}
+
+impl Invariant {
+    /// The name that programs read.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Kind => "kind",
+            Self::Ratio => "ratio",
+            Self::AxisDistance => "axis_distance",
+            Self::AxisAngle => "axis_angle",
+            Self::Offset => "offset",
+            Self::Sign => "sign",
+            Self::Zero => "zero",
+            Self::Base => "base",
+            Self::Tool => "tool",
+        }
+    }
+}
+
+/// One quantity in which two chains differ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointDifference {
+    /// The quantity.
+    pub invariant: Invariant,
+    /// The joint, from 0; of two or three consecutive axes the first.
+    pub joint: usize,
+    /// Of the suspect.
+    pub found: f64,
+    /// Of the reference.
+    pub expected: f64,
+}
+
+/// Everything in which the chains differ, the most invariant quantities first.
+pub(super) fn compare(case: &Case) -> Vec<JointDifference> {
+    let joints = case.reference.joint_count();
+    let suspect = ScrewChain::probe(joints, |q| case.suspect.base_from_tip(q));
+    let reference = case.reference.screws();
+    let mut differences = Vec::new();
+    let (found_here, expected_here) = (quantities(&suspect), quantities(&reference));
+    let value = |list: &[Quantity], at: usize, of: Invariant| {
+        list.iter().find(|(joint, (kind, _))| (*joint, *kind) == (at, of)).map(|(_, (_, value))| *value)
+    };
+    for &(joint, (invariant, found)) in &found_here {
+        let expected = value(&expected_here, joint, invariant).unwrap_or(f64::NAN);
+        let off = if invariant == Invariant::Zero {
+            let turn = found - expected;
+            turn.sin().atan2(turn.cos()).abs()
+        } else {
+            (found - expected).abs()
+        };
+        // A joint that moves nothing on the other side has no kind there.
+        if off > ROUNDING || (expected.is_nan() && invariant == Invariant::Kind) {
+            differences.push(JointDifference { invariant, joint, found, expected });
+        }
+    }
+    for &(joint, (invariant, expected)) in &expected_here {
+        if invariant == Invariant::Kind && value(&found_here, joint, invariant).is_none() {
+            differences.push(JointDifference { invariant, joint, found: f64::NAN, expected });
+        }
+    }
+    if let (Some(found), Some(expected)) = (suspect.twists_in_base.first(), reference.twists_in_base.first())
+    {
+        let off = (found.angular - expected.angular).norm().hypot((found.linear - expected.linear).norm());
+        if off > ROUNDING {
+            differences.push(JointDifference {
+                invariant: Invariant::Base,
+                joint: 0,
+                found: off,
+                expected: 0.0,
+            });
+        }
+    }
+    let (found, expected) = (suspect.base_from_tip_at_zero, reference.base_from_tip_at_zero);
+    let off = found.distance_m(&expected).hypot(found.angle_rad(&expected));
+    if off > ROUNDING {
+        let joint = joints.saturating_sub(1);
+        differences.push(JointDifference { invariant: Invariant::Tool, joint, found: off, expected: 0.0 });
+    }
+    differences.sort_by_key(|difference| (difference.invariant, difference.joint));
+    differences
+}
+
+/// A joint's axis as a line; `through` is `None` for a joint that shifts.
+struct Axis {
+    direction: Vector3<f64>,
+    through: Option<Vector3<f64>>,
+    ratio: f64,
+}
+
+impl Axis {
+    /// `None` for a joint that moves nothing.
+    fn of(twist: &Twist) -> Option<Self> {
+        let Twist { angular, linear } = twist;
+        let turn = angular.norm();
+        if turn > NO_TURN {
+            let through = Some(angular.cross(linear) / (turn * turn));
+            return Some(Self { direction: angular / turn, through, ratio: turn });
+        }
+        let shift = linear.norm();
+        (shift > NO_TURN).then(|| Self { direction: linear / shift, through: None, ratio: shift })
+    }
+
+    /// Where along this axis, from its point, the common normal to `other` stands; `None` for
+    /// parallel axes and axes without a place.
+    fn foot(&self, other: &Self) -> Option<f64> {
+        let across = self.direction.cross(&other.direction);
+        if across.norm() < PARALLEL {
+            return None;
+        }
+        let between = other.through? - self.through?;
+        Some(between.cross(&other.direction).dot(&across) / across.norm_squared())
+    }
+
+    fn distance(&self, other: &Self) -> Option<f64> {
+        let across = self.direction.cross(&other.direction);
+        let between = other.through? - self.through?;
+        Some(if across.norm() < PARALLEL {
+            between.cross(&self.direction).norm()
+        } else {
+            between.dot(&across).abs() / across.norm()
+        })
+    }
+}
+
+/// A quantity with the joint that it belongs to.
+type Quantity = (usize, (Invariant, f64));
+
+/// All quantities of a chain that it has.
+fn quantities(chain: &ScrewChain) -> Vec<Quantity> {
+    let axes: Vec<Option<Axis>> = chain.twists_in_base.iter().map(Axis::of).collect();
+    let mut list = Vec::new();
+    for (joint, axis) in axes.iter().enumerate() {
+        let Some(axis) = axis else { continue };
+        list.push((joint, (Invariant::Kind, if axis.through.is_some() { 0.0 } else { 1.0 })));
+        list.push((joint, (Invariant::Ratio, axis.ratio)));
+        let Some(Some(next)) = axes.get(joint + 1) else { continue };
+        let (sine, cosine) =
+            (axis.direction.cross(&next.direction).norm(), axis.direction.dot(&next.direction));
+        list.push((joint, (Invariant::AxisAngle, sine.atan2(cosine.abs()))));
+        list.push((joint, (Invariant::Sign, if cosine.abs() < PARALLEL { 0.0 } else { cosine.signum() })));
+        list.extend(axis.distance(next).map(|distance| (joint, (Invariant::AxisDistance, distance))));
+        let Some(Some(last)) = axes.get(joint + 2) else { continue };
+        if let (Some(before), Some(behind)) = (next.foot(axis), next.foot(last)) {
+            list.push((joint, (Invariant::Offset, (behind - before).abs())));
+        }
+        let normals = (axis.direction.cross(&next.direction), next.direction.cross(&last.direction));
+        if normals.0.norm() > PARALLEL && normals.1.norm() > PARALLEL {
+            let sine = normals.0.cross(&normals.1).dot(&next.direction);
+            list.push((joint, (Invariant::Zero, sine.atan2(normals.0.dot(&normals.1)))));
+        }
+    }
+    list
+}

@@ -1,0 +1,90 @@
+//! What the suspect is held against: a chain of constant transforms and joints, of which hypotheses
+//! may leave one out or read one differently.
+
+use congruent_kinematics::{Pose, ScrewChain, Twist};
+use nalgebra::Matrix3;
+
+use super::snapshot::Snapshot;
+
+/// One joint of the reference, moving or fixed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReferenceJoint {
+    /// The constant transform that leads to the joint.
+    pub parent_from_joint: Pose,
+    /// How it moves for one unit of its coordinate, in its own frame; `None` for a fixed joint.
+    pub twist_in_joint: Option<Twist>,
+    /// Whether it is passed from child to parent: up from a base that stands aside of the chain.
+    pub is_upward: bool,
+    /// Whether a file writes it, so that its figures can be wrong; not so for a black box.
+    pub is_written: bool,
+}
+
+impl ReferenceJoint {
+    /// The constant transform in the direction of the chain.
+    fn step(&self) -> Pose {
+        if self.is_upward { self.parent_from_joint.inverse() } else { self.parent_from_joint }
+    }
+}
+
+/// The chain that the suspect should be: joints from base to tip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// All joints, fixed ones included; moving ones number the coordinates.
+    pub joints: Vec<ReferenceJoint>,
+}
+
+impl Reference {
+    /// A reference of which only its screws are known: a black box that was probed.
+    pub fn from_screws(chain: &ScrewChain) -> Self {
+        let moving = |&twist: &Twist| ReferenceJoint {
+            parent_from_joint: Pose::identity(),
+            twist_in_joint: Some(twist),
+            is_upward: false,
+            is_written: false,
+        };
+        let mut joints: Vec<ReferenceJoint> = chain.twists_in_base.iter().map(moving).collect();
+        joints.push(ReferenceJoint {
+            parent_from_joint: chain.base_from_tip_at_zero,
+            twist_in_joint: None,
+            is_upward: false,
+            is_written: false,
+        });
+        Self { joints }
+    }
+
+    /// Number of coordinates.
+    pub fn joint_count(&self) -> usize {
+        self.joints.iter().filter(|joint| joint.twist_in_joint.is_some()).count()
+    }
+
+    /// Pose of the tip at joint positions `q`.
+    pub fn base_from_tip(&self, q: &[f64]) -> Pose {
+        self.snapshot(q).base_from_tip
+    }
+
+    /// The space screws at position zero, and the home pose.
+    pub fn screws(&self) -> ScrewChain {
+        let Snapshot { twists, base_from_tip } = self.snapshot(&vec![0.0; self.joint_count()]);
+        ScrewChain { twists_in_base: twists, base_from_tip_at_zero: base_from_tip }
+    }
+
+    pub(super) fn snapshot(&self, q: &[f64]) -> Snapshot {
+        let mut pose = Pose::identity();
+        let mut twists = Vec::with_capacity(q.len());
+        for joint in &self.joints {
+            pose = pose * joint.step();
+            if let Some(twist) = joint.twist_in_joint {
+                let position = q[twists.len()];
+                twists.push(twist.seen_from(&pose));
+                pose = pose * twist.exp(position);
+            }
+        }
+        Snapshot { twists, base_from_tip: pose }
+    }
+
+    /// Whether a joint's constant transform changes anything.
+    pub(super) fn is_identity(&self, joint: usize) -> bool {
+        let Pose { rotation, translation } = self.joints[joint].parent_from_joint;
+        rotation == Matrix3::identity() && translation.norm() == 0.0
+    }
+}

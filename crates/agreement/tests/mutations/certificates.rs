@@ -1,0 +1,98 @@
+//! The certificate on injected faults: how often the bracket closes, and what it costs.
+//! `cargo test --release -p congruent-kinematics --test mutations certificates -- --ignored --nocapture`;
+//! `CONGRUENT_EACH` says how many faults of each robot.
+
+use congruent_agreement::{
+    bound::{Bracket, Budget, Certificate, certify_driven},
+    diagnosis::{Case, Reference},
+};
+use congruent_kinematics::ScrewChain;
+use rand_chacha::{
+    ChaCha8Rng,
+    rand_core::{RngCore, SeedableRng},
+};
+
+use crate::{
+    faults::{self, Fault},
+    robots::{self, Mutable},
+};
+
+/// What is asked for: within so much of the attained worst case.
+const WITHIN: f64 = 0.05;
+
+/// The certificate of a mutated model against its reference.
+fn certificate(case: &Case, ranges: &[(f64, f64)], budget: Budget) -> Certificate {
+    let Reference { joints } = &case.reference;
+    let joints = joints.iter().filter(|joint| joint.twist_in_joint.is_some()).count();
+    let rows: Vec<usize> = case.suspect.rows.iter().map(|row| row.joint).collect();
+    let suspect = ScrewChain::probe(joints, |values| {
+        let mut q = vec![0.0; joints];
+        rows.iter().zip(values).for_each(|(&joint, &value)| q[joint] = value);
+        case.suspect.base_from_tip(&q)
+    });
+    let in_order: Vec<usize> = (0..joints).collect();
+    certify_driven((&suspect, &rows), (&case.reference.screws(), &in_order), ranges, budget).unwrap()
+}
+
+fn pick<'a>(faults: &'a [Fault], generator: &mut ChaCha8Rng) -> &'a Fault {
+    let index = generator.next_u64() % u64::try_from(faults.len()).unwrap();
+    &faults[usize::try_from(index).unwrap()]
+}
+
+/// So many single faults and as many pairs of every robot.
+fn sample(each: usize) -> Vec<(String, Mutable)> {
+    let mut generator = ChaCha8Rng::seed_from_u64(11);
+    let mut list = Vec::new();
+    for Mutable { name, case, ranges } in robots::all() {
+        let faults = faults::all(&case);
+        for number in 0..2 * each {
+            let chosen: Vec<&Fault> = (0..=number % 2).map(|_| pick(&faults, &mut generator)).collect();
+            let mut case = case.clone();
+            for fault in &chosen {
+                fault.inject(&mut case);
+            }
+            let told: Vec<String> =
+                chosen.iter().map(|fault| format!("{} {:?}", fault.cause, fault.place)).collect();
+            let label = format!("{name}: {}", told.join(" and "));
+            list.push((label, Mutable { name: name.clone(), case, ranges: ranges.clone() }));
+        }
+    }
+    list
+}
+
+fn excess(bracket: &Bracket) -> f64 {
+    if bracket.is_within(WITHIN) { 0.0 } else { bracket.certified / bracket.attained - 1.0 }
+}
+
+#[test]
+#[ignore = "takes minutes; lists what does not close"]
+#[expect(clippy::print_stdout, reason = "the list is what one runs it for")]
+#[expect(clippy::disallowed_methods, reason = "what it costs is asked")]
+fn certificates_close() {
+    let each = std::env::var("CONGRUENT_EACH").map_or(4, |text| text.parse().unwrap());
+    let mut slowest = 0.0_f64;
+    let (mut all, mut open) = (0, 0);
+    let mut total = 0.0;
+    for (label, Mutable { case, ranges, .. }) in sample(each) {
+        let start = std::time::Instant::now();
+        let found = certificate(&case, &ranges, Budget::default());
+        let seconds = start.elapsed().as_secs_f64();
+        total += seconds;
+        slowest = slowest.max(seconds);
+        all += 1;
+        let (position, orientation) = (excess(&found.position_m), excess(&found.orientation_rad));
+        if position > 0.0 || orientation > 0.0 || seconds > 2.0 {
+            open += 1;
+            println!(
+                "{label}: {:.1} % of {:.4} m ({} cells), {:.1} % of {:.4} rad ({} cells), {seconds:.1} s",
+                1e2 * position,
+                found.position_m.attained,
+                found.position_m.cells,
+                1e2 * orientation,
+                found.orientation_rad.attained,
+                found.orientation_rad.cells,
+            );
+        }
+    }
+    println!("{open} of {all} open or slow, slowest {slowest:.1} s, {total:.0} s in all");
+}

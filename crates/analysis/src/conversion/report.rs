@@ -1,0 +1,316 @@
+//! The answer of `congruent derive` and `congruent convert`.
+
+use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Finding, Robot};
+use congruent_kinematics::{
+    AxisRelation, Choice, DhDerivation, Pose, Proof, ReportedPose, ScrewChain, Twist,
+};
+use serde::Serialize;
+
+use super::{Conversion, Origin, Target, subject::Subject};
+
+/// A common normal this far away is told: no arm is built so, and it makes figures that nobody can check.
+const FAR_M: f64 = 100.0;
+
+/// A converted model with its proof.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ConversionReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// Which model was converted.
+    pub from: Origin,
+    /// What it became.
+    pub to: Target,
+    /// The link that the model starts from.
+    pub base: String,
+    /// The link that it ends at.
+    pub tip: String,
+    /// The joints, base to tip.
+    pub joints: Vec<String>,
+    /// The table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table: Option<TableReport>,
+    /// The section `[dh]` of a robot file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub robot_toml: Option<String>,
+    /// Screws and home pose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poe: Option<PoeReport>,
+    /// URDF text.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub urdf: Option<String>,
+    /// How consecutive axes lie, where a table was derived from them.
+    pub axes: Vec<AxisReport>,
+    /// What was free, and what was taken.
+    pub free_choices: Vec<ChoiceReport>,
+    /// What else a reader must know.
+    pub notes: Vec<String>,
+    /// How far the result is from what it came from.
+    pub proof: ProofReport,
+    /// What was suspicious in the input.
+    pub warnings: Vec<Finding>,
+}
+
+/// A table as programs read it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TableReport {
+    /// `standard` or `modified`.
+    pub convention: &'static str,
+    /// The equation of a row.
+    pub equation: &'static str,
+    /// Pose of the table's frame 0 in link `base`.
+    pub base_from_dh0: ReportedPose,
+    /// The rows, base to tip.
+    pub rows: Vec<RowReport>,
+    /// Pose of link `tip` in the table's last frame.
+    pub dhn_from_tip: ReportedPose,
+}
+
+/// One row.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RowReport {
+    /// The joint that drives it.
+    pub joint: String,
+    /// `revolute` or `prismatic`.
+    pub kind: &'static str,
+    /// Link length.
+    pub a_m: f64,
+    /// Link twist.
+    pub alpha_rad: f64,
+    /// Link offset.
+    pub d_m: f64,
+    /// Joint angle.
+    pub theta_rad: f64,
+    /// 1 or -1.
+    pub sign: f64,
+}
+
+/// Screws and home pose.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PoeReport {
+    /// Twists at zero in link `base`, of `exp([S_1] q_1) ... exp([S_n] q_n) M`.
+    pub space_screws: Vec<ScrewReport>,
+    /// Twists at zero in link `tip`, of `M exp([B_1] q_1) ... exp([B_n] q_n)`.
+    pub body_screws: Vec<ScrewReport>,
+    /// `M`.
+    pub base_from_tip_at_zero: ReportedPose,
+}
+
+/// One screw.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ScrewReport {
+    /// The joint.
+    pub joint: String,
+    /// Turn per unit of the joint.
+    pub angular: [f64; 3],
+    /// Shift of the point at the origin per unit of the joint.
+    pub linear: [f64; 3],
+}
+
+/// How two consecutive axes lie.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AxisReport {
+    /// The two joints.
+    pub joints: [String; 2],
+    /// `skew`, `intersecting`, `parallel`, `anti_parallel` or `coincident`.
+    pub relation: &'static str,
+    /// Angle between the axes.
+    pub angle_rad: f64,
+    /// Length of the common normal.
+    pub distance_m: f64,
+    /// How far along the first axis the normal lies from the one before.
+    pub normal_at_m: f64,
+}
+
+/// Something that the axes leave open.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ChoiceReport {
+    /// The joint whose row it touches.
+    pub joint: String,
+    /// Stable name.
+    pub choice: &'static str,
+    /// What was open and what was taken.
+    pub text: String,
+}
+
+/// Residuals of a conversion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ProofReport {
+    /// What was allowed, rad and m.
+    pub limit: f64,
+    /// The largest of the residuals below.
+    pub worst: f64,
+    /// Directions of the screws, rad per unit of the joint.
+    pub screw_rad: f64,
+    /// Moments of the screws, m per unit of the joint.
+    pub screw_m: f64,
+    /// Home orientation.
+    pub home_rad: f64,
+    /// Home origin.
+    pub home_m: f64,
+    /// Orientation at any of the configurations.
+    pub orientation_rad: f64,
+    /// Origin at any of the configurations.
+    pub position_m: f64,
+    /// Number of configurations: zero, single axes, random ones, limits.
+    pub configurations: usize,
+    /// Seed of the random ones.
+    pub seed: u64,
+}
+
+impl ConversionReport {
+    /// The report before anything is converted.
+    pub(super) fn new(subject: &Subject<'_>, conversion: &Conversion) -> Self {
+        let description = subject.description;
+        let robot = &description.robot;
+        Self {
+            robot: description.name.clone(),
+            from: subject.origin,
+            to: conversion.to,
+            base: robot.link(description.base).name.clone(),
+            tip: robot.link(description.tip).name.clone(),
+            joints: (0..subject.joints.len()).map(|joint| subject.joint_name(joint).to_owned()).collect(),
+            table: None,
+            robot_toml: None,
+            poe: None,
+            urdf: None,
+            axes: Vec::new(),
+            free_choices: Vec::new(),
+            notes: notes(subject),
+            proof: ProofReport::new(&Proof::default(), conversion),
+            warnings: description.warnings.iter().map(Finding::from).collect(),
+        }
+    }
+
+    pub(super) fn keep_choices(&mut self, derivation: &DhDerivation, subject: &Subject<'_>) {
+        let name = |joint: usize| subject.joint_name(joint).to_owned();
+        let axes = derivation.pairs.iter().map(|pair| AxisReport {
+            joints: [name(pair.joint), name(pair.joint + 1)],
+            relation: relation(pair.relation),
+            angle_rad: pair.angle_rad,
+            distance_m: pair.distance_m,
+            normal_at_m: pair.normal_at_m,
+        });
+        self.axes = axes.collect();
+        let choices = derivation.choices.iter().map(|free| ChoiceReport {
+            joint: name(free.joint),
+            choice: choice(free.choice),
+            text: free.choice.to_string(),
+        });
+        self.free_choices = choices.collect();
+        for pair in self.axes.iter().filter(|pair| pair.normal_at_m.abs() > FAR_M) {
+            self.notes.push(format!(
+                "the axes of \"{}\" and \"{}\" are nearly but not quite parallel: their common normal lies {:.3e} m \
+                 away; a coarser --accuracy takes them as parallel",
+                pair.joints[0],
+                pair.joints[1],
+                pair.normal_at_m.abs()
+            ));
+        }
+        self.notes.push("z axes point as the joints turn or shift, so every sign is 1".to_owned());
+    }
+}
+
+fn notes(subject: &Subject<'_>) -> Vec<String> {
+    let robot = &subject.description.robot;
+    let mimic = subject.joints.iter().filter_map(|&joint| {
+        let mimic = robot.joint(joint).mimic?;
+        Some(format!(
+            "joint \"{}\" has a variable of its own here; as a mimic joint it follows \"{}\": {} times, plus {}",
+            robot.joint(joint).name,
+            robot.joint(mimic.master).name,
+            mimic.multiplier,
+            mimic.offset
+        ))
+    });
+    let tool = subject
+        .description
+        .tip_from_tcp
+        .map(|_| "the tool of [tcp] is no part of the chain: it stays as declared".to_owned());
+    mimic.chain(tool).collect()
+}
+
+impl TableReport {
+    pub(super) fn new(table: &DhTable, robot: &Robot) -> Self {
+        let (convention, equation) = match table.convention {
+            DhConvention::Standard => ("standard", "Rz(theta) Tz(d) Tx(a) Rx(alpha)"),
+            DhConvention::Modified => ("modified", "Rx(alpha) Tx(a) Rz(theta) Tz(d)"),
+        };
+        let row = |row: &DhRow| RowReport {
+            joint: robot.joint(row.joint).name.clone(),
+            kind: match row.kind {
+                DhRowKind::Revolute => "revolute",
+                DhRowKind::Prismatic => "prismatic",
+            },
+            a_m: row.a_m,
+            alpha_rad: row.alpha_rad,
+            d_m: row.d_m,
+            theta_rad: row.theta_rad,
+            sign: row.sign,
+        };
+        Self {
+            convention,
+            equation,
+            base_from_dh0: (&Pose::from(table.base_from_dh0)).into(),
+            rows: table.rows.iter().map(row).collect(),
+            dhn_from_tip: (&Pose::from(table.dhn_from_tip)).into(),
+        }
+    }
+}
+
+impl PoeReport {
+    pub(super) fn new(chain: &ScrewChain, subject: &Subject<'_>) -> Self {
+        let screws = |twists: &[Twist]| {
+            let named = twists.iter().enumerate();
+            named
+                .map(|(joint, twist)| ScrewReport {
+                    joint: subject.joint_name(joint).to_owned(),
+                    angular: twist.angular.into(),
+                    linear: twist.linear.into(),
+                })
+                .collect()
+        };
+        Self {
+            space_screws: screws(&chain.twists_in_base),
+            body_screws: screws(&chain.twists_in_tip()),
+            base_from_tip_at_zero: (&chain.base_from_tip_at_zero).into(),
+        }
+    }
+}
+
+impl ProofReport {
+    pub(super) fn new(proof: &Proof, conversion: &Conversion) -> Self {
+        Self {
+            limit: conversion.accuracy,
+            worst: proof.worst(),
+            screw_rad: proof.screw_rad,
+            screw_m: proof.screw_m,
+            home_rad: proof.home_rad,
+            home_m: proof.home_m,
+            orientation_rad: proof.orientation_rad,
+            position_m: proof.position_m,
+            configurations: proof.configurations,
+            seed: conversion.seed,
+        }
+    }
+}
+
+fn relation(relation: AxisRelation) -> &'static str {
+    match relation {
+        AxisRelation::Skew => "skew",
+        AxisRelation::Intersecting => "intersecting",
+        AxisRelation::Parallel => "parallel",
+        AxisRelation::AntiParallel => "anti_parallel",
+        AxisRelation::Coincident => "coincident",
+    }
+}
+
+fn choice(choice: Choice) -> &'static str {
+    match choice {
+        Choice::FirstFrame => "first_frame",
+        Choice::ParallelOrigin => "parallel_origin",
+        Choice::NormalSense => "normal_sense",
+        Choice::CoincidentFrame => "coincident_frame",
+        Choice::PrismaticLine => "prismatic_line",
+        Choice::LastFrame => "last_frame",
+    }
+}

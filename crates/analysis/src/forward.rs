@@ -1,0 +1,144 @@
+//! `congruent fk`: poses of links by a chosen witness.
+
+use congruent_description::{Diagnostic, RobotDescription};
+use congruent_kinematics::{
+    DhChain, KinematicsError, LinkPoses, LinkPosesError, Pose, ReportedPose, UrdfTree,
+};
+use serde::Serialize;
+
+/// The tool center point among links.
+const TCP: &str = "tcp";
+
+/// Which witness answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Source {
+    /// The URDF chain, by analysis.
+    Urdf,
+    /// The declared table: its frames, the tip and the TCP.
+    Dh,
+    /// Screws (product of exponentials).
+    Poe,
+    /// The physics engine.
+    Simulation,
+}
+
+/// Poses at one configuration, by name, in order.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Poses {
+    /// Links (or frames of the table) with their poses in the root link's frame.
+    #[serde(serialize_with = "as_map")]
+    pub links: Vec<(String, ReportedPose)>,
+}
+
+fn as_map<S: serde::Serializer>(poses: &[(String, ReportedPose)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(poses.iter().map(|(name, pose)| (name, pose)))
+}
+
+/// The answer of `congruent fk`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ForwardReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// Movable joints, in the order of configuration vectors.
+    pub joints: Vec<String>,
+    /// Which witness answered.
+    pub source: Source,
+    /// One entry for each configuration, in input order.
+    pub results: Vec<Poses>,
+}
+
+/// Why a witness cannot answer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ForwardError {
+    /// The robot file has no table.
+    #[error("robot \"{robot}\" has no [dh] table")]
+    NoTable {
+        /// The robot.
+        robot: String,
+    },
+    /// A witness refuses the robot.
+    #[error(transparent)]
+    Source(#[from] LinkPosesError),
+}
+
+impl From<ForwardError> for Diagnostic {
+    fn from(error: ForwardError) -> Self {
+        let found = Diagnostic::error("fk::source", error.to_string());
+        match error {
+            ForwardError::NoTable { .. } => {
+                found.with_help("use --source urdf, poe or simulation, or add [dh] to robot.toml")
+            }
+            ForwardError::Source(_) => found,
+        }
+    }
+}
+
+/// Poses of all links and of the declared TCP at each configuration, by a source of link poses.
+///
+/// # Errors
+/// [`ForwardError`] if the source refuses a configuration.
+pub fn forward(
+    description: &RobotDescription,
+    (source, link_poses): (Source, &mut dyn LinkPoses),
+    configurations: &[Vec<f64>],
+) -> Result<ForwardReport, ForwardError> {
+    let robot = &description.robot;
+    let mut root_from_links = vec![Pose::identity(); robot.links().len()];
+    let tip_from_tcp = description.tip_from_tcp.filter(|_| robot.find_link(TCP).is_none()).map(Pose::from);
+    let mut results = Vec::with_capacity(configurations.len());
+    for q in configurations {
+        link_poses.root_from_links_into(q, &mut root_from_links)?;
+        let names = robot.links().iter().map(|link| link.name.clone());
+        let mut links: Vec<(String, ReportedPose)> =
+            names.zip(root_from_links.iter().map(ReportedPose::from)).collect();
+        if let Some(tip_from_tcp) = tip_from_tcp {
+            let root_from_tcp = root_from_links[description.tip.get()] * tip_from_tcp;
+            links.push((TCP.to_owned(), (&root_from_tcp).into()));
+        }
+        results.push(Poses { links });
+    }
+    Ok(report(description, source, results))
+}
+
+fn report(description: &RobotDescription, source: Source, results: Vec<Poses>) -> ForwardReport {
+    let robot = &description.robot;
+    ForwardReport {
+        robot: robot.name().to_owned(),
+        joints: robot.movable_joint_names().map(str::to_owned).collect(),
+        source,
+        results,
+    }
+}
+
+/// Frames `dh0` to `dhn`, the tip under its name, and the TCP, which is the tip without a tool.
+///
+/// # Errors
+/// [`ForwardError::NoTable`] for a robot without a table.
+pub fn forward_by_table(
+    description: &RobotDescription,
+    configurations: &[Vec<f64>],
+) -> Result<ForwardReport, ForwardError> {
+    let robot = &description.robot;
+    let table =
+        description.dh.as_ref().ok_or_else(|| ForwardError::NoTable { robot: robot.name().to_owned() })?;
+    let chain = DhChain::new(table, robot);
+    let tree = UrdfTree::new(robot);
+    let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
+    let mut base_from_dh = vec![Pose::identity(); chain.joint_count() + 1];
+    let at = |q: &Vec<f64>| -> Result<Poses, KinematicsError> {
+        let root_from_base = tree.root_from_link(q, description.base)?;
+        chain.dh_frames_into(q, &mut base_from_dh)?;
+        let root_from_tip = root_from_base * chain.base_from_tip(q)?;
+        let frames = base_from_dh.iter().enumerate();
+        let mut links: Vec<(String, ReportedPose)> = frames
+            .map(|(index, frame)| (format!("dh{index}"), (&(root_from_base * *frame)).into()))
+            .collect();
+        links.push((robot.link(description.tip).name.clone(), (&root_from_tip).into()));
+        links.push((TCP.to_owned(), (&(root_from_tip * tip_from_tcp)).into()));
+        Ok(Poses { links })
+    };
+    let results = configurations.iter().map(at).collect::<Result<_, KinematicsError>>();
+    Ok(report(description, Source::Dh, results.map_err(LinkPosesError::from)?))
+}

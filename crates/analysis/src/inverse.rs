@@ -1,0 +1,205 @@
+//! `congruent ik`: which joint positions bring the tool to given poses?
+
+use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path};
+
+use congruent_description::{Diagnostic, Robot, RobotDescription, read_text};
+use congruent_kinematics::{Arm, IkResult, IkSolver, IkTarget, KinematicsError, Pose};
+
+pub use congruent_kinematics::{IkMethod, IkOptions, TargetPart};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use serde::{Deserialize, Serialize};
+
+use congruent_description::{ByJoint, Finding, JsonList, configuration};
+
+/// What a file of targets is.
+const LIST: JsonList = JsonList {
+    entry: "target",
+    code: "targets::json",
+    help: r#"expected [{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint": 0.1}}]"#,
+};
+/// Farthest that a target may be: the square of anything larger drowns all else.
+const MOST_M: f64 = 1e6;
+/// Largest file of targets that is read.
+const MOST_BYTES: u64 = 256 << 20;
+/// How far the norm of a written quaternion may be from 1. Kind: six digits in the file.
+const QUATERNION_NORM: f64 = 1e-6;
+
+/// One target as written.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    translation_m: [f64; 3],
+    quaternion_wxyz: Option<[f64; 4]>,
+    #[serde(default)]
+    start: BTreeMap<String, f64>,
+}
+
+/// A pose to be reached, and where the search starts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    /// The pose.
+    pub target: IkTarget,
+    /// Joints with a given start, by name, in rad or m; others start at the middle of their range.
+    pub start: BTreeMap<String, f64>,
+}
+
+/// A file of targets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Targets {
+    /// In the order of the file.
+    pub targets: Vec<Target>,
+    /// Starts that the limits do not allow: the search begins at the nearest position within.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// The answer of `congruent ik`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InverseReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// The arm's independent joints, base to tip.
+    pub joints: Vec<String>,
+    /// How it was solved.
+    pub method: &'static str,
+    /// One entry for each target, in input order.
+    pub results: Vec<Solution>,
+    /// Starts outside the limits.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
+}
+
+/// What came of one target.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Solution {
+    /// Whether the residuals are within tolerance.
+    pub converged: bool,
+    /// The best positions that were found, rad or m, always within the limits.
+    pub q: ByJoint,
+    /// Distance that is left.
+    pub residual_position_m: f64,
+    /// Angle that is left; 0 where no orientation was asked for.
+    pub residual_orientation_rad: f64,
+    /// Steps that were taken.
+    pub iterations: usize,
+    /// Joints that stand at a limit.
+    pub limits_held: Vec<String>,
+}
+
+/// Reads a file of targets: a JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [...],
+/// "start": {joint: value}}`, the last two optional; poses of the tool in link `base`.
+///
+/// # Errors
+/// Where the file cannot be read, is no such array, names an unknown joint or holds no unit quaternion.
+pub fn read_targets(path: &Path, robot: &Robot) -> Result<Targets, Vec<Diagnostic>> {
+    let source = read_text(path, MOST_BYTES)?;
+    let in_file = |found: Vec<Diagnostic>| -> Vec<Diagnostic> {
+        found.into_iter().map(|each| each.in_file(&source)).collect()
+    };
+    let (mut warnings, mut index) = (Vec::new(), 0);
+    let entry = |written: Written, place: Range<usize>| {
+        index += 1;
+        let target = checked(written, robot)?;
+        let outside = target.start.iter().filter_map(|(name, &value)| outside(robot, name, value));
+        warnings.extend(outside.map(|what| {
+            Diagnostic::warning("targets::start", format!("target {index}: {what}"))
+                .with_help("the search begins at the nearest position within the limits")
+                .at(place.clone())
+        }));
+        Ok(target)
+    };
+    let targets = LIST.read(&source.text, entry).map_err(in_file)?;
+    Ok(Targets { targets, warnings: in_file(warnings) })
+}
+
+/// What a start is beyond, unless whole turns of the joint bring it within.
+fn outside(robot: &Robot, name: &str, value: f64) -> Option<String> {
+    let joint = robot.joint(robot.find_joint(name)?);
+    let limit = joint.limit?;
+    let turned = if joint.kind.is_angular() && value > limit.upper {
+        value - TAU * ((value - limit.upper) / TAU).ceil()
+    } else if joint.kind.is_angular() && value < limit.lower {
+        value + TAU * ((limit.lower - value) / TAU).ceil()
+    } else {
+        value
+    };
+    let is_outside = turned < limit.lower || turned > limit.upper;
+    is_outside.then(|| {
+        format!("start {value} of \"{name}\" is outside its limits {} to {}", limit.lower, limit.upper)
+    })
+}
+
+fn checked(written: Written, robot: &Robot) -> Result<Target, Diagnostic> {
+    configuration(&written.start, robot)?;
+    if let Some(far) = written.translation_m.iter().find(|figure| figure.abs() > MOST_M) {
+        let message = format!("translation_m has {far}, which is beyond {MOST_M:e} m");
+        return Err(Diagnostic::error("targets::translation", message));
+    }
+    let (part, rotation) = match written.quaternion_wxyz {
+        Some(wxyz) => (TargetPart::Pose, unit_quaternion(wxyz)?),
+        None => (TargetPart::Position, UnitQuaternion::identity()),
+    };
+    let base_from_tcp =
+        Pose::from(Isometry3::from_parts(Translation3::from(written.translation_m), rotation));
+    Ok(Target { target: IkTarget { base_from_tcp, part }, start: written.start })
+}
+
+fn unit_quaternion([w, x, y, z]: [f64; 4]) -> Result<UnitQuaternion<f64>, Diagnostic> {
+    let quaternion = Quaternion::new(w, x, y, z);
+    let norm = quaternion.norm();
+    if (norm - 1.0).abs() <= QUATERNION_NORM {
+        return Ok(UnitQuaternion::from_quaternion(quaternion));
+    }
+    let message = format!("quaternion_wxyz has norm {norm:.7}, it must be 1 within {QUATERNION_NORM}");
+    Err(Diagnostic::error("targets::quaternion_norm", message)
+        .with_help("it is not normalised silently: write it with more digits, scalar first"))
+}
+
+/// Solves all targets for the robot's arm, the URDF chain from `base` to `tip` with its tool.
+///
+/// # Errors
+/// [`KinematicsError::NoJoint`] where the robot has no arm.
+pub fn inverse(
+    description: &RobotDescription,
+    Targets { targets, warnings }: &Targets,
+    options: &IkOptions,
+) -> Result<InverseReport, KinematicsError> {
+    let arm = Arm::of(description)?;
+    let joints: Vec<String> =
+        arm.joints().iter().map(|joint| description.robot.joint(joint.joint).name.clone()).collect();
+    let middle = arm.middle();
+    let mut solver = IkSolver::new(arm);
+    let mut results = Vec::with_capacity(targets.len());
+    for target in targets {
+        let start = joints.iter().zip(&middle);
+        let start: Vec<f64> =
+            start.map(|(joint, middle)| *target.start.get(joint).unwrap_or(middle)).collect();
+        results.push(solution(&solver.solve(&target.target, &start, options, || true)?, &joints));
+    }
+    Ok(InverseReport {
+        robot: description.robot.name().to_owned(),
+        joints,
+        method: name(options.method),
+        results,
+        warnings: warnings.iter().map(Finding::from).collect(),
+    })
+}
+
+fn solution(result: &IkResult<'_>, joints: &[String]) -> Solution {
+    Solution {
+        converged: result.converged,
+        q: ByJoint::new(joints, result.q),
+        residual_position_m: result.residual_position_m,
+        residual_orientation_rad: result.residual_orientation_rad,
+        iterations: result.iterations,
+        limits_held: result.limits_held.iter().map(|&joint| joints[joint].clone()).collect(),
+    }
+}
+
+fn name(method: IkMethod) -> &'static str {
+    match method {
+        IkMethod::LevenbergMarquardt => "lm",
+        IkMethod::Newton => "newton",
+        IkMethod::PseudoInverse => "pseudo-inverse",
+        IkMethod::Transpose => "transpose",
+    }
+}

@@ -1,0 +1,115 @@
+//! `congruent jacobian`: how joint velocities move a link.
+
+use congruent_description::{LinkIndex, Robot};
+
+pub use congruent_kinematics::JacobianKind;
+use congruent_kinematics::{Jacobian, KinematicsError, UrdfTree};
+use nalgebra::Matrix3xX;
+use serde::Serialize;
+
+use congruent_description::JointState;
+
+/// A Jacobian as programs read it: named blocks, since half the field stacks linear first and half
+/// angular first. Columns are in the order of the report's joints.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Blocks {
+    /// Three rows: m/s for each rad/s or m/s.
+    pub linear: [Vec<f64>; 3],
+    /// Three rows: rad/s for each rad/s or m/s.
+    pub angular: [Vec<f64>; 3],
+}
+
+impl From<&Jacobian> for Blocks {
+    fn from(jacobian: &Jacobian) -> Self {
+        Self { linear: rows(&jacobian.linear()), angular: rows(&jacobian.angular()) }
+    }
+}
+
+fn rows(block: &Matrix3xX<f64>) -> [Vec<f64>; 3] {
+    [0, 1, 2].map(|row| block.row(row).iter().copied().collect())
+}
+
+/// One configuration's answer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JacobianResult {
+    /// The Jacobian itself.
+    #[serde(flatten)]
+    pub jacobian: Blocks,
+    /// Its time derivative at the speeds that were given, each entry per s; absent where none was
+    /// asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub derivative: Option<Blocks>,
+}
+
+/// The answer of `congruent jacobian`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JacobianReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// Movable joints, in the order of columns; mimic joints have columns of their own.
+    pub joints: Vec<String>,
+    /// The link that moves.
+    pub link: String,
+    /// `space`, `body` or `geometric`.
+    pub kind: &'static str,
+    /// One entry for each configuration, in input order.
+    pub results: Vec<JacobianResult>,
+}
+
+/// Jacobians of one link at each configuration, from the URDF chain.
+///
+/// # Errors
+/// [`KinematicsError::JointCount`] for a configuration that is none of the robot's.
+pub fn jacobians(
+    robot: &Robot,
+    link: LinkIndex,
+    kind: JacobianKind,
+    configurations: &[Vec<f64>],
+) -> Result<JacobianReport, KinematicsError> {
+    let tree = UrdfTree::new(robot);
+    let at = |q: &Vec<f64>| {
+        let jacobian = tree.jacobian(q, link, kind)?;
+        Ok(JacobianResult { jacobian: Blocks::from(&jacobian), derivative: None })
+    };
+    let results = configurations.iter().map(at).collect::<Result<_, KinematicsError>>()?;
+    Ok(report(robot, link, kind, results))
+}
+
+/// Jacobians of one link and their time derivatives, from the URDF chain.
+///
+/// # Errors
+/// [`KinematicsError::JointCount`] for positions or speeds that are none of the robot's.
+pub fn jacobians_in_motion(
+    robot: &Robot,
+    link: LinkIndex,
+    kind: JacobianKind,
+    states: &[JointState],
+) -> Result<JacobianReport, KinematicsError> {
+    let tree = UrdfTree::new(robot);
+    let at = |JointState { q, qd }: &JointState| {
+        let jacobian = tree.jacobian(q, link, kind)?;
+        let derivative = Some(Blocks::from(&jacobian.rate(qd)?));
+        Ok(JacobianResult { jacobian: Blocks::from(&jacobian), derivative })
+    };
+    let results = states.iter().map(at).collect::<Result<_, KinematicsError>>()?;
+    Ok(report(robot, link, kind, results))
+}
+
+fn report(
+    robot: &Robot,
+    link: LinkIndex,
+    kind: JacobianKind,
+    results: Vec<JacobianResult>,
+) -> JacobianReport {
+    JacobianReport {
+        robot: robot.name().to_owned(),
+        joints: robot.movable_joint_names().map(str::to_owned).collect(),
+        link: robot.link(link).name.clone(),
+        kind: match kind {
+            JacobianKind::Space => "space",
+            JacobianKind::Body => "body",
+            JacobianKind::Geometric => "geometric",
+        },
+        results,
+    }
+}

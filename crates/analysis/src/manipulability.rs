@@ -1,0 +1,204 @@
+//! `congruent manipulability`: how well the tool moves in each direction.
+
+use congruent_description::{ByJoint, LinkIndex, RobotDescription};
+use congruent_kinematics::{
+    Arm, Dexterity, KinematicsError, Manipulability, Pose, UrdfTree, VelocityEllipsoid,
+};
+use nalgebra::{Matrix2x3, Vector3};
+use serde::Serialize;
+
+use crate::{
+    joint_names,
+    plot::{Curve, PlaneView, PlotError, views},
+};
+
+/// The answer of `congruent manipulability`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ManipulabilityReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// The arm's independent joints, base to tip.
+    pub joints: Vec<String>,
+    /// The length that makes metres and radians comparable in `whole`.
+    pub metres_per_rad: f64,
+    /// One entry for each configuration.
+    pub results: Vec<ConfigurationDexterity>,
+}
+
+/// The figures at one configuration.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ConfigurationDexterity {
+    /// The configuration, rad or m.
+    pub q: ByJoint,
+    /// Where the tool is, in the base.
+    pub tcp_in_base_m: [f64; 3],
+    /// Velocity of the tool centre point, m per unit of joint speed.
+    pub linear: ReportedEllipsoid,
+    /// Angular velocity, rad per unit of joint speed.
+    pub angular: ReportedEllipsoid,
+    /// Both, lengths in `metres_per_rad`.
+    pub whole: ReportedDexterity,
+}
+
+/// An ellipsoid with its figures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReportedEllipsoid {
+    /// Directions in the base, the longest first.
+    pub axes: [[f64; 3]; 3],
+    /// Lengths.
+    pub semi_axes: [f64; 3],
+    /// Its figures.
+    #[serde(flatten)]
+    pub dexterity: ReportedDexterity,
+}
+
+/// What singular values say.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReportedDexterity {
+    /// Directions that the arm can span at all.
+    pub directions: usize,
+    /// Product of the singular values.
+    pub yoshikawa: f64,
+    /// Largest over smallest singular value; none where the arm is singular.
+    pub condition: Option<f64>,
+    /// The smallest singular value.
+    pub distance_to_singularity: f64,
+}
+
+impl From<&Dexterity> for ReportedDexterity {
+    fn from(found: &Dexterity) -> Self {
+        Self {
+            directions: found.singular_values.len(),
+            yoshikawa: found.yoshikawa,
+            condition: found.condition.is_finite().then_some(found.condition),
+            distance_to_singularity: found.distance_to_singularity,
+        }
+    }
+}
+
+impl From<&VelocityEllipsoid> for ReportedEllipsoid {
+    fn from(found: &VelocityEllipsoid) -> Self {
+        Self {
+            axes: [0, 1, 2].map(|axis| found.axes_in_base.column(axis).into_owned().into()),
+            semi_axes: found.semi_axes,
+            dexterity: (&found.dexterity).into(),
+        }
+    }
+}
+
+/// Manipulability at configurations of the robot.
+///
+/// # Errors
+/// [`KinematicsError`] where the robot has no arm.
+pub fn manipulability(
+    description: &RobotDescription,
+    configurations: &[Vec<f64>],
+) -> Result<ManipulabilityReport, KinematicsError> {
+    let mut arm = Arm::of(description)?;
+    let joints = joint_names(description, &arm);
+    let mut results = Vec::with_capacity(configurations.len());
+    for q_robot in configurations {
+        let q = arm.from_robot(q_robot);
+        let Manipulability { linear, angular, whole } = arm.manipulability(&q)?;
+        results.push(ConfigurationDexterity {
+            q: ByJoint::new(&joints, &q),
+            tcp_in_base_m: arm.base_from_tcp(&q)?.translation.into(),
+            linear: (&linear).into(),
+            angular: (&angular).into(),
+            whole: (&whole).into(),
+        });
+    }
+    Ok(ManipulabilityReport {
+        robot: description.robot.name().to_owned(),
+        metres_per_rad: arm.metres_per_rad(),
+        joints,
+        results,
+    })
+}
+
+/// The planes that are drawn, by their axes.
+pub(super) const PLANES: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
+/// Names of the axes.
+pub(super) const AXES: [&str; 3] = ["x in m", "y in m", "z in m"];
+/// Length of the longest semi-axis in the figure as a share of the arm's extent.
+const DRAWN_SHARE: f64 = 0.3;
+/// Corners of a drawn ellipse.
+const CORNERS: u16 = 96;
+
+/// The arm at one configuration with both ellipsoids at its tool, in three planes of the base.
+///
+/// # Errors
+/// [`PlotError`] where the drawing library refuses.
+pub fn plot(
+    description: &RobotDescription,
+    q_robot: &[f64],
+    result: &ConfigurationDexterity,
+) -> Result<String, PlotError> {
+    let tcp = Vector3::from(result.tcp_in_base_m);
+    let mut skeleton = skeleton(description, q_robot);
+    skeleton.push(tcp);
+    let extent = skeleton.iter().map(Vector3::norm).fold(0.0, f64::max);
+    let view = |axes: &[usize; 2]| {
+        let flat = |point: &Vector3<f64>| [point[axes[0]], point[axes[1]]];
+        let ellipse = |(series, ellipsoid): (usize, &ReportedEllipsoid)| {
+            let longest = ellipsoid.semi_axes[0].max(f64::MIN_POSITIVE);
+            let points = outline(ellipsoid, *axes, DRAWN_SHARE * extent / longest);
+            let centre = flat(&tcp);
+            let points = points.map(|[x, y]| [centre[0] + x, centre[1] + y]).collect();
+            Curve { points, series: Some(series) }
+        };
+        let mut curves = vec![Curve { points: skeleton.iter().map(flat).collect(), series: None }];
+        curves.extend([&result.linear, &result.angular].into_iter().enumerate().map(ellipse));
+        PlaneView {
+            axes: axes.map(|axis| AXES[axis].to_owned()),
+            areas: Vec::new(),
+            curves,
+            marks: skeleton.iter().map(flat).collect(),
+        }
+    };
+    let legend = [("velocity", &result.linear, "m/s"), ("angular velocity", &result.angular, "rad/s")];
+    let legend = legend.map(|(name, ellipsoid, unit)| {
+        format!(
+            "{name}: longest semi-axis {:.3} {unit}, shortest {:.3}",
+            ellipsoid.semi_axes[0], ellipsoid.semi_axes[2]
+        )
+    });
+    let title =
+        format!("{}: velocity ellipsoids of the tool, each to its own scale", description.robot.name());
+    views(&title, &legend, &PLANES.each_ref().map(view))
+}
+
+/// Outline of an ellipsoid's shadow on a plane: with `B` the semi-axes seen there, `(B B^T)^(1/2)` times
+/// the unit circle.
+fn outline(
+    ellipsoid: &ReportedEllipsoid,
+    axes: [usize; 2],
+    scale: f64,
+) -> impl Iterator<Item = [f64; 2]> + use<> {
+    let seen = Matrix2x3::from_fn(|row, column| {
+        ellipsoid.axes[column][axes[row]] * ellipsoid.semi_axes[column] * scale
+    });
+    let eigen = (seen * seen.transpose()).symmetric_eigen();
+    (0..=CORNERS).map(move |corner| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS)).sin_cos();
+        let lengths = eigen.eigenvalues.map(|square| square.max(0.0).sqrt());
+        let point = eigen.eigenvectors.column(0) * (lengths.x * cos)
+            + eigen.eigenvectors.column(1) * (lengths.y * sin);
+        [point.x, point.y]
+    })
+}
+
+/// Origins of the links from base to tip, in the base.
+fn skeleton(description: &RobotDescription, q_robot: &[f64]) -> Vec<Vector3<f64>> {
+    let robot = &description.robot;
+    let mut poses = vec![Pose::identity(); robot.links().len()];
+    if UrdfTree::new(robot).root_from_links_into(q_robot, &mut poses).is_err() {
+        return Vec::new();
+    }
+    let base_from_root = poses[description.base.get()].inverse();
+    let origin = |link: LinkIndex| (base_from_root * poses[link.get()]).translation;
+    let joints = robot.chain(description.base, description.tip).unwrap_or_default();
+    let mut origins = vec![Vector3::zeros()];
+    origins.extend(joints.into_iter().map(|joint| origin(robot.joint(joint).child)));
+    origins
+}

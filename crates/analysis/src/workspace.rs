@@ -1,0 +1,128 @@
+//! `congruent workspace`: where the tool can be within the joint limits.
+
+use std::collections::BTreeSet;
+
+use congruent_description::{ByJoint, RobotDescription};
+use congruent_kinematics::{Arm, KinematicsError, Sampling, Workspace};
+use serde::Serialize;
+
+use crate::{
+    joint_names,
+    manipulability::{AXES, PLANES},
+    plot::{Curve, PlaneView, PlotError, views},
+};
+
+/// The answer of `congruent workspace`; positions of the tool centre point in link `base`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WorkspaceReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// Random configurations.
+    pub samples: usize,
+    /// Their seed.
+    pub seed: u64,
+    /// Smallest and largest distance from the base's origin, and where.
+    pub reach: [Reach; 2],
+    /// Corners of the bounding box.
+    pub lower_m: [f64; 3],
+    /// The other corner.
+    pub upper_m: [f64; 3],
+    /// Volume; none for an arm that stays in a plane parallel to two axes.
+    pub volume_m3: Option<f64>,
+    /// Area; for an arm that stays in such a plane.
+    pub area_m2: Option<f64>,
+    /// Edge of the cells that were counted.
+    pub cell_m: f64,
+}
+
+/// An extreme distance from the base.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Reach {
+    /// The distance.
+    pub distance_m: f64,
+    /// The configuration that has it, rad or m.
+    pub at: ByJoint,
+}
+
+/// The workspace of the robot's arm, as figures and as what a plot needs.
+///
+/// # Errors
+/// [`KinematicsError::NoJoint`] where the robot has no arm.
+pub fn workspace(
+    description: &RobotDescription,
+    sampling: Sampling,
+) -> Result<(WorkspaceReport, Workspace), KinematicsError> {
+    let mut arm = Arm::of(description)?;
+    let names = joint_names(description, &arm);
+    let found = arm.workspace(sampling);
+    let of_size = |dimensions| (found.dimensions == dimensions).then_some(found.extent);
+    let reach = [0, 1]
+        .map(|end| Reach { distance_m: found.reach_m[end], at: ByJoint::new(&names, &found.reach_at[end]) });
+    let report = WorkspaceReport {
+        robot: description.robot.name().to_owned(),
+        samples: sampling.samples,
+        seed: sampling.seed,
+        reach,
+        lower_m: found.lower_in_base.into(),
+        upper_m: found.upper_in_base.into(),
+        volume_m3: of_size(3),
+        area_m2: of_size(2),
+        cell_m: found.cell_m,
+    };
+    Ok((report, found))
+}
+
+/// Cells along the largest extent of a drawn view of an area, and of a volume, whose samples are
+/// spread over more.
+const DRAWN_CELLS: [f64; 2] = [160.0, 80.0];
+
+/// The positions that were reached, seen along the axes of the base; an arm that stays in a plane is
+/// seen in that plane alone.
+///
+/// # Errors
+/// [`PlotError`] where the drawing library refuses.
+pub fn plot(report: &WorkspaceReport, workspace: &Workspace) -> Result<String, PlotError> {
+    let extents = workspace.upper_in_base - workspace.lower_in_base;
+    let thin = workspace.dimensions < 3;
+    let cell_m = (extents.max() / DRAWN_CELLS[usize::from(!thin)]).max(f64::MIN_POSITIVE);
+    let flat = |axes: &[usize; 2]| axes.iter().any(|&axis| extents[axis] < cell_m);
+    let planes = PLANES.iter().filter(|axes| !thin || !flat(axes));
+    let seen: Vec<PlaneView> = planes.map(|&axes| view(workspace, axes, cell_m)).collect();
+    let size = match (report.volume_m3, report.area_m2) {
+        (Some(volume_m3), _) => format!(", about {volume_m3:.3} m3"),
+        (_, Some(area_m2)) => format!(", about {area_m2:.3} m2"),
+        _ => String::new(),
+    };
+    let title = format!(
+        "{}: reach of the tool {:.3} to {:.3} m{size}",
+        report.robot, report.reach[0].distance_m, report.reach[1].distance_m
+    );
+    views(&title, &["reached within the joint limits".to_owned()], &seen)
+}
+
+fn view(workspace: &Workspace, axes: [usize; 2], cell_m: f64) -> PlaneView {
+    #[expect(clippy::cast_possible_truncation, reason = "at most some hundred cells along an axis")]
+    let cell = |point: &nalgebra::Vector3<f64>| axes.map(|axis| (point[axis] / cell_m).floor() as i32);
+    // By rows, so that neighbours in a row are drawn as one.
+    let cells: BTreeSet<[i32; 2]> =
+        workspace.points_in_base.iter().map(cell).map(|[column, row]| [row, column]).collect();
+    let mut runs: Vec<[i32; 3]> = Vec::new();
+    for [row, column] in cells {
+        match runs.last_mut() {
+            Some(run) if run[0] == row && run[2] == column => run[2] += 1,
+            _ => runs.push([row, column, column + 1]),
+        }
+    }
+    let corner = |column: i32, row: i32| [f64::from(column) * cell_m, f64::from(row) * cell_m];
+    let cross = 2.0 * cell_m;
+    PlaneView {
+        axes: axes.map(|axis| AXES[axis].to_owned()),
+        areas: runs.iter().map(|&[row, first, end]| [corner(first, row), corner(end, row + 1)]).collect(),
+        // The base's origin.
+        curves: vec![
+            Curve { points: vec![[-cross, 0.0], [cross, 0.0]], series: None },
+            Curve { points: vec![[0.0, -cross], [0.0, cross]], series: None },
+        ],
+        marks: Vec::new(),
+    }
+}

@@ -1,0 +1,93 @@
+//! `congruent calibrate`: corrections from measurements, with what cannot be known from them.
+
+use congruent_description::{Diagnostic, RobotDescription};
+use congruent_kinematics::random_configurations;
+
+use crate::{
+    chain::NominalChain,
+    computed::{Computed, measurement},
+    estimation::{
+        CorrectedChain, Measurement, Noise, Problem, fit, fit_robustly, fit_with_estimated_noise, held_out,
+        identify, most_telling,
+    },
+    free,
+    measurements::MeasuredRow,
+    options::CalibrationOptions,
+    report::{CalibrationReport, assemble},
+};
+
+/// Configurations among which the most telling are chosen.
+const CANDIDATES: usize = 400;
+
+/// Noise of an ordinary measurement, as a share of the reach and in rad. Kind: judgement; it only weighs
+/// suggestions against what is known.
+const ORDINARY_NOISE: f64 = 1e-3;
+
+/// The coordinates of the configuration vector that every measurement must give.
+///
+/// # Errors
+/// The robot has no chain that could be calibrated.
+pub fn needed_coordinates(description: &RobotDescription) -> Result<Vec<usize>, Diagnostic> {
+    Ok(NominalChain::new(description)?.coordinates)
+}
+
+/// Estimates the free corrections of a robot from measurements.
+///
+/// # Errors
+/// No chain, an unknown or empty choice of corrections.
+pub fn calibrate(
+    description: &RobotDescription,
+    rows: &[MeasuredRow],
+    options: &CalibrationOptions,
+) -> Result<CalibrationReport, Diagnostic> {
+    let nominal = NominalChain::new(description)?;
+    let parameters = free::parameters(&nominal, &options.free, &options.hold)?;
+    let chain = CorrectedChain::new(nominal.chain.clone(), parameters);
+    let measurements: Vec<Measurement> = rows.iter().map(|row| measurement(&nominal, row)).collect();
+    let problem = Problem { chain: &chain, measurements: &measurements };
+    let identification = identify(&problem, options.threshold);
+    let redundancy = problem.redundancy(&identification.kept);
+    let plain = |problem: &Problem<'_>, kept: &[usize]| match options.noise {
+        Some(noise) => fit(problem, kept, noise),
+        None => fit_with_estimated_noise(problem, kept),
+    };
+    let robustly = |problem: &Problem<'_>, kept: &[usize]| {
+        fit_robustly(problem, kept, options.loss, (&plain(problem, kept), options.noise))
+    };
+    let least_squares = plain(&problem, &identification.kept);
+    let robust = robustly(&problem, &identification.kept);
+    let is_most = 2 * robust.outliers.len() > measurements.len();
+    let aside = if is_most { Vec::new() } else { robust.outliers.clone() };
+    let use_robust = !aside.is_empty();
+    let held_out = held_out(&chain, &measurements, options.threshold, |problem, kept| {
+        if use_robust { robustly(problem, kept).fit.corrections } else { plain(problem, kept).corrections }
+    });
+    let candidates = random_configurations(&description.robot, options.seed, CANDIDATES);
+    let in_chain: Vec<Vec<f64>> = candidates.iter().map(|q| nominal.of_configuration(q)).collect();
+    let best = if use_robust { &robust.fit } else { &least_squares };
+    let is_noise_known = redundancy > 0 || options.noise.is_some();
+    let noise = if is_noise_known { best.noise } else { ordinary_noise(&problem) };
+    let next = most_telling(&problem, (&best.corrections, &noise), &in_chain, options.suggestions);
+    let computed = Computed {
+        description,
+        options,
+        nominal,
+        chain,
+        rows,
+        measurements,
+        identification,
+        redundancy,
+        least_squares,
+        robust,
+        aside,
+        held_out,
+        candidates,
+        next,
+    };
+    Ok(assemble::report(&computed))
+}
+
+/// What is taken for the noise where the measurements leave nothing to estimate it from.
+fn ordinary_noise(problem: &Problem<'_>) -> Noise {
+    Noise { position_m: ORDINARY_NOISE * problem.reach_m(), orientation_rad: ORDINARY_NOISE }
+}

@@ -1,0 +1,214 @@
+//! Least squares by Levenberg-Marquardt, its covariance, and the noise that the residuals show.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{
+    noise::Noise,
+    residuals::{Measurement, NormalEquations, Problem, Residual, Weighting},
+};
+
+/// Most iterations: near the solution each gains several digits, so this is far more than needed.
+const MOST_ITERATIONS: usize = 200;
+/// A step below this, in rad and m, ends the iteration. Kind: solver stop, a hundredth of what
+/// rounding leaves of an angle.
+const STEP: f64 = 1e-15;
+/// Below this a step that has stopped shrinking is rounding. Kind: solver stop.
+const ROUNDING_STEP: f64 = 1e-9;
+/// How much the cost may rise by rounding alone, relative. Kind: rounding of some thousand terms.
+const COST_ROUNDING: f64 = 1e-12;
+/// Damping of the first step, relative to the diagonal of the information.
+const FIRST_DAMPING: f64 = 1e-6;
+/// Damping beyond which no step can lower the cost.
+const MOST_DAMPING: f64 = 1e12;
+/// Rounds in which noise and estimate are made to fit each other; three suffice.
+const NOISE_ROUNDS: usize = 8;
+
+/// An estimate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// One entry for each correction of the chain, rad or m; 0 for those that were not estimated.
+    pub corrections: Vec<f64>,
+    /// Standard deviations of the same, from the noise; 0 for those that were not estimated, not a number
+    /// where the noise is not known and nothing is left to estimate it from.
+    pub standard_deviations: Vec<f64>,
+    /// Covariance of those that were, in their order.
+    pub covariance: DMatrix<f64>,
+    /// Residual of each measurement.
+    pub residuals: Vec<Residual>,
+    /// The noise that weighted the residuals.
+    pub noise: Noise,
+    /// Whether the last step was below rounding; otherwise the best that was found.
+    pub converged: bool,
+    /// Steps taken.
+    pub iterations: usize,
+}
+
+/// Least squares over the corrections `kept`, all rows alike, with a known noise.
+///
+/// # Panics
+/// When a measurement's `q` has another length than the chain has joints.
+pub fn fit(problem: &Problem<'_>, kept: &[usize], noise: Noise) -> Fit {
+    let start = vec![0.0; problem.chain.parameters().len()];
+    weighted_fit(problem, kept, start, &Weighting { noise: noise.floored(), rows: &[] })
+}
+
+/// Least squares with the noise that the residuals themselves show, positions and orientations apart.
+///
+/// Source: Koch, *Parameter Estimation and Hypothesis Testing in Linear Models* (1999), section 3.6:
+/// variance components, each block's squares over its own redundancy.
+///
+/// # Panics
+/// As [`fit`].
+pub fn fit_with_estimated_noise(problem: &Problem<'_>, kept: &[usize]) -> Fit {
+    let mut noise = Noise { position_m: 1.0, orientation_rad: 1.0 / problem.reach_m() };
+    let mut best = fit(problem, kept, noise);
+    for _ in 0..NOISE_ROUNDS {
+        noise = estimated_noise(problem, kept, &best).floored();
+        let start = best.corrections.clone();
+        best = weighted_fit(problem, kept, start, &Weighting { noise, rows: &[] });
+    }
+    best.with_redundancy(problem.redundancy(kept))
+}
+
+impl Fit {
+    /// Without redundancy the residuals vanish whatever the noise was, so it leaves no deviations.
+    #[must_use]
+    pub(super) fn with_redundancy(mut self, redundancy: usize) -> Self {
+        if redundancy == 0 {
+            self.covariance.fill(f64::NAN);
+            let estimated = self.standard_deviations.iter_mut().filter(|deviation| **deviation != 0.0);
+            estimated.for_each(|deviation| *deviation = f64::NAN);
+        }
+        self
+    }
+}
+
+/// The noise of positions and orientations that the residuals of a fit show.
+fn estimated_noise(problem: &Problem<'_>, kept: &[usize], fit: &Fit) -> Noise {
+    let weighting = Weighting { noise: fit.noise, rows: &[] };
+    let equations = problem.normal_equations(&fit.corrections, &weighting).only(kept);
+    // How many corrections the positions pay for, the rest being paid for by orientations.
+    let by_position =
+        inverse(&equations.information).map_or(0.0, |inverse| (inverse * &equations.by_position).trace());
+    let count = |of: fn(&Measurement) -> usize| -> usize { problem.measurements.iter().map(of).sum() };
+    let positions: f64 = fit.residuals.iter().map(|each| each.position_m.norm_squared()).sum();
+    let turns: f64 = fit.residuals.iter().map(|each| each.orientation_rad.norm_squared()).sum();
+    let by_orientation = as_f64(kept.len()) - by_position;
+    Noise {
+        position_m: deviation(positions, count(Measurement::position_count), by_position),
+        orientation_rad: deviation(turns, count(Measurement::orientation_count), by_orientation),
+    }
+}
+
+/// Root of a sum of squares over its redundancy; a block without redundancy keeps its root mean
+/// square, which is then too small, and no better figure exists.
+fn deviation(squares: f64, count: usize, paid_for: f64) -> f64 {
+    if count == 0 {
+        return 0.0;
+    }
+    let redundancy = as_f64(count) - paid_for;
+    (squares / if redundancy >= 0.5 { redundancy } else { as_f64(count) }).sqrt()
+}
+
+#[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 components")]
+pub(super) fn as_f64(count: usize) -> f64 {
+    count as f64
+}
+
+/// Least squares from a start, each row with its weight.
+pub(super) fn weighted_fit(
+    problem: &Problem<'_>,
+    kept: &[usize],
+    start: Vec<f64>,
+    weighting: &Weighting<'_>,
+) -> Fit {
+    let mut p = start;
+    let mut equations = problem.normal_equations(&p, weighting).only(kept);
+    let (mut damping, mut last_step, mut converged, mut iterations) =
+        (FIRST_DAMPING, f64::INFINITY, kept.is_empty(), 0);
+    while !converged && iterations < MOST_ITERATIONS && damping < MOST_DAMPING {
+        iterations += 1;
+        let Some(step) = damped_step(&equations, damping) else {
+            damping *= 10.0;
+            continue;
+        };
+        let mut moved = p.clone();
+        kept.iter().zip(step.iter()).for_each(|(&at, step)| moved[at] += step);
+        let size = step.amax();
+        let cost = problem.cost(&moved, weighting);
+        if cost <= equations.cost * (1.0 + COST_ROUNDING) {
+            p = moved;
+            equations = problem.normal_equations(&p, weighting).only(kept);
+            damping = if damping < 1e-14 { 0.0 } else { damping / 100.0 };
+            converged = size <= STEP || (size < ROUNDING_STEP && size >= last_step);
+            last_step = size;
+        } else if size < ROUNDING_STEP {
+            // The cost cannot resolve such a step: the solution is where it stands.
+            converged = true;
+        } else {
+            damping = (damping * 10.0).max(FIRST_DAMPING);
+        }
+    }
+    finished(problem, kept, p, (weighting, &equations, converged, iterations))
+}
+
+fn finished(
+    problem: &Problem<'_>,
+    kept: &[usize],
+    corrections: Vec<f64>,
+    (weighting, equations, converged, iterations): (&Weighting<'_>, &NormalEquations, bool, usize),
+) -> Fit {
+    let unknown = || DMatrix::from_element(kept.len(), kept.len(), f64::NAN);
+    let covariance = inverse(&equations.information).unwrap_or_else(unknown);
+    let mut standard_deviations = vec![0.0; corrections.len()];
+    for (row, &at) in kept.iter().enumerate() {
+        standard_deviations[at] = covariance[(row, row)].sqrt();
+    }
+    let residuals = problem.residuals(&corrections);
+    let noise = weighting.noise;
+    Fit { corrections, standard_deviations, covariance, residuals, noise, converged, iterations }
+}
+
+/// Solves `(H + damping diag H) step = g`.
+fn damped_step(equations: &NormalEquations, damping: f64) -> Option<DVector<f64>> {
+    let mut information = equations.information.clone();
+    for at in 0..information.nrows() {
+        information[(at, at)] *= 1.0 + damping;
+    }
+    Some(balanced(&information)?.solve(&equations.gradient))
+}
+
+/// Inverse of a positive definite matrix.
+fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let identity = DMatrix::identity(information.nrows(), information.nrows());
+    let balanced = balanced(information)?;
+    let mut inverse = identity.clone();
+    for at in 0..identity.ncols() {
+        inverse.set_column(at, &balanced.solve(&identity.column(at).into_owned()));
+    }
+    Some(inverse)
+}
+
+/// A Cholesky factor of a matrix whose rows and columns were scaled to a unit diagonal first, so
+/// that radians and metres do not cost digits.
+struct Balanced {
+    scale: DVector<f64>,
+    factor: nalgebra::Cholesky<f64, nalgebra::Dyn>,
+}
+
+fn balanced(information: &DMatrix<f64>) -> Option<Balanced> {
+    let scale = information.diagonal().map(|entry| if entry > 0.0 { 1.0 / entry.sqrt() } else { 1.0 });
+    let mut unit = information.clone();
+    for row in 0..unit.nrows() {
+        for column in 0..unit.ncols() {
+            unit[(row, column)] *= scale[row] * scale[column];
+        }
+    }
+    Some(Balanced { scale, factor: unit.cholesky()? })
+}
+
+impl Balanced {
+    fn solve(&self, right: &DVector<f64>) -> DVector<f64> {
+        self.factor.solve(&right.component_mul(&self.scale)).component_mul(&self.scale)
+    }
+}

@@ -1,0 +1,144 @@
+//! Which corrections the measurements can tell apart, and what the others hide behind.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use super::{
+    noise::Noise,
+    parameter::{Parameter, ParameterUnit},
+    residuals::{NormalEquations, Problem, Weighting},
+};
+
+/// A relation leaves out corrections that take part with less than this share of the largest.
+/// Kind: display.
+const NEGLIGIBLE_SHARE: f64 = 0.01;
+
+/// What the measurements can tell.
+///
+/// Singular values are those of the Jacobian at nominal in scaled units, angles and orientations
+/// times the reach, divided by the root of the number of components: metres at the tip for a metre
+/// of correction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identification {
+    /// Indices of the corrections that are estimated, ascending.
+    pub kept: Vec<usize>,
+    /// The others, held at nominal, with what they look like.
+    pub frozen: Vec<Frozen>,
+    /// Of all corrections together, the largest first.
+    pub singular_values: Vec<f64>,
+    /// Smallest of those kept, over the largest of all.
+    pub kept_ratio: f64,
+}
+
+/// A correction that is held at nominal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frozen {
+    /// Index of the correction.
+    pub parameter: usize,
+    /// What one unit of it looks like in units of the estimated corrections; empty where it
+    /// has no effect on the measurements at all. Their estimates hold that much of it.
+    pub looks_like: Vec<(usize, f64)>,
+    /// The share of its effect (root mean square) that does not look like that.
+    pub unexplained_share: f64,
+}
+
+/// Admits the corrections one after another, the most physical first ([`Entry`]'s order, then base to
+/// tip), and freezes each one that would make the smallest singular value smaller than
+/// `threshold` times the largest of all.
+///
+/// It is decided at nominal, so that it depends on where was measured and not on what.
+///
+/// [`Entry`]: crate::estimation::Entry
+pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
+    let parameters = problem.chain.parameters();
+    let (information, reach_m) = scaled_information(problem);
+    let singular_values = singular_values(&information);
+    let largest = singular_values.first().copied().unwrap_or(0.0);
+    let mut order: Vec<usize> = (0..parameters.len()).collect();
+    order.sort_by_key(|&at| parameters[at].entry);
+    let (mut kept, mut frozen, mut kept_ratio) = (Vec::new(), Vec::new(), 1.0);
+    for candidate in order {
+        kept.push(candidate);
+        let smallest = self::singular_values(&select(&information, &kept)).last().copied().unwrap_or(0.0);
+        if largest > 0.0 && smallest >= threshold * largest {
+            kept_ratio = smallest / largest;
+        } else {
+            kept.pop();
+            frozen.push(candidate);
+        }
+    }
+    kept.sort_unstable();
+    frozen.sort_unstable();
+    let effect = threshold * largest;
+    let in_own_units = |parameter: usize| {
+        let mut frozen = relation((&information, effect), &kept, parameter);
+        for (other, factor) in &mut frozen.looks_like {
+            *factor *= scale(&parameters[parameter], reach_m) / scale(&parameters[*other], reach_m);
+        }
+        frozen
+    };
+    let frozen = frozen.into_iter().map(in_own_units).collect();
+    Identification { kept, frozen, singular_values, kept_ratio }
+}
+
+/// What a correction of one scaled unit is in its own: an angle that moves the reach by a metre.
+fn scale(parameter: &Parameter, reach_m: f64) -> f64 {
+    match parameter.unit() {
+        ParameterUnit::Angle => reach_m,
+        ParameterUnit::Length => 1.0,
+    }
+}
+
+/// The mean information of a component, in scaled units; and the reach.
+fn scaled_information(problem: &Problem<'_>) -> (DMatrix<f64>, f64) {
+    let parameters = problem.chain.parameters();
+    let reach_m = problem.reach_m();
+    let noise = Noise { position_m: 1.0, orientation_rad: 1.0 / reach_m };
+    let weighting = Weighting { noise, rows: &[] };
+    let NormalEquations { mut information, .. } =
+        problem.normal_equations(&vec![0.0; parameters.len()], &weighting);
+    #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 components")]
+    let components = problem.component_count().max(1) as f64;
+    for (row, of_row) in parameters.iter().enumerate() {
+        for (column, of_column) in parameters.iter().enumerate() {
+            information[(row, column)] /= components * scale(of_row, reach_m) * scale(of_column, reach_m);
+        }
+    }
+    (information, reach_m)
+}
+
+fn select(information: &DMatrix<f64>, kept: &[usize]) -> DMatrix<f64> {
+    information.select_rows(kept).select_columns(kept)
+}
+
+/// Roots of the eigenvalues, the largest first; rounding below zero is zero.
+fn singular_values(information: &DMatrix<f64>) -> Vec<f64> {
+    if information.is_empty() {
+        return Vec::new();
+    }
+    let eigenvalues = SymmetricEigen::new(information.clone()).eigenvalues;
+    let mut values: Vec<f64> = eigenvalues.iter().map(|value| value.max(0.0).sqrt()).collect();
+    values.sort_by(|a, b| b.total_cmp(a));
+    values
+}
+
+/// Least squares of one column of the Jacobian by the kept ones, in scaled units.
+fn relation((information, least_effect): (&DMatrix<f64>, f64), kept: &[usize], parameter: usize) -> Frozen {
+    let effect_squared = information[(parameter, parameter)];
+    let nothing = Frozen { parameter, looks_like: Vec::new(), unexplained_share: 1.0 };
+    if effect_squared.sqrt() < least_effect || effect_squared <= 0.0 {
+        return nothing;
+    }
+    let Some(cholesky) = select(information, kept).cholesky() else { return nothing };
+    let across = information.select_rows(kept).column(parameter).into_owned();
+    let factors = cholesky.solve(&across);
+    let explained = factors.dot(&across);
+    let largest = factors.amax();
+    let shown = |(&other, &factor): (&usize, &f64)| {
+        (factor.abs() > NEGLIGIBLE_SHARE * largest).then_some((other, factor))
+    };
+    Frozen {
+        parameter,
+        looks_like: kept.iter().zip(factors.iter()).filter_map(shown).collect(),
+        unexplained_share: ((effect_squared - explained).max(0.0) / effect_squared).sqrt(),
+    }
+}

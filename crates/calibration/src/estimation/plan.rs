@@ -1,0 +1,132 @@
+//! Where to measure next: the configurations that would tell most about the corrections.
+
+use congruent_kinematics::Pose;
+use nalgebra::{Cholesky, DMatrix, Dyn};
+
+use super::{
+    noise::Noise,
+    parameter::ParameterUnit,
+    residuals::{Linearisation, Measurement, NormalEquations, Problem, Weighting},
+};
+
+/// What a correction may be before anything is measured, as a share of the reach: one standard
+/// deviation. It keeps the gain finite for what has not been identified yet.
+const PRIOR_SHARE_OF_REACH: f64 = 0.01;
+
+/// A candidate is as good as one that was picked before where no joint differs by more than this
+/// share of the range that the candidates cover.
+const ALIKE_SHARE: f64 = 0.2;
+
+/// A configuration worth measuring.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Suggestion {
+    /// Index among the candidates.
+    pub candidate: usize,
+    /// What it adds to the measurements and to the suggestions before it, in bits: with each bit the
+    /// volume of the uncertainty is halved.
+    pub gain_bits: f64,
+}
+
+/// Picks `count` of the candidate configurations, one after another, each with the largest gain of
+/// information (D-optimality) when added to all before it, and unlike each before it.
+///
+/// The next measurements are taken to be of the same kind as the first, with the same noise.
+///
+/// Source: Fedorov, *Theory of Optimal Experiments* (1972), chapter 3, with a normal prior.
+///
+/// # Panics
+/// When a candidate has another length than the chain has joints.
+pub fn most_telling(
+    problem: &Problem<'_>,
+    (corrections, noise): (&[f64], &Noise),
+    candidates: &[Vec<f64>],
+    count: usize,
+) -> Vec<Suggestion> {
+    let Some(like) = problem.measurements.first() else { return Vec::new() };
+    let noise = noise.floored();
+    let mut information =
+        prior(problem) + problem.normal_equations(corrections, &Weighting { noise, rows: &[] }).information;
+    let mut at_corrections = Linearisation::new(problem.chain, corrections);
+    let added: Vec<DMatrix<f64>> = candidates
+        .iter()
+        .map(|q| {
+            let mut equations = NormalEquations::zeros(corrections.len());
+            let measurement = like_at(like, q, problem.chain.base_from_tip(q, corrections));
+            equations.add(&mut at_corrections, &measurement, (1.0, &noise));
+            equations.information
+        })
+        .collect();
+    let ranges = ranges(candidates);
+    let mut suggestions: Vec<Suggestion> = Vec::with_capacity(count);
+    for _ in 0..count.min(candidates.len()) {
+        let Some(before) = information.clone().cholesky().map(|factor| log_volume(&factor)) else { break };
+        let gain = |candidate: usize| {
+            let after = (&information + &added[candidate]).cholesky()?;
+            let gain_bits = (log_volume(&after) - before) / std::f64::consts::LN_2;
+            Some(Suggestion { candidate, gain_bits })
+        };
+        let is_new = |&candidate: &usize| {
+            suggestions
+                .iter()
+                .all(|each| !are_alike(&ranges, &candidates[candidate], &candidates[each.candidate]))
+        };
+        let best = (0..candidates.len()).filter(is_new).filter_map(gain).fold(
+            None,
+            |best: Option<Suggestion>, next| {
+                if best.as_ref().is_none_or(|best| next.gain_bits > best.gain_bits) {
+                    Some(next)
+                } else {
+                    best
+                }
+            },
+        );
+        let Some(best) = best else { break };
+        information += &added[best.candidate];
+        suggestions.push(best);
+    }
+    suggestions
+}
+
+/// How far the candidates spread, for each joint.
+fn ranges(candidates: &[Vec<f64>]) -> Vec<f64> {
+    let joints = candidates.first().map_or(0, Vec::len);
+    let of = |joint: usize| {
+        let values = || candidates.iter().map(|q| q[joint]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    (0..joints).map(of).collect()
+}
+
+fn are_alike(ranges: &[f64], a: &[f64], b: &[f64]) -> bool {
+    ranges.iter().zip(a).zip(b).all(|((range, a), b)| (a - b).abs() <= ALIKE_SHARE * range)
+}
+
+/// The same kind of measurement elsewhere, showing what is expected there.
+fn like_at(like: &Measurement, q: &[f64], expected: Pose) -> Measurement {
+    let mut tip_in_base_m = like.tip_in_base_m;
+    for (coordinate, expected) in tip_in_base_m.iter_mut().zip(&expected.translation) {
+        *coordinate = coordinate.and(Some(*expected));
+    }
+    Measurement {
+        q: q.to_vec(),
+        tip_in_base_m,
+        base_from_tip: like.base_from_tip.and(Some(expected.rotation)),
+    }
+}
+
+fn prior(problem: &Problem<'_>) -> DMatrix<f64> {
+    let reach_m = problem.reach_m();
+    let parameters = problem.chain.parameters();
+    DMatrix::from_fn(parameters.len(), parameters.len(), |row, column| {
+        let deviation = match parameters[row].unit() {
+            ParameterUnit::Angle => PRIOR_SHARE_OF_REACH,
+            ParameterUnit::Length => PRIOR_SHARE_OF_REACH * reach_m,
+        };
+        if row == column { 1.0 / (deviation * deviation) } else { 0.0 }
+    })
+}
+
+/// Half the logarithm of the determinant.
+fn log_volume(factor: &Cholesky<f64, Dyn>) -> f64 {
+    factor.l_dirty().diagonal().iter().map(|entry| entry.ln()).sum()
+}

@@ -1,0 +1,77 @@
+//! What an estimate is worth on measurements that it has not seen.
+
+use super::{
+    configurations::configurations,
+    identify::identify,
+    model::CorrectedChain,
+    residuals::{Measurement, Problem, Residual},
+};
+
+/// Most parts that the measurements are divided into; fewer configurations are left out one at a time.
+const MOST_FOLDS: usize = 10;
+
+/// Error on rows that the estimate had not seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldOut {
+    /// Number of parts, each left out once.
+    pub folds: usize,
+    /// Root mean square of the distances.
+    pub position_m: f64,
+    /// Root mean square of the angles.
+    pub orientation_rad: f64,
+    /// Residual of each row in the round that left it out.
+    pub residuals: Vec<Residual>,
+}
+
+/// Leaves out each part once, estimates on the rest and measures on the part; configuration i is in
+/// part i modulo the number of parts, so the result is always the same. Rows that repeat a
+/// configuration are left out with it: its twin in the rest would vouch for it.
+///
+/// `estimate` gives the corrections from a problem and the corrections that it may estimate, which
+/// are identified anew for each round with `threshold`. `None` for fewer than two
+/// configurations.
+pub fn held_out(
+    chain: &CorrectedChain,
+    measurements: &[Measurement],
+    threshold: f64,
+    mut estimate: impl FnMut(&Problem<'_>, &[usize]) -> Vec<f64>,
+) -> Option<HeldOut> {
+    let configuration_of = configurations(measurements);
+    let count = configuration_of.iter().max().map_or(0, |last| last + 1);
+    if count < 2 {
+        return None;
+    }
+    let folds = count.min(MOST_FOLDS);
+    let nothing =
+        Residual { position_m: nalgebra::Vector3::zeros(), orientation_rad: nalgebra::Vector3::zeros() };
+    let mut residuals = vec![nothing; measurements.len()];
+    for fold in 0..folds {
+        let rows = measurements.iter().zip(&configuration_of);
+        let (unseen, seen): (Vec<_>, Vec<_>) =
+            rows.enumerate().partition(|(_, (_, configuration))| *configuration % folds == fold);
+        let seen: Vec<Measurement> = seen.into_iter().map(|(_, (each, _))| each.clone()).collect();
+        let problem = Problem { chain, measurements: &seen };
+        let corrections = estimate(&problem, &identify(&problem, threshold).kept);
+        for (row, (measurement, _)) in unseen {
+            residuals[row] = measurement.residual(&chain.base_from_tip(&measurement.q, &corrections));
+        }
+    }
+    let (position_m, orientation_rad) = root_mean_squares(measurements, &residuals);
+    Some(HeldOut { folds, position_m, orientation_rad, residuals })
+}
+
+/// Root mean squares over the rows, of the distances and of the angles.
+pub(super) fn root_mean_squares(measurements: &[Measurement], residuals: &[Residual]) -> (f64, f64) {
+    let rows = || measurements.iter().zip(residuals);
+    let positions = rows().filter(|(each, _)| each.position_count() > 0);
+    let orientations = rows().filter(|(each, _)| each.orientation_count() > 0);
+    (
+        root_mean(positions.map(|(_, residual)| residual.position_m.norm_squared())),
+        root_mean(orientations.map(|(_, residual)| residual.orientation_rad.norm_squared())),
+    )
+}
+
+fn root_mean(squares: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), square| (sum + square, count + 1.0));
+    if count > 0.0 { (sum / count).sqrt() } else { 0.0 }
+}

@@ -1,0 +1,89 @@
+//! Measurements as JSON: an array of objects in the shape in which `congruent fk` answers.
+
+use std::collections::BTreeMap;
+
+use congruent_description::{Diagnostic, JsonList, Robot, configuration, line_column, units::Unit};
+use serde::Deserialize;
+
+use super::{MeasuredRow, WrittenOrientation, missing_joints, plausible};
+
+/// What a file of measurements is.
+const LIST: JsonList = JsonList {
+    entry: "measurement",
+    code: "measurements::json",
+    help: r#"expected [{"q": {"joint": 0.1}, "translation_m": [0.5, 0, 0.3], "quaternion_wxyz": [1, 0, 0, 0]}]"#,
+};
+
+/// One measurement as written.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    q: BTreeMap<String, f64>,
+    translation_m: Option<Vec<f64>>,
+    translation_mm: Option<Vec<f64>>,
+    quaternion_wxyz: Option<[f64; 4]>,
+    rpy_deg: Option<[f64; 3]>,
+    rpy_rad: Option<[f64; 3]>,
+}
+
+/// Parses a whole file.
+pub(super) fn parse(
+    text: &str,
+    robot: &Robot,
+    needed: &[usize],
+) -> Result<Vec<MeasuredRow>, Vec<Diagnostic>> {
+    LIST.read(text, |written: Written, place| {
+        Ok(MeasuredRow { line: line_column(text, place.start).0, ..row(&written, robot, needed)? })
+    })
+}
+
+fn row(written: &Written, robot: &Robot, needed: &[usize]) -> Result<MeasuredRow, Diagnostic> {
+    let q = configuration(&written.q, robot)?;
+    let given =
+        |coordinate: usize| written.q.contains_key(&robot.joint(robot.movable_joints()[coordinate]).name);
+    if let Some(missing) = missing_joints(robot, needed, given) {
+        return Err(Diagnostic::error("measurements::missing_joint", format!("no position for {missing}"))
+            .with_help("every joint of the chain needs its position in \"q\", in rad or m"));
+    }
+    let translation = match (&written.translation_m, &written.translation_mm) {
+        (Some(_), Some(_)) => {
+            return Err(Diagnostic::error(
+                "measurements::repeated",
+                "translation_m and translation_mm are both given",
+            ));
+        }
+        (Some(metres), None) => metres.clone(),
+        (None, Some(millimetres)) => millimetres.iter().map(|&figure| Unit::Length.convert(figure)).collect(),
+        (None, None) => Vec::new(),
+    };
+    if ![0, 2, 3].contains(&translation.len()) {
+        let message = format!("a translation of {} figures", translation.len());
+        return Err(Diagnostic::error("measurements::translation", message)
+            .with_help("give x, y, z, or x, y for a planar measurement"));
+    }
+    for &figure in q.iter().chain(&translation) {
+        let refused = |what| Diagnostic::error("measurements::number", format!("{figure} {what}"));
+        plausible(figure).map_err(refused)?;
+    }
+    let mut tip_in_base_m = [None; 3];
+    for (coordinate, figure) in tip_in_base_m.iter_mut().zip(&translation) {
+        *coordinate = Some(*figure);
+    }
+    let orientation = match (written.quaternion_wxyz, written.rpy_deg, written.rpy_rad) {
+        (None, None, None) => None,
+        (Some(wxyz), None, None) => {
+            let refused = |message| Diagnostic::error("measurements::orientation", message);
+            Some(WrittenOrientation::from_quaternion_wxyz(wxyz).map_err(refused)?)
+        }
+        (None, Some(degrees), None) => {
+            Some(WrittenOrientation::RpyRad(degrees.map(|figure| Unit::Angle.convert(figure))))
+        }
+        (None, None, Some(radians)) => Some(WrittenOrientation::RpyRad(radians)),
+        _ => return Err(Diagnostic::error("measurements::orientation", "the orientation is given twice")),
+    };
+    if translation.is_empty() && orientation.is_none() {
+        return Err(Diagnostic::error("measurements::nothing_measured", "nothing was measured here")
+            .with_help("add \"translation_m\": [x, y, z], and \"quaternion_wxyz\" where the orientation was measured"));
+    }
+    Ok(MeasuredRow { line: 0, q, tip_in_base_m, orientation })
+}

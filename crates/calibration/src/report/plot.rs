@@ -1,0 +1,229 @@
+//! Figure of a calibration as SVG: the cost over the most significant correction, and what is left
+//! of each measurement.
+
+use plotters::{
+    chart::{ChartContext, LabelAreaPosition, SeriesAnno, SeriesLabelPosition},
+    coord::{Shift, types::RangedCoordf64},
+    prelude::*,
+};
+
+use super::{CalibrationReport, CostCurve};
+
+/// Okabe and Ito's colours, which readers who see few colours can tell apart.
+const NOMINAL: RGBColor = RGBColor(110, 110, 110);
+const LEAST_SQUARES: RGBColor = RGBColor(213, 94, 0);
+const ROBUST: RGBColor = RGBColor(0, 114, 178);
+const GRID: RGBColor = RGBColor(228, 228, 228);
+
+/// Width and height in points.
+const SIZE: (u32, u32) = (860, 780);
+/// Everything is drawn this many times larger and shown smaller, since the backend rounds to whole
+/// units and a curve would show the steps.
+const FINE: u32 = 8;
+/// The same as a coordinate.
+const UNIT: i32 = FINE.cast_signed();
+const FONT: &str = "sans-serif";
+const CAPTION: u32 = 19 * FINE;
+const DESCRIPTION: u32 = 15 * FINE;
+const LABEL: u32 = 14 * FINE;
+
+/// Why a figure was not drawn.
+#[derive(Debug, thiserror::Error)]
+#[error("the figure cannot be drawn: {message}")]
+pub struct PlotError {
+    message: String,
+}
+
+impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for PlotError {
+    fn from(error: DrawingAreaErrorKind<E>) -> Self {
+        Self { message: error.to_string() }
+    }
+}
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// The figure as an SVG document.
+///
+/// # Errors
+/// [`PlotError`] when a figure is not finite, which no finished calibration holds.
+pub fn svg(report: &CalibrationReport) -> Result<String, PlotError> {
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, (SIZE.0 * FINE, SIZE.1 * FINE)).into_drawing_area();
+        area.fill(&WHITE)?;
+        let (above, below) = if report.cost_curve.is_some() {
+            area.split_vertically(400 * FINE)
+        } else {
+            area.split_vertically(0)
+        };
+        if let Some(curve) = &report.cost_curve {
+            cost(&above, report, curve)?;
+        }
+        rows(&below, report)?;
+        area.present()?;
+    }
+    // The size in points; the view box keeps the fine units.
+    let fine = format!("width=\"{}\" height=\"{}\"", SIZE.0 * FINE, SIZE.1 * FINE);
+    Ok(text.replacen(&fine, &format!("width=\"{}\" height=\"{}\"", SIZE.0, SIZE.1), 1))
+}
+
+/// The cost over one correction, with where nominal and the estimates stand.
+fn cost(area: &Area<'_>, report: &CalibrationReport, curve: &CostCurve) -> Result<(), PlotError> {
+    let parameter = &report.parameters[curve.parameter];
+    let (scale, unit) = if parameter.unit == "rad" { (1_f64.to_degrees(), "deg") } else { (1e3, "mm") };
+    let (lower, upper) = (first(&curve.values) * scale, last(&curve.values) * scale);
+    let highest = curve.least_squares_m2.iter().chain(&curve.robust_m2).copied().fold(0.0, f64::max);
+    // Square millimetres unless the residuals are beyond a decimetre or so.
+    let (cost_scale, cost_unit) = if highest < 1e-2 { (1e6, "mm²") } else { (1.0, "m²") };
+    let top = positive(highest * cost_scale) * 1.08;
+    let mut chart = ChartBuilder::on(area)
+        .margin(14 * FINE)
+        .caption(format!("{}: cost over {}", report.robot, parameter.name), (FONT, CAPTION))
+        .set_label_area_size(LabelAreaPosition::Left, 78 * FINE)
+        .set_label_area_size(LabelAreaPosition::Bottom, 46 * FINE)
+        .build_cartesian_2d(wide(lower, upper), 0.0..top)?;
+    let (x, y) = (format!("{} in {unit}", parameter.name), format!("cost in {cost_unit}"));
+    mesh(&mut chart, &x, &y)?;
+    let series = [
+        ("least squares", LEAST_SQUARES, &curve.least_squares_m2, parameter.correction),
+        (report.loss, ROBUST, &curve.robust_m2, parameter.robust_correction),
+    ];
+    for (name, colour, costs, estimate) in series {
+        let points = curve.values.iter().zip(costs).map(|(value, cost)| (value * scale, cost * cost_scale));
+        let label = format!("{name}: {:.4} {unit}", estimate * scale);
+        chart
+            .draw_series(LineSeries::new(points, colour.stroke_width(2 * FINE)))?
+            .label(label)
+            .legend(line(colour));
+        upright(&mut chart, estimate * scale, top, colour)?;
+    }
+    upright(&mut chart, 0.0, top, NOMINAL)?.label("nominal").legend(line(NOMINAL));
+    legend(&mut chart, SeriesLabelPosition::UpperMiddle)
+}
+
+/// Distance that is left of each row, with the nominal model and after each estimate.
+fn rows(area: &Area<'_>, report: &CalibrationReport) -> Result<(), PlotError> {
+    let rows = &report.row_residuals;
+    let positions =
+        rows.iter().map(|row| row.nominal_m.max(row.least_squares_m).max(row.robust_m)).fold(0.0, f64::max);
+    let angles = positions <= 0.0;
+    let (unit, scale) = if angles { ("deg", 1_f64.to_degrees()) } else { ("mm", 1e3) };
+    let pick = |metres: f64, radians: f64| scale * if angles { radians } else { metres };
+    let highest = rows
+        .iter()
+        .map(|row| {
+            pick(row.nominal_m, row.nominal_rad)
+                .max(pick(row.least_squares_m, row.least_squares_rad))
+                .max(pick(row.robust_m, row.robust_rad))
+        })
+        .fold(0.0, f64::max);
+    let count = f64::from(u32::try_from(rows.len()).unwrap_or(u32::MAX));
+    let top = positive(highest) * 1.18;
+    let mut chart = ChartBuilder::on(area)
+        .margin(14 * FINE)
+        .caption("what is left of each measurement", (FONT, CAPTION))
+        .set_label_area_size(LabelAreaPosition::Left, 78 * FINE)
+        .set_label_area_size(LabelAreaPosition::Bottom, 46 * FINE)
+        .build_cartesian_2d(0.4..count + 0.6, 0.0..top)?;
+    chart
+        .configure_mesh()
+        .disable_x_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(GRID.stroke_width(FINE))
+        .set_all_tick_mark_size(5 * FINE)
+        .axis_style(NOMINAL.stroke_width(FINE))
+        .x_labels(rows.len().min(20) + 1)
+        .x_label_formatter(&|row| {
+            if (row - row.round()).abs() < 1e-6 { format!("{row:.0}") } else { String::new() }
+        })
+        .x_desc("measurement")
+        .y_desc(format!("residual in {unit}"))
+        .label_style((FONT, LABEL))
+        .axis_desc_style((FONT, DESCRIPTION))
+        .draw()?;
+    // Three bars side by side for each row.
+    let bars: [(&str, RGBColor, Vec<f64>); 3] = [
+        ("nominal", NOMINAL, rows.iter().map(|row| pick(row.nominal_m, row.nominal_rad)).collect()),
+        (
+            "least squares",
+            LEAST_SQUARES,
+            rows.iter().map(|row| pick(row.least_squares_m, row.least_squares_rad)).collect(),
+        ),
+        (report.loss, ROBUST, rows.iter().map(|row| pick(row.robust_m, row.robust_rad)).collect()),
+    ];
+    for ((name, colour, heights), left) in bars.into_iter().zip([-0.36, -0.12, 0.12]) {
+        let bar = |(row, height): (&super::content::RowResidual, f64)| {
+            let middle = f64::from(u32::try_from(row.row).unwrap_or(u32::MAX));
+            Rectangle::new([(middle + left, 0.0), (middle + left + 0.22, height)], colour.filled())
+        };
+        chart.draw_series(rows.iter().zip(heights).map(bar))?.label(name).legend(block(colour));
+    }
+    legend(&mut chart, SeriesLabelPosition::UpperLeft)
+}
+
+fn mesh(chart: &mut Chart<'_, '_>, x: &str, y: &str) -> Result<(), PlotError> {
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(GRID.stroke_width(FINE))
+        .set_all_tick_mark_size(5 * FINE)
+        .axis_style(NOMINAL.stroke_width(FINE))
+        .x_desc(x)
+        .y_desc(y)
+        .label_style((FONT, LABEL))
+        .axis_desc_style((FONT, DESCRIPTION))
+        .draw()?;
+    Ok(())
+}
+
+fn legend<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>, position: SeriesLabelPosition) -> Result<(), PlotError> {
+    chart
+        .configure_series_labels()
+        .position(position)
+        .background_style(WHITE.mix(0.85))
+        .border_style(GRID.stroke_width(FINE))
+        .legend_area_size(30 * FINE)
+        .margin(8 * FINE)
+        .label_font((FONT, LABEL))
+        .draw()?;
+    Ok(())
+}
+
+/// A dashed line at a value.
+fn upright<'c, 'a, 'b>(
+    chart: &'c mut Chart<'a, 'b>,
+    value: f64,
+    top: f64,
+    colour: RGBColor,
+) -> Result<&'c mut SeriesAnno<'a, SVGBackend<'b>>, PlotError> {
+    let points = [(value, 0.0), (value, top)];
+    Ok(chart.draw_series(DashedLineSeries::new(points, 5 * FINE, 4 * FINE, colour.stroke_width(FINE)))?)
+}
+
+fn line(colour: RGBColor) -> impl Fn((i32, i32)) -> PathElement<(i32, i32)> {
+    move |(x, y)| PathElement::new([(x, y), (x + 16 * UNIT, y)], colour.stroke_width(2 * FINE))
+}
+
+fn block(colour: RGBColor) -> impl Fn((i32, i32)) -> Rectangle<(i32, i32)> {
+    move |(x, y)| {
+        Rectangle::new([(x + 2 * UNIT, y - 5 * UNIT), (x + 14 * UNIT, y + 5 * UNIT)], colour.filled())
+    }
+}
+
+/// A range that is not empty.
+fn wide(lower: f64, upper: f64) -> std::ops::Range<f64> {
+    if upper > lower { lower..upper } else { lower - 1.0..upper + 1.0 }
+}
+
+fn positive(value: f64) -> f64 {
+    if value > 0.0 { value } else { 1.0 }
+}
+
+fn first(values: &[f64]) -> f64 {
+    values.first().copied().unwrap_or(0.0)
+}
+
+fn last(values: &[f64]) -> f64 {
+    values.last().copied().unwrap_or(0.0)
+}

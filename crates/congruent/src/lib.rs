@@ -1,0 +1,36 @@
+//! Is a robot's analytical model the same robot as its URDF? With a number, a cause and a certificate.
+//!
+//! This is the crate that programs use: each module is one crate of the workspace, and [`prelude`] has what
+//! most programs need.
+
+pub use congruent_agreement as agreement;
+pub use congruent_analysis as analysis;
+pub use congruent_calibration as calibration;
+pub use congruent_description as description;
+pub use congruent_kinematics as kinematics;
+#[cfg(feature = "recording")]
+pub use congruent_recording as recording;
+pub use congruent_simulation as simulation;
+pub use congruent_twin as twin;
+
+mod with_physics;
+
+pub use with_physics::{check, forward};
+
+/// What most programs need.
+pub mod prelude {
+    pub use congruent_agreement::compare::check::{Agreement, CheckOptions, CheckReport};
+    pub use congruent_analysis::forward::Source;
+    pub use congruent_description::{Diagnostic, Robot, RobotDescription, load_robot};
+    pub use congruent_kinematics::{Arm, DhChain, LinkPoses, Pose, PoseError, SerialChain, UrdfTree};
+    #[cfg(feature = "recording")]
+    pub use congruent_recording::RerunFormat;
+    pub use congruent_twin::{
+        Options, Run, execute,
+        report::RunReport,
+        scenario::{Overrides, Scenario},
+        verdict::Verdict,
+    };
+
+    pub use crate::{check, forward};
+}

@@ -1,0 +1,65 @@
+//! Lists of entries in JSON: every fault with the number of its entry, from 1, and its line.
+
+use std::ops::Range;
+
+use serde::de::DeserializeOwned;
+use serde_json::value::RawValue;
+
+use crate::Diagnostic;
+
+/// A kind of list, in the words of its findings.
+#[derive(Debug, Clone, Copy)]
+pub struct JsonList {
+    /// What an entry is.
+    pub entry: &'static str,
+    /// Code of what is no such list at all.
+    pub code: &'static str,
+    /// What was expected instead.
+    pub help: &'static str,
+}
+
+impl JsonList {
+    /// Reads all entries as `check` makes something of them; it is given the place of the entry's first
+    /// line.
+    ///
+    /// # Errors
+    /// Every fault, or the one that makes the text no list.
+    pub fn read<Written: DeserializeOwned, T>(
+        &self,
+        text: &str,
+        mut check: impl FnMut(Written, Range<usize>) -> Result<T, Diagnostic>,
+    ) -> Result<Vec<T>, Vec<Diagnostic>> {
+        let entries: Vec<&RawValue> =
+            serde_json::from_str(text).map_err(|error| vec![self.malformed(text, 0, &error)])?;
+        let (mut read, mut faults) = (Vec::with_capacity(entries.len()), Vec::new());
+        for (index, entry) in entries.iter().map(|entry| entry.get()).enumerate() {
+            // The entry borrows from the text, so the difference of the addresses is its place.
+            let start = entry.as_ptr().addr() - text.as_ptr().addr();
+            let first_line = start..start + entry.find('\n').unwrap_or(entry.len());
+            let found = serde_json::from_str(entry)
+                .map_err(|error| self.malformed(text, start, &error))
+                .and_then(|written| {
+                    check(written, first_line.clone())
+                        .map_err(|fault| if fault.span.is_none() { fault.at(first_line) } else { fault })
+                });
+            match found {
+                Ok(found) => read.push(found),
+                Err(mut fault) => {
+                    fault.message = format!("{} {}: {}", self.entry, index + 1, fault.message);
+                    faults.push(fault);
+                }
+            }
+        }
+        if faults.is_empty() { Ok(read) } else { Err(faults) }
+    }
+
+    /// What the parser says, without the line and column that it counts from the entry.
+    fn malformed(&self, text: &str, start: usize, error: &serde_json::Error) -> Diagnostic {
+        let lines = text[start..].split_inclusive('\n');
+        let before: usize = lines.take(error.line().saturating_sub(1)).map(str::len).sum();
+        let offset = (start + before + error.column().saturating_sub(1)).min(text.len());
+        let said = error.to_string();
+        let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
+        Diagnostic::error(self.code, said).with_help(self.help).at(offset..offset)
+    }
+}

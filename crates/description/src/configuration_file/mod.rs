@@ -1,0 +1,128 @@
+//! Configurations by joint name, as batch commands read them: JSON, SI units.
+
+mod json_list;
+
+use std::{collections::BTreeMap, path::Path};
+
+use serde::Deserialize;
+
+use crate::{Diagnostic, Robot, known_names, read_text};
+
+pub use self::json_list::JsonList;
+
+/// How far a given mimic position or speed may be from what its master implies. Kind: digits of the file.
+const MIMIC_DIGITS: f64 = 1e-9;
+/// What a file of configurations is.
+const LIST: JsonList = JsonList {
+    entry: "configuration",
+    code: "configurations::json",
+    help: r#"expected a JSON array: [{"q": {"joint name": 0.1}}]"#,
+};
+/// Largest file of configurations that is read.
+const MOST_BYTES: u64 = 256 << 20;
+
+/// One entry of a batch, joints by name; what a command does not use is checked all the same.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    #[serde(default)]
+    q: BTreeMap<String, f64>,
+    #[serde(default)]
+    v: BTreeMap<String, f64>,
+    #[serde(default)]
+    tau: BTreeMap<String, f64>,
+    #[serde(default)]
+    a: BTreeMap<String, f64>,
+}
+
+/// Where a robot is and how fast it moves: one entry for each movable joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointState {
+    /// Positions in rad and m.
+    pub q: Vec<f64>,
+    /// Speeds in rad/s and m/s.
+    pub qd: Vec<f64>,
+}
+
+/// Reads a file of configurations: a JSON array of `{"q": {joint: value}, ...}` in rad and m,
+/// missing joints 0. The result holds configuration vectors of the robot.
+///
+/// # Errors
+/// Where the file cannot be read, is no such array, or names an unknown joint.
+pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, Vec<Diagnostic>> {
+    read(path, robot, |written| configuration(&written.q, robot))
+}
+
+/// The same with the speeds `"v"`, in rad/s and m/s, missing ones 0; those of mimic joints as their
+/// masters imply.
+///
+/// # Errors
+/// As [`read_configurations`], and where a mimic joint is not as fast as its master makes it.
+pub fn read_states(path: &Path, robot: &Robot) -> Result<Vec<JointState>, Vec<Diagnostic>> {
+    let state = |written: &Written| {
+        let qd = followed(&written.v, robot, Robot::apply_mimic_to_speeds)?;
+        Ok(JointState { q: configuration(&written.q, robot)?, qd })
+    };
+    read(path, robot, state)
+}
+
+fn read<T>(
+    path: &Path,
+    robot: &Robot,
+    vectors: impl Fn(&Written) -> Result<T, Diagnostic>,
+) -> Result<Vec<T>, Vec<Diagnostic>> {
+    let source = read_text(path, MOST_BYTES)?;
+    let entry = |written: Written, _| {
+        for group in [&written.v, &written.tau, &written.a] {
+            place(group, robot)?;
+        }
+        vectors(&written)
+    };
+    LIST.read(&source.text, entry)
+        .map_err(|faults| faults.into_iter().map(|fault| fault.in_file(&source)).collect())
+}
+
+/// The configuration vector that has these joints at these positions (rad or m), others at 0,
+/// mimic joints as their masters imply.
+///
+/// # Errors
+/// Where a joint is unknown, or a mimic joint is not where its master puts it.
+pub fn configuration(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Vec<f64>, Diagnostic> {
+    followed(values, robot, Robot::apply_mimic)
+}
+
+/// Values by name as a vector in which mimic joints follow their masters.
+fn followed(
+    values: &BTreeMap<String, f64>,
+    robot: &Robot,
+    apply_mimic: fn(&Robot, &mut [f64]),
+) -> Result<Vec<f64>, Diagnostic> {
+    let mut vector = place(values, robot)?;
+    let given = vector.clone();
+    apply_mimic(robot, &mut vector);
+    for ((&joint, implied), given) in robot.movable_joints().iter().zip(&vector).zip(&given) {
+        let name = &robot.joint(joint).name;
+        if values.contains_key(name) && (implied - given).abs() > MIMIC_DIGITS {
+            let message =
+                format!("joint \"{name}\" is given as {given}, but what it mimics puts it at {implied}");
+            return Err(Diagnostic::error("configurations::mimic", message)
+                .with_help("leave mimic joints out, or give what follows from their master"));
+        }
+    }
+    Ok(vector)
+}
+
+fn place(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Vec<f64>, Diagnostic> {
+    let mut vector = vec![0.0; robot.dof()];
+    for (name, &value) in values {
+        let coordinate = robot.find_joint(name).and_then(|joint| robot.coordinate(joint));
+        let Some(coordinate) = coordinate else {
+            let joints = robot.movable_joint_names();
+            let message = format!("robot \"{}\" has no moving joint \"{name}\"", robot.name());
+            return Err(Diagnostic::error("configurations::unknown_joint", message)
+                .with_help(known_names(name, "joints", joints)));
+        };
+        vector[coordinate] = value;
+    }
+    Ok(vector)
+}

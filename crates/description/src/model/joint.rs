@@ -1,0 +1,110 @@
+//! Joints: what moves, about which axis, how far. Building and checking the tree is `robot.rs`.
+
+use nalgebra::{Isometry3, Unit, Vector3};
+
+use super::link::LinkIndex;
+
+/// Position of a joint in [`Robot::joints`](crate::Robot::joints).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct JointIndex(pub(crate) usize);
+
+impl JointIndex {
+    /// The index as a number, for addressing arrays laid out like [`Robot::joints`](crate::Robot::joints).
+    pub fn get(self) -> usize {
+        self.0
+    }
+}
+
+/// How a joint moves its child link.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointKind {
+    /// The child does not move against the parent.
+    Fixed,
+    /// A turn about the axis, within limits; its coordinate is in radians.
+    Revolute,
+    /// A turn about the axis without limits; its coordinate is in radians.
+    Continuous,
+    /// A shift along the axis, within limits; its coordinate is in metres.
+    Prismatic,
+}
+
+impl JointKind {
+    /// Whether the joint has a coordinate.
+    pub fn is_movable(self) -> bool {
+        self != Self::Fixed
+    }
+
+    /// Whether the coordinate is an angle.
+    pub fn is_angular(self) -> bool {
+        matches!(self, Self::Revolute | Self::Continuous)
+    }
+
+    /// The unit of the coordinate: `rad` or `m`, empty for a fixed joint.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Fixed => "",
+            Self::Revolute | Self::Continuous => "rad",
+            Self::Prismatic => "m",
+        }
+    }
+}
+
+/// The range and the capability of a joint; units are those of the coordinate, per second for
+/// `velocity`, newton or newton metre for `effort`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointLimit {
+    /// Smallest allowed position; minus infinity for a continuous joint.
+    pub lower: f64,
+    /// Largest allowed position; infinity for a continuous joint.
+    pub upper: f64,
+    /// Largest allowed speed.
+    pub velocity: f64,
+    /// Largest force or torque of the actuator.
+    pub effort: f64,
+}
+
+/// A joint whose position follows another: `q = multiplier * q_master + offset`.
+///
+/// Chains of mimic joints are resolved when the robot is built, so `master` never mimics.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mimic {
+    /// The joint that is followed.
+    pub master: JointIndex,
+    /// Ratio of this joint's position to the master's.
+    pub multiplier: f64,
+    /// Position of this joint when the master is at zero.
+    pub offset: f64,
+}
+
+/// One joint of a [`Robot`](crate::Robot).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// Name, unique in the robot.
+    pub name: String,
+    /// How it moves.
+    pub kind: JointKind,
+    /// The link nearer to the root.
+    pub parent: LinkIndex,
+    /// The link that it carries.
+    pub child: LinkIndex,
+    /// Pose of the joint frame (and of the child link at position zero) in the parent link.
+    pub parent_from_joint: Isometry3<f64>,
+    /// Axis of motion in the joint frame; meaningless for a fixed joint.
+    pub axis_in_joint: Unit<Vector3<f64>>,
+    /// Limits, where the description gives them.
+    pub limit: Option<JointLimit>,
+    /// Viscous damping, N m s/rad or N s/m.
+    pub damping: f64,
+    /// Dry friction, N m or N.
+    pub friction: f64,
+    /// Set when the joint follows another.
+    pub mimic: Option<Mimic>,
+}
+
+impl Joint {
+    /// The closed range of positions, where the joint has one.
+    pub fn position_range(&self) -> Option<(f64, f64)> {
+        let limit = self.limit.filter(|_| matches!(self.kind, JointKind::Revolute | JointKind::Prismatic))?;
+        Some((limit.lower, limit.upper))
+    }
+}

@@ -1,0 +1,313 @@
+//! The robot: a checked tree of links and joints. Reading it from a file is `urdf/`.
+
+use super::{
+    joint::{Joint, JointIndex, JointKind, Mimic},
+    link::{Link, LinkIndex},
+};
+
+/// A joint before its robot exists: links and mimicked joint by name, the rest as in [`Joint`].
+#[derive(Debug, Clone)]
+pub struct JointParts {
+    /// All that needs no other joint or link; its `parent`, `child` and `mimic` are overwritten.
+    pub joint: Joint,
+    /// Name of the parent link.
+    pub parent: String,
+    /// Name of the child link.
+    pub child: String,
+    /// Name of the mimicked joint, multiplier, offset.
+    pub mimic: Option<(String, f64, f64)>,
+}
+
+/// Why links and joints do not make a robot.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RobotError {
+    /// There is no link at all.
+    #[error("the robot has no link")]
+    NoLink,
+    /// Two links share a name.
+    #[error("duplicate link name \"{link}\"")]
+    DuplicateLink {
+        /// The name.
+        link: String,
+    },
+    /// Two joints share a name.
+    #[error("duplicate joint name \"{joint}\"")]
+    DuplicateJoint {
+        /// The name.
+        joint: String,
+    },
+    /// A joint names a link that does not exist.
+    #[error("joint \"{joint}\": {role} link \"{link}\" not found")]
+    UnknownLink {
+        /// The joint.
+        joint: String,
+        /// `parent` or `child`.
+        role: &'static str,
+        /// The name that is not there.
+        link: String,
+        /// All links.
+        known: Vec<String>,
+    },
+    /// A joint connects a link with itself.
+    #[error("joint \"{joint}\": parent and child are the same link \"{link}\"")]
+    SelfJoint {
+        /// The joint.
+        joint: String,
+        /// The link.
+        link: String,
+    },
+    /// A link hangs on two joints.
+    #[error(
+        "link \"{link}\" already has a parent: it is the child of joint \"{first}\" and of joint \"{second}\""
+    )]
+    TwoParents {
+        /// The link.
+        link: String,
+        /// The first joint.
+        first: String,
+        /// The second joint.
+        second: String,
+    },
+    /// A link is its own ancestor.
+    #[error("kinematic loop {}", .links.join(" -> "))]
+    Loop {
+        /// The links of the loop, the first again at the end.
+        links: Vec<String>,
+        /// The joint that closes it.
+        joint: String,
+    },
+    /// More than one link has no parent.
+    #[error("{} root links: {}; a robot is one connected tree", .roots.len(), .roots.join(", "))]
+    SeveralRoots {
+        /// The links without a parent.
+        roots: Vec<String>,
+    },
+    /// A joint mimics a joint that does not exist or does not move.
+    #[error("joint \"{joint}\": mimicked joint \"{target}\" not found among the moving joints")]
+    UnknownMimic {
+        /// The joint.
+        joint: String,
+        /// The name that is not there.
+        target: String,
+        /// All moving joints.
+        known: Vec<String>,
+    },
+    /// A joint mimics itself, directly or through others.
+    #[error("joint \"{joint}\" mimics itself{}", if .through.is_empty() { String::new() } else { format!(" through {}", .through.join(", ")) })]
+    MimicLoop {
+        /// The joint.
+        joint: String,
+        /// The joints between.
+        through: Vec<String>,
+    },
+}
+
+impl RobotError {
+    /// The joint at fault, where it is a joint.
+    pub fn joint(&self) -> Option<&str> {
+        match self {
+            Self::DuplicateJoint { joint }
+            | Self::UnknownLink { joint, .. }
+            | Self::SelfJoint { joint, .. }
+            | Self::Loop { joint, .. }
+            | Self::UnknownMimic { joint, .. }
+            | Self::MimicLoop { joint, .. } => Some(joint),
+            Self::TwoParents { second, .. } => Some(second),
+            Self::NoLink | Self::DuplicateLink { .. } | Self::SeveralRoots { .. } => None,
+        }
+    }
+
+    /// The link at fault, where it is a link.
+    pub fn link(&self) -> Option<&str> {
+        match self {
+            Self::DuplicateLink { link } => Some(link),
+            Self::SeveralRoots { roots } => roots.last().map(String::as_str),
+            _ => None,
+        }
+    }
+}
+
+/// A robot: one tree of links, joined by joints, parents before children in both lists.
+///
+/// Configuration vectors (`q`, `qd`) hold one entry for each movable joint, mimic joints
+/// included, in the order of [`Robot::movable_joints`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    name: String,
+    links: Vec<Link>,
+    joints: Vec<Joint>,
+    parent_joints: Vec<Option<JointIndex>>,
+    movable: Vec<JointIndex>,
+    coordinates: Vec<Option<usize>>,
+}
+
+impl Robot {
+    /// Builds the tree: names are resolved, links and joints sorted depth first in file order.
+    ///
+    /// # Errors
+    /// [`RobotError`] when names repeat or are unknown, or when the joints are no tree.
+    pub fn new(
+        name: impl Into<String>,
+        links: Vec<Link>,
+        joints: Vec<JointParts>,
+    ) -> Result<Self, RobotError> {
+        crate::model::tree::build(name.into(), links, joints)
+    }
+
+    /// From parts that are already a sorted tree; only `tree.rs` calls it.
+    pub(crate) fn from_tree(name: String, links: Vec<Link>, joints: Vec<Joint>) -> Self {
+        let mut parent_joints = vec![None; links.len()];
+        let mut coordinates = vec![None; joints.len()];
+        let mut movable = Vec::new();
+        for (index, joint) in joints.iter().enumerate() {
+            parent_joints[joint.child.0] = Some(JointIndex(index));
+            if joint.kind.is_movable() {
+                coordinates[index] = Some(movable.len());
+                movable.push(JointIndex(index));
+            }
+        }
+        Self { name, links, joints, parent_joints, movable, coordinates }
+    }
+
+    /// The robot's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// All links, parents before children; the first is the root.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// All joints, parents before children.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// The link that hangs on no joint.
+    pub fn root(&self) -> LinkIndex {
+        LinkIndex(0)
+    }
+
+    /// One link.
+    pub fn link(&self, index: LinkIndex) -> &Link {
+        &self.links[index.0]
+    }
+
+    /// One joint.
+    pub fn joint(&self, index: JointIndex) -> &Joint {
+        &self.joints[index.0]
+    }
+
+    /// Indices of all links, in order.
+    pub fn link_indices(&self) -> impl ExactSizeIterator<Item = LinkIndex> + use<> {
+        (0..self.links.len()).map(LinkIndex)
+    }
+
+    /// The link with this name.
+    pub fn find_link(&self, name: &str) -> Option<LinkIndex> {
+        self.links.iter().position(|link| link.name == name).map(LinkIndex)
+    }
+
+    /// The joint with this name.
+    pub fn find_joint(&self, name: &str) -> Option<JointIndex> {
+        self.joints.iter().position(|joint| joint.name == name).map(JointIndex)
+    }
+
+    /// The joint that carries a link; `None` for the root.
+    pub fn parent_joint(&self, link: LinkIndex) -> Option<JointIndex> {
+        self.parent_joints[link.0]
+    }
+
+    /// The joints with a coordinate, in the order of configuration vectors.
+    pub fn movable_joints(&self) -> &[JointIndex] {
+        &self.movable
+    }
+
+    /// Names of the joints with a coordinate, in the order of configuration vectors.
+    pub fn movable_joint_names(&self) -> impl ExactSizeIterator<Item = &str> + Clone {
+        self.movable.iter().map(|&joint| self.joint(joint).name.as_str())
+    }
+
+    /// Length of a configuration vector: the number of movable joints, mimic joints included.
+    pub fn dof(&self) -> usize {
+        self.movable.len()
+    }
+
+    /// Where a joint's position stands in a configuration vector; `None` for a fixed joint.
+    pub fn coordinate(&self, joint: JointIndex) -> Option<usize> {
+        self.coordinates[joint.0]
+    }
+
+    /// The joints that move link `tip` against link `base`, fixed ones between them included, from
+    /// the first that leaves the body of `base`; `None` where `tip` does not hang below that body.
+    ///
+    /// `base` may stand aside, as the link `base` of a Universal Robots arm does: only its body counts.
+    pub fn chain(&self, base: LinkIndex, tip: LinkIndex) -> Option<Vec<JointIndex>> {
+        let base_body = self.body(base);
+        let mut joints = Vec::new();
+        let mut link = tip;
+        while self.body(link) != base_body {
+            let joint = self.parent_joint(link)?;
+            joints.push(joint);
+            link = self.joint(joint).parent;
+        }
+        joints.reverse();
+        Some(joints)
+    }
+
+    /// The link nearest to the root that `link` is rigidly attached to: links with the same
+    /// answer move as one body.
+    pub fn body(&self, mut link: LinkIndex) -> LinkIndex {
+        while let Some(joint) = self.parent_joint(link) {
+            let joint = self.joint(joint);
+            if joint.kind != JointKind::Fixed {
+                break;
+            }
+            link = joint.parent;
+        }
+        link
+    }
+
+    /// Overwrites the entries of mimic joints in `q` by what their masters imply.
+    ///
+    /// # Panics
+    /// When `q` is not a configuration vector of this robot.
+    pub fn apply_mimic(&self, q: &mut [f64]) {
+        self.follow_masters(q, |mimic| mimic.offset);
+    }
+
+    /// The same for speeds, which no offset changes.
+    ///
+    /// # Panics
+    /// When `qd` is not a configuration vector of this robot.
+    /// # Examples
+    /// ```
+    /// let robot = congruent_description::parse_urdf(
+    ///     r#"<robot name="gripper">
+    ///         <link name="palm"/><link name="left"/><link name="right"/>
+    ///         <joint name="a" type="continuous"><parent link="palm"/><child link="left"/></joint>
+    ///         <joint name="b" type="continuous"><parent link="palm"/><child link="right"/>
+    ///             <mimic joint="a" multiplier="-2" offset="0.5"/></joint>
+    ///     </robot>"#,
+    /// ).unwrap();
+    /// let (mut q, mut qd) = ([0.1, 9.0], [0.1, 9.0]);
+    /// robot.apply_mimic(&mut q);
+    /// robot.apply_mimic_to_speeds(&mut qd);
+    /// assert_eq!((q, qd), ([0.1, 0.3], [0.1, -0.2]));
+    /// ```
+    pub fn apply_mimic_to_speeds(&self, qd: &mut [f64]) {
+        self.follow_masters(qd, |_| 0.0);
+    }
+
+    fn follow_masters(&self, vector: &mut [f64], constant: fn(&Mimic) -> f64) {
+        assert_eq!(vector.len(), self.dof(), "one entry for each movable joint");
+        for (coordinate, &joint) in self.movable.iter().enumerate() {
+            if let Some(mimic) = &self.joint(joint).mimic {
+                let master = self.coordinates[mimic.master.0].expect("a mimicked joint moves");
+                vector[coordinate] = mimic.multiplier * vector[master] + constant(mimic);
+            }
+        }
+    }
+}

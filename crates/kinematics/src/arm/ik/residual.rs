@@ -1,0 +1,106 @@
+//! What is asked for, and how far a pose is from it.
+
+use nalgebra::Vector6;
+
+use super::{IkMethod, IkOptions};
+use crate::spatial::{pose::Pose, rotation::rotation_log, twist::Twist};
+
+/// How much of a pose is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TargetPart {
+    /// The origin alone, in any orientation.
+    Position,
+    /// Origin and orientation.
+    Pose,
+}
+
+/// A pose of the tool centre point that is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IkTarget {
+    /// Where the tool is to be.
+    pub base_from_tcp: Pose,
+    /// Which part of it counts.
+    pub part: TargetPart,
+}
+
+/// What separates a pose from a target: as lengths and angles, and as a task vector in the units
+/// and axes that the method works in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Residual {
+    pub(super) position_m: f64,
+    pub(super) orientation_rad: f64,
+    /// Angular first, as a [`Twist`].
+    pub(super) task: Vector6<f64>,
+}
+
+impl Residual {
+    pub(super) fn of(target: &IkTarget, base_from_tcp: &Pose, frame: &TaskFrame) -> Self {
+        let shift = target.base_from_tcp.translation - base_from_tcp.translation;
+        let rotation = match target.part {
+            TargetPart::Pose => target.base_from_tcp.rotation * base_from_tcp.rotation.transpose(),
+            TargetPart::Position => nalgebra::Matrix3::identity(),
+        };
+        let turn = rotation_log(&rotation);
+        let error = match (frame.in_body, target.part) {
+            (true, TargetPart::Pose) => Twist::log(&(base_from_tcp.inverse() * target.base_from_tcp)),
+            _ => Twist { angular: turn, linear: shift },
+        };
+        Self {
+            position_m: shift.norm(),
+            orientation_rad: turn.norm(),
+            task: frame.scaled(&error, target.part),
+        }
+    }
+
+    pub(super) fn within(&self, options: &IkOptions) -> bool {
+        self.position_m <= options.tolerance_m && self.orientation_rad <= options.tolerance_rad
+    }
+
+    /// Half the square of the task vector.
+    pub(super) fn cost(&self) -> f64 {
+        0.5 * self.task.norm_squared()
+    }
+}
+
+/// The axes and units that a method works in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TaskFrame {
+    /// Axes of the body and the logarithm of the whole motion; otherwise axes of the base, turn and
+    /// shift apart.
+    in_body: bool,
+    /// What a metre is worth.
+    rad_per_metre: f64,
+}
+
+impl TaskFrame {
+    pub(super) fn of(method: IkMethod, part: TargetPart, metres_per_rad: f64) -> Self {
+        match method {
+            IkMethod::LevenbergMarquardt => Self { in_body: false, rad_per_metre: 1.0 / metres_per_rad },
+            IkMethod::Newton => Self { in_body: part == TargetPart::Pose, rad_per_metre: 1.0 },
+            IkMethod::PseudoInverse | IkMethod::Transpose => Self { in_body: false, rad_per_metre: 1.0 },
+        }
+    }
+
+    /// A column of the geometric Jacobian as one of the task.
+    #[inline]
+    pub(super) fn column(&self, column: &Twist, base_from_tcp: &Pose, part: TargetPart) -> Vector6<f64> {
+        if self.in_body {
+            let body_from_base = base_from_tcp.rotation.transpose();
+            let Twist { angular, linear } = *column;
+            let in_body = Twist { angular: body_from_base * angular, linear: body_from_base * linear };
+            return self.scaled(&in_body, part);
+        }
+        self.scaled(column, part)
+    }
+
+    /// As one vector; what does not count is zero.
+    #[inline]
+    fn scaled(&self, twist: &Twist, part: TargetPart) -> Vector6<f64> {
+        let linear = twist.linear * self.rad_per_metre;
+        let angular = match part {
+            TargetPart::Pose => twist.angular,
+            TargetPart::Position => nalgebra::Vector3::zeros(),
+        };
+        Twist { angular, linear }.into()
+    }
+}

@@ -1,0 +1,15 @@
+//! What an arm can do: a chain with limits and tool, its inverse kinematics, workspace, manipulability and
+//! sensitivity.
+
+pub(crate) mod ik;
+pub(crate) mod manipulability;
+pub(crate) mod model;
+pub(crate) mod pattern_search;
+pub(crate) mod sensitivity;
+pub(crate) mod workspace;
+
+pub use ik::{DifferentialMethod, IkChange, IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};
+pub use manipulability::{Dexterity, Manipulability, VelocityEllipsoid};
+pub use model::{Arm, ArmJoint};
+pub use sensitivity::{Displacement, Sampling, displacement};
+pub use workspace::Workspace;

@@ -1,0 +1,320 @@
+//! An arm as inverse kinematics, workspace and manipulability see it: a chain from base to tool,
+//! its independent joints and their ranges.
+
+use std::f64::consts::{PI, TAU};
+
+use congruent_description::{JointIndex, LinkIndex, Mimic, Robot, RobotDescription};
+
+use crate::{
+    chain::{jacobian::JacobianKind, serial::chain::SerialChain},
+    error::KinematicsError,
+    spatial::{pose::Pose, twist::Twist},
+    uniform::Uniform,
+};
+
+/// One independent joint of an arm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ArmJoint {
+    /// The joint in the robot.
+    pub joint: JointIndex,
+    /// Its entry in the robot's configuration vector.
+    pub coordinate: usize,
+    /// Whether it turns, in rad; otherwise it slides, in m.
+    pub turns: bool,
+    /// Smallest position; minus infinity where there is none.
+    pub lower: f64,
+    /// Largest position; infinity where there is none.
+    pub upper: f64,
+    /// Whether a full turn of it leaves the pose as it is.
+    wraps: bool,
+}
+
+impl ArmJoint {
+    /// The range from which positions are drawn: the limits, or one turn where there are none.
+    pub fn sampled_range(&self) -> (f64, f64) {
+        let (low, high) = if self.turns { (-PI, PI) } else { (-1.0, 1.0) };
+        match (self.lower.is_finite(), self.upper.is_finite()) {
+            (true, true) => (self.lower, self.upper),
+            (true, false) => (self.lower, self.lower + (high - low)),
+            (false, true) => (self.upper - (high - low), self.upper),
+            (false, false) => (low, high),
+        }
+    }
+
+    /// `q` within the limits: a full turn further where that is inside, since it is the same pose,
+    /// otherwise the nearest limit.
+    #[inline]
+    pub(crate) fn inside(&self, q: f64) -> f64 {
+        if q > self.upper {
+            let turned = q - TAU * ((q - self.upper) / TAU).ceil();
+            if self.wraps && turned >= self.lower { turned } else { self.upper }
+        } else if q < self.lower {
+            let turned = q + TAU * ((self.lower - q) / TAU).ceil();
+            if self.wraps && turned <= self.upper { turned } else { self.lower }
+        } else {
+            q
+        }
+    }
+
+    /// `q` moved by whole turns as near to `reference` as the limits allow.
+    pub(crate) fn nearest_turn(&self, q: f64, reference: f64) -> f64 {
+        if !self.wraps {
+            return q;
+        }
+        let turns = ((reference - q) / TAU).round();
+        // One turn less where the nearest is outside.
+        [turns, turns - turns.signum()]
+            .map(|turns| q + TAU * turns)
+            .into_iter()
+            .find(|candidate| (self.lower..=self.upper).contains(candidate))
+            .unwrap_or(q)
+    }
+}
+
+/// How a joint of the chain follows an independent one: `q = multiplier * q_independent + offset`.
+#[derive(Debug, Clone, Copy)]
+struct Follows {
+    independent: usize,
+    multiplier: f64,
+    offset: f64,
+}
+
+/// A chain from link `base` to a tool centre point, driven by its independent joints.
+///
+/// Joints that mimic another follow it, and their limits bind it. Configurations `q` of an arm hold
+/// one entry for each of [`Arm::joints`]. It owns the buffers of its calls, so these allocate nothing.
+#[derive(Debug, Clone)]
+pub struct Arm {
+    chain: SerialChain,
+    tip_from_tcp: Pose,
+    joints: Vec<ArmJoint>,
+    follows: Vec<Follows>,
+    metres_per_rad: f64,
+    positions: Vec<f64>,
+    of_chain: Vec<Twist>,
+    columns: Vec<Twist>,
+}
+
+impl Arm {
+    /// The arm of a loaded robot: its URDF chain from base to tip, and the tool where one is declared.
+    ///
+    /// # Errors
+    /// [`KinematicsError::NoJoint`] where nothing moves between base and tip.
+    pub fn of(description: &RobotDescription) -> Result<Self, KinematicsError> {
+        let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
+        Self::new(&description.robot, (description.base, description.tip), tip_from_tcp)
+    }
+
+    /// The arm from link `base` to a tool in link `tip`.
+    ///
+    /// # Errors
+    /// [`KinematicsError::NoJoint`] where nothing moves between the two.
+    pub fn new(
+        robot: &Robot,
+        (base, tip): (LinkIndex, LinkIndex),
+        tip_from_tcp: Pose,
+    ) -> Result<Self, KinematicsError> {
+        let chain = SerialChain::from_urdf(robot, (base, tip));
+        let (mut joints, mut follows) = (Vec::new(), Vec::new());
+        for &coordinate in chain.coordinates() {
+            follow(robot, robot.movable_joints()[coordinate], &mut joints, &mut follows);
+        }
+        if joints.is_empty() {
+            return Err(KinematicsError::NoJoint);
+        }
+        let mut arm = Self {
+            positions: vec![0.0; follows.len()],
+            of_chain: vec![Twist::zero(); follows.len()],
+            columns: vec![Twist::zero(); joints.len()],
+            chain,
+            tip_from_tcp,
+            joints,
+            follows,
+            metres_per_rad: 1.0,
+        };
+        arm.metres_per_rad = arm.typical_metres_per_rad();
+        Ok(arm)
+    }
+
+    /// The independent joints, base to tip: what a configuration of the arm holds.
+    pub fn joints(&self) -> &[ArmJoint] {
+        &self.joints
+    }
+
+    /// How far the tool typically moves when a joint turns: the length that makes metres and radians
+    /// comparable for this arm. 1 where nothing turns.
+    pub fn metres_per_rad(&self) -> f64 {
+        self.metres_per_rad
+    }
+
+    /// The middle of every range.
+    pub fn middle(&self) -> Vec<f64> {
+        let middle = |joint: &ArmJoint| f64::midpoint(joint.sampled_range().0, joint.sampled_range().1);
+        self.joints.iter().map(middle).collect()
+    }
+
+    /// The arm's part of a configuration vector of the robot.
+    pub fn from_robot(&self, q_robot: &[f64]) -> Vec<f64> {
+        self.joints.iter().map(|joint| q_robot[joint.coordinate]).collect()
+    }
+
+    /// Writes a configuration of the arm into one of the robot; mimic joints are left to
+    /// [`Robot::apply_mimic`].
+    pub fn write_to_robot(&self, q: &[f64], q_robot: &mut [f64]) {
+        for (joint, &q) in self.joints.iter().zip(q) {
+            q_robot[joint.coordinate] = q;
+        }
+    }
+
+    /// Pose of the tool centre point in the base.
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] when `q` is no configuration of the arm.
+    pub fn base_from_tcp(&mut self, q: &[f64]) -> Result<Pose, KinematicsError> {
+        self.place(q)?;
+        Ok(self.chain.base_from_tip(&self.positions)? * self.tip_from_tcp)
+    }
+
+    /// Pose of the tool centre point and its geometric Jacobian: columns in the axes of the base,
+    /// the linear part the velocity of the tool centre point.
+    ///
+    /// | value | shape | unit | frame |
+    /// |---|---|---|---|
+    /// | `q` | number of joints | rad, m | base to tip |
+    /// | result | SE(3), and a twist for each joint | m | base |
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] when `q` is no configuration of the arm.
+    pub fn pose_and_jacobian(&mut self, q: &[f64]) -> Result<(Pose, &[Twist]), KinematicsError> {
+        self.place(q)?;
+        let kind = JacobianKind::Geometric;
+        let base_from_tip = self.chain.pose_and_jacobian_into(&self.positions, kind, &mut self.of_chain)?;
+        let tcp_from_tip_in_base = base_from_tip.rotation * self.tip_from_tcp.translation;
+        self.columns.fill(Twist::zero());
+        for (of_chain, follows) in self.of_chain.iter().zip(&self.follows) {
+            let Twist { angular, linear } = *of_chain;
+            let column = &mut self.columns[follows.independent];
+            column.angular += angular * follows.multiplier;
+            column.linear += (linear + angular.cross(&tcp_from_tip_in_base)) * follows.multiplier;
+        }
+        Ok((base_from_tip * self.tip_from_tcp, &self.columns))
+    }
+
+    /// Draws a configuration within the limits.
+    pub(crate) fn draw(&self, random: &mut Uniform, q: &mut [f64]) {
+        for (q, joint) in q.iter_mut().zip(&self.joints) {
+            *q = random.between(joint.sampled_range());
+        }
+    }
+
+    /// Positions of the chain's joints, mimics included.
+    fn place(&mut self, q: &[f64]) -> Result<(), KinematicsError> {
+        KinematicsError::check_joints(self.joints.len(), q)?;
+        for (position, follows) in self.positions.iter_mut().zip(&self.follows) {
+            *position = follows.multiplier * q[follows.independent] + follows.offset;
+        }
+        Ok(())
+    }
+
+    /// Root mean square over turning joints and a few configurations.
+    fn typical_metres_per_rad(&mut self) -> f64 {
+        /// Enough for a length that is only a scale.
+        const CONFIGURATIONS: usize = 16;
+        let (mut sum, mut turning) = (0.0, 0.0);
+        let mut random = Uniform::seeded(0);
+        let mut q = self.middle();
+        for _ in 0..CONFIGURATIONS {
+            self.draw(&mut random, &mut q);
+            let (_, columns) = self.pose_and_jacobian(&q).expect("q is a configuration of this arm");
+            for column in columns {
+                let rate = column.angular.norm();
+                if rate > 0.0 {
+                    sum += (column.linear.norm() / rate).powi(2);
+                    turning += 1.0;
+                }
+            }
+        }
+        if sum > 0.0 { f64::sqrt(sum / turning) } else { 1.0 }
+    }
+}
+
+/// Adds a joint of the chain, and the independent one that it follows where that is new.
+fn follow(robot: &Robot, index: JointIndex, joints: &mut Vec<ArmJoint>, follows: &mut Vec<Follows>) {
+    let joint = robot.joint(index);
+    let alone = Mimic { master: index, multiplier: 1.0, offset: 0.0 };
+    let Mimic { master, multiplier, offset } = joint.mimic.unwrap_or(alone);
+    let independent = joints.iter().position(|known| known.joint == master).unwrap_or_else(|| {
+        let (lower, upper) =
+            robot.joint(master).position_range().unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        joints.push(ArmJoint {
+            joint: master,
+            coordinate: robot.coordinate(master).expect("a mimicked joint moves"),
+            turns: robot.joint(master).kind.is_angular(),
+            lower,
+            upper,
+            wraps: robot.joint(master).kind.is_angular(),
+        });
+        joints.len() - 1
+    });
+    follows.push(Follows { independent, multiplier, offset });
+    joints[independent].wraps &= multiplier.fract().abs() < f64::EPSILON;
+    if let (Some((lower, upper)), true) = (joint.position_range(), joint.mimic.is_some() && multiplier != 0.0)
+    {
+        let ends = [(lower - offset) / multiplier, (upper - offset) / multiplier];
+        let bound = &mut joints[independent];
+        let (lower, upper) = (bound.lower.max(ends[0].min(ends[1])), bound.upper.min(ends[0].max(ends[1])));
+        // Ranges that exclude each other are a fault of the description; the master's stands.
+        if lower <= upper {
+            (bound.lower, bound.upper) = (lower, upper);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::support;
+
+    fn turning(lower: f64, upper: f64) -> ArmJoint {
+        let carried = support::Carried::fixed("tip", "base", nalgebra::Isometry3::identity());
+        let index = support::robot(vec![carried]).find_joint("tip").unwrap();
+        ArmJoint { joint: index, coordinate: 0, turns: true, lower, upper, wraps: true }
+    }
+
+    fn sliding(lower: f64, upper: f64) -> ArmJoint {
+        ArmJoint { turns: false, wraps: false, ..turning(lower, upper) }
+    }
+
+    #[track_caller]
+    fn assert_inside(joint: &ArmJoint, q: f64, expected: f64) {
+        assert!((joint.inside(q) - expected).abs() < 1e-12, "{} for {q}", joint.inside(q));
+    }
+
+    #[test]
+    fn a_turn_further_or_the_limit() {
+        let (wide, narrow, slide) = (turning(-TAU, TAU), turning(-1.0, 1.0), sliding(0.0, 0.5));
+        assert_inside(&wide, TAU + 0.5, 0.5);
+        assert_inside(&wide, -TAU - 0.5, -0.5);
+        assert_inside(&narrow, 1.5, 1.0);
+        assert_inside(&narrow, TAU + 0.25, 0.25);
+        assert_inside(&slide, -0.1, 0.0);
+        assert_inside(&slide, 0.2, 0.2);
+        assert_inside(&turning(f64::NEG_INFINITY, f64::INFINITY), 100.0, 100.0);
+    }
+
+    #[test]
+    fn the_nearest_turn_stays_inside() {
+        let wide = turning(-TAU, TAU);
+        assert!((wide.nearest_turn(0.5, 6.0) - (0.5 + TAU).min(0.5)).abs() < 1e-12);
+        assert!((wide.nearest_turn(-0.5, 6.0) - (TAU - 0.5)).abs() < 1e-12);
+        assert!((sliding(0.0, 0.5).nearest_turn(0.1, 9.0) - 0.1).abs() < f64::EPSILON);
+    }
+
+    #[test]
+    fn without_a_moving_joint_there_is_no_arm() {
+        let robot =
+            support::robot(vec![support::Carried::fixed("tip", "base", nalgebra::Isometry3::identity())]);
+        let ends = (robot.root(), robot.find_link("tip").unwrap());
+        assert_eq!(Arm::new(&robot, ends, Pose::identity()).unwrap_err(), KinematicsError::NoJoint);
+    }
+}

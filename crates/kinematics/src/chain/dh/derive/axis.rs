@@ -1,0 +1,99 @@
+//! The axes of a chain as lines with a kind, or why a joint fits no row.
+
+use nalgebra::Vector3;
+
+use crate::{chain::screws::chain::ScrewChain, spatial::twist::Twist};
+
+/// Why a chain has no Denavit-Hartenberg table. Joints are counted from 0, base to tip.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DeriveError {
+    /// A table has at least one row.
+    #[error("the chain has no moving joint")]
+    NoJoint,
+    /// A joint moves nothing.
+    #[error("the variable of joint {joint} moves nothing")]
+    Motionless {
+        /// The joint.
+        joint: usize,
+    },
+    /// A joint moves more or less than its variable says, which no row can express.
+    #[error("joint {joint} moves {ratio} times its variable, a row moves once")]
+    Ratio {
+        /// The joint.
+        joint: usize,
+        /// Motion per unit of the variable.
+        ratio: f64,
+    },
+    /// A joint turns and shifts at once.
+    #[error("joint {joint} is a screw of pitch {pitch_m_per_rad} m/rad, a row either turns or shifts")]
+    Helical {
+        /// The joint.
+        joint: usize,
+        /// Shift along the axis per turn.
+        pitch_m_per_rad: f64,
+    },
+}
+
+impl DeriveError {
+    /// The joint at fault, where it is a joint.
+    pub fn joint(&self) -> Option<usize> {
+        match *self {
+            Self::NoJoint => None,
+            Self::Motionless { joint } | Self::Ratio { joint, .. } | Self::Helical { joint, .. } => {
+                Some(joint)
+            }
+        }
+    }
+}
+
+/// A directed line in the base frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line {
+    pub(super) point: Vector3<f64>,
+    pub(super) direction: Vector3<f64>,
+}
+
+impl Line {
+    /// The point of the line nearest to another one.
+    pub(super) fn nearest_to(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.point + self.direction * (point - self.point).dot(&self.direction)
+    }
+}
+
+/// What moves a frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Axis {
+    /// A turn about a line.
+    Turn(Line),
+    /// A shift along a direction; where the line lies is free.
+    Slide(Vector3<f64>),
+}
+
+/// All axes of a chain at position zero; `accuracy` is how far a joint may be from a plain turn or shift.
+pub(super) fn axes(chain: &ScrewChain, accuracy: f64) -> Result<Vec<Axis>, DeriveError> {
+    if chain.twists_in_base.is_empty() {
+        return Err(DeriveError::NoJoint);
+    }
+    chain.twists_in_base.iter().enumerate().map(|(joint, twist)| axis(joint, twist, accuracy)).collect()
+}
+
+fn axis(joint: usize, twist: &Twist, accuracy: f64) -> Result<Axis, DeriveError> {
+    let (turn, shift) = (twist.angular.norm(), twist.linear.norm());
+    let ratio = if turn > accuracy { turn } else { shift };
+    if ratio <= accuracy {
+        return Err(DeriveError::Motionless { joint });
+    }
+    if (ratio - 1.0).abs() > accuracy {
+        return Err(DeriveError::Ratio { joint, ratio });
+    }
+    if turn <= accuracy {
+        return Ok(Axis::Slide(twist.linear / shift));
+    }
+    let direction = twist.angular / turn;
+    let pitch_m_per_rad = direction.dot(&twist.linear) / turn;
+    if pitch_m_per_rad.abs() > accuracy {
+        return Err(DeriveError::Helical { joint, pitch_m_per_rad });
+    }
+    Ok(Axis::Turn(Line { point: direction.cross(&twist.linear) / turn, direction }))
+}

@@ -1,0 +1,311 @@
+//! Forward kinematics of the description itself: joint after joint along the tree.
+
+use congruent_description::{Joint, JointKind, LinkIndex, Robot};
+use nalgebra::{Matrix3, Vector3};
+
+use super::{
+    jacobian::{Jacobian, JacobianKind},
+    sin_cos::{BLOCK, SinCos, SinesCosines},
+};
+use crate::{
+    error::KinematicsError,
+    spatial::{pose::Pose, rotation::hat, twist::Twist},
+};
+
+/// A robot's tree made ready for forward kinematics of every link.
+///
+/// Joints go by their own entry of the configuration vector, mimic joints too:
+/// [`Robot::apply_mimic`] makes those follow their masters.
+///
+/// # Examples
+/// A lift of 0.2 m that carries an arm:
+/// ```
+/// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+/// # use nalgebra::{Isometry3, Vector3};
+/// use congruent_kinematics::{Pose, UrdfTree};
+/// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
+/// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
+/// # let parts = |name: &str, kind, parent: &str, child: &str, x: f64| JointParts {
+/// #     joint: Joint {
+/// #         name: name.into(), kind, parent: single.root(), child: single.root(),
+/// #         parent_from_joint: Isometry3::translation(x, 0., 0.), axis_in_joint: Vector3::z_axis(),
+/// #         limit: None, damping: 0., friction: 0., mimic: None,
+/// #     },
+/// #     parent: parent.into(), child: child.into(), mimic: None,
+/// # };
+/// # let robot = Robot::new("r", vec![link("base"), link("lift"), link("arm"), link("tool")], vec![
+/// #     parts("lift", JointKind::Prismatic, "base", "lift", 0.),
+/// #     parts("turn", JointKind::Continuous, "lift", "arm", 0.),
+/// #     parts("flange", JointKind::Fixed, "arm", "tool", 0.5)]).unwrap();
+/// let tree = UrdfTree::new(&robot);
+/// let q = [0.2, std::f64::consts::FRAC_PI_2];
+/// let mut root_from_links = [Pose::identity(); 4];
+/// tree.root_from_links_into(&q, &mut root_from_links)?;
+/// let tool = robot.find_link("tool").unwrap();
+/// assert!((root_from_links[tool.get()].translation - Vector3::new(0., 0.5, 0.2)).norm() < 4.0 * f64::EPSILON);
+/// assert!((tree.root_from_link(&q, tool)?.translation - Vector3::new(0., 0.5, 0.2)).norm() < 4.0 * f64::EPSILON);
+/// # Ok::<(), congruent_kinematics::KinematicsError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct UrdfTree {
+    /// In the order of the robot's joints, parents first.
+    joints: Vec<TreeJoint>,
+    /// For each link the joint that carries it.
+    parent_joints: Vec<Option<usize>>,
+    dof: usize,
+}
+
+#[derive(Debug, Clone)]
+struct TreeJoint {
+    parent: usize,
+    child: usize,
+    parent_from_joint: Pose,
+    motion: Motion,
+}
+
+/// How the child moves, in the axes of the parent.
+#[derive(Debug, Clone)]
+enum Motion {
+    Fixed,
+    /// `R(q) = R(0) + sin q R(0) [w] + (1 - cos q) R(0) [w]^2`: Rodrigues with the joint's own
+    /// rotation multiplied in.
+    Turn {
+        coordinate: usize,
+        by_sine: Matrix3<f64>,
+        by_versine: Matrix3<f64>,
+        axis_in_child: Vector3<f64>,
+    },
+    Shift {
+        coordinate: usize,
+        axis_in_parent: Vector3<f64>,
+        axis_in_child: Vector3<f64>,
+    },
+}
+
+impl UrdfTree {
+    /// Prepares a robot.
+    pub fn new(robot: &Robot) -> Self {
+        let mut parent_joints = vec![None; robot.links().len()];
+        let mut joints = Vec::with_capacity(robot.joints().len());
+        for (index, joint) in robot.joints().iter().enumerate() {
+            parent_joints[joint.child.get()] = Some(index);
+            let coordinate = robot.parent_joint(joint.child).and_then(|index| robot.coordinate(index));
+            joints.push(TreeJoint::new(joint, coordinate));
+        }
+        Self { joints, parent_joints, dof: robot.dof() }
+    }
+
+    /// Poses of all links in the root link.
+    ///
+    /// | value | shape | unit | frame |
+    /// |---|---|---|---|
+    /// | `q` | the robot's dof | rad, m | order of [`Robot::movable_joints`] |
+    /// | `root_from_links` | number of links | m | order of [`Robot::links`] |
+    ///
+    /// Source: the product of `parent_from_joint` and the joint's own motion, parents first; the turn
+    /// by Lynch & Park, *Modern Robotics* (2017), eq. 3.51.
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] or [`KinematicsError::PoseCount`] when a length is wrong.
+    /// # Examples
+    /// See [`UrdfTree`].
+    pub fn root_from_links_into(
+        &self,
+        q: &[f64],
+        root_from_links: &mut [Pose],
+    ) -> Result<(), KinematicsError> {
+        KinematicsError::check_joints(self.dof, q)?;
+        KinematicsError::check_poses(self.parent_joints.len(), root_from_links)?;
+        root_from_links[0] = Pose::identity();
+        for block in self.joints.chunks(BLOCK) {
+            let turns = SinesCosines::of_block(std::array::from_fn(|at| {
+                block.get(at).map_or(0.0, |joint| joint.motion.angle_rad(q))
+            }));
+            for (joint, turn) in block.iter().zip(turns.iter()) {
+                let root_from_parent = root_from_links[joint.parent];
+                root_from_links[joint.child] = root_from_parent * joint.parent_from_child(q, turn);
+            }
+        }
+        Ok(())
+    }
+
+    /// Pose of one link in the root link.
+    ///
+    /// | value | shape | unit | frame |
+    /// |---|---|---|---|
+    /// | `q` | the robot's dof | rad, m | order of [`Robot::movable_joints`] |
+    /// | result | SE(3) | m | `root_from_link` |
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] when `q` is no configuration vector of the robot.
+    /// # Panics
+    /// When `link` is a link of a larger robot.
+    /// # Examples
+    /// See [`UrdfTree`].
+    pub fn root_from_link(&self, q: &[f64], link: LinkIndex) -> Result<Pose, KinematicsError> {
+        KinematicsError::check_joints(self.dof, q)?;
+        Ok(self.visit_up(q, link, |_, _| {}))
+    }
+
+    /// Pose of one link and the columns of its Jacobian; joints that do not move it get zeros.
+    ///
+    /// | value | shape | unit | frame |
+    /// |---|---|---|---|
+    /// | `q` | the robot's dof | rad, m | order of [`Robot::movable_joints`] |
+    /// | `columns` | the robot's dof | | as `kind` says |
+    /// | result | SE(3) | m | `root_from_link` |
+    ///
+    /// Source: Lynch & Park, *Modern Robotics* (2017), eq. 5.18: each joint's screw, moved to the link.
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] or [`KinematicsError::ColumnCount`] when a length is wrong.
+    /// # Panics
+    /// When `link` is a link of a larger robot.
+    /// # Examples
+    /// See [`UrdfTree::jacobian`].
+    pub fn jacobian_into(
+        &self,
+        q: &[f64],
+        link: LinkIndex,
+        kind: JacobianKind,
+        columns: &mut [Twist],
+    ) -> Result<Pose, KinematicsError> {
+        KinematicsError::check_joints(self.dof, q)?;
+        KinematicsError::check_columns(self.dof, columns)?;
+        columns.fill(Twist::zero());
+        // From the link up to the root, as body twists, which need no more than what lies below.
+        let root_from_link = self.visit_up(q, link, |joint, child_from_link| {
+            if let Some((coordinate, twist_in_child)) = joint.motion.twist_in_child() {
+                columns[coordinate] = twist_in_child.seen_from(&child_from_link.inverse());
+            }
+        });
+        for column in columns {
+            *column = kind.of_body(column, &root_from_link);
+        }
+        Ok(root_from_link)
+    }
+
+    /// The Jacobian of one link; [`UrdfTree::jacobian_into`] with a vector of its own.
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] when `q` is no configuration vector of the robot.
+    /// # Panics
+    /// When `link` is a link of a larger robot.
+    /// # Examples
+    /// An arm of 0.5 m on a vertical hinge, and its tool's velocity:
+    /// ```
+    /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+    /// # use nalgebra::{Isometry3, Vector3};
+    /// use congruent_kinematics::{JacobianKind, UrdfTree};
+    /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
+    /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
+    /// # let parts = |name: &str, kind, parent: &str, child: &str, x: f64| JointParts {
+    /// #     joint: Joint {
+    /// #         name: name.into(), kind, parent: single.root(), child: single.root(),
+    /// #         parent_from_joint: Isometry3::translation(x, 0., 0.), axis_in_joint: Vector3::z_axis(),
+    /// #         limit: None, damping: 0., friction: 0., mimic: None,
+    /// #     },
+    /// #     parent: parent.into(), child: child.into(), mimic: None,
+    /// # };
+    /// # let robot = Robot::new("r", vec![link("base"), link("arm"), link("tool")], vec![
+    /// #     parts("turn", JointKind::Continuous, "base", "arm", 0.),
+    /// #     parts("flange", JointKind::Fixed, "arm", "tool", 0.5)]).unwrap();
+    /// let (tree, tool) = (UrdfTree::new(&robot), robot.find_link("tool").unwrap());
+    /// let jacobian = tree.jacobian(&[0.0], tool, JacobianKind::Geometric)?;
+    /// assert_eq!(jacobian.times(&[2.0])?.linear, Vector3::new(0., 1., 0.));
+    /// # Ok::<(), congruent_kinematics::KinematicsError>(())
+    /// ```
+    pub fn jacobian(
+        &self,
+        q: &[f64],
+        link: LinkIndex,
+        kind: JacobianKind,
+    ) -> Result<Jacobian, KinematicsError> {
+        let mut columns = vec![Twist::zero(); self.dof];
+        self.jacobian_into(q, link, kind, &mut columns)?;
+        Ok(Jacobian::from_columns(kind, columns))
+    }
+
+    /// Climbs from a link to the root, the sines of a block first, so that they are computed
+    /// together; `each` sees a joint and the link's pose in its child. Gives the pose in the root.
+    #[inline]
+    fn visit_up(&self, q: &[f64], link: LinkIndex, mut each: impl FnMut(&TreeJoint, &Pose)) -> Pose {
+        let mut above_from_link = Pose::identity();
+        let mut next = self.parent_joints[link.get()];
+        while next.is_some() {
+            let mut block = [None; BLOCK];
+            for place in &mut block {
+                let Some(index) = next else { break };
+                let joint = &self.joints[index];
+                *place = Some(joint);
+                next = self.parent_joints[joint.parent];
+            }
+            let angle_rad = |joint: Option<&TreeJoint>| joint.map_or(0.0, |joint| joint.motion.angle_rad(q));
+            let turns = SinesCosines::of_block(block.map(angle_rad));
+            for (joint, turn) in block.into_iter().flatten().zip(turns.iter()) {
+                each(joint, &above_from_link);
+                above_from_link = joint.parent_from_child(q, turn) * above_from_link;
+            }
+        }
+        above_from_link
+    }
+}
+
+impl Motion {
+    /// The angle whose sine and cosine the motion needs; 0 where it needs none.
+    #[inline]
+    fn angle_rad(&self, q: &[f64]) -> f64 {
+        if let Self::Turn { coordinate, .. } = self { q[*coordinate] } else { 0.0 }
+    }
+
+    /// The coordinate and the twist of one unit of it, in the child's frame.
+    #[inline]
+    fn twist_in_child(&self) -> Option<(usize, Twist)> {
+        let zero = Vector3::zeros();
+        match *self {
+            Self::Fixed => None,
+            Self::Turn { coordinate, axis_in_child, .. } => {
+                Some((coordinate, Twist { angular: axis_in_child, linear: zero }))
+            }
+            Self::Shift { coordinate, axis_in_child, .. } => {
+                Some((coordinate, Twist { angular: zero, linear: axis_in_child }))
+            }
+        }
+    }
+}
+
+impl TreeJoint {
+    fn new(joint: &Joint, coordinate: Option<usize>) -> Self {
+        let parent_from_joint = Pose::from(joint.parent_from_joint);
+        let axis_in_parent = parent_from_joint.transform_vector(&joint.axis_in_joint);
+        let motion = match (joint.kind, coordinate) {
+            (JointKind::Revolute | JointKind::Continuous, Some(coordinate)) => {
+                let axis_hat = hat(&joint.axis_in_joint);
+                let by_sine = parent_from_joint.rotation * axis_hat;
+                let axis_in_child = joint.axis_in_joint.into_inner();
+                Motion::Turn { coordinate, by_sine, by_versine: by_sine * axis_hat, axis_in_child }
+            }
+            (JointKind::Prismatic, Some(coordinate)) => {
+                let axis_in_child = joint.axis_in_joint.into_inner();
+                Motion::Shift { coordinate, axis_in_parent, axis_in_child }
+            }
+            (JointKind::Fixed, _) | (_, None) => Motion::Fixed,
+        };
+        Self { parent: joint.parent.get(), child: joint.child.get(), parent_from_joint, motion }
+    }
+
+    #[inline]
+    fn parent_from_child(&self, q: &[f64], turn: SinCos) -> Pose {
+        let Pose { rotation, translation } = self.parent_from_joint;
+        match &self.motion {
+            Motion::Fixed => self.parent_from_joint,
+            Motion::Turn { by_sine, by_versine, .. } => {
+                let rotation = rotation + by_sine * turn.sin + by_versine * (1.0 - turn.cos);
+                Pose { rotation, translation }
+            }
+            Motion::Shift { coordinate, axis_in_parent, .. } => {
+                Pose { rotation, translation: translation + axis_in_parent * q[*coordinate] }
+            }
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Which application and which recording a file says it is. Viewers keep one layout for each
+//! application and merge recordings of the same identity, so both follow from what was run.
+
+use std::fmt::Write;
+
+use congruent_twin::scenario::Scenario;
+use rerun::{ApplicationId, StoreId, StoreKind};
+use sha2::{Digest, Sha256};
+
+/// Longest application id that rerun takes, less the prefix.
+const LONGEST: usize = 160;
+/// Digits of the hash in a recording's id.
+const DIGITS: usize = 16;
+
+/// The store of a scenario's recording, or of its layout.
+pub(super) fn store(scenario: &Scenario, kind: StoreKind) -> StoreId {
+    let name = application(&scenario.name);
+    let application = ApplicationId::new_or_unknown(name.as_str());
+    let recording = format!("{name} {}", fingerprint(scenario));
+    StoreId::new(kind, application, recording)
+}
+
+/// Letters, digits and few signs are all that rerun takes.
+fn application(scenario: &str) -> String {
+    let is_taken = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | ' ');
+    let safe = scenario.chars().take(LONGEST).map(|c| if is_taken(c) { c } else { '_' });
+    format!("congruent {}", safe.collect::<String>().trim())
+}
+
+/// Hash over the scenario and the robot without its meshes: runs that may differ have another.
+fn fingerprint(scenario: &Scenario) -> String {
+    let description = &scenario.description;
+    let robot = &description.robot;
+    let mut hash = Sha256::new();
+    hash.update(scenario.resolved());
+    hash.update(format!("{:?}", robot.joints()));
+    for link in robot.links() {
+        hash.update(format!("{:?} {:?}", link.name, link.inertia));
+    }
+    hash.update(format!("{:?} {:?} {:?}", description.dh, description.tip_from_tcp, description.tolerance));
+    let mut digits = String::new();
+    for byte in hash.finalize().iter().take(DIGITS / 2) {
+        let _ = write!(digits, "{byte:02x}");
+    }
+    digits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_scenario_name_makes_an_application() {
+        for name in ["ur5e_pick", "", "../x", "a]]>\"\n\0b", "\u{fc}ber", &"x".repeat(1000)] {
+            let id = application(name);
+            assert!(ApplicationId::try_new(id.as_str()).is_ok(), "{id:?}");
+        }
+    }
+}

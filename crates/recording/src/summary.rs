@@ -1,0 +1,135 @@
+//! What came out, for people as a document and for programs as properties of the recording.
+
+use std::{fmt::Write, sync::Arc};
+
+use congruent_twin::{
+    recorder::RecordingError,
+    report::RunReport,
+    verdict::{CheckResult, Expectation, Moment, Status, Verdict},
+};
+use rerun::{
+    AnyValues, RecordingInfo, TextDocument,
+    external::arrow::array::{ArrayRef, Float64Array, StringArray, UInt64Array},
+};
+
+use crate::{paths, units, writer::RrdWriter};
+
+/// Writes both.
+pub(super) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
+    writer.log_static(&paths::summary(), &TextDocument::from_markdown(markdown(report)))?;
+    let info = RecordingInfo::new().with_name(report.scenario.as_str());
+    writer.log_static(&rerun::EntityPath::properties(), &info)?;
+    writer.log_static(&paths::properties(), &properties(report))
+}
+
+fn properties(report: &RunReport) -> AnyValues {
+    let text = |text: &str| -> ArrayRef { Arc::new(StringArray::from(vec![text])) };
+    let number = |number: u64| -> ArrayRef { Arc::new(UInt64Array::from(vec![number])) };
+    let json = serde_json::to_string(report).expect("a report holds nothing that JSON cannot");
+    let word = serde_json::to_value(report.verdict).expect("a verdict is a word");
+    AnyValues::default()
+        .with_component_from_data("scenario", text(&report.scenario))
+        .with_component_from_data("robot", text(&report.robot))
+        .with_component_from_data("verdict", text(word.as_str().unwrap_or_default()))
+        .with_component_from_data("exit_code", number(report.exit_code.into()))
+        .with_component_from_data("seed", number(report.seed))
+        .with_component_from_data("steps", number(report.simulation.steps))
+        .with_component_from_data("step_s", Arc::new(Float64Array::from(vec![report.simulation.step_s])))
+        .with_component_from_data("trajectory_sha256", text(&report.trajectory_sha256))
+        .with_component_from_data("congruent", text(report.versions.congruent))
+        .with_component_from_data("physics", text(report.versions.physics))
+        .with_component_from_data("command", text(&command(report)))
+        .with_component_from_data("report", text(&json))
+}
+
+/// The verdict in a sentence.
+pub(super) fn verdict(report: &RunReport) -> String {
+    let failed: Vec<_> =
+        report.checks.iter().filter(|check| check.status == Status::Fail).map(|check| check.check).collect();
+    let failed = failed.join(", ");
+    match (report.verdict, &report.expected) {
+        (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
+        (Verdict::AsExpected, Expectation::Fail { .. }) => format!("{failed} fails, as expected"),
+        (Verdict::NotAsExpected, _) if failed.is_empty() => {
+            "every check passes, against expectation".to_owned()
+        }
+        (Verdict::NotAsExpected, _) => format!("{failed} fails, against expectation"),
+        (Verdict::NothingChecked, _) => "nothing was checked".to_owned(),
+        (Verdict::Broken, _) => "the run broke".to_owned(),
+    }
+}
+
+fn command(report: &RunReport) -> String {
+    format!("congruent run {} --seed {}", report.scenario_file, report.seed)
+}
+
+fn markdown(report: &RunReport) -> String {
+    let mut text = format!("### {}: {}\n\n", escaped(&report.scenario), escaped(&verdict(report)));
+    if let Some(error) = &report.error {
+        let _ = writeln!(text, "{}\n", escaped(error));
+    }
+    for servo in &report.servos {
+        let _ = writeln!(text, "- motion {}: {}", servo.motion, escaped(&servo.to_string()));
+    }
+    for check in &report.checks {
+        push_check(&mut text, check);
+    }
+    let (clock, versions) = (report.simulation, report.versions);
+    let _ = writeln!(
+        text,
+        "\n{}, {} steps of {} s, seed {}, trajectory `{}`, by congruent {} on {}\n",
+        escaped(&report.robot),
+        clock.steps,
+        clock.step_s,
+        report.seed,
+        report.trajectory_sha256.get(..12).unwrap_or_default(),
+        escaped(versions.congruent),
+        escaped(versions.physics),
+    );
+    let _ = writeln!(text, "```\n{}\n```", command(report).replace("```", ""));
+    text
+}
+
+/// A check with its worst values: prose, which wraps where a table would be cut off.
+fn push_check(text: &mut String, check: &CheckResult) {
+    let _ = writeln!(text, "- **{} {}**", check.check, check.status.word());
+    for measure in &check.measures {
+        let quantity = measure.quantity.replace('_', " ");
+        let limit = units::limit(measure);
+        let _ = match &measure.worst {
+            None => writeln!(text, "  - {quantity}: nothing seen, {limit}"),
+            Some(Moment { time_s, subject, value, .. }) => {
+                let value = units::quantity(*value, measure.unit);
+                writeln!(text, "  - {quantity} **{value}**, {limit}, {} at {time_s:.3} s", escaped(subject))
+            }
+        };
+    }
+    for note in &check.notes {
+        let _ = writeln!(text, "  - {}", escaped(note));
+    }
+}
+
+/// Text that comes from files, so that Markdown takes it as it is.
+fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            c if c.is_control() => safe.push(' '),
+            '_' | '-' | '.' | ',' | ':' | ';' | '/' => safe.push(c),
+            c if c.is_ascii_punctuation() => safe.extend(['\\', c]),
+            c => safe.push(c),
+        }
+    }
+    safe
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_from_files_stay_text() {
+        assert_eq!(escaped("wrist_1_link--table"), "wrist_1_link--table");
+        assert_eq!(escaped("a|b\n<img>`x`"), "a\\|b \\<img\\>\\`x\\`");
+    }
+}

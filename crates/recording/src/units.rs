@@ -1,0 +1,69 @@
+//! Figures as people read them: few digits, a unit that fits.
+
+use congruent_kinematics::PoseError;
+use congruent_twin::verdict::Measure;
+
+/// What is below a micrometre is told in powers of ten: nobody pictures it.
+const SMALLEST_PICTURED_M: f64 = 1e-6;
+
+/// A length with four digits and a unit that fits.
+pub(super) fn length(value_m: f64) -> String {
+    match value_m.abs() {
+        size if size >= 1.0 => format!("{value_m:.3} m"),
+        size if size >= 1e-3 => format!("{:.2} mm", value_m * 1e3),
+        size if size >= SMALLEST_PICTURED_M => format!("{:.2} um", value_m * 1e6),
+        _ => format!("{value_m:.1e} m"),
+    }
+}
+
+/// An angle with four digits.
+pub(super) fn angle(value_rad: f64) -> String {
+    if value_rad.abs() >= 1e-3 { format!("{value_rad:.4} rad") } else { format!("{value_rad:.1e} rad") }
+}
+
+/// A value in its unit.
+pub(super) fn quantity(value: f64, unit: &str) -> String {
+    match unit {
+        _ if value == 0.0 => format!("0 {unit}").trim_end().to_owned(),
+        "m" => length(value),
+        "rad" => angle(value),
+        _ => format!("{value:.4} {unit}").trim_end().to_owned(),
+    }
+}
+
+/// A limit as it is written in a scenario.
+pub(super) fn limit(measure: &Measure) -> String {
+    let (sign, value) = (measure.bound.words(), measure.limit);
+    if value == 0.0 || (1e-3..1e4).contains(&value.abs()) {
+        format!("{sign} {value} {}", measure.unit)
+    } else {
+        format!("{sign} {value:e} {}", measure.unit)
+    }
+}
+
+/// A link with how far off it is, in position and, where there is more to say, in orientation.
+pub(super) fn disagreement(link: &str, error: &PoseError) -> String {
+    let PoseError { position_m, orientation_rad } = *error;
+    if orientation_rad >= 1e-3 {
+        format!("{link}: {}, {}", length(position_m), angle(orientation_rad))
+    } else {
+        format!("{link}: {}", length(position_m))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_fit() {
+        assert_eq!(length(1.2345), "1.234 m");
+        assert_eq!(length(0.005), "5.00 mm");
+        assert_eq!(length(-0.000_012), "-12.00 um");
+        assert_eq!(length(3.21e-16), "3.2e-16 m");
+        assert_eq!(quantity(0.0, "m"), "0 m");
+        assert_eq!(quantity(0.25, ""), "0.2500");
+        let error = PoseError { position_m: 0.005, orientation_rad: 0.0 };
+        assert_eq!(disagreement("tool0", &error), "tool0: 5.00 mm");
+    }
+}

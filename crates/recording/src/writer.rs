@@ -1,0 +1,199 @@
+//! Writes rerun messages to a file so that equal runs give equal bytes.
+//!
+//! rerun's own stream numbers chunks by the clock, lists the stores of the footer in the order of
+//! a random map, and reports a full disk only on request. Here identities are counted, the footer
+//! is sorted, and every write says at once whether it worked. What the messages mean is not known
+//! here.
+
+use std::{
+    collections::BTreeMap,
+    fmt::Display,
+    fs::File,
+    io::{BufWriter, Write},
+    path::Path,
+};
+
+use congruent_twin::recorder::RecordingError;
+use rerun::{
+    AsComponents, EntityPath, SerializedComponentBatch, SerializedComponentColumn, TimeColumn, TimePoint,
+    external::{
+        arrow::datatypes::Schema,
+        re_chunk_store::external::re_chunk::{Chunk, ChunkId, RowId, Span},
+        re_log_encoding::{
+            Compression, CrateVersion, Encodable, EncodingOptions, MessageHeader, MessageKind, RRD_FOURCC,
+            RrdFooter, RrdManifestBuilder, StreamFooter, StreamHeader, ToTransport,
+        },
+        re_log_types::{BlueprintActivationCommand, LogMsg, SetStoreInfo, StoreId, StoreInfo, StoreSource},
+    },
+};
+
+/// Says in a recording's own words what rerun or the disk refused.
+pub(super) fn failed(error: impl Display) -> RecordingError {
+    RecordingError { message: error.to_string() }
+}
+
+/// An open file of messages. The store that was opened last takes what is logged.
+pub(super) struct RrdWriter {
+    file: BufWriter<File>,
+    written: u64,
+    frame: Vec<u8>,
+    store: StoreId,
+    manifests: BTreeMap<StoreId, RrdManifestBuilder>,
+    last_identity: u64,
+}
+
+impl RrdWriter {
+    /// Makes the file and opens its first store.
+    pub(super) fn create(path: &Path, store: StoreId) -> Result<Self, RecordingError> {
+        let file = File::create(path)
+            .map_err(|error| failed(format_args!("cannot write {}: {error}", path.display())))?;
+        let mut writer = Self {
+            file: BufWriter::new(file),
+            written: 0,
+            frame: Vec::new(),
+            store: store.clone(),
+            manifests: BTreeMap::new(),
+            last_identity: 0,
+        };
+        writer.put(&StreamHeader {
+            fourcc: RRD_FOURCC,
+            version: CrateVersion::LOCAL.to_bytes(),
+            options: EncodingOptions::PROTOBUF_COMPRESSED,
+        })?;
+        writer.open_store(store)?;
+        Ok(writer)
+    }
+
+    /// Opens another store; what is logged from now on goes there.
+    pub(super) fn open_store(&mut self, store: StoreId) -> Result<(), RecordingError> {
+        let source = StoreSource::Other(concat!("congruent ", env!("CARGO_PKG_VERSION")).to_owned());
+        let row_id = self.next_identity().1.as_tuid();
+        self.message(&LogMsg::SetStoreInfo(SetStoreInfo {
+            row_id,
+            info: StoreInfo::new(store.clone(), source),
+        }))?;
+        self.store = store;
+        Ok(())
+    }
+
+    /// Makes the open store the layout that the viewer takes for this application.
+    pub(super) fn activate_blueprint(&mut self) -> Result<(), RecordingError> {
+        let command = BlueprintActivationCommand::make_active(self.store.clone());
+        self.message(&LogMsg::BlueprintActivationCommand(command))?;
+        Ok(())
+    }
+
+    /// Logs what holds at all times.
+    pub(super) fn log_static(
+        &mut self,
+        path: &EntityPath,
+        components: &dyn AsComponents,
+    ) -> Result<(), RecordingError> {
+        self.row(path, TimePoint::default(), components.as_serialized_batches())
+    }
+
+    /// Logs what holds from one instant on.
+    pub(super) fn log_at(
+        &mut self,
+        path: &EntityPath,
+        time: TimePoint,
+        components: &dyn AsComponents,
+    ) -> Result<(), RecordingError> {
+        self.row(path, time, components.as_serialized_batches())
+    }
+
+    /// Logs components that are serialized already, as one row.
+    pub(super) fn row(
+        &mut self,
+        path: &EntityPath,
+        time: TimePoint,
+        components: Vec<SerializedComponentBatch>,
+    ) -> Result<(), RecordingError> {
+        if components.is_empty() {
+            return Ok(());
+        }
+        let (chunk, row) = self.next_identity();
+        let chunk = Chunk::builder_with_id(chunk, path.clone())
+            .with_serialized_batches(row, time, components)
+            .build()
+            .map_err(failed)?;
+        self.chunk(&chunk)
+    }
+
+    /// Logs many rows of one entity at once.
+    pub(super) fn columns(
+        &mut self,
+        path: &EntityPath,
+        times: &[TimeColumn],
+        columns: impl IntoIterator<Item = SerializedComponentColumn>,
+    ) -> Result<(), RecordingError> {
+        let times = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
+        let (chunk, _) = self.next_identity();
+        let columns = columns.into_iter().collect();
+        let chunk = Chunk::from_auto_row_ids(chunk, path.clone(), times, columns).map_err(failed)?;
+        self.chunk(&chunk)
+    }
+
+    /// Hands everything so far to the operating system: a run that is killed leaves at least this.
+    pub(super) fn flush(&mut self) -> Result<(), RecordingError> {
+        self.file.flush().map_err(failed)
+    }
+
+    /// Writes the footer, from which viewers find their way, and closes the file.
+    pub(super) fn finish(mut self) -> Result<(), RecordingError> {
+        let mut footer = RrdFooter::default();
+        for (store, manifest) in std::mem::take(&mut self.manifests) {
+            let mut manifest = manifest.build(store.clone()).map_err(failed)?;
+            let mut fields: Vec<_> = manifest.sorbet_schema.fields().iter().cloned().collect();
+            fields.sort_by(|a, b| a.name().cmp(b.name()));
+            let metadata = manifest.sorbet_schema.metadata().clone();
+            manifest.sorbet_schema = Schema::new_with_metadata(fields, metadata);
+            footer.manifests.insert(store, manifest);
+        }
+        let mut footer = footer.to_transport(()).map_err(failed)?;
+        footer.manifests.sort_by_cached_key(|manifest| format!("{:?}", manifest.store_id));
+        let mut bytes = Vec::new();
+        footer.to_rrd_bytes(&mut bytes).map_err(failed)?;
+        self.put(&MessageHeader { kind: MessageKind::End, len: bytes.len() as u64 })?;
+        let start = self.written;
+        self.file.write_all(&bytes).map_err(failed)?;
+        self.put(&StreamFooter::from_rrd_footer_bytes(start, &bytes))?;
+        self.flush()
+    }
+
+    fn chunk(&mut self, chunk: &Chunk) -> Result<(), RecordingError> {
+        let message = chunk.to_arrow_msg().map_err(failed)?;
+        let message = LogMsg::ArrowMsg(self.store.clone(), message);
+        let (span, uncompressed) = self.message(&message)?;
+        let batch = chunk.to_chunk_batch().map_err(failed)?;
+        let manifest = self.manifests.entry(self.store.clone()).or_default();
+        manifest.append(&batch, span, uncompressed).map_err(failed)
+    }
+
+    /// Writes a message; gives the place of its payload in the file and its size unpacked.
+    fn message(&mut self, message: &LogMsg) -> Result<(Span<u64>, u64), RecordingError> {
+        let message = message.to_transport(Compression::LZ4).map_err(failed)?;
+        let header = MessageHeader::ENCODED_SIZE_BYTES as u64;
+        let start = self.written + header;
+        self.put(&message)?;
+        let span = Span { start, len: self.written - start };
+        Ok((span, message.byte_size_uncompressed()))
+    }
+
+    /// Writes one frame whole.
+    fn put(&mut self, frame: &dyn Encodable) -> Result<(), RecordingError> {
+        self.frame.clear();
+        frame.to_rrd_bytes(&mut self.frame).map_err(failed)?;
+        self.file.write_all(&self.frame).map_err(failed)?;
+        self.written += self.frame.len() as u64;
+        Ok(())
+    }
+
+    /// Counted, where rerun takes the clock: the upper half is a number of our own, rows of the
+    /// same chunk count in the lower half.
+    fn next_identity(&mut self) -> (ChunkId, RowId) {
+        self.last_identity += 1;
+        let identity = u128::from(self.last_identity) << 64;
+        (ChunkId::from_u128(identity), RowId::from_u128(identity + 1))
+    }
+}

@@ -1,0 +1,291 @@
+//! Distances between links, from links to obstacles, and from links to forbidden zones, as they
+//! change along a run.
+//!
+//! An exact distance costs more than a physics step, so each pair keeps a lower bound that shrinks
+//! by how far its two bodies have moved against each other since the last exact distance. A pair
+//! is measured again only where that bound no longer settles what is asked.
+
+use std::collections::BTreeSet;
+
+use congruent_description::{Link, LinkIndex, Robot, RobotDescription, Shape};
+use congruent_simulation::Obstacle;
+use nalgebra::{Isometry3, Vector3};
+
+use super::hulls::{Hulls, ProximityError};
+use crate::scenario::Zone;
+
+/// Subtracted from every bound: what an exact distance may be off, and then some.
+/// Kind: solver stop. Bound: 1e-7 m (worst of 1,950 mesh hull pairs of four arms: 2.5e-8 m).
+const DISTANCE_SLACK_M: f64 = 1e-7;
+
+/// Two subjects whose distance is watched: indices into [`Clearance::subjects`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Pair {
+    /// The first link, or a zone.
+    pub a: usize,
+    /// The second link, or an obstacle; of a zone, the link.
+    pub b: usize,
+}
+
+/// The smallest distance of one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// Distance; 0 where the pair touches or overlaps.
+    pub distance_m: f64,
+    /// Index into [`Clearance::pairs`].
+    pub pair: usize,
+}
+
+/// Which link pairs are left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PairChoice {
+    /// Pairs on the same or on neighbouring moving bodies, and pairs that an SRDF disables.
+    Usual,
+    /// Only pairs on the same body.
+    All,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Watch {
+    pair: Pair,
+    /// Relative pose at the last exact distance.
+    a_from_b: Isometry3<f64>,
+    exact_m: f64,
+    lower_bound_m: f64,
+    /// Whether `exact_m` is of this instant.
+    is_current: bool,
+}
+
+impl Watch {
+    /// A pair of which nothing is known.
+    fn new(pair: Pair) -> Self {
+        Self {
+            pair,
+            a_from_b: Isometry3::identity(),
+            exact_m: f64::NAN,
+            lower_bound_m: f64::NEG_INFINITY,
+            is_current: false,
+        }
+    }
+}
+
+/// Distances of all watched pairs.
+#[derive(Debug, Clone)]
+pub struct Clearance {
+    subjects: Vec<String>,
+    hulls: Vec<Hulls>,
+    /// Links come first, in the robot's order, then obstacles or zones with their constant pose.
+    root_from_subjects: Vec<Isometry3<f64>>,
+    links: usize,
+    watches: Vec<Watch>,
+}
+
+impl Clearance {
+    /// Builds hulls and pairs for a robot among obstacles.
+    ///
+    /// # Errors
+    /// [`ProximityError`] when a collision mesh has no extent.
+    pub fn new(
+        description: &RobotDescription,
+        obstacles: &[Obstacle],
+        choice: PairChoice,
+    ) -> Result<Self, ProximityError> {
+        let robot = &description.robot;
+        let links = robot.links().len();
+        let hulls = |link: &Link| Hulls::new(&format!("link \"{}\"", link.name), &link.collisions);
+        let mut clearance = Self {
+            subjects: robot.links().iter().map(|link| link.name.clone()).collect(),
+            hulls: robot.links().iter().map(hulls).collect::<Result<_, _>>()?,
+            root_from_subjects: vec![Isometry3::identity(); links],
+            links,
+            watches: Vec::new(),
+        };
+        for obstacle in obstacles {
+            clearance.add(obstacle)?;
+        }
+        let pairs = pairs(robot, &clearance.hulls, choice, &description.disabled_collisions);
+        clearance.watches = pairs.map(Watch::new).collect();
+        Ok(clearance)
+    }
+
+    /// The same links before forbidden zones: the pairs are each zone with the links that it names.
+    /// Hulls are shared.
+    ///
+    /// # Errors
+    /// [`ProximityError`] never comes from boxes, spheres and cylinders.
+    pub fn before_zones(&self, zones: &[Zone]) -> Result<Self, ProximityError> {
+        let mut clearance = Self {
+            subjects: self.subjects[..self.links].to_vec(),
+            hulls: self.hulls[..self.links].to_vec(),
+            root_from_subjects: self.root_from_subjects[..self.links].to_vec(),
+            links: self.links,
+            watches: Vec::new(),
+        };
+        for zone in zones {
+            let a = clearance.add(&zone.space)?;
+            // Links are second: what a bound loses by a turn is proportional to the second's size,
+            // and zones are large.
+            let pairs = zone.links.iter().map(|link| Pair { a, b: link.get() });
+            clearance.watches.extend(pairs.map(Watch::new));
+        }
+        Ok(clearance)
+    }
+
+    /// Adds what stands still; gives its index among the subjects.
+    fn add(&mut self, standing: &Obstacle) -> Result<usize, ProximityError> {
+        let shape = Shape {
+            link_from_shape: Isometry3::identity(),
+            geometry: standing.geometry.clone(),
+            color_rgba: None,
+        };
+        self.hulls.push(Hulls::new(&format!("\"{}\"", standing.name), &[shape])?);
+        self.subjects.push(standing.name.clone());
+        self.root_from_subjects.push(standing.world_from_obstacle);
+        Ok(self.subjects.len() - 1)
+    }
+
+    /// Names of links, then of obstacles or zones.
+    pub fn subjects(&self) -> &[String] {
+        &self.subjects
+    }
+
+    /// The watched pairs.
+    pub fn pairs(&self) -> impl ExactSizeIterator<Item = Pair> + '_ {
+        self.watches.iter().map(|watch| watch.pair)
+    }
+
+    /// Names of the two of one pair.
+    pub fn names(&self, pair: usize) -> (&str, &str) {
+        let Pair { a, b } = self.watches[pair].pair;
+        (&self.subjects[a], &self.subjects[b])
+    }
+
+    /// The exact distance of one pair where it was measured at this instant.
+    pub fn current_m(&self, pair: usize) -> Option<f64> {
+        let watch = &self.watches[pair];
+        watch.is_current.then_some(watch.exact_m)
+    }
+
+    /// Moves the links to new poses (root link's frame, the robot's order) and lowers the bounds
+    /// by how far each pair can have come closer.
+    pub fn move_links(&mut self, root_from_links: &[Isometry3<f64>]) {
+        self.root_from_subjects[..self.links].copy_from_slice(root_from_links);
+        for watch in &mut self.watches {
+            watch.is_current = false;
+            if watch.exact_m.is_nan() {
+                continue;
+            }
+            let Pair { a, b } = watch.pair;
+            let a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
+            let approach_m = largest_shift_m(&watch.a_from_b, &a_from_b, self.hulls[b].radius_m());
+            watch.lower_bound_m = watch.exact_m - approach_m - DISTANCE_SLACK_M;
+        }
+    }
+
+    /// Measures every pair that may be closer than `threshold_m` and gives the nearest of them.
+    pub fn nearest_below(&mut self, threshold_m: f64) -> Option<Nearest> {
+        let mut nearest: Option<Nearest> = None;
+        for pair in 0..self.watches.len() {
+            if self.watches[pair].lower_bound_m >= threshold_m {
+                continue;
+            }
+            let distance_m = self.measure(pair);
+            if distance_m < threshold_m && nearest.is_none_or(|known| distance_m < known.distance_m) {
+                nearest = Some(Nearest { distance_m, pair });
+            }
+        }
+        nearest
+    }
+
+    /// The smallest distance of this instant; `None` where no pair is watched.
+    pub fn nearest(&mut self) -> Option<Nearest> {
+        // Starting with the pair that was closest last time leaves least to measure.
+        let first = (0..self.watches.len())
+            .min_by(|&a, &b| self.watches[a].lower_bound_m.total_cmp(&self.watches[b].lower_bound_m))?;
+        let mut nearest = Nearest { distance_m: self.measure(first), pair: first };
+        while let Some(closer) = self.nearest_unmeasured_below(nearest.distance_m) {
+            let distance_m = self.measure(closer);
+            if distance_m < nearest.distance_m {
+                nearest = Nearest { distance_m, pair: closer };
+            }
+        }
+        Some(nearest)
+    }
+
+    fn nearest_unmeasured_below(&self, threshold_m: f64) -> Option<usize> {
+        self.watches.iter().position(|watch| !watch.is_current && watch.lower_bound_m < threshold_m)
+    }
+
+    /// Measures one pair, unless it is measured already at this instant.
+    pub fn measure(&mut self, pair: usize) -> f64 {
+        let watch = &mut self.watches[pair];
+        if !watch.is_current {
+            let Pair { a, b } = watch.pair;
+            watch.a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
+            watch.exact_m = self.hulls[a].distance_m(&self.hulls[b], &watch.a_from_b);
+            watch.lower_bound_m = watch.exact_m;
+            watch.is_current = true;
+        }
+        watch.exact_m
+    }
+
+    /// Measures one pair with negative depths for overlaps.
+    pub fn measure_signed(&self, pair: usize) -> f64 {
+        let Pair { a, b } = self.watches[pair].pair;
+        let a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
+        self.hulls[a].signed_distance_m(&self.hulls[b], &a_from_b)
+    }
+}
+
+/// How far a point within `radius_m` of b's origin has moved in a's frame, at most.
+fn largest_shift_m(before: &Isometry3<f64>, after: &Isometry3<f64>, radius_m: f64) -> f64 {
+    let shift_m = (after.translation.vector - before.translation.vector).norm();
+    // A turn by an angle t moves a point at radius r along a chord of 2 r sin(t / 2), and the
+    // vector part of the turn's unit quaternion has length sin(t / 2).
+    let half_turn: Vector3<f64> = before.rotation.rotation_to(&after.rotation).imag();
+    shift_m + 2.0 * radius_m * half_turn.norm()
+}
+
+fn pairs<'a>(
+    robot: &'a Robot,
+    hulls: &'a [Hulls],
+    choice: PairChoice,
+    disabled: &'a BTreeSet<(LinkIndex, LinkIndex)>,
+) -> impl Iterator<Item = Pair> + 'a {
+    let links: Vec<LinkIndex> = robot.link_indices().collect();
+    let body = move |subject: usize| links.get(subject).map_or(robot.root(), |&link| robot.body(link));
+    let links = robot.links().len();
+    let solid: Vec<usize> = (0..hulls.len()).filter(|&subject| !hulls[subject].is_empty()).collect();
+    let all = solid.clone().into_iter().flat_map(move |a| {
+        solid.clone().into_iter().filter(move |&b| b > a && a < links).map(move |b| Pair { a, b })
+    });
+    all.filter(move |&Pair { a, b }| {
+        let (body_a, body_b) = (body(a), body(b));
+        let is_obstacle = b >= links;
+        // Obstacles stand still, as the root body does.
+        if body_a == body_b {
+            return false;
+        }
+        if is_obstacle || choice == PairChoice::All {
+            return true;
+        }
+        let both = (link(robot, a.min(b)), link(robot, a.max(b)));
+        !are_neighbours(robot, body_a, body_b) && !disabled.contains(&both)
+    })
+}
+
+fn link(robot: &Robot, index: usize) -> LinkIndex {
+    robot.link_indices().nth(index).expect("a subject below the number of links is a link")
+}
+
+/// Whether one joint connects the two bodies.
+fn are_neighbours(robot: &Robot, a: LinkIndex, b: LinkIndex) -> bool {
+    let hangs_on = |lower: LinkIndex, upper: LinkIndex| {
+        robot.parent_joint(lower).is_some_and(|joint| robot.body(robot.joint(joint).parent) == upper)
+    };
+    hangs_on(a, b) || hangs_on(b, a)
+}
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;
