@@ -226,10 +226,10 @@ fn without_noise_the_table_comes_back_to_rounding() {
     }
     assert_eq!(report["verdict"], "explained");
     // Along parallel axes only the sum of the shifts shows, and it is frozen, not spread.
-    let frozen = names(&report["frozen"]);
+    let frozen = names(&report["fixed"]);
     assert!(frozen.contains(&"elbow_joint.d") && frozen.contains(&"wrist_1_joint.d"), "{frozen:?}");
     let elbow =
-        report["frozen"].as_array().unwrap().iter().find(|each| each["name"] == "elbow_joint.d").unwrap();
+        report["fixed"].as_array().unwrap().iter().find(|each| each["name"] == "elbow_joint.d").unwrap();
     assert_eq!(
         elbow["reason"],
         "cannot be told from shoulder_lift_joint.d: only their sum can be identified"
@@ -320,7 +320,7 @@ fn panda_zeros_from_points_alone() {
     let error = (number(&zero["correction"]) - 0.4_f64.to_radians()).abs();
     assert!(error < 4.0 * number(&zero["standard_deviation"]), "{zero}");
     // The base's yaw is the first joint's zero, and points do not see how the tool is turned.
-    let frozen = report["frozen"].as_array().unwrap();
+    let frozen = report["fixed"].as_array().unwrap();
     let reason = |name: &str| {
         frozen.iter().find(|each| each["name"] == name).map(|each| each["reason"].as_str().unwrap())
     };

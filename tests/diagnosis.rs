@@ -164,14 +164,14 @@ fn two_faults_are_several() {
 }
 
 #[test]
-fn physics_is_probed_as_a_black_box_with_the_same_answer() {
+fn physics_is_identified_as_a_black_box_with_the_same_answer() {
     let (answer, _) = check_changed("ur5e", &[("wrist_2_joint", "theta_deg = 0.0", "theta_deg = -7.0")]);
     let report = answer.json();
     let names: Vec<&Value> =
-        report["ladders"].as_array().unwrap().iter().map(|ladder| &ladder["name"]).collect();
+        report["diagnoses"].as_array().unwrap().iter().map(|pair| &pair["name"]).collect();
     assert_eq!(names, ["model_urdf", "model_simulation"]);
-    for ladder in report["ladders"].as_array().unwrap() {
-        let cause = &ladder["diagnosis"][0];
+    for pair in report["diagnoses"].as_array().unwrap() {
+        let cause = &pair["diagnosis"][0];
         assert_eq!([&cause["cause"], &cause["joint"]], ["zero_offset", "wrist_2_joint"]);
         near(&cause["value"], -7_f64.to_radians());
     }

@@ -48,7 +48,7 @@ fn fails(scenario: &str, kind: &str, subject: &str) -> Value {
     assert_eq!(failed["status"], "fail");
     let violation = &failed["measures"][0]["first_violation"];
     assert!(violation["subject"].as_str().unwrap().contains(subject), "{violation}");
-    assert!(!violation["q"].as_array().unwrap().is_empty());
+    assert!(!violation["q"].as_object().unwrap().is_empty());
     failed
 }
 

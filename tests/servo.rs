@@ -108,7 +108,7 @@ fn run(servo: &Servo<'_>) -> Reached {
     let end = &report["checks"][2]["measures"][0]["worst"];
     assert_eq!(end["time_s"], report["simulation"]["duration_s"]);
     let q_rad: Vec<f64> =
-        end["q"].as_array().unwrap().iter().take(4).map(|q| q["value"].as_f64().unwrap()).collect();
+        end["q"].as_object().unwrap().values().take(4).map(|q| q.as_f64().unwrap()).collect();
     let gripper = gripper_at(&q_rad);
     Reached { servo: report["servos"][0].clone(), q_rad, gripper }
 }

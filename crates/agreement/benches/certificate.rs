@@ -52,15 +52,15 @@ const FAULTS: [Fault; 8] = [
 
 #[divan::bench(args = FAULTS.map(|fault| fault.0))]
 fn six_joints(bencher: Bencher<'_, '_>, fault: &str) {
-    bench(bencher, &ur5e_table(), fault);
+    context(bencher, &ur5e_table(), fault);
 }
 
 #[divan::bench(args = FAULTS.map(|fault| fault.0))]
 fn seven_joints(bencher: Bencher<'_, '_>, fault: &str) {
-    bench(bencher, &panda_table(), fault);
+    context(bencher, &panda_table(), fault);
 }
 
-fn bench(bencher: Bencher<'_, '_>, arm: &TableFigures, fault: &str) {
+fn context(bencher: Bencher<'_, '_>, arm: &TableFigures, fault: &str) {
     let mut other = arm.clone();
     let (_, change) = FAULTS.iter().find(|(name, _)| *name == fault).expect("one of the list");
     change(&mut other);

@@ -12,7 +12,7 @@ use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 use support::{RowFigures, TableFigures, panda_table, ur5e_table};
 
-/// Bounds against closed forms where nothing is left to divide. Unit: m or rad; kind: rounding, which
+/// CertifiedBounds against closed forms where nothing is left to divide. Unit: m or rad; kind: rounding, which
 /// the certificate adds from the sizes of the chain, doubled for each joint of a box of full turns;
 /// worst seen 1.4e-11.
 const ROUNDING: f64 = 4e-11;
@@ -349,7 +349,7 @@ proptest! {
     ) {
         let base = Pose::from(base);
         let mut b = ScrewChain {
-            twists_in_base: a.twists_in_base.iter().map(|twist| twist.seen_from(&base)).collect(),
+            twists_in_base: a.twists_in_base.iter().map(|twist| twist.transformed_by(&base)).collect(),
             base_from_tip_at_zero: base * a.base_from_tip_at_zero * Pose::from(tool),
         };
         let Twist { angular, linear } = b.twists_in_base[joint];

@@ -9,7 +9,7 @@ pub use congruent_kinematics::{IkMethod, IkOptions, TargetPart};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use serde::{Deserialize, Serialize};
 
-use congruent_description::{ByJoint, Finding, JsonList, configuration};
+use congruent_description::{Finding, JointValues, JsonList, configuration};
 
 /// What a file of targets is.
 const LIST: JsonList = JsonList {
@@ -74,7 +74,7 @@ pub struct Solution {
     /// Whether the residuals are within tolerance.
     pub converged: bool,
     /// The best positions that were found, rad or m, always within the limits.
-    pub q: ByJoint,
+    pub q: JointValues,
     /// Distance that is left.
     pub residual_position_m: f64,
     /// Angle that is left; 0 where no orientation was asked for.
@@ -187,7 +187,7 @@ pub fn inverse(
 fn solution(result: &IkResult<'_>, joints: &[String]) -> Solution {
     Solution {
         converged: result.converged,
-        q: ByJoint::new(joints, result.q),
+        q: JointValues::new(joints, result.q),
         residual_position_m: result.residual_position_m,
         residual_orientation_rad: result.residual_orientation_rad,
         iterations: result.iterations,

@@ -1,6 +1,6 @@
 //! `congruent manipulability`: how well the tool moves in each direction.
 
-use congruent_description::{ByJoint, LinkIndex, RobotDescription};
+use congruent_description::{JointValues, LinkIndex, RobotDescription};
 use congruent_kinematics::{
     Arm, Dexterity, KinematicsError, Manipulability, Pose, UrdfTree, VelocityEllipsoid,
 };
@@ -29,7 +29,7 @@ pub struct ManipulabilityReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ConfigurationDexterity {
     /// The configuration, rad or m.
-    pub q: ByJoint,
+    pub q: JointValues,
     /// Where the tool is, in the base.
     pub tcp_in_base_m: [f64; 3],
     /// Velocity of the tool centre point, m per unit of joint speed.
@@ -101,7 +101,7 @@ pub fn manipulability(
         let q = arm.from_robot(q_robot);
         let Manipulability { linear, angular, whole } = arm.manipulability(&q)?;
         results.push(ConfigurationDexterity {
-            q: ByJoint::new(&joints, &q),
+            q: JointValues::new(&joints, &q),
             tcp_in_base_m: arm.base_from_tcp(&q)?.translation.into(),
             linear: (&linear).into(),
             angular: (&angular).into(),

@@ -1,6 +1,6 @@
 //! `congruent sensitivity`: what 1 degree or 1 mm in each parameter does at the tool.
 
-use congruent_description::{ByJoint, DhRow, DhRowKind, DhTable, RobotDescription};
+use congruent_description::{DhRow, DhRowKind, DhTable, JointValues, RobotDescription};
 use congruent_kinematics::{
     Arm, ArmJoint, DhChain, Displacement, KinematicsError, Pose, Sampling, displacement,
 };
@@ -54,7 +54,7 @@ pub struct ParameterEffect {
     /// Largest turn of the tool.
     pub worst_deg: f64,
     /// The configuration of the largest displacement, rad or m.
-    pub worst_at: ByJoint,
+    pub worst_at: JointValues,
 }
 
 /// One parameter that may be off.
@@ -183,7 +183,7 @@ fn effect(
         worst_mm: found.worst_m * factor * 1e3,
         mean_mm: found.mean_m * factor * 1e3,
         worst_deg: found.worst_rad.to_degrees(),
-        worst_at: ByJoint::new(names, &worst_at),
+        worst_at: JointValues::new(names, &worst_at),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use congruent_description::{ByJoint, RobotDescription};
+use congruent_description::{JointValues, RobotDescription};
 use congruent_kinematics::{Arm, KinematicsError, Sampling, Workspace};
 use serde::Serialize;
 
@@ -41,7 +41,7 @@ pub struct Reach {
     /// The distance.
     pub distance_m: f64,
     /// The configuration that has it, rad or m.
-    pub at: ByJoint,
+    pub at: JointValues,
 }
 
 /// The workspace of the robot's arm, as figures and as what a plot needs.
@@ -56,8 +56,10 @@ pub fn workspace(
     let names = joint_names(description, &arm);
     let found = arm.workspace(sampling);
     let of_size = |dimensions| (found.dimensions == dimensions).then_some(found.extent);
-    let reach = [0, 1]
-        .map(|end| Reach { distance_m: found.reach_m[end], at: ByJoint::new(&names, &found.reach_at[end]) });
+    let reach = [0, 1].map(|end| Reach {
+        distance_m: found.reach_m[end],
+        at: JointValues::new(&names, &found.reach_at[end]),
+    });
     let report = WorkspaceReport {
         robot: description.robot.name().to_owned(),
         samples: sampling.samples,

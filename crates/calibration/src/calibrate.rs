@@ -57,8 +57,8 @@ pub fn calibrate(
     let least_squares = plain(&problem, &identification.kept);
     let robust = robustly(&problem, &identification.kept);
     let is_most = 2 * robust.outliers.len() > measurements.len();
-    let aside = if is_most { Vec::new() } else { robust.outliers.clone() };
-    let use_robust = !aside.is_empty();
+    let outlier_rows = if is_most { Vec::new() } else { robust.outliers.clone() };
+    let use_robust = !outlier_rows.is_empty();
     let held_out = held_out(&chain, &measurements, options.threshold, |problem, kept| {
         if use_robust { robustly(problem, kept).fit.corrections } else { plain(problem, kept).corrections }
     });
@@ -79,7 +79,7 @@ pub fn calibrate(
         redundancy,
         least_squares,
         robust,
-        aside,
+        outlier_rows,
         held_out,
         candidates,
         next,

@@ -25,7 +25,7 @@ pub(crate) struct Computed<'a> {
     pub(crate) least_squares: Fit,
     pub(crate) robust: RobustFit,
     /// Rows that stand apart from the others; none where they would be more than half.
-    pub(crate) aside: Vec<usize>,
+    pub(crate) outlier_rows: Vec<usize>,
     pub(crate) held_out: Option<HeldOut>,
     pub(crate) candidates: Vec<Vec<f64>>,
     pub(crate) next: Vec<Suggestion>,
@@ -43,7 +43,7 @@ pub(crate) fn measurement(nominal: &NominalChain<'_>, row: &MeasuredRow) -> Meas
 impl Computed<'_> {
     /// The estimate that the words are about: the robust one as soon as a row stands apart.
     pub(crate) fn best(&self) -> (&Fit, Recommendation) {
-        if self.aside.is_empty() {
+        if self.outlier_rows.is_empty() {
             (&self.least_squares, Recommendation::LeastSquares)
         } else {
             (&self.robust.fit, Recommendation::Robust)

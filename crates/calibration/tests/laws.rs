@@ -1,4 +1,4 @@
-//! Laws of calibration: exact derivatives, perfect data come back, what cannot be told is frozen.
+//! Laws of calibration: exact derivatives, perfect data come back, what cannot be told is fixed.
 
 #[path = "../../kinematics/tests/support/mod.rs"]
 mod support;
@@ -106,7 +106,7 @@ proptest! {
 }
 
 #[test]
-fn what_cannot_be_told_is_frozen_and_named() {
+fn what_cannot_be_told_is_fixed_and_named() {
     let chain = corrected();
     let nothing = vec![0.0; 30];
     let measurements: Vec<Measurement> =
@@ -114,13 +114,13 @@ fn what_cannot_be_told_is_frozen_and_named() {
     let problem = Problem { chain: &chain, measurements: &measurements };
     let found = identify(&problem, THRESHOLD);
     let name = |at: usize| chain.parameters()[at].name.as_str();
-    let yaw = found.frozen.iter().find(|each| name(each.parameter) == "base.yaw").unwrap();
-    let looks_like: Vec<&str> = yaw.looks_like.iter().map(|&(at, _)| name(at)).collect();
-    assert_eq!(looks_like, ["pan.zero"]);
-    assert!((yaw.looks_like[0].1 - 1.0).abs() < 1e-9 && yaw.unexplained_share < 1e-6, "{yaw:?}");
+    let yaw = found.fixed.iter().find(|each| name(each.parameter) == "base.yaw").unwrap();
+    let correlated_with: Vec<&str> = yaw.correlated_with.iter().map(|&(at, _)| name(at)).collect();
+    assert_eq!(correlated_with, ["pan.zero"]);
+    assert!((yaw.correlated_with[0].1 - 1.0).abs() < 1e-9 && yaw.unexplained_share < 1e-6, "{yaw:?}");
     let fit = fit_with_estimated_noise(&problem, &found.kept);
-    for frozen in &found.frozen {
-        assert_eq!(fit.corrections[frozen.parameter].to_bits(), 0, "{} moved", name(frozen.parameter));
+    for fixed in &found.fixed {
+        assert_eq!(fit.corrections[fixed.parameter].to_bits(), 0, "{} moved", name(fixed.parameter));
     }
     // A single configuration tells six things at most.
     let one = Problem { chain: &chain, measurements: &measurements[..1] };

@@ -10,7 +10,9 @@ use congruent::{
         CalibrationOptions, Loss, Noise, calibrate,
         measurements::{MeasuredRow, read_measurements},
         needed_coordinates,
-        report::{CalibrationReport, Estimate, Estimation, Explanation, Recommendation, Remainder, plot},
+        report::{
+            CalibrationReport, CalibrationVerdict, Estimate, Estimation, Recommendation, Remainder, plot,
+        },
     },
     description::Diagnostic,
     twin::report::write_whole,
@@ -99,9 +101,13 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     }
     printer.result(&report, text)?;
     Ok(match report.verdict {
-        Explanation::Explained | Explanation::UnexplainedRows | Explanation::NoImprovement => 0,
-        Explanation::Unexplained | Explanation::Misread | Explanation::NoiseExceeded => FAILED,
-        Explanation::NothingToJudgeBy | Explanation::NothingIdentified => NOTHING,
+        CalibrationVerdict::Explained
+        | CalibrationVerdict::UnexplainedRows
+        | CalibrationVerdict::NoImprovement => 0,
+        CalibrationVerdict::Unexplained | CalibrationVerdict::Misread | CalibrationVerdict::NoiseExceeded => {
+            FAILED
+        }
+        CalibrationVerdict::NothingToJudgeBy | CalibrationVerdict::NothingIdentified => NOTHING,
     })
 }
 
@@ -151,7 +157,7 @@ fn text(report: &CalibrationReport) -> String {
         let _ = writeln!(text, "  {statement}");
     }
     estimates(&mut text, report);
-    frozen(&mut text, report);
+    fixed(&mut text, report);
     fits(&mut text, report);
     outliers(&mut text, report);
     next(&mut text, report);
@@ -210,17 +216,17 @@ fn figure(unit: &str, value: f64) -> String {
     format!("{:.4}", value * handy(unit).0)
 }
 
-fn frozen(text: &mut String, report: &CalibrationReport) {
-    if report.frozen.is_empty() {
+fn fixed(text: &mut String, report: &CalibrationReport) {
+    if report.fixed.is_empty() {
         return;
     }
     let _ = writeln!(
         text,
-        "\n  frozen at nominal (below {:e} of the largest singular value)",
+        "\n  fixed at nominal (below {:e} of the largest singular value)",
         report.identifiability.threshold
     );
-    let width = report.frozen.iter().map(|each| each.name.len()).max().unwrap_or(0);
-    for each in &report.frozen {
+    let width = report.fixed.iter().map(|each| each.name.len()).max().unwrap_or(0);
+    for each in &report.fixed {
         let _ = writeln!(text, "  {:width$}  {}", each.name, each.reason);
     }
 }

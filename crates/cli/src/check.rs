@@ -5,11 +5,10 @@ use std::{fmt::Write, path::PathBuf};
 use congruent::{
     agreement::{
         compare::{
-            basics::{Basics, ByWitness},
-            certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate},
-            check::{Agreement, CheckOptions, CheckReport, Comparison},
+            Agreement, Basics, Brackets, BySource, CheckOptions, CheckReport, Comparison, PoseSource,
+            Premise, ReportedBracket, ReportedCertificate,
         },
-        report::{Blame, Ladder, ReportedCause},
+        report::{Fault, ReportedCause, ReportedDiagnosis},
     },
     description::{Diagnostic, load_robot, read_configurations},
 };
@@ -73,8 +72,8 @@ fn text(report: &CheckReport) -> String {
         "{}: {}, worst {} and {} over {} configurations (tolerance {:e} m, {:e} rad)",
         report.robot,
         word(report.verdict),
-        length(report.worst.position_m),
-        angle(report.worst.orientation_rad),
+        length(report.worst.error.position_m),
+        angle(report.worst.error.orientation_rad),
         report.configurations,
         report.tolerance.position_m,
         report.tolerance.orientation_rad
@@ -83,16 +82,15 @@ fn text(report: &CheckReport) -> String {
         compared(&mut text, comparison);
     }
     if report.verdict == Agreement::Disagree {
-        let at: Vec<String> =
-            report.worst.at.iter().map(|named| format!("{} {:.4}", named.joint, named.value)).collect();
-        let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, at.join(", "));
+        let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, report.worst.at.listed(4));
     }
     for (at, difference) in (1..).zip(&report.at_configurations) {
-        let (position, orientation) = (length(difference.position_m), angle(difference.orientation_rad));
+        let (position, orientation) =
+            (length(difference.error.position_m), angle(difference.error.orientation_rad));
         let _ = writeln!(text, "  at configuration {at}: {position} and {orientation}");
     }
     certified(&mut text, report);
-    if let Some(ladder) = report.ladders.iter().find(|ladder| !ladder.diagnosis.is_empty()) {
+    if let Some(ladder) = report.diagnoses.iter().find(|ladder| !ladder.diagnosis.is_empty()) {
         diagnosed(&mut text, ladder);
     }
     text
@@ -102,7 +100,7 @@ fn text(report: &CheckReport) -> String {
 fn basics(basics: &Basics) -> String {
     let mut text = format!("  the TCP on {}, in the axes of {}:\n", basics.tip, basics.base);
     let width = basics.joints.iter().map(|joint| joint.joint.len()).max().unwrap_or(0);
-    by_witness(&mut text, &format!("{:width$} {:8}", "at zero", ""), &basics.zero, |pose| {
+    by_source(&mut text, &format!("{:width$} {:8}", "at zero", ""), &basics.zero, |pose| {
         let [at, quaternion] = [&pose.translation_m.map(to_mm)[..], &pose.quaternion_wxyz].map(figures);
         format!("at    {at} mm  quaternion {quaternion}")
     });
@@ -111,7 +109,7 @@ fn basics(basics: &Basics) -> String {
             "m" => format!("{:+} mm", to_mm(joint.by)),
             _ => format!("{:+} deg", joint.by.to_degrees().round()),
         };
-        by_witness(&mut text, &format!("{:width$} {by:>8}", joint.joint), &joint.motion, |motion| {
+        by_source(&mut text, &format!("{:width$} {by:>8}", joint.joint), &joint.motion, |motion| {
             let [shift, turn] = [motion.shift_m.map(to_mm), motion.turn_rad.map(f64::to_degrees)];
             format!("shift {} mm  turn {} deg", figures(&shift), figures(&turn))
         });
@@ -125,7 +123,7 @@ fn basics(basics: &Basics) -> String {
 }
 
 /// One line where table and URDF show the same, otherwise one for each.
-fn by_witness<T>(text: &mut String, label: &str, by: &ByWitness<T>, shown: impl Fn(&T) -> String) {
+fn by_source<T>(text: &mut String, label: &str, by: &BySource<T>, shown: impl Fn(&T) -> String) {
     let lines: Vec<(&str, String)> = by.named().map(|(witness, value)| (witness, shown(value))).collect();
     let lines: &[(&str, String)] = match &lines[..] {
         [(_, table), (_, urdf)] if table == urdf => &[("both", table.clone())],
@@ -153,13 +151,11 @@ fn certified(text: &mut String, report: &CheckReport) {
         return;
     }
     let mut line = |what: &str, bracket: &ReportedBracket, figure: fn(f64) -> String| {
-        let at: Vec<String> =
-            bracket.at.iter().map(|named| format!("{} {:.4}", named.joint, named.value)).collect();
         let _ = writeln!(
             text,
             "  worst {what} disagreement {} at q = ({}), certified below {} over the whole joint range",
             figure(bracket.attained),
-            at.join(", "),
+            bracket.at.listed(4),
             figure(bracket.certified)
         );
     };
@@ -184,14 +180,14 @@ fn narrow(text: &mut String, certificate: &ReportedCertificate) {
             (if *holds { "is" } else { "is not" }, [length(*residual_m), angle(*residual_rad)]);
         let _ = writeln!(
             text,
-            "    each joint of the physics {kept} one screw, as probed: to {} at {configurations} configurations",
+            "    each joint of the physics {kept} one screw, as identified: to {} at {configurations} configurations",
             figures.join(" and ")
         );
     }
 }
 
 /// The first cause as a compiler shows it, then what cannot be told from it and what comes next.
-fn diagnosed(text: &mut String, ladder: &Ladder) {
+fn diagnosed(text: &mut String, ladder: &ReportedDiagnosis) {
     /// Alternatives shown to people; programs get all.
     const SHOWN: usize = 6;
     let _ = writeln!(text, "\n  {}: {}", ladder.title, cause(&ladder.diagnosis[0]));
@@ -232,13 +228,13 @@ fn invariant(name: &str, value: f64) -> String {
 
 /// One line for a cause.
 fn cause(cause: &ReportedCause) -> String {
-    let one = |blame: &Blame| {
-        let joints = blame.joint.iter().chain(&blame.joints).cloned().collect::<Vec<_>>().join(", ");
-        let words = [blame.cause, blame.parameter.as_deref().unwrap_or_default(), &joints];
+    let one = |fault: &Fault| {
+        let joints = fault.joint.iter().chain(&fault.joints).cloned().collect::<Vec<_>>().join(", ");
+        let words = [fault.cause, fault.parameter.as_deref().unwrap_or_default(), &joints];
         words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
     };
     let what = if cause.parts.is_empty() {
-        one(&cause.blame)
+        one(&cause.fault)
     } else {
         cause.parts.iter().map(one).collect::<Vec<_>>().join(" and ")
     };
@@ -251,8 +247,8 @@ fn compared(text: &mut String, comparison: &Comparison) {
         "  {:9} {:32} {:>12}  {:>12}  at {}",
         word(comparison.verdict),
         comparison.title,
-        length(comparison.worst.position_m),
-        angle(comparison.worst.orientation_rad),
+        length(comparison.worst.error.position_m),
+        angle(comparison.worst.error.orientation_rad),
         comparison.worst.link
     );
     if comparison.verdict == Agreement::Agree {
@@ -260,15 +256,15 @@ fn compared(text: &mut String, comparison: &Comparison) {
     }
     for link in &comparison.links {
         let fitted = match link.source {
-            congruent::agreement::compare::model::PoseSource::DhFitted => "(constant fitted at zero)",
+            PoseSource::DhFitted => "(constant fitted at zero)",
             _ => "",
         };
         let _ = writeln!(
             text,
             "            {:32} {:>12}  {:>12}  {fitted}",
             link.link,
-            length(link.position_m),
-            angle(link.orientation_rad)
+            length(link.error.position_m),
+            angle(link.error.orientation_rad)
         );
     }
 }

@@ -156,7 +156,7 @@ pub(crate) fn rendered(finding: &Diagnostic) -> String {
     text
 }
 
-/// The finding without what would fill the terminal: the snippet where the text in question is
+/// The finding without what would fill the terminal: the snippet where the text in criterion is
 /// long, the ends of its words.
 fn shortened(finding: &Diagnostic) -> Diagnostic {
     let mut shortened = finding.clone();

@@ -12,7 +12,7 @@ use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, pri
 
 /// How far the tool is displaced by 1 degree or 1 mm in each joint's zero and each DH parameter.
 ///
-/// Worst and mean over the joint range, with the configuration of the worst.
+/// WorstDifference and mean over the joint range, with the configuration of the worst.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

@@ -19,7 +19,7 @@ pub use with_physics::{check, forward};
 
 /// What most programs need.
 pub mod prelude {
-    pub use congruent_agreement::compare::check::{Agreement, CheckOptions, CheckReport};
+    pub use congruent_agreement::compare::{Agreement, CheckOptions, CheckReport};
     pub use congruent_analysis::forward::Source;
     pub use congruent_description::{Diagnostic, Robot, RobotDescription, load_robot};
     pub use congruent_kinematics::{Arm, DhChain, LinkPoses, Pose, PoseError, SerialChain, UrdfTree};

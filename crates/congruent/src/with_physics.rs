@@ -1,6 +1,6 @@
 //! Questions about a robot that the physics answers as well: here the sources meet.
 
-use congruent_agreement::compare::check::{CheckError, CheckOptions, CheckReport};
+use congruent_agreement::compare::{CheckError, CheckOptions, CheckReport};
 use congruent_analysis::forward::{ForwardError, ForwardReport, Source, forward_by_table};
 use congruent_description::RobotDescription;
 use congruent_kinematics::{LinkPoses, LinkPosesError, ScrewTree, UrdfTree};
@@ -12,7 +12,7 @@ use congruent_twin::source::SimulatedPoses;
 /// [`CheckError`] if a source refuses the robot.
 pub fn check(description: &RobotDescription, options: &CheckOptions) -> Result<CheckReport, CheckError> {
     let mut physics = SimulatedPoses::new(&description.robot).map_err(LinkPosesError::source)?;
-    congruent_agreement::compare::check::check(description, &mut physics, options)
+    congruent_agreement::compare::check(description, &mut physics, options)
 }
 
 /// Poses of all links at each configuration, by a chosen source.

@@ -30,9 +30,9 @@ pub use findings::Findings;
 pub use fixed_array::fixed_array;
 pub use load::load_robot;
 pub use model::{
-    ByJoint, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
-    JointLimit, JointParts, Link, LinkIndex, Mesh, Mimic, NamedValue, Robot, RobotDescription, RobotError,
-    Shape, Tolerance, as_map,
+    DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit,
+    JointParts, JointValues, Link, LinkIndex, Mesh, Mimic, Robot, RobotDescription, RobotError, Shape,
+    Tolerance,
 };
 pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey, dh_section};
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};

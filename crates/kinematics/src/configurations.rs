@@ -13,7 +13,7 @@ const AXIS_STEP_M: f64 = 0.01;
 
 /// Zero, one axis at a time, `random` seeded draws within the limits, and the limits themselves:
 /// each joint alone at both ends with the others half way, then all at their lower and upper ends.
-pub fn probe_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Vec<f64>> {
+pub fn sample_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Vec<f64>> {
     let joints: Vec<&Joint> = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).collect();
     let mut configurations = vec![vec![0.0; joints.len()]];
     configurations.extend(axis_steps(robot).into_iter().map(|step| step.q));

@@ -29,7 +29,7 @@ pub use chain::{
     ScrewDerivatives, ScrewTree, SerialChain, SerialDh, SerialDhRow, SinCos, StandardDh, UrdfTree, derive_dh,
 };
 pub use configurations::{
-    AxisStep, axis_steps, move_inside_limits, probe_configurations, random_configurations, range,
+    AxisStep, axis_steps, move_inside_limits, random_configurations, range, sample_configurations,
 };
 pub use error::KinematicsError;
 pub use link_poses::{LinkPoses, LinkPosesError};

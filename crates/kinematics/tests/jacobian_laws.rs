@@ -43,7 +43,7 @@ fn by_differences(pose_at: impl Fn(f64) -> Pose) -> Twist {
 fn space_from(kind: JacobianKind, column: &Twist, root_from_link: &Pose) -> Twist {
     match kind {
         JacobianKind::Space => *column,
-        JacobianKind::Body => column.seen_from(root_from_link),
+        JacobianKind::Body => column.transformed_by(root_from_link),
         JacobianKind::Geometric => Twist {
             angular: column.angular,
             linear: column.linear + root_from_link.translation.cross(&column.angular),
@@ -94,8 +94,8 @@ proptest! {
             let efforts = |kind, wrench: Wrench| tree.jacobian(q, link, kind).unwrap().efforts(&wrench);
             let expected = efforts(JacobianKind::Body, in_link);
             for found in [
-                efforts(JacobianKind::Space, in_link.seen_from(&root_from_link)),
-                efforts(JacobianKind::Geometric, in_link.seen_from(&turned)),
+                efforts(JacobianKind::Space, in_link.transformed_by(&root_from_link)),
+                efforts(JacobianKind::Geometric, in_link.transformed_by(&turned)),
             ] {
                 for (found, expected) in found.iter().zip(&expected) {
                     prop_assert!(within((found - expected).abs(), ROUNDING));

@@ -191,6 +191,6 @@ fn wrong_lengths_are_refused() {
     assert_eq!(chain.dh_frames_into(&q[..1], poses), too_many(2));
     assert_eq!(tree.root_from_links_into(&q[..1], poses), too_many(3));
     assert_eq!(screws.root_from_links_into(&q[..1], poses), too_many(3));
-    let frames = congruent_kinematics::DhFrames { seen_from: 0, of: 2 };
+    let frames = congruent_kinematics::DhFrames { transformed_by: 0, of: 2 };
     assert_eq!(chain.dhi_from_dhj(&q[..1], frames), Err(KinematicsError::FrameIndex { index: 2, last: 1 }));
 }

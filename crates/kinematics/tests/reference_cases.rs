@@ -232,10 +232,10 @@ fn case_16_between_any_two_frames() {
         let chain = DhChain::new(&figures.table(&robot), &robot);
         let mut frames = [Pose::identity(); 7];
         chain.dh_frames_into(&CROOKED_Q, &mut frames).unwrap();
-        for (seen_from, of) in (0..7).flat_map(|i| (0..7).map(move |j| (i, j))) {
-            let between = chain.dhi_from_dhj(&CROOKED_Q, DhFrames { seen_from, of }).unwrap();
-            assert_equal(&between, &(frames[seen_from].inverse() * frames[of]));
-            if seen_from == of {
+        for (transformed_by, of) in (0..7).flat_map(|i| (0..7).map(move |j| (i, j))) {
+            let between = chain.dhi_from_dhj(&CROOKED_Q, DhFrames { transformed_by, of }).unwrap();
+            assert_equal(&between, &(frames[transformed_by].inverse() * frames[of]));
+            if transformed_by == of {
                 assert_eq!(between, Pose::identity());
             }
         }

@@ -41,7 +41,7 @@ use crate::{
     times::Instant,
     writer::RrdWriter,
 };
-use congruent_agreement::compare::model::PoseSource;
+use congruent_agreement::compare::PoseSource;
 use congruent_twin::{
     Recording, RecordingFormat, Run, Sample,
     monitor::{Check, Names},

@@ -1,6 +1,6 @@
 //! What a recording says once: shapes, names and colours.
 
-use congruent_agreement::compare::model::PoseSource;
+use congruent_agreement::compare::PoseSource;
 use congruent_description::{Link, Robot, Shape};
 use congruent_simulation::Obstacle;
 use congruent_twin::{monitor::Names, recorder::RecordingError, scenario::Scenario};

@@ -4,7 +4,7 @@
 #[path = "../tests/support/mod.rs"]
 mod support;
 
-use congruent_simulation::{Reference, World, WorldSettings};
+use congruent_simulation::{Setpoint, World, WorldSettings};
 use divan::{Bencher, counter::ItemsCount};
 use nalgebra::Isometry3;
 use support::{ARM_Q0, arm, make};
@@ -20,7 +20,7 @@ fn main() {
 fn step(bencher: Bencher<'_, '_>, kind: &str) {
     let mut world = World::new(&arm(), &WorldSettings::default()).expect("the arm is a robot");
     let mut controller = make(kind, 400.0, 40.0);
-    let reference = Reference { q: &ARM_Q0, qd: &[0.0; 6] };
+    let reference = Setpoint { q: &ARM_Q0, qd: &[0.0; 6] };
     world.set_state(&ARM_Q0, &[0.0; 6]).expect("the state fits");
     let start = world.snapshot();
     bencher.counter(ItemsCount::new(STEPS)).bench_local(|| {

@@ -14,9 +14,7 @@ mod lumping;
 mod settings;
 mod world;
 
-pub use actuation::{
-    Commands, Controller, Gains, JointsView, Motor, Reference, controller, controller_names,
-};
+pub use actuation::{Commands, Controller, Gains, JointsView, Motor, Setpoint, controller, controller_names};
 pub use error::SimulationError;
 pub use settings::{Obstacle, WorldSettings};
 pub use world::{Snapshot, World};

@@ -4,7 +4,7 @@ use congruent_description::{LinkIndex, Robot};
 use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::{
-    actuation::{Commands, Controller, JointsView, Motor, Reference},
+    actuation::{Commands, Controller, JointsView, Motor, Setpoint},
     build,
     engine::{Engine, Sets},
     error::SimulationError,
@@ -31,7 +31,7 @@ const LARGEST: f64 = 1e75;
 /// A bar of 1 kg on a hinge, released level, falls:
 /// ```
 /// use congruent_description::{Inertia, Joint, JointKind, JointParts, Link, LinkIndex, Robot};
-/// use congruent_simulation::{Gains, Reference, World, WorldSettings, controller};
+/// use congruent_simulation::{Gains, Setpoint, World, WorldSettings, controller};
 /// use nalgebra::{Isometry3, Matrix3, Vector3};
 ///
 /// # let root = Robot::new("", vec![Link::default()], vec![])?.root();
@@ -55,7 +55,7 @@ const LARGEST: f64 = 1e75;
 ///
 /// let mut world = World::new(&robot, &WorldSettings::default())?;
 /// let mut passive = controller("passive", Gains::default())?;
-/// world.step(passive.as_mut(), &Reference { q: &[0.0], qd: &[0.0] })?;
+/// world.step(passive.as_mut(), &Setpoint { q: &[0.0], qd: &[0.0] })?;
 /// // Acceleration m g l / (I + m l^2) = 4.905 / 0.27 rad/s^2, for 1 ms.
 /// assert!((world.qd()[0] - 4.905 / 0.27 * 1e-3).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -192,7 +192,7 @@ impl World {
     pub fn step(
         &mut self,
         controller: &mut dyn Controller,
-        reference: &Reference<'_>,
+        reference: &Setpoint<'_>,
     ) -> Result<(), SimulationError> {
         self.check_vector("reference position", reference.q)?;
         self.check_vector("reference velocity", reference.qd)?;

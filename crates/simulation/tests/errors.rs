@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use congruent_description::{Geometry, Mesh, Robot};
 use congruent_simulation::{
-    Commands, Controller, Gains, JointsView, Obstacle, Reference, SimulationError, World, WorldSettings,
+    Commands, Controller, Gains, JointsView, Obstacle, Setpoint, SimulationError, World, WorldSettings,
     controller, controller_names,
 };
 use nalgebra::{Isometry3, Point3, Vector3};
@@ -58,7 +58,7 @@ fn vectors_of_another_length() {
     let mut world = World::new(&arm(), &WorldSettings::default()).unwrap();
     let error = world.set_state(&[0.0; 5], &[0.0; 6]).unwrap_err();
     assert_eq!(error.to_string(), "position: 5 entries, but the robot has 6 movable joints");
-    let reference = Reference { q: &[0.0; 6], qd: &[] };
+    let reference = Setpoint { q: &[0.0; 6], qd: &[] };
     let error = world.step(make("passive", 0.0, 0.0).as_mut(), &reference).unwrap_err();
     assert_eq!(error, SimulationError::Length { what: "reference velocity", found: 0, expected: 6 });
     assert_eq!(world.step_count(), 0);
@@ -88,7 +88,7 @@ fn a_robot_without_mass_is_placed_but_not_stepped() {
         support::joint(congruent_description::JointKind::Continuous, ("base", "arm"), [0.0; 3], [0.0; 3]);
     let robot = Robot::new("ghost", vec![massless("base"), massless("arm")], vec![parts]).unwrap();
     let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
-    let reference = Reference { q: &[0.5], qd: &[0.0] };
+    let reference = Setpoint { q: &[0.5], qd: &[0.0] };
     let error = world.step(make("passive", 0.0, 0.0).as_mut(), &reference).unwrap_err();
     assert_eq!(
         error.to_string(),
@@ -115,7 +115,7 @@ impl Controller for Push {
         "push"
     }
 
-    fn command(&mut self, _: &JointsView<'_>, _: &Reference<'_>, commands: &mut Commands) {
+    fn command(&mut self, _: &JointsView<'_>, _: &Setpoint<'_>, commands: &mut Commands) {
         commands.torque_mut().fill(self.0);
     }
 }
@@ -125,7 +125,7 @@ fn numbers_that_are_none() {
     let mut world = World::new(&arm(), &WorldSettings::default()).unwrap();
     let error = world.set_state(&[0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0], &[0.0; 6]).unwrap_err();
     assert_eq!(error.to_string(), "joint \"forearm_joint\": position is not finite at 0 s");
-    let reference = Reference { q: &[0.0; 6], qd: &[0.0; 6] };
+    let reference = Setpoint { q: &[0.0; 6], qd: &[0.0; 6] };
     for torque in [f64::NAN, f64::NEG_INFINITY, 1e200] {
         let error = world.step(&mut Push(torque), &reference).unwrap_err();
         assert_eq!(error.to_string(), "joint \"shoulder_joint\": commanded torque is not finite at 0 s");
@@ -145,7 +145,7 @@ fn physics_that_runs_away_is_an_error_and_can_be_left() {
     let mut passive = make("passive", 0.0, 0.0);
     run(&mut world, passive.as_mut(), &[0.0; 6], 100);
     let expected = world.q().to_vec();
-    let reference = Reference { q: &[0.0; 6], qd: &[0.0; 6] };
+    let reference = Setpoint { q: &[0.0; 6], qd: &[0.0; 6] };
     for torque in [1e60, 1e74, 1e200, f64::MAX] {
         for leave in [World::restore, |world: &mut World, _: &_| world.set_state(&ARM_Q0, &[0.0; 6]).unwrap()]
         {

@@ -10,7 +10,7 @@ mod support;
 use std::path::Path;
 
 use congruent_description::{Joint, JointParts, Robot, load_robot};
-use congruent_simulation::{Commands, Controller, JointsView, Reference, World, WorldSettings};
+use congruent_simulation::{Commands, Controller, JointsView, Setpoint, World, WorldSettings};
 use nalgebra::{DMatrix, DVector, Isometry3, Quaternion, UnitQuaternion};
 use serde_json::Value;
 use support::{at, make, run, steps, worst};
@@ -219,7 +219,7 @@ impl Controller for Torques {
         "torques"
     }
 
-    fn command(&mut self, _: &JointsView<'_>, _: &Reference<'_>, commands: &mut Commands) {
+    fn command(&mut self, _: &JointsView<'_>, _: &Setpoint<'_>, commands: &mut Commands) {
         commands.torque_mut().copy_from_slice(&self.0);
     }
 }

@@ -6,8 +6,9 @@
 mod support;
 
 use congruent_description::Geometry;
-use congruent_simulation::{Commands, Controller, Gains, JointsView, Reference};
-use congruent_simulation::{Motor, Obstacle, World, WorldSettings};
+use congruent_simulation::{
+    Commands, Controller, Gains, JointsView, Motor, Obstacle, Setpoint, World, WorldSettings,
+};
 use nalgebra::{Isometry3, Vector3};
 use support::{
     ARM_Q0, arm, arm_with, at, limited, make, mimic_arm, pendulum, run, steps, swinging_bar, worst,
@@ -290,7 +291,7 @@ fn kinematic_is_exactly_where_the_reference_is() {
     for step in 1..=100_u32 {
         let q = ARM_Q0.map(|q| q * f64::from(step) * 0.1);
         let qd = ARM_Q0.map(|q| -q);
-        world.step(kinematic.as_mut(), &Reference { q: &q, qd: &qd }).unwrap();
+        world.step(kinematic.as_mut(), &Setpoint { q: &q, qd: &qd }).unwrap();
         assert_eq!((world.q(), world.qd()), (&q[..], &qd[..]));
         assert_eq!(world.step_count(), u64::from(step));
         assert_eq!(world.time_s().to_bits(), (f64::from(step) * 1e-3).to_bits());
@@ -331,7 +332,7 @@ impl Controller for OneServo {
         "one_servo"
     }
 
-    fn command(&mut self, joints: &JointsView<'_>, reference: &Reference<'_>, commands: &mut Commands) {
+    fn command(&mut self, joints: &JointsView<'_>, reference: &Setpoint<'_>, commands: &mut Commands) {
         joints.add_gravity_torque(commands.torque_mut());
         let gains = Gains { stiffness: 500.0, damping: 100.0 };
         commands.drive(5, Motor { gains, q: reference.q[5], qd: reference.qd[5] });

@@ -1,14 +1,14 @@
 //! The run loop: physics, comparison, clearance, checks and recording, one step after another.
 
-use congruent_agreement::compare::model::Model;
+use congruent_agreement::compare::Model;
 use congruent_kinematics::{KinematicsError, Pose, PoseError};
-use congruent_simulation::{Controller, Reference, SimulationError, World, WorldSettings, controller};
+use congruent_simulation::{Controller, Setpoint, SimulationError, World, WorldSettings, controller};
 use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
 
 use crate::{
     monitor::{Check, Names},
-    motion::{Guide, Led},
+    motion::{ReferenceGenerator, ServoResult},
     proximity::{Clearance, PairChoice, ProximityError},
     recorder::{Recorder, RecordingError},
     sample::Sample,
@@ -43,8 +43,8 @@ pub struct Outcome {
     pub steps: u64,
     /// Where a check ended the run before its time.
     pub stopped: Option<Stop>,
-    /// Where each servo has led the tool.
-    pub servos: Vec<Led>,
+    /// Where each servo has servo_results the tool.
+    pub servos: Vec<ServoResult>,
     /// SHA-256 over the joint positions of every sample.
     pub trajectory_sha256: String,
 }
@@ -59,7 +59,7 @@ pub struct Run<'a> {
     clearance: Clearance,
     zones: Clearance,
     names: Names,
-    guide: Guide<'a>,
+    reference_generator: ReferenceGenerator<'a>,
     root_from_links: Vec<Isometry3<f64>>,
     errors: Vec<PoseError>,
     hash: Sha256,
@@ -99,7 +99,7 @@ impl<'a> Run<'a> {
             names: Names::new(robot, &clearance, &zones),
             clearance,
             zones,
-            guide: Guide::new(&scenario.trajectory, &scenario.description)?,
+            reference_generator: ReferenceGenerator::new(&scenario.trajectory, &scenario.description)?,
             root_from_links: vec![Isometry3::identity(); robot.links().len()],
             errors: vec![PoseError::default(); robot.links().len()],
             hash: Sha256::new(),
@@ -127,8 +127,8 @@ impl<'a> Run<'a> {
     /// [`RunError::Simulation`] when the physics breaks.
     pub fn step(&mut self) -> Result<(), RunError> {
         let time_s = self.scenario.simulation.time_s(self.world.step_count() + 1);
-        self.guide.advance(time_s, self.world.q())?;
-        let reference = Reference { q: self.guide.q(), qd: self.guide.qd() };
+        self.reference_generator.advance(time_s, self.world.q())?;
+        let reference = Setpoint { q: self.reference_generator.q(), qd: self.reference_generator.qd() };
         Ok(self.world.step(&mut *self.controller, &reference)?)
     }
 
@@ -203,7 +203,7 @@ impl<'a> Run<'a> {
             Ok(())
         };
         let result = go();
-        let (servos, result) = match self.guide.finish(self.world.q()) {
+        let (servos, result) = match self.reference_generator.finish(self.world.q()) {
             Ok(servos) => (servos, result),
             Err(error) => (Vec::new(), result.and(Err(error.into()))),
         };

@@ -1,6 +1,6 @@
 //! What a check found: one shape for every check, so that every report and exit code agrees.
 
-use congruent_description::NamedValue;
+use congruent_description::JointValues;
 use serde::{Deserialize, Serialize};
 
 /// The outcome of one check.
@@ -39,7 +39,7 @@ pub struct Moment {
     /// The value seen, in the unit of its [`Measure`].
     pub value: f64,
     /// Position of every movable joint, rad or m.
-    pub q: Vec<NamedValue>,
+    pub q: JointValues,
 }
 
 /// One quantity that a check holds against a limit.

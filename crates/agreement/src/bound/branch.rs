@@ -6,17 +6,17 @@ use std::{cmp::Ordering, collections::BinaryHeap};
 use super::{
     budget::{Budget, ROUNDING_LEVEL},
     corner::Interval,
-    gap::{Gap, Room},
+    difference_norm::{DifferenceNorm, Room},
     search::Attained,
 };
 
-/// Most corners of one box: beyond, and that is beyond ten joints that matter, the telescoped sum has
+/// Most corners of one box: beyond, and that is beyond ten joints that matter, the telescoping_bound sum has
 /// to do.
 const MOST_CORNERS_OF_CELL: u64 = 1 << 20;
 
 /// What came of it: `attained <= certified`, as far as rounding lets one tell.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Outcome {
+pub(super) struct BracketOutcome {
     pub(super) attained: Attained,
     /// No configuration disagrees more; m or rad, infinite where no bound could be had.
     pub(super) certified: f64,
@@ -24,30 +24,30 @@ pub(super) struct Outcome {
     pub(super) cells: u64,
 }
 
-/// How a gap is read.
+/// How a difference is read.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Scale {
-    /// The disagreement for a gap, m or rad.
-    pub(super) of_gap: fn(f64) -> f64,
+pub(super) struct NormReading {
+    /// The disagreement for a difference, m or rad.
+    pub(super) of_norm: fn(f64) -> f64,
     /// Gaps beyond it are no larger disagreements.
     pub(super) ceiling: f64,
 }
 
 /// Gaps whose disagreements together, and the price of what they leave out, bound the one in
-/// question.
+/// criterion.
 #[derive(Debug, Clone)]
-pub(super) struct Bound {
-    pub(super) steps: Vec<Gap>,
+pub(super) struct UpperBound {
+    pub(super) steps: Vec<DifferenceNorm>,
     pub(super) price: f64,
 }
 
-/// What is in question: the gap itself, which is attained, and bounds of it.
-pub(super) struct Task<'a> {
-    pub(super) gap: &'a Gap,
-    /// The gap as its own bound comes first.
-    pub(super) bounds: Vec<Bound>,
+/// What is in criterion: the difference itself, which is attained, and bounds of it.
+pub(super) struct BracketTask<'a> {
+    pub(super) difference: &'a DifferenceNorm,
+    /// The difference as its own bound comes first.
+    pub(super) bounds: Vec<UpperBound>,
     pub(super) ranges: &'a [Interval],
-    pub(super) scale: Scale,
+    pub(super) scale: NormReading,
     pub(super) budget: Budget,
 }
 
@@ -63,7 +63,7 @@ struct Cell {
     by: usize,
 }
 
-/// Largest bound first; of equal ones the oldest, so that the order is fixed.
+/// Largest bound first; of equal ones the oldest, so that the common_order is fixed.
 impl Ord for Cell {
     fn cmp(&self, other: &Self) -> Ordering {
         self.bound.total_cmp(&other.bound).then(other.number.cmp(&self.number))
@@ -84,9 +84,9 @@ impl PartialEq for Cell {
 
 impl Eq for Cell {}
 
-/// A search under way.
-struct Search<'a> {
-    task: &'a Task<'a>,
+/// A search under intermediate_chains.
+struct BranchAndBound<'a> {
+    task: &'a BracketTask<'a>,
     attained: Attained,
     room: Room,
     nearest: Vec<f64>,
@@ -99,9 +99,9 @@ struct Search<'a> {
 /// by what was best for the one it is part of.
 const ASK_ALL: u64 = 8;
 
-impl Search<'_> {
+impl BranchAndBound<'_> {
     fn attained(&self) -> f64 {
-        (self.task.scale.of_gap)(self.attained.gap)
+        (self.task.scale.of_norm)(self.attained.difference)
     }
 
     /// Where the bracket is narrow enough.
@@ -109,7 +109,7 @@ impl Search<'_> {
         (self.attained() * (1.0 + self.task.budget.relative_gap)).max(ROUNDING_LEVEL)
     }
 
-    /// Bounds a box that is part of another one, by what bounded that one.
+    /// CertifiedBounds a box that is part of another one, by what bounded that one.
     fn bound(&mut self, intervals: Vec<Interval>, (above, by): (f64, usize)) -> Cell {
         self.cells += 1;
         let mut cell = Cell { bound: above, number: self.cells, intervals, divide: 0, by };
@@ -136,21 +136,21 @@ impl Search<'_> {
     /// where that is news; how much dividing promises. What lowers the bound most, or is asked because
     /// the cell is its own, says where to divide.
     fn bound_by(&mut self, by: usize, cell: &mut Cell) -> f64 {
-        let Bound { steps, price } = &self.task.bounds[by];
+        let UpperBound { steps, price } = &self.task.bounds[by];
         let (mut sum, mut promises, mut best) = (*price, 0.0, (-1.0, usize::MAX));
         self.nearest.copy_from_slice(&self.attained.at);
         for step in steps {
             let enclosure = step.enclose(&cell.intervals, &mut self.room, &mut self.nearest);
-            sum += (self.task.scale.of_gap)(enclosure.bound);
+            sum += (self.task.scale.of_norm)(enclosure.bound);
             promises += enclosure.promises;
             if !step.is_constant() && enclosure.promise > best.0 {
                 best = (enclosure.promise, enclosure.divide);
             }
             self.spent += enclosure.corners;
         }
-        let mut found = Attained::new(self.task.gap, self.nearest.clone());
-        if found.gap > self.attained.gap {
-            found.climb(self.task.gap, self.task.ranges);
+        let mut found = Attained::new(self.task.difference, self.nearest.clone());
+        if found.difference > self.attained.difference {
+            found.ascend(self.task.difference, self.task.ranges);
             self.attained = found;
         }
         if sum < cell.bound || by == cell.by {
@@ -172,19 +172,19 @@ impl Search<'_> {
 }
 
 /// Brackets the largest disagreement over the ranges.
-pub(super) fn bracket(task: &Task<'_>, attained: Attained) -> Outcome {
+pub(super) fn bracket(task: &BracketTask<'_>, attained: Attained) -> BracketOutcome {
     let nearest = attained.at.clone();
-    let mut search = Search { task, attained, room: Room::default(), nearest, cells: 0, spent: 0 };
+    let mut search = BranchAndBound { task, attained, room: Room::default(), nearest, cells: 0, spent: 0 };
     if task.bounds.is_empty() {
-        return Outcome { attained: search.attained, certified: f64::INFINITY, cells: 0 };
+        return BracketOutcome { attained: search.attained, certified: f64::INFINITY, cells: 0 };
     }
     let Budget { corners, .. } = task.budget;
     let mut open = BinaryHeap::from([search.bound(task.ranges.to_vec(), (f64::INFINITY, 0))]);
     let certified = loop {
         let Some(cell) = open.pop() else { unreachable!("a box that is taken leaves two behind") };
-        if search.attained.gap >= task.scale.ceiling {
-            search.attained.descend_to(task.scale.ceiling, task.gap, task.ranges);
-            break (task.scale.of_gap)(task.scale.ceiling);
+        if search.attained.difference >= task.scale.ceiling {
+            search.attained.descend_to(task.scale.ceiling, task.difference, task.ranges);
+            break (task.scale.of_norm)(task.scale.ceiling);
         }
         let (lower, upper) = cell.intervals.get(cell.divide).copied().unwrap_or_default();
         let middle = f64::midpoint(lower, upper);
@@ -195,18 +195,18 @@ pub(super) fn bracket(task: &Task<'_>, attained: Attained) -> Outcome {
         open.extend(search.halves(&cell));
     };
     let (cells, attained_here) = (search.cells, search.attained());
-    Outcome { certified: certified.max(attained_here), attained: search.attained, cells }
+    BracketOutcome { certified: certified.max(attained_here), attained: search.attained, cells }
 }
 
-impl Bound {
+impl UpperBound {
     /// Whether its boxes are few enough corners for a budget.
     pub(super) fn is_affordable(&self, ranges: &[Interval], budget: Budget) -> bool {
-        self.steps.iter().all(|gap| is_affordable(gap, ranges, budget))
+        self.steps.iter().all(|difference| is_affordable(difference, ranges, budget))
     }
 }
 
-/// Whether the boxes of a gap have few enough corners for a budget.
-pub(super) fn is_affordable(gap: &Gap, ranges: &[Interval], budget: Budget) -> bool {
-    let cost = gap.most_corners(ranges).saturating_add(gap.overhead());
+/// Whether the boxes of a difference have few enough corners for a budget.
+pub(super) fn is_affordable(difference: &DifferenceNorm, ranges: &[Interval], budget: Budget) -> bool {
+    let cost = difference.most_corners(ranges).saturating_add(difference.overhead());
     cost <= MOST_CORNERS_OF_CELL.min(budget.corners)
 }

@@ -1,7 +1,7 @@
 //! When to stop dividing, and which bounds are final.
 
-/// Telescoped bounds up to here are final. Unit: m and rad; kind: rounding; a chain probed from a
-/// table and one probed from a URDF of the same robot telescope to some 1e-14.
+/// Telescoped bounds up to here are final. Unit: m and rad; kind: rounding; a chain identified from a
+/// table and one identified from a URDF of the same robot telescoping to some 1e-14.
 pub(super) const ROUNDING_LEVEL: f64 = 1e-12;
 
 /// When to stop dividing.

@@ -1,12 +1,12 @@
 //! A bracket around the worst disagreement of two chains over the whole joint range: from below a
 //! configuration that attains it, from above a bound that holds everywhere.
 //!
-//! Four steps. Chains with their joints in different orders are laid side by side (`order.rs`). The
-//! telescoped sum (`telescope.rs`) settles chains that agree, in microseconds. What is left is reduced to
-//! the joints that matter (`reduce.rs`); climbing from many starts (`search.rs`) finds a bad
+//! Four steps. Chains with their joints in different orders are laid side by side (`common_common_order.rs`). The
+//! telescoping_bound sum (`telescoping.rs`) settles chains that agree, in microseconds. What is left is simplified to
+//! the joints that matter (`simplify.rs`); climbing from many starts (`search.rs`) finds a bad
 //! configuration, and branch and bound (`branch.rs`) proves that none is much worse, with bounds from
-//! corners of polygons (`gap.rs`, `corner.rs`), and where these do not do, from chains that stand
-//! between the two (`way.rs`).
+//! corners of polygons (`difference.rs`, `corner.rs`), and where these do not do, from chains that stand
+//! between the two (`intermediate_chains.rs`).
 //!
 //! The bound is rigorous in floating point: each file states what rounding can take from it, and
 //! adds that. It speaks of the two [`ScrewChain`]s as they are given.
@@ -16,24 +16,24 @@ use std::f64::consts::PI;
 use congruent_kinematics::{KinematicsError, ScrewChain};
 
 use super::{
-    branch::{Bound, Outcome, Scale, Task, bracket, is_affordable},
+    branch::{BracketOutcome, BracketTask, NormReading, UpperBound, bracket, is_affordable},
     budget::{Budget, ROUNDING_LEVEL},
+    common_order::SideBySide,
     corner::Interval,
-    gap::Gap,
-    order::SideBySide,
-    reduce::{Reduced, Tidied},
+    difference_norm::DifferenceNorm,
+    intermediate_chains::{self, ChainSequence},
     search::Attained,
-    telescope::Telescope,
-    way::{self, Way},
+    simplify::{Denoised, Simplified},
+    telescoping::TelescopingBound,
 };
 
 /// Part of the attained disagreement that may be spent on leaving out a joint that hardly matters.
 const ALLOWANCE: f64 = 1e-4;
-/// One part in so many of the budget goes to the gap alone, before other bounds are looked for.
+/// One part in so many of the budget goes to the difference alone, before other bounds are looked for.
 const ALONE: u64 = 16;
 /// Ways whose steps are not worse together than this many times what is attained may help.
 const PROMISING: f64 = 1.25;
-/// Most ways that are followed.
+/// Most sequences that are followed.
 const MOST_WAYS: usize = 4;
 
 /// What the worst disagreement lies between.
@@ -45,7 +45,7 @@ pub struct Bracket {
     pub certified: f64,
     /// The configuration that was found, in the ranges; rad or m.
     pub at: Vec<f64>,
-    /// Number of boxes that were bounded; 0 where the telescoped sum was enough.
+    /// Number of boxes that were bounded; 0 where the telescoping_bound sum was enough.
     pub cells: u64,
 }
 
@@ -73,7 +73,7 @@ pub struct Certificate {
 /// | `ranges` | n closed intervals | rad, m | |
 ///
 /// Source: Tuy, *Convex Analysis and Global Optimization* (2016), chapter 6, for branch and bound; the
-/// bound by corners is argued in `gap.rs`.
+/// bound by corners is argued in `difference.rs`.
 ///
 /// # Errors
 /// [`KinematicsError::JointCount`] where lengths differ, [`KinematicsError::JointRange`] for a range
@@ -81,7 +81,8 @@ pub struct Certificate {
 /// # Examples
 /// A tool that is 5 mm off is 5 mm off everywhere, also as seen by a proof:
 /// ```
-/// use congruent_kinematics::{Budget, Pose, ScrewChain, Twist, certify};
+/// use congruent_agreement::bound::{Budget, certify};
+/// use congruent_kinematics::{Pose, ScrewChain, Twist};
 /// use nalgebra::Vector3;
 /// let joint = |y: f64| Twist { angular: Vector3::z(), linear: Vector3::new(0., y, 0.) };
 /// let arm = |tool_m: f64| ScrewChain {
@@ -107,7 +108,7 @@ pub fn certify(
     certify_driven((a, &each_its_own), (b, &each_its_own), ranges, budget)
 }
 
-/// The same where the joints of the chains are driven in any order: beside each chain stands, for
+/// The same where the joints of the chains are driven in any common_order: beside each chain stands, for
 /// each of its joints, the index of its position in `ranges`. So joints that mimic others are held, and
 /// chains that have their joints in different orders.
 ///
@@ -116,7 +117,8 @@ pub fn certify(
 /// # Examples
 /// Two joints in a row that follow one position turn twice as far as one:
 /// ```
-/// use congruent_kinematics::{Budget, Pose, ScrewChain, Twist, certify_driven};
+/// use congruent_agreement::bound::{Budget, certify_driven};
+/// use congruent_kinematics::{Pose, ScrewChain, Twist};
 /// use nalgebra::Vector3;
 /// let turn = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
 /// let chain = |twists_in_base| ScrewChain { twists_in_base, base_from_tip_at_zero: Pose::identity() };
@@ -137,9 +139,9 @@ pub fn certify_driven(
     check_ranges(&drivers, ranges)?;
     let rest: Vec<f64> = ranges.iter().map(|&(lower, upper)| 0.0_f64.clamp(lower, upper)).collect();
     let ranges_of_joints: Vec<Interval> = drivers.iter().map(|&driver| ranges[driver]).collect();
-    let first = Telescope::new(&a, &b, &ranges_of_joints);
-    let tidied = Tidied::new((&a, &b), &drivers, ranges);
-    let problem = Problem { tidied: &tidied, rest: &rest, budget };
+    let first = TelescopingBound::new(&a, &b, &ranges_of_joints);
+    let denoised = Denoised::new((&a, &b), &drivers, ranges);
+    let problem = CertificateProblem { denoised: &denoised, rest: &rest, budget };
     let mut position_m = problem.bracket(&POSITION, first.total_m());
     let mut orientation_rad = problem.bracket(&ORIENTATION, first.total_rad());
     let at = |chain: &ScrewChain, positions: &[f64]| {
@@ -169,127 +171,139 @@ impl Bracket {
     }
 }
 
-/// What is bracketed: how it is made a gap, and how a gap is read.
-struct Measure {
-    reduce: fn(&Tidied, f64) -> Reduced,
-    scale: Scale,
-    price_of_tidying: fn(&Tidied) -> f64,
+/// What is bracketed: how it is made a difference, and how a difference is read.
+struct BracketedMeasure {
+    simplify: fn(&Denoised, f64) -> Simplified,
+    scale: NormReading,
+    price_of_tidying: fn(&Denoised) -> f64,
     /// Its figure of a pair in m and in rad.
     of_both: fn([f64; 2]) -> f64,
-    ways: fn(&ScrewChain, &ScrewChain) -> Vec<Way>,
+    sequences: fn(&ScrewChain, &ScrewChain) -> Vec<ChainSequence>,
 }
 
-const POSITION: Measure = Measure {
-    reduce: Tidied::position,
-    scale: Scale { of_gap: |gap_m| gap_m, ceiling: f64::INFINITY },
-    price_of_tidying: |tidied| tidied.price_m,
+const POSITION: BracketedMeasure = BracketedMeasure {
+    simplify: Denoised::position,
+    scale: NormReading { of_norm: |difference_m| difference_m, ceiling: f64::INFINITY },
+    price_of_tidying: |denoised| denoised.price_m,
     of_both: |[position_m, _]| position_m,
-    ways: |a, b| [way::over_faults(a, b), way::over_points(a, b)].concat(),
+    sequences: |a, b| {
+        [intermediate_chains::over_faults(a, b), intermediate_chains::over_points(a, b)].concat()
+    },
 };
 
-const ORIENTATION: Measure = Measure {
-    reduce: Tidied::orientation,
-    scale: Scale {
+const ORIENTATION: BracketedMeasure = BracketedMeasure {
+    simplify: Denoised::orientation,
+    scale: NormReading {
         // Half a turn is the most that two orientations differ, and their quaternions sqrt(2) then.
-        of_gap: |gap| if gap < std::f64::consts::SQRT_2 { 4.0 * (gap / 2.0).asin() } else { PI },
+        of_norm: |difference| {
+            if difference < std::f64::consts::SQRT_2 { 4.0 * (difference / 2.0).asin() } else { PI }
+        },
         ceiling: std::f64::consts::SQRT_2,
     },
-    price_of_tidying: |tidied| tidied.price_rad,
+    price_of_tidying: |denoised| denoised.price_rad,
     of_both: |[_, orientation_rad]| orientation_rad,
-    ways: way::over_faults,
+    sequences: intermediate_chains::over_faults,
 };
 
-struct Problem<'a> {
-    tidied: &'a Tidied,
+struct CertificateProblem<'a> {
+    denoised: &'a Denoised,
     /// The configuration nearest to zero.
     rest: &'a [f64],
     budget: Budget,
 }
 
-impl Problem<'_> {
-    fn bracket(&self, measure: &Measure, telescoped: f64) -> Bracket {
-        if telescoped <= ROUNDING_LEVEL {
-            return Bracket { attained: 0.0, certified: telescoped, at: self.rest.to_vec(), cells: 0 };
+impl CertificateProblem<'_> {
+    fn bracket(&self, measure: &BracketedMeasure, telescoping_bound: f64) -> Bracket {
+        if telescoping_bound <= ROUNDING_LEVEL {
+            return Bracket { attained: 0.0, certified: telescoping_bound, at: self.rest.to_vec(), cells: 0 };
         }
-        let ranges: &[Interval] = &self.tidied.positions;
-        let of_gap = measure.scale.of_gap;
-        let whole = (measure.reduce)(self.tidied, ROUNDING_LEVEL);
-        let found = Attained::search(&whole.gap, ranges);
-        let allowance = (ALLOWANCE * of_gap(found.gap)).max(ROUNDING_LEVEL);
-        let Reduced { gap, price } = (measure.reduce)(self.tidied, allowance);
-        let found = Attained::new(&gap, self.at_rest_elsewhere(&gap, &found.at));
-        let price = price + (measure.price_of_tidying)(self.tidied);
-        let itself = Bound { steps: vec![gap.clone()], price };
-        let affordable = |bounds: Vec<Bound>| -> Vec<Bound> {
+        let ranges: &[Interval] = &self.denoised.positions;
+        let of_norm = measure.scale.of_norm;
+        let whole = (measure.simplify)(self.denoised, ROUNDING_LEVEL);
+        let found = Attained::search(&whole.difference, ranges);
+        let allowance = (ALLOWANCE * of_norm(found.difference)).max(ROUNDING_LEVEL);
+        let Simplified { difference, price } = (measure.simplify)(self.denoised, allowance);
+        let found = Attained::new(&difference, self.at_rest_elsewhere(&difference, &found.at));
+        let price = price + (measure.price_of_tidying)(self.denoised);
+        let itself = UpperBound { steps: vec![difference.clone()], price };
+        let affordable = |bounds: Vec<UpperBound>| -> Vec<UpperBound> {
             bounds.into_iter().filter(|bound| bound.is_affordable(ranges, self.budget)).collect()
         };
         let Budget { corners, relative_gap } = self.budget;
-        let mut task = Task {
-            gap: &gap,
+        let mut task = BracketTask {
+            difference: &difference,
             bounds: affordable(vec![itself.clone()]),
             ranges,
             scale: measure.scale,
             budget: Budget { corners: corners / ALONE, relative_gap },
         };
         let mut outcome = bracket(&task, found);
-        let attained = of_gap(outcome.attained.gap);
+        let attained = of_norm(outcome.attained.difference);
         if outcome.certified > (attained * (1.0 + relative_gap)).max(ROUNDING_LEVEL) {
-            let ways = self.ways(measure, (&gap, &outcome.attained), allowance);
-            task.bounds = affordable([vec![itself], ways].concat());
+            let sequences = self.sequences(measure, (&difference, &outcome.attained), allowance);
+            task.bounds = affordable([vec![itself], sequences].concat());
             task.budget = Budget { corners: corners - corners / ALONE, relative_gap };
             let further = bracket(&task, outcome.attained);
-            outcome = Outcome {
+            outcome = BracketOutcome {
                 certified: outcome.certified.min(further.certified),
                 cells: outcome.cells + further.cells,
                 ..further
             };
         }
-        let Outcome { attained, certified, cells } = outcome;
-        // The readings of the gaps and their sum are some dozen roundings.
+        let BracketOutcome { attained, certified, cells } = outcome;
+        // The readings of the differences and their sum are some dozen roundings.
         let certified = certified * (1.0 + 64.0 * f64::EPSILON);
-        let certified = certified.min(telescoped).min(of_gap(f64::INFINITY));
-        Bracket { attained: of_gap(attained.gap), certified, at: attained.at, cells }
+        let certified = certified.min(telescoping_bound).min(of_norm(f64::INFINITY));
+        Bracket { attained: of_norm(attained.difference), certified, at: attained.at, cells }
     }
 
-    /// Bounds over chains between the two, those that promise most.
-    fn ways(&self, measure: &Measure, (gap, attained): (&Gap, &Attained), allowance: f64) -> Vec<Bound> {
-        let Tidied { a, b, drivers, positions, .. } = self.tidied;
+    /// CertifiedBounds over chains between the two, those that promise most.
+    fn sequences(
+        &self,
+        measure: &BracketedMeasure,
+        (difference, attained): (&DifferenceNorm, &Attained),
+        allowance: f64,
+    ) -> Vec<UpperBound> {
+        let Denoised { a, b, drivers, positions, .. } = self.denoised;
         let ranges: Vec<Interval> = drivers.iter().map(|&driver| positions[driver]).collect();
-        let step = |[from, to]: &[ScrewChain; 2]| -> (Option<Gap>, f64) {
-            let tidied = Tidied::new((from, to), drivers, positions);
-            let Reduced { gap, price } = (measure.reduce)(&tidied, allowance);
-            match way::of_move(from, to, &ranges) {
-                Some(bounds) if !is_affordable(&gap, positions, self.budget) => {
+        let step = |[from, to]: &[ScrewChain; 2]| -> (Option<DifferenceNorm>, f64) {
+            let denoised = Denoised::new((from, to), drivers, positions);
+            let Simplified { difference, price } = (measure.simplify)(&denoised, allowance);
+            match intermediate_chains::of_move(from, to, &ranges) {
+                Some(bounds) if !is_affordable(&difference, positions, self.budget) => {
                     (None, (measure.of_both)(bounds))
                 }
-                _ => (Some(gap), price + (measure.price_of_tidying)(&tidied)),
+                _ => (Some(difference), price + (measure.price_of_tidying)(&denoised)),
             }
         };
-        let to_tidied = (measure.price_of_tidying)(self.tidied);
-        let bound = |way: &Way| {
-            let (steps, prices): (Vec<Option<Gap>>, Vec<f64>) = way.iter().map(step).unzip();
-            let steps: Vec<Gap> = steps.into_iter().flatten().collect();
+        let to_tidied = (measure.price_of_tidying)(self.denoised);
+        let bound = |intermediate_chains: &ChainSequence| {
+            let (steps, prices): (Vec<Option<DifferenceNorm>>, Vec<f64>) =
+                intermediate_chains.iter().map(step).unzip();
+            let steps: Vec<DifferenceNorm> = steps.into_iter().flatten().collect();
             let price = to_tidied + prices.iter().sum::<f64>();
-            let worst = |gap: &Gap| (measure.scale.of_gap)(Attained::near(gap, positions, &attained.at).gap);
-            (price + steps.iter().map(worst).sum::<f64>(), Bound { steps, price })
+            let worst = |difference: &DifferenceNorm| {
+                (measure.scale.of_norm)(Attained::near(difference, positions, &attained.at).difference)
+            };
+            (price + steps.iter().map(worst).sum::<f64>(), UpperBound { steps, price })
         };
-        let mut ways: Vec<(f64, Bound)> = (measure.ways)(a, b).iter().map(bound).collect();
-        if is_affordable(gap, positions, self.budget) {
-            let worth = PROMISING * (measure.scale.of_gap)(attained.gap);
-            ways.retain(|(sum, _)| *sum <= worth);
+        let mut sequences: Vec<(f64, UpperBound)> = (measure.sequences)(a, b).iter().map(bound).collect();
+        if is_affordable(difference, positions, self.budget) {
+            let worth = PROMISING * (measure.scale.of_norm)(attained.difference);
+            sequences.retain(|(sum, _)| *sum <= worth);
         } else {
-            ways.push(bound(&vec![[b.clone(), a.clone()]]));
+            sequences.push(bound(&vec![[b.clone(), a.clone()]]));
         }
         // Ways with a step that no box can be bounded for lead nowhere.
-        ways.retain(|(_, bound)| bound.is_affordable(positions, self.budget));
-        ways.sort_by(|one, two| one.0.total_cmp(&two.0));
-        ways.truncate(MOST_WAYS);
-        ways.into_iter().map(|(_, bound)| bound).collect()
+        sequences.retain(|(_, bound)| bound.is_affordable(positions, self.budget));
+        sequences.sort_by(|one, two| one.0.total_cmp(&two.0));
+        sequences.truncate(MOST_WAYS);
+        sequences.into_iter().map(|(_, bound)| bound).collect()
     }
 
-    /// Joints that the gap does not depend on go to where they rest.
-    fn at_rest_elsewhere(&self, gap: &Gap, at: &[f64]) -> Vec<f64> {
-        let place = |joint: usize| if gap.depends_on(joint) { at[joint] } else { self.rest[joint] };
+    /// Joints that the difference does not depend on go to where they rest.
+    fn at_rest_elsewhere(&self, difference: &DifferenceNorm, at: &[f64]) -> Vec<f64> {
+        let place = |joint: usize| if difference.depends_on(joint) { at[joint] } else { self.rest[joint] };
         (0..at.len()).map(place).collect()
     }
 }

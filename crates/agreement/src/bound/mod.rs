@@ -3,13 +3,13 @@
 mod branch;
 mod budget;
 mod certify;
+mod common_order;
 mod corner;
-mod gap;
-mod order;
-mod reduce;
+mod difference_norm;
+mod intermediate_chains;
 mod search;
-mod telescope;
-mod way;
+mod simplify;
+mod telescoping;
 
 pub use budget::Budget;
 pub use certify::{Bracket, Certificate, certify, certify_driven};

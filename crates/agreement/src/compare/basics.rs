@@ -18,7 +18,7 @@ pub struct Basics {
     /// The link that carries the TCP, or is it where no `[tcp]` is declared.
     pub tip: String,
     /// Where the TCP is at zero.
-    pub zero: ByWitness<ReportedPose>,
+    pub zero: BySource<ReportedPose>,
     /// Each joint moved alone from zero; joints that mimic it follow.
     pub joints: Vec<JointMotion>,
     /// The largest Frobenius norm of `R^T R - I` of the TCP at all configurations of the check.
@@ -33,7 +33,7 @@ pub struct Basics {
 
 /// The same by the robot's table and by its URDF.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ByWitness<T> {
+pub struct BySource<T> {
     /// By the table; `None` where the robot file has none.
     pub model: Option<T>,
     /// By the URDF chain.
@@ -50,7 +50,7 @@ pub struct JointMotion {
     /// `rad` or `m`.
     pub unit: &'static str,
     /// What the TCP did.
-    pub motion: ByWitness<TcpMotion>,
+    pub motion: BySource<TcpMotion>,
 }
 
 /// What the TCP did, in the axes of link `base`.
@@ -75,8 +75,8 @@ impl TcpMotion {
     }
 }
 
-/// The TCP by both witnesses, for one configuration after another.
-struct Witnesses {
+/// The TCP by both sources, for one configuration after another.
+struct Sources {
     table: Option<DhChain>,
     tree: UrdfTree,
     base: LinkIndex,
@@ -84,7 +84,7 @@ struct Witnesses {
     tip_from_tcp: Pose,
 }
 
-impl Witnesses {
+impl Sources {
     fn new(description: &RobotDescription) -> Self {
         let robot = &description.robot;
         Self {
@@ -96,15 +96,15 @@ impl Witnesses {
         }
     }
 
-    fn base_from_tcp(&self, q: &[f64]) -> Result<ByWitness<Pose>, KinematicsError> {
+    fn base_from_tcp(&self, q: &[f64]) -> Result<BySource<Pose>, KinematicsError> {
         let base_from_root = self.tree.root_from_link(q, self.base)?.inverse();
         let urdf = base_from_root * self.tree.root_from_link(q, self.tip)? * self.tip_from_tcp;
         let by_table = |table: &DhChain| table.base_from_tcp(q, &self.tip_from_tcp);
-        Ok(ByWitness { model: self.table.as_ref().map(by_table).transpose()?, urdf })
+        Ok(BySource { model: self.table.as_ref().map(by_table).transpose()?, urdf })
     }
 }
 
-impl<T> ByWitness<T> {
+impl<T> BySource<T> {
     /// `table`, where there is one, and `URDF`, each with what it says.
     pub fn named(&self) -> impl Iterator<Item = (&'static str, &T)> {
         self.model.iter().map(|model| ("table", model)).chain([("URDF", &self.urdf)])
@@ -115,19 +115,19 @@ impl<T> ByWitness<T> {
 ///
 /// # Errors
 /// [`KinematicsError`] when a configuration is none of the robot.
-pub fn basics(
+pub(crate) fn basics(
     description: &RobotDescription,
     configurations: &[Vec<f64>],
 ) -> Result<Basics, KinematicsError> {
     let robot = &description.robot;
-    let witnesses = Witnesses::new(description);
+    let sources = Sources::new(description);
     let mut zero = vec![0.0; robot.dof()];
     robot.apply_mimic(&mut zero);
-    let at_zero = witnesses.base_from_tcp(&zero)?;
+    let at_zero = sources.base_from_tcp(&zero)?;
     let mut basics = Basics {
         base: robot.link(description.base).name.clone(),
         tip: robot.link(description.tip).name.clone(),
-        zero: ByWitness {
+        zero: BySource {
             model: at_zero.model.as_ref().map(ReportedPose::from),
             urdf: ReportedPose::from(&at_zero.urdf),
         },
@@ -138,21 +138,21 @@ pub fn basics(
         round_trip_rad: 0.0,
     };
     for step in axis_steps(robot) {
-        let moved = witnesses.base_from_tcp(&step.q)?;
+        let moved = sources.base_from_tcp(&step.q)?;
         let by_table = at_zero.model.as_ref().zip(moved.model.as_ref());
         let joint = robot.joint(step.joint);
         basics.joints.push(JointMotion {
             joint: joint.name.clone(),
             by: step.by,
             unit: joint.kind.unit(),
-            motion: ByWitness {
+            motion: BySource {
                 model: by_table.map(|(before, after)| TcpMotion::between(before, after)),
                 urdf: TcpMotion::between(&at_zero.urdf, &moved.urdf),
             },
         });
     }
     for q in configurations {
-        witnesses.base_from_tcp(q)?.named().for_each(|(_, base_from_tcp)| basics.observe(base_from_tcp));
+        sources.base_from_tcp(q)?.named().for_each(|(_, base_from_tcp)| basics.observe(base_from_tcp));
     }
     Ok(basics)
 }

@@ -1,7 +1,7 @@
 //! The certificates of a robot: how far two of its models can be apart at link `tip`, over the whole
-//! joint range, sampled or not. Table and URDF are known, the physics as far as it was probed.
+//! joint range, sampled or not. Table and URDF are known, the physics as far as it was identified.
 
-use congruent_description::{DhTable, Mimic, NamedValue, Robot, RobotDescription};
+use congruent_description::{DhTable, JointValues, Mimic, Robot, RobotDescription};
 use congruent_kinematics::{
     DhChain, LinkPoses, Pose, PoseError, ScrewChain, Twist, UrdfTree, move_inside_limits, range,
 };
@@ -10,26 +10,17 @@ use serde::Serialize;
 use crate::{
     bound::{Bracket, Budget, Certificate, certify_driven},
     compare::{
-        check::CheckError,
-        identified::{KEPT, Probed, base_from_tip},
+        error::CheckError,
+        identified::{IdentifiedChain, SCREW_RESIDUAL_LIMIT, base_from_tip},
     },
 };
 
 pub use crate::compare::identified::Premise;
 
-/// How far a probed chain may be from what it was probed from, for each metre of its screws'
+/// How far a identified chain may be from what it was identified from, for each metre of its screws'
 /// moments and of its home pose (and as an angle). Kind: rounding; a logarithm over half a unit and
 /// three products for each joint, some 20 eps; worst seen 6 eps.
-const PROBE_ROUNDING: f64 = 32.0 * f64::EPSILON;
-
-/// No configuration is further apart than this.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Bounds {
-    /// Distance of the origins of link `tip`.
-    pub position_m: f64,
-    /// Angle between the orientations of link `tip`.
-    pub orientation_rad: f64,
-}
+const IDENTIFICATION_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// One worst disagreement, bracketed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -39,8 +30,7 @@ pub struct ReportedBracket {
     /// The bound; m or rad.
     pub certified: f64,
     /// A configuration that attains it: the joints that move the tip, rad or m.
-    #[serde(serialize_with = "congruent_description::as_map")]
-    pub at: Vec<NamedValue>,
+    pub at: JointValues,
 }
 
 /// Both brackets of one robot.
@@ -58,18 +48,18 @@ impl Brackets {
     pub(crate) fn attained_at(&self, robot: &Robot) -> [Vec<f64>; 2] {
         [&self.position_m, &self.orientation_rad].map(|bracket| {
             let mut q = vec![0.0; robot.dof()];
-            for NamedValue { joint, value } in &bracket.at {
+            for (joint, value) in bracket.at.iter() {
                 let joint = robot.find_joint(joint).expect("the bracket names joints of the robot");
-                q[robot.coordinate(joint).expect("a joint that drives the tip moves")] = *value;
+                q[robot.coordinate(joint).expect("a joint that drives the tip moves")] = value;
             }
             move_inside_limits(&mut q, robot);
             q
         })
     }
 
-    /// The bounds alone.
-    pub fn bounds(&self) -> Bounds {
-        Bounds { position_m: self.position_m.certified, orientation_rad: self.orientation_rad.certified }
+    /// The bounds alone: no configuration is further apart.
+    pub fn bounds(&self) -> PoseError {
+        PoseError { position_m: self.position_m.certified, orientation_rad: self.orientation_rad.certified }
     }
 }
 
@@ -89,7 +79,7 @@ pub struct ReportedCertificate {
 }
 
 /// The largest bounds of several certificates, each with where it is attained.
-pub fn worst(certificates: &[ReportedCertificate]) -> Option<Brackets> {
+pub(crate) fn worst(certificates: &[ReportedCertificate]) -> Option<Brackets> {
     let brackets = || certificates.iter().filter_map(|certificate| certificate.brackets.as_ref());
     let largest = |of: fn(&Brackets) -> &ReportedBracket| {
         let larger = |a: &&ReportedBracket, b: &&ReportedBracket| a.certified.total_cmp(&b.certified);
@@ -109,18 +99,18 @@ pub fn worst(certificates: &[ReportedCertificate]) -> Option<Brackets> {
 /// [`CheckError`] when table and robot do not fit together, or the physics refuses a configuration.
 pub(crate) fn certificates(
     description: &RobotDescription,
-    probed: &Probed,
+    identified: &IdentifiedChain,
     physics: &mut dyn LinkPoses,
 ) -> Result<Vec<ReportedCertificate>, CheckError> {
     let robot = &description.robot;
     if robot.chain(description.base, description.tip).is_none() {
         return Ok(Vec::new());
     }
-    let (urdf, identified) = (Side::urdf(description)?, Side::physics(description, probed));
-    let urdf_physics = if probed.premise.holds { certified(robot, [&urdf, &identified])? } else { None };
-    let premise = Some(probed.premise);
+    let (urdf, simulated) = (Side::urdf(description)?, Side::physics(description, identified));
+    let urdf_physics = if identified.premise.holds { certified(robot, [&urdf, &simulated])? } else { None };
+    let premise = Some(identified.premise);
     let Some(table) = &description.dh else {
-        let brackets = report(robot, [&urdf, &identified], urdf_physics, physics)?;
+        let brackets = report(robot, [&urdf, &simulated], urdf_physics, physics)?;
         let (name, between) = ("urdf_simulation", "URDF and physics");
         return Ok(vec![ReportedCertificate { name, between, brackets, premise }]);
     };
@@ -130,11 +120,11 @@ pub(crate) fn certificates(
         (Some(table_urdf), Some(urdf_physics)) if is_rounding(&urdf_physics) => {
             Some(by_way_of(table_urdf, &urdf_physics))
         }
-        (_, Some(_)) => certified(robot, [&table, &identified])?,
+        (_, Some(_)) => certified(robot, [&table, &simulated])?,
         (_, None) => None,
     };
     let of_urdf = report(robot, [&table, &urdf], table_urdf, physics)?;
-    let of_physics = report(robot, [&table, &identified], table_physics, physics)?;
+    let of_physics = report(robot, [&table, &simulated], table_physics, physics)?;
     Ok(vec![
         ReportedCertificate {
             name: "model_urdf",
@@ -153,22 +143,22 @@ pub(crate) fn certificates(
 
 /// A model of the chain from base to tip.
 struct Side<'a> {
-    driven: Driven,
+    driven: DrivenScrews,
     /// How far the model was found from its screws.
     residual: PoseError,
     /// The model itself, at a configuration of the robot.
-    base_from_tip: Box<Forward<'a>>,
+    base_from_tip: Box<TipPose<'a>>,
 }
 
 /// Pose of the tip in the base; the physics is asked in its world.
-type Forward<'a> = dyn Fn(&mut dyn LinkPoses, &[f64]) -> Result<Pose, CheckError> + 'a;
+type TipPose<'a> = dyn Fn(&mut dyn LinkPoses, &[f64]) -> Result<Pose, CheckError> + 'a;
 
 impl<'a> Side<'a> {
     fn table(robot: &Robot, table: &DhTable) -> Result<Self, CheckError> {
         let by_table = DhChain::new(table, robot);
         let chain = ScrewChain::from_dh(&by_table, robot.dof())?;
         Ok(Self {
-            driven: Driven::new(robot, by_table.coordinates(), &chain),
+            driven: DrivenScrews::new(robot, by_table.coordinates(), &chain),
             residual: PoseError::default(),
             base_from_tip: Box::new(move |_, q| Ok(by_table.base_from_tip(q)?)),
         })
@@ -180,7 +170,7 @@ impl<'a> Side<'a> {
             (UrdfTree::new(robot), *base, *tip, description.moving_coordinates());
         let chain = ScrewChain::from_urdf(robot, (base, tip), &coordinates)?;
         Ok(Self {
-            driven: Driven::new(robot, &coordinates, &chain),
+            driven: DrivenScrews::new(robot, &coordinates, &chain),
             residual: PoseError::default(),
             base_from_tip: Box::new(move |_, q| {
                 Ok(tree.root_from_link(q, base)?.inverse() * tree.root_from_link(q, tip)?)
@@ -188,10 +178,14 @@ impl<'a> Side<'a> {
         })
     }
 
-    fn physics(description: &'a RobotDescription, probed: &Probed) -> Self {
-        let Premise { residual_m: position_m, residual_rad: orientation_rad, .. } = probed.premise;
+    fn physics(description: &'a RobotDescription, identified: &IdentifiedChain) -> Self {
+        let Premise { residual_m: position_m, residual_rad: orientation_rad, .. } = identified.premise;
         Self {
-            driven: Driven::new(&description.robot, &description.moving_coordinates(), &probed.chain),
+            driven: DrivenScrews::new(
+                &description.robot,
+                &description.moving_coordinates(),
+                &identified.chain,
+            ),
             residual: PoseError { position_m, orientation_rad },
             base_from_tip: Box::new(|physics, q| Ok(base_from_tip(description, physics, q)?)),
         }
@@ -226,7 +220,7 @@ fn drives(sides: [&Side<'_>; 2], index: usize) -> bool {
 
 /// Whether two models are the same but for rounding.
 fn is_rounding(certificate: &Certificate) -> bool {
-    certificate.position_m.certified.max(certificate.orientation_rad.certified) <= KEPT
+    certificate.position_m.certified.max(certificate.orientation_rad.certified) <= SCREW_RESIDUAL_LIMIT
 }
 
 /// From a to c by way of b, which is all but c: no further than both ways together.
@@ -253,7 +247,7 @@ fn report(
         let attained = measure(PoseError::between(&a?, &b?)).min(certified);
         let name = |index: usize| robot.joint(robot.movable_joints()[index]).name.clone();
         let driving = at.iter().enumerate().filter(|&(index, _)| drives(sides, index));
-        let at = driving.map(|(index, &value)| NamedValue { joint: name(index), value }).collect();
+        let at = driving.map(|(index, &value)| (name(index), value)).collect();
         Ok::<_, CheckError>(ReportedBracket { attained, certified, at })
     };
     Ok(Some(Brackets {
@@ -264,24 +258,24 @@ fn report(
 
 /// A chain in terms of the positions that drive it.
 #[derive(Debug, Clone)]
-struct Driven {
+struct DrivenScrews {
     chain: ScrewChain,
     /// For each joint the entry of the configuration vector that moves it, a mimicked joint's own.
     drivers: Vec<usize>,
 }
 
-impl Driven {
+impl DrivenScrews {
     /// Of a chain whose joints are these entries of the configuration vector.
     fn new(robot: &Robot, coordinates: &[usize], chain: &ScrewChain) -> Self {
         let ties: Vec<Tie> = coordinates.iter().map(|&coordinate| Tie::of(robot, coordinate)).collect();
         Self { chain: tied(&ties, chain), drivers: ties.iter().map(|tie| tie.driver).collect() }
     }
 
-    /// How far a probed chain may be from what it stands for.
+    /// How far a identified chain may be from what it stands for.
     fn rounding(&self) -> f64 {
         let ScrewChain { twists_in_base, base_from_tip_at_zero } = &self.chain;
         let moments = twists_in_base.iter().map(|twist| 1.0 + twist.linear.norm());
-        PROBE_ROUNDING * (moments.sum::<f64>() + 1.0 + base_from_tip_at_zero.translation.norm())
+        IDENTIFICATION_ROUNDING * (moments.sum::<f64>() + 1.0 + base_from_tip_at_zero.translation.norm())
     }
 }
 
@@ -309,7 +303,7 @@ fn tied(ties: &[Tie], chain: &ScrewChain) -> ScrewChain {
     let mut moved = Pose::identity();
     let mut twists_in_base = Vec::with_capacity(ties.len());
     for (tie, twist) in ties.iter().zip(&chain.twists_in_base) {
-        let twist = twist.seen_from(&moved);
+        let twist = twist.transformed_by(&moved);
         moved = twist.exp(tie.offset) * moved;
         let Twist { angular, linear } = twist;
         twists_in_base.push(Twist { angular: angular * tie.multiplier, linear: linear * tie.multiplier });
@@ -333,10 +327,10 @@ mod tests {
             let tree = UrdfTree::new(robot);
             let by_urdf = description.moving_coordinates();
             let table = ScrewChain::from_dh(&by_table, robot.dof()).unwrap();
-            let table = Driven::new(robot, by_table.coordinates(), &table);
+            let table = DrivenScrews::new(robot, by_table.coordinates(), &table);
             let urdf = ScrewChain::from_urdf(robot, (description.base, description.tip), &by_urdf).unwrap();
-            let urdf = Driven::new(robot, &by_urdf, &urdf);
-            for q in congruent_kinematics::probe_configurations(robot, 0, 50) {
+            let urdf = DrivenScrews::new(robot, &by_urdf, &urdf);
+            for q in congruent_kinematics::sample_configurations(robot, 0, 50) {
                 let root_from = |link| tree.root_from_link(&q, link).unwrap();
                 let by_tree = root_from(description.base).inverse() * root_from(description.tip);
                 for (side, pose) in [(&table, by_table.base_from_tip(&q).unwrap()), (&urdf, by_tree)] {

@@ -5,12 +5,12 @@ use congruent_description::RobotDescription;
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, ScrewChain};
 use serde::Serialize;
 
-/// What is left of screws that were probed, over a whole joint range. Unit: m or rad; kind: rounding,
+/// What is left of screws that were identified, over a whole joint range. Unit: m or rad; kind: rounding,
 /// which certificates add; worst seen 3.8e-14.
-pub(crate) const KEPT: f64 = 1e-10;
+pub(crate) const SCREW_RESIDUAL_LIMIT: f64 = 1e-10;
 
 /// A black box is a chain of screws only as far as one has looked: how far the physics was from the
-/// chain that was probed, at worst.
+/// chain that was identified, at worst.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Premise {
     /// Number of configurations of the whole robot at which it was looked.
@@ -25,13 +25,13 @@ pub struct Premise {
 
 /// What probing has found.
 #[derive(Debug, Clone)]
-pub(crate) struct Probed {
+pub(crate) struct IdentifiedChain {
     /// Joints are the moving joints from base to tip.
     pub(crate) chain: ScrewChain,
     pub(crate) premise: Premise,
 }
 
-impl Probed {
+impl IdentifiedChain {
     /// Asks the physics around one configuration, all joints beside the chain at zero, and then at
     /// `configurations`, where they are not.
     ///
@@ -45,7 +45,7 @@ impl Probed {
         let coordinates = description.moving_coordinates();
         let mut q = vec![0.0; description.robot.dof()];
         let mut refused = None;
-        let chain = ScrewChain::probe(coordinates.len(), |values| {
+        let chain = ScrewChain::identify(coordinates.len(), |values| {
             for (&coordinate, &value) in coordinates.iter().zip(values) {
                 q[coordinate] = value;
             }
@@ -67,7 +67,7 @@ impl Probed {
             configurations: configurations.len(),
             residual_m: worst.position_m,
             residual_rad: worst.orientation_rad,
-            holds: worst.position_m <= KEPT && worst.orientation_rad <= KEPT,
+            holds: worst.position_m <= SCREW_RESIDUAL_LIMIT && worst.orientation_rad <= SCREW_RESIDUAL_LIMIT,
         };
         Ok(Self { chain, premise })
     }

@@ -1,8 +1,17 @@
 //! Sources of link poses against each other: without motion, configuration by configuration, and as chains of
 //! screws over the whole joint range.
 
-pub mod basics;
-pub mod certificate;
-pub mod check;
+pub(crate) mod basics;
+pub(crate) mod certificate;
+pub(crate) mod check;
+pub(crate) mod check_report;
+pub(crate) mod error;
 pub(crate) mod identified;
-pub mod model;
+pub(crate) mod model;
+
+pub use basics::{Basics, BySource, JointMotion, TcpMotion};
+pub use certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate};
+pub use check::{CheckOptions, RANDOM_CONFIGURATIONS, check};
+pub use check_report::{Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, WorstDifference};
+pub use error::CheckError;
+pub use model::{Model, PoseSource};

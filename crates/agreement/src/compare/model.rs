@@ -1,4 +1,4 @@
-//! The analytical witness: a pose for every link from the declared table where it reaches, from
+//! The analytical fault_context: a pose for every link from the declared table where it reaches, from
 //! the URDF chain elsewhere, and a note of which it was.
 
 use congruent_description::{LinkIndex, Robot, RobotDescription};

@@ -1,23 +1,23 @@
-//! Suspect and reference from what a description declares.
+//! Candidate and reference from what a description declares.
 
 use congruent_description::{DhTable, JointIndex, JointKind, LinkIndex, Robot};
 use congruent_kinematics::Twist;
 use nalgebra::Vector3;
 
 use super::{
-    reference::{Reference, ReferenceJoint},
-    suspect::{Suspect, SuspectLink, SuspectRow},
+    candidate::{Candidate, CandidateRow, RowConstants},
+    reference_model::{ReferenceJoint, ReferenceModel},
 };
 
-impl Suspect {
-    /// The suspect that a table declares; its rows are driven by `joints`, the moving joints of the
+impl Candidate {
+    /// The candidate that a table declares; its rows are driven by `joints`, the moving joints of the
     /// reference from base to tip. `None` when a row names another joint.
     pub fn from_table(table: &DhTable, joints: &[JointIndex]) -> Option<Self> {
         let row = |row: &congruent_description::DhRow| {
-            Some(SuspectRow {
+            Some(CandidateRow {
                 joint: joints.iter().position(|joint| *joint == row.joint)?,
                 rate: row.sign,
-                link: SuspectLink::Dh {
+                link: RowConstants::Dh {
                     kind: row.kind,
                     a_m: row.a_m,
                     alpha_rad: row.alpha_rad,
@@ -35,7 +35,7 @@ impl Suspect {
     }
 }
 
-impl Reference {
+impl ReferenceModel {
     /// The chain of a robot from link `base` to link `tip`, with the joints that it consists of, fixed
     /// ones included. `None` where `tip` does not hang below the body of `base`.
     pub fn from_urdf(robot: &Robot, base: LinkIndex, tip: LinkIndex) -> Option<(Self, Vec<JointIndex>)> {

@@ -1,11 +1,11 @@
-//! A hypothesis about what is wrong: what to change in the suspect or in the reference, and which
+//! A hypothesis about what is wrong: what to change in the candidate or in the reference, and which
 //! numbers to leave free. The catalogue of them is `cause/`.
 
 use std::fmt;
 
 use super::{
-    reference::Reference,
-    suspect::{Entry, Parameter, Suspect},
+    candidate::{Candidate, DhEntry, ModelParameter},
+    reference_model::ReferenceModel,
 };
 
 /// What can be wrong, by its stable name.
@@ -80,12 +80,12 @@ impl fmt::Display for Cause {
 pub enum Place {
     /// The table as a whole.
     Model,
-    /// Rows of the suspect, by number from 0.
+    /// Rows of the candidate, by number from 0.
     Rows(Vec<usize>),
     /// One entry of some rows.
-    Entries(Entry, Vec<usize>),
+    Entries(DhEntry, Vec<usize>),
     /// All entries of a kind: a column, lengths, angles.
-    Column(Vec<Entry>),
+    Column(Vec<DhEntry>),
     /// The declared transform before the rows.
     Base,
     /// The declared transform after the rows.
@@ -96,41 +96,45 @@ pub enum Place {
 
 /// Both models, as hypotheses change them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Case {
+pub struct ModelPair {
     /// The model under suspicion.
-    pub suspect: Suspect,
+    pub candidate: Candidate,
     /// What it is held against.
-    pub reference: Reference,
+    pub reference: ReferenceModel,
 }
 
-/// One way in which the suspect may be wrong.
+/// One way in which the candidate may be wrong.
 pub(super) struct Hypothesis {
     pub(super) cause: Cause,
     pub(super) place: Place,
     /// What is undone before anything is fitted.
     pub(super) edit: Option<Edit>,
     /// The numbers that are fitted.
-    pub(super) free: Vec<Parameter>,
+    pub(super) free: Vec<ModelParameter>,
 }
 
 /// A change to the models.
-pub(super) type Edit = Box<dyn Fn(&mut Case) + Send + Sync>;
+pub(super) type Edit = Box<dyn Fn(&mut ModelPair) + Send + Sync>;
 
 impl Hypothesis {
     /// A change without a free number.
-    pub(super) fn edit(cause: Cause, place: Place, edit: impl Fn(&mut Case) + Send + Sync + 'static) -> Self {
+    pub(super) fn edit(
+        cause: Cause,
+        place: Place,
+        edit: impl Fn(&mut ModelPair) + Send + Sync + 'static,
+    ) -> Self {
         Self { cause, place, edit: Some(Box::new(edit)), free: Vec::new() }
     }
 
     /// Free numbers and no other change.
-    pub(super) fn fit(cause: Cause, place: Place, free: Vec<Parameter>) -> Self {
+    pub(super) fn fit(cause: Cause, place: Place, free: Vec<ModelParameter>) -> Self {
         Self { cause, place, edit: None, free }
     }
 
     /// Undoes what the hypothesis says went wrong, except for its free numbers.
-    pub(super) fn apply(&self, case: &mut Case) {
+    pub(super) fn apply(&self, models: &mut ModelPair) {
         if let Some(edit) = &self.edit {
-            edit(case);
+            edit(models);
         }
     }
 }

@@ -4,7 +4,7 @@
 use congruent_kinematics::{ScrewChain, Twist};
 use nalgebra::Vector3;
 
-use super::hypothesis::Case;
+use super::hypothesis::ModelPair;
 
 /// Differences below this, in m, rad or without unit, are rounding of a probe.
 const ROUNDING: f64 = 1e-9;
@@ -60,20 +60,20 @@ pub struct JointDifference {
     pub invariant: Invariant,
     /// The joint, from 0; of two or three consecutive axes the first.
     pub joint: usize,
-    /// Of the suspect.
+    /// Of the candidate.
     pub found: f64,
     /// Of the reference.
     pub expected: f64,
 }
 
 /// Everything in which the chains differ, the most invariant quantities first.
-pub(super) fn compare(case: &Case) -> Vec<JointDifference> {
-    let joints = case.reference.joint_count();
-    let suspect = ScrewChain::probe(joints, |q| case.suspect.base_from_tip(q));
-    let reference = case.reference.screws();
+pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
+    let joints = models.reference.joint_count();
+    let candidate = ScrewChain::identify(joints, |q| models.candidate.base_from_tip(q));
+    let reference = models.reference.screws();
     let mut differences = Vec::new();
-    let (found_here, expected_here) = (quantities(&suspect), quantities(&reference));
-    let value = |list: &[Quantity], at: usize, of: Invariant| {
+    let (found_here, expected_here) = (quantities(&candidate), quantities(&reference));
+    let value = |list: &[JointQuantity], at: usize, of: Invariant| {
         list.iter().find(|(joint, (kind, _))| (*joint, *kind) == (at, of)).map(|(_, (_, value))| *value)
     };
     for &(joint, (invariant, found)) in &found_here {
@@ -94,7 +94,8 @@ pub(super) fn compare(case: &Case) -> Vec<JointDifference> {
             differences.push(JointDifference { invariant, joint, found: f64::NAN, expected });
         }
     }
-    if let (Some(found), Some(expected)) = (suspect.twists_in_base.first(), reference.twists_in_base.first())
+    if let (Some(found), Some(expected)) =
+        (candidate.twists_in_base.first(), reference.twists_in_base.first())
     {
         let off = (found.angular - expected.angular).norm().hypot((found.linear - expected.linear).norm());
         if off > ROUNDING {
@@ -106,7 +107,7 @@ pub(super) fn compare(case: &Case) -> Vec<JointDifference> {
             });
         }
     }
-    let (found, expected) = (suspect.base_from_tip_at_zero, reference.base_from_tip_at_zero);
+    let (found, expected) = (candidate.base_from_tip_at_zero, reference.base_from_tip_at_zero);
     let off = found.distance_m(&expected).hypot(found.angle_rad(&expected));
     if off > ROUNDING {
         let joint = joints.saturating_sub(1);
@@ -117,13 +118,13 @@ pub(super) fn compare(case: &Case) -> Vec<JointDifference> {
 }
 
 /// A joint's axis as a line; `through` is `None` for a joint that shifts.
-struct Axis {
+struct AxisLine {
     direction: Vector3<f64>,
     through: Option<Vector3<f64>>,
     ratio: f64,
 }
 
-impl Axis {
+impl AxisLine {
     /// `None` for a joint that moves nothing.
     fn of(twist: &Twist) -> Option<Self> {
         let Twist { angular, linear } = twist;
@@ -159,11 +160,11 @@ impl Axis {
 }
 
 /// A quantity with the joint that it belongs to.
-type Quantity = (usize, (Invariant, f64));
+type JointQuantity = (usize, (Invariant, f64));
 
 /// All quantities of a chain that it has.
-fn quantities(chain: &ScrewChain) -> Vec<Quantity> {
-    let axes: Vec<Option<Axis>> = chain.twists_in_base.iter().map(Axis::of).collect();
+fn quantities(chain: &ScrewChain) -> Vec<JointQuantity> {
+    let axes: Vec<Option<AxisLine>> = chain.twists_in_base.iter().map(AxisLine::of).collect();
     let mut list = Vec::new();
     for (joint, axis) in axes.iter().enumerate() {
         let Some(axis) = axis else { continue };

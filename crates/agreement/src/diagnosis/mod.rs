@@ -1,28 +1,28 @@
 //! Do two kinematic models describe the same robot, and if not, why? One rung of the answer in each
-//! file: probe, invariants, gauge, cause, certificate.
+//! file: probe, invariants, equivalence, cause, certificate.
 //!
-//! The suspect is a table or anything that can be probed; the reference is a chain of joints. Both
+//! The candidate is a table or anything that can be identified; the reference is a chain of joints. Both
 //! are compared as screws and tip at one generic configuration, which is exact, and a catalogue of
 //! hypotheses is tried on the difference. How far the two are apart at most is the certificate's.
 
+mod candidate;
 mod cause;
 mod described;
-mod diagnosis;
-mod gauge;
+mod equivalence;
+mod evaluation_point;
+mod explanation;
 mod hypothesis;
+mod hypothesis_fit;
 mod invariants;
-mod reference;
-mod refit;
+mod least_squares;
+mod reference_model;
 mod score;
 mod search;
-mod snapshot;
-mod suspect;
-mod trial;
 
-pub use diagnosis::{Diagnosis, Explanation, Part, Question, Residual};
-pub use gauge::Gauge;
-pub use hypothesis::{Case, Cause, Place};
+pub use candidate::{Candidate, CandidateRow, Constant, DhEntry, ModelParameter, RowConstants};
+pub use equivalence::Equivalence;
+pub use explanation::{Criterion, Explanation, Part};
+pub use hypothesis::{Cause, ModelPair, Place};
 pub use invariants::{Invariant, JointDifference};
-pub use reference::{Reference, ReferenceJoint};
-pub use search::diagnose;
-pub use suspect::{Constant, Entry, Parameter, Suspect, SuspectLink, SuspectRow};
+pub use reference_model::{ReferenceJoint, ReferenceModel};
+pub use search::{Diagnosis, diagnose};

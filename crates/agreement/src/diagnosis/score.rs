@@ -5,11 +5,13 @@
 //! but the best explanation shows it. What leaves orders of magnitude more than that is refuted at
 //! any price, and of the others, which leave what a file's rounding leaves, the cheapest is named.
 
+use congruent_kinematics::PoseError;
+
 use super::{
-    diagnosis::{Question, Residual},
-    hypothesis::{Case, Cause, Hypothesis, Place},
-    suspect::{Constant, Entry, Parameter, Suspect},
-    trial::{Bench, Trial},
+    candidate::{Candidate, Constant, DhEntry, ModelParameter},
+    explanation::Criterion,
+    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    hypothesis_fit::{FitContext, HypothesisFit},
 };
 
 /// Residuals below this, in m or rad, are rounding: of a fit, or of ten digits in a file.
@@ -31,7 +33,7 @@ pub(super) struct Rank {
     price: usize,
     /// What is left: far below the tolerance, below it, or at it.
     left: u8,
-    /// Figures that are blamed although nothing stands there, or that a slip leaves near nothing.
+    /// Figures that are named although nothing stands there, or that a slip leaves near nothing.
     unlikely: usize,
     /// Blames of the other file.
     elsewhere: usize,
@@ -41,72 +43,79 @@ pub(super) struct Rank {
     hypotheses: Vec<usize>,
 }
 
-pub(super) fn rank(bench: &Bench<'_>, trial: &Trial, question: &Question) -> Rank {
-    let parts = || trial.hypotheses.iter().map(|&at| &bench.hypotheses[at]);
-    let residual = trial.mended.residual(question);
-    let share = question.share(&residual);
+pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Criterion) -> Rank {
+    let parts = || fit.hypotheses.iter().map(|&at| &context.hypotheses[at]);
+    let residual = fit.corrected.residual(criterion);
+    let share = criterion.share(&residual);
     let mut causes: Vec<Cause> = parts().map(|hypothesis| hypothesis.cause).collect();
     causes.sort_unstable();
     let slips: usize = parts()
-        .filter_map(|hypothesis| Slip::of(bench, trial, hypothesis))
+        .filter_map(|hypothesis| EvaluatedSlip::of(context, fit, hypothesis))
         .map(|slip| slip.unproved(&residual))
         .sum();
-    let unwritten = parts().filter(|hypothesis| is_unwritten(&bench.case.suspect, hypothesis)).count();
-    let numbers: usize = parts().map(|hypothesis| numbers(bench, trial, hypothesis)).sum();
+    let unwritten = parts().filter(|hypothesis| is_unwritten(&context.models.candidate, hypothesis)).count();
+    let numbers: usize = parts().map(|hypothesis| numbers(context, fit, hypothesis)).sum();
     Rank {
-        price: numbers + slips + trial.hypotheses.len() - 1,
+        price: numbers + slips + fit.hypotheses.len() - 1,
         left: if share <= 0.1 { 0 } else { u8::from(share > 0.3) + 1 },
         unlikely: unwritten + slips,
         elsewhere: parts().filter(|hypothesis| is_elsewhere(hypothesis)).count(),
         causes,
-        hypotheses: trial.hypotheses.clone(),
+        hypotheses: fit.hypotheses.clone(),
     }
 }
 
 /// Whether an explanation leaves so much more than the best that both cannot be right.
-pub(super) fn is_refuted(bench: &Bench<'_>, trial: &Trial, question: &Question, best: &Residual) -> bool {
-    let left = trial.mended.residual(question);
-    let above = |residual: &Residual| {
-        question.share(&Residual {
+pub(super) fn is_refuted(
+    context: &FitContext<'_>,
+    fit: &HypothesisFit,
+    criterion: &Criterion,
+    best: &PoseError,
+) -> bool {
+    let left = fit.corrected.residual(criterion);
+    let above = |residual: &PoseError| {
+        criterion.share(&PoseError {
             position_m: residual.position_m.max(ROUNDING),
             orientation_rad: residual.orientation_rad.max(ROUNDING),
         })
     };
     let is_certain = |at: &usize| {
-        Slip::of(bench, trial, &bench.hypotheses[*at]).is_some_and(|slip| slip.is_above(CERTAIN, &left))
+        EvaluatedSlip::of(context, fit, &context.hypotheses[*at])
+            .is_some_and(|slip| slip.is_above(CERTAIN, &left))
     };
-    above(&left) > FAR * above(best) && !trial.hypotheses.iter().all(is_certain)
+    above(&left) > FAR * above(best) && !fit.hypotheses.iter().all(is_certain)
 }
 
-impl Question {
+impl Criterion {
     /// A residual in tolerances.
-    pub(super) fn share(&self, residual: &Residual) -> f64 {
-        (residual.position_m / self.position_m).max(residual.orientation_rad / self.orientation_rad)
+    pub(super) fn share(&self, residual: &PoseError) -> f64 {
+        (residual.position_m / self.tolerance.position_m)
+            .max(residual.orientation_rad / self.tolerance.orientation_rad)
     }
 }
 
 /// What a hypothesis is free to choose, in numbers. Another order of angles in the other file is a
 /// choice as well: of quarter turns, where every order is some quarter turn, as good as any three.
-fn numbers(bench: &Bench<'_>, trial: &Trial, hypothesis: &Hypothesis) -> usize {
+fn numbers(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> usize {
     let Place::ReferenceJoints(joints) = &hypothesis.place else { return hypothesis.free.len() };
     if !is_elsewhere(hypothesis) {
         return hypothesis.free.len();
     }
-    let by_quarters = |case: &Case| {
+    let by_quarters = |models: &ModelPair| {
         let mut rotations =
-            joints.iter().map(|&joint| case.reference.joints[joint].parent_from_joint.rotation);
+            joints.iter().map(|&joint| models.reference.joints[joint].parent_from_joint.rotation);
         rotations.all(|rotation| (rotation - rotation.map(f64::round)).amax() < QUARTER_TURNS)
     };
-    if by_quarters(bench.case) && by_quarters(&trial.mended) { 3 } else { 1 }
+    if by_quarters(context.models) && by_quarters(&fit.corrected) { 3 } else { 1 }
 }
 
-/// Whether the other file is blamed for what it says, not the model for how it was made from it.
+/// Whether the other file is named for what it says, not the model for how it was made from it.
 fn is_elsewhere(hypothesis: &Hypothesis) -> bool {
     hypothesis.cause == Cause::RpyOrder && matches!(hypothesis.place, Place::ReferenceJoints(_))
 }
 
 /// The figures that a slip of a unit changes.
-struct Slip {
+struct EvaluatedSlip {
     is_angle: bool,
     /// How many are not zero; of a vector all.
     figures: usize,
@@ -115,19 +124,19 @@ struct Slip {
     expected: f64,
 }
 
-impl Slip {
+impl EvaluatedSlip {
     /// Of a hypothesis about the unit of some figures; a unit of positions is none of those.
-    fn of(bench: &Bench<'_>, trial: &Trial, hypothesis: &Hypothesis) -> Option<Self> {
+    fn of(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> Option<Self> {
         let is_angle = match hypothesis.cause {
             Cause::DegreesAsRadians | Cause::RadiansAsDegrees => true,
             Cause::MillimetresAsMetres => false,
             _ => return None,
         };
-        let figures = |suspect: &Suspect| -> Vec<f64> {
-            let column = |entries: &[Entry]| {
-                let rows = 0..suspect.rows.len();
+        let figures = |candidate: &Candidate| -> Vec<f64> {
+            let column = |entries: &[DhEntry]| {
+                let rows = 0..candidate.rows.len();
                 let figures =
-                    rows.flat_map(|row| entries.iter().filter_map(move |&entry| suspect.entry(row, entry)));
+                    rows.flat_map(|row| entries.iter().filter_map(move |&entry| candidate.entry(row, entry)));
                 figures.collect()
             };
             let constant = |constant: &Constant| match constant.written_rpy_rad {
@@ -138,18 +147,19 @@ impl Slip {
                 _ => constant.pose.translation.as_slice().to_vec(),
             };
             match &hypothesis.place {
-                Place::Entries(entry, rows) => suspect.entry(rows[0], *entry).into_iter().collect(),
+                Place::Entries(entry, rows) => candidate.entry(rows[0], *entry).into_iter().collect(),
                 Place::Column(entries) => column(entries),
-                Place::Base => constant(&suspect.base),
-                Place::Tool => constant(&suspect.tool),
+                Place::Base => constant(&candidate.base),
+                Place::Tool => constant(&candidate.tool),
                 Place::Model => {
-                    [column(&[Entry::A, Entry::D]), constant(&suspect.base), constant(&suspect.tool)].concat()
+                    [column(&[DhEntry::A, DhEntry::D]), constant(&candidate.base), constant(&candidate.tool)]
+                        .concat()
                 }
                 Place::Rows(_) | Place::ReferenceJoints(_) => Vec::new(),
             }
         };
         let largest = |figures: &[f64]| figures.iter().fold(0.0_f64, |most, figure| most.max(figure.abs()));
-        let (found, expected) = (figures(&bench.case.suspect), figures(&trial.mended.suspect));
+        let (found, expected) = (figures(&context.models.candidate), figures(&fit.corrected.candidate));
         let is_written = found.iter().any(|figure| *figure != 0.0);
         let is_vector = matches!(hypothesis.place, Place::Base | Place::Tool);
         let count = found.iter().filter(|figure| is_vector || **figure != 0.0).count();
@@ -161,27 +171,27 @@ impl Slip {
         })
     }
 
-    fn is_above(&self, times: f64, left: &Residual) -> bool {
+    fn is_above(&self, times: f64, left: &PoseError) -> bool {
         self.expected >= times * if self.is_angle { left.orientation_rad } else { left.position_m }
     }
 
     /// How many figures become so small that zero would do as well: nothing speaks for the slip then,
     /// only for that the figures are wrong.
-    fn unproved(&self, left: &Residual) -> usize {
+    fn unproved(&self, left: &PoseError) -> usize {
         if self.expected < self.found && !self.is_above(EVIDENT, left) { self.figures } else { 0 }
     }
 }
 
-/// Whether a single figure is blamed that is zero as it stands: a zero is rarely a slip of the pen.
+/// Whether a single figure is named that is zero as it stands: a zero is rarely a slip of the pen.
 /// A joint's zero is not asked: tables leave it out.
-fn is_unwritten(suspect: &Suspect, hypothesis: &Hypothesis) -> bool {
+fn is_unwritten(candidate: &Candidate, hypothesis: &Hypothesis) -> bool {
     if hypothesis.cause == Cause::ZeroOffset {
         return false;
     }
     match hypothesis.free[..] {
-        [Parameter::Row(row, entry)] => suspect.entry(row, entry) == Some(0.0),
-        [Parameter::Base(component)] => is_zero(&suspect.base.pose, component),
-        [Parameter::Tool(component)] => is_zero(&suspect.tool.pose, component),
+        [ModelParameter::Row(row, entry)] => candidate.entry(row, entry) == Some(0.0),
+        [ModelParameter::Base(component)] => is_zero(&candidate.base.pose, component),
+        [ModelParameter::Tool(component)] => is_zero(&candidate.tool.pose, component),
         _ => false,
     }
 }

@@ -1,11 +1,13 @@
 //! What a diagnosis says in names, lines and values of the robot file.
 
-mod blame;
-mod figures;
-mod ladder;
-mod ladder_report;
+mod content;
+mod diagnose_models;
+mod fault_message;
+mod names;
+mod tell;
 mod units;
+mod values;
 
-pub use figures::Figure;
-pub use ladder::climb;
-pub use ladder_report::{Blame, Ladder, ReportedAlternative, ReportedCause, ReportedDifference};
+pub use content::{Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference};
+pub use diagnose_models::diagnose_models;
+pub use values::ReportedValue;

@@ -4,7 +4,7 @@
 
 use congruent_agreement::{
     bound::{Bracket, Budget, Certificate, certify_driven},
-    diagnosis::{Case, Reference},
+    diagnosis::{ModelPair, ReferenceModel},
 };
 use congruent_kinematics::ScrewChain;
 use rand_chacha::{
@@ -17,21 +17,21 @@ use crate::{
     robots::{self, Mutable},
 };
 
-/// What is asked for: within so much of the attained worst case.
+/// What is asked for: within so much of the attained worst models.
 const WITHIN: f64 = 0.05;
 
 /// The certificate of a mutated model against its reference.
-fn certificate(case: &Case, ranges: &[(f64, f64)], budget: Budget) -> Certificate {
-    let Reference { joints } = &case.reference;
+fn certificate(models: &ModelPair, ranges: &[(f64, f64)], budget: Budget) -> Certificate {
+    let ReferenceModel { joints } = &models.reference;
     let joints = joints.iter().filter(|joint| joint.twist_in_joint.is_some()).count();
-    let rows: Vec<usize> = case.suspect.rows.iter().map(|row| row.joint).collect();
-    let suspect = ScrewChain::probe(joints, |values| {
+    let rows: Vec<usize> = models.candidate.rows.iter().map(|row| row.joint).collect();
+    let candidate = ScrewChain::identify(joints, |values| {
         let mut q = vec![0.0; joints];
         rows.iter().zip(values).for_each(|(&joint, &value)| q[joint] = value);
-        case.suspect.base_from_tip(&q)
+        models.candidate.base_from_tip(&q)
     });
     let in_order: Vec<usize> = (0..joints).collect();
-    certify_driven((&suspect, &rows), (&case.reference.screws(), &in_order), ranges, budget).unwrap()
+    certify_driven((&candidate, &rows), (&models.reference.screws(), &in_order), ranges, budget).unwrap()
 }
 
 fn pick<'a>(faults: &'a [Fault], generator: &mut ChaCha8Rng) -> &'a Fault {
@@ -43,18 +43,18 @@ fn pick<'a>(faults: &'a [Fault], generator: &mut ChaCha8Rng) -> &'a Fault {
 fn sample(each: usize) -> Vec<(String, Mutable)> {
     let mut generator = ChaCha8Rng::seed_from_u64(11);
     let mut list = Vec::new();
-    for Mutable { name, case, ranges } in robots::all() {
-        let faults = faults::all(&case);
+    for Mutable { name, models, ranges } in robots::all() {
+        let faults = faults::all(&models);
         for number in 0..2 * each {
             let chosen: Vec<&Fault> = (0..=number % 2).map(|_| pick(&faults, &mut generator)).collect();
-            let mut case = case.clone();
+            let mut models = models.clone();
             for fault in &chosen {
-                fault.inject(&mut case);
+                fault.inject(&mut models);
             }
             let told: Vec<String> =
                 chosen.iter().map(|fault| format!("{} {:?}", fault.cause, fault.place)).collect();
             let label = format!("{name}: {}", told.join(" and "));
-            list.push((label, Mutable { name: name.clone(), case, ranges: ranges.clone() }));
+            list.push((label, Mutable { name: name.clone(), models, ranges: ranges.clone() }));
         }
     }
     list
@@ -73,9 +73,9 @@ fn certificates_close() {
     let mut slowest = 0.0_f64;
     let (mut all, mut open) = (0, 0);
     let mut total = 0.0;
-    for (label, Mutable { case, ranges, .. }) in sample(each) {
+    for (label, Mutable { models, ranges, .. }) in sample(each) {
         let start = std::time::Instant::now();
-        let found = certificate(&case, &ranges, Budget::default());
+        let found = certificate(&models, &ranges, Budget::default());
         let seconds = start.elapsed().as_secs_f64();
         total += seconds;
         slowest = slowest.max(seconds);

@@ -9,7 +9,8 @@ mod faults;
 mod matrix;
 mod robots;
 
-use congruent_agreement::diagnosis::{Case, Question, diagnose};
+use congruent_description::Tolerance;
+use congruent_agreement::diagnosis::{Criterion, ModelPair, diagnose};
 use faults::Fault;
 use matrix::{Matrix, Outcome};
 use rand_chacha::{
@@ -26,34 +27,34 @@ const LOOSE_TOLERANCE: f64 = 1e-3;
 const PAIRS_TOLD: f64 = 0.95;
 
 /// Configurations within three radians and half a metre.
-fn question(joints: usize, tolerance: f64) -> Question {
+fn criterion(joints: usize, tolerance: f64) -> Criterion {
     let mut generator = ChaCha8Rng::seed_from_u64(3);
     #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
     let mut unit = || (generator.next_u64() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
     let configurations = (0..16).map(|_| (0..joints).map(|_| 2.9 * unit()).collect()).collect();
-    Question { position_m: tolerance, orientation_rad: tolerance, configurations }
+    Criterion { tolerance: Tolerance { position_m: tolerance, orientation_rad: tolerance }, configurations }
 }
 
 /// Injects faults and judges what is named; `None` where they change nothing beyond the
 /// tolerance.
-fn judge(case: &Case, faults: &[&Fault], tolerance: f64) -> Option<Outcome> {
-    let question = question(case.reference.joint_count(), tolerance);
-    let mut mutated = case.clone();
+fn judge(models: &ModelPair, faults: &[&Fault], tolerance: f64) -> Option<Outcome> {
+    let criterion = criterion(models.reference.joint_count(), tolerance);
+    let mut mutated = models.clone();
     for fault in faults {
         fault.inject(&mut mutated);
     }
-    if question.accepts(&mutated.residual(&question)) {
+    if criterion.accepts(&mutated.residual(&criterion)) {
         return None;
     }
-    Some(Outcome::of(&diagnose(&mutated, &question), faults))
+    Some(Outcome::of(&diagnose(&mutated, &criterion), faults))
 }
 
 /// Every `stride`th single fault of every robot.
 fn singles(stride: usize, tolerance: f64) -> Matrix {
     let mut matrix = Matrix::default();
-    for Mutable { name, case, .. } in robots::all() {
-        for fault in faults::all(&case).iter().step_by(stride) {
-            if let Some(outcome) = judge(&case, &[fault], tolerance) {
+    for Mutable { name, models, .. } in robots::all() {
+        for fault in faults::all(&models).iter().step_by(stride) {
+            if let Some(outcome) = judge(&models, &[fault], tolerance) {
                 matrix.count(&name, &[fault], &outcome);
             }
         }
@@ -65,15 +66,15 @@ fn singles(stride: usize, tolerance: f64) -> Matrix {
 fn pairs(each: usize) -> Matrix {
     let mut matrix = Matrix::default();
     let mut generator = ChaCha8Rng::seed_from_u64(7);
-    for Mutable { name, case, .. } in robots::all() {
-        let faults = faults::all(&case);
+    for Mutable { name, models, .. } in robots::all() {
+        let faults = faults::all(&models);
         let mut any = || {
             let index = generator.next_u64() % u64::try_from(faults.len()).unwrap();
             &faults[usize::try_from(index).unwrap()]
         };
         for _ in 0..each {
             let pair = [any(), any()];
-            if let Some(outcome) = judge(&case, &pair, TOLERANCE) {
+            if let Some(outcome) = judge(&models, &pair, TOLERANCE) {
                 matrix.count(&name, &pair, &outcome);
             }
         }
@@ -83,10 +84,10 @@ fn pairs(each: usize) -> Matrix {
 
 #[test]
 fn unmutated_pairs_raise_no_alarm() {
-    for Mutable { name, case, .. } in robots::all() {
-        let question = question(case.reference.joint_count(), TOLERANCE);
-        let diagnosis = diagnose(&case, &question);
-        assert!(diagnosis.explanations.is_empty(), "{name}: {:?}", case.residual(&question));
+    for Mutable { name, models, .. } in robots::all() {
+        let criterion = criterion(models.reference.joint_count(), TOLERANCE);
+        let diagnosis = diagnose(&models, &criterion);
+        assert!(diagnosis.explanations.is_empty(), "{name}: {:?}", models.residual(&criterion));
     }
 }
 

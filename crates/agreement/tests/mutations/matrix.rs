@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, fmt};
 
-use congruent_agreement::diagnosis::{Cause, Diagnosis, Explanation, Gauge, Part};
+use congruent_agreement::diagnosis::{Cause, Diagnosis, Equivalence, Explanation, Part};
 
 use crate::faults::Fault;
 
@@ -43,7 +43,10 @@ impl Outcome {
 /// Whether the true cause is listed as equal to the first; one that is only within the tolerance too
 /// does not count.
 fn is_listed(diagnosis: &Diagnosis, faults: &[&Fault]) -> bool {
-    let mut equal = diagnosis.indistinguishable.iter().filter(|(_, gauge)| *gauge != Gauge::WithinTolerance);
+    let mut equal = diagnosis
+        .indistinguishable
+        .iter()
+        .filter(|(_, equivalence)| *equivalence != Equivalence::WithinTolerance);
     equal.any(|(each, _)| is_true(each, faults))
 }
 

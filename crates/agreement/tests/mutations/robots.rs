@@ -3,7 +3,9 @@
 
 use std::{fs, path::Path};
 
-use congruent_agreement::diagnosis::{Case, Reference, ReferenceJoint, Suspect, SuspectLink, SuspectRow};
+use congruent_agreement::diagnosis::{
+    Candidate, CandidateRow, ModelPair, ReferenceJoint, ReferenceModel, RowConstants,
+};
 use congruent_description::{DhConvention, DhRowKind, load_robot};
 use congruent_kinematics::{Pose, Twist, rotation_exp};
 use nalgebra::{Matrix3, Vector3};
@@ -15,7 +17,7 @@ const TURN: (f64, f64) = (-std::f64::consts::PI, std::f64::consts::PI);
 /// A robot: its name, its model against itself, and the ranges of its joints, base to tip, in rad or m.
 pub(crate) struct Mutable {
     pub(crate) name: String,
-    pub(crate) case: Case,
+    pub(crate) models: ModelPair,
     pub(crate) ranges: Vec<(f64, f64)>,
 }
 
@@ -28,13 +30,17 @@ pub(crate) fn all() -> Vec<Mutable> {
     for folder in folders {
         let description = load_robot(&folder.path()).unwrap();
         let (reference, joints) =
-            Reference::from_urdf(&description.robot, description.base, description.tip).unwrap();
+            ReferenceModel::from_urdf(&description.robot, description.base, description.tip).unwrap();
         let moving: Vec<_> =
             joints.into_iter().filter(|&joint| description.robot.joint(joint).kind.is_movable()).collect();
-        let suspect = Suspect::from_table(description.dh.as_ref().unwrap(), &moving).unwrap();
+        let candidate = Candidate::from_table(description.dh.as_ref().unwrap(), &moving).unwrap();
         let range = |&joint| description.robot.joint(joint).position_range().unwrap_or(TURN);
         let ranges = moving.iter().map(range).collect();
-        robots.push(Mutable { name: description.name.clone(), case: Case { suspect, reference }, ranges });
+        robots.push(Mutable {
+            name: description.name.clone(),
+            models: ModelPair { candidate, reference },
+            ranges,
+        });
     }
     if let Some(corpus) = std::env::var_os("CONGRUENT_CORPUS") {
         let text = fs::read_to_string(root.join(corpus).join("robots/dh_tables.json")).unwrap();
@@ -58,7 +64,11 @@ fn table(table: &Value) -> Mutable {
             (figure("a"), figure("alpha"), figure("d"), figure("theta_offset"));
         let kind = if row["type"] == "R" { DhRowKind::Revolute } else { DhRowKind::Prismatic };
         let rate = if row["flip"] == true { -1.0 } else { 1.0 };
-        rows.push(SuspectRow { joint, rate, link: SuspectLink::Dh { kind, a_m, alpha_rad, d_m, theta_rad } });
+        rows.push(CandidateRow {
+            joint,
+            rate,
+            link: RowConstants::Dh { kind, a_m, alpha_rad, d_m, theta_rad },
+        });
         let along_x = turned_and_shifted(Vector3::x(), alpha_rad, a_m);
         let along_z = turned_and_shifted(Vector3::z(), theta_rad, d_m);
         let (before, behind) = match convention {
@@ -80,10 +90,10 @@ fn table(table: &Value) -> Mutable {
         is_upward: false,
         is_written: true,
     });
-    let suspect = Suspect { convention: Some(convention), base: base.into(), rows, tool: tool.into() };
+    let candidate = Candidate { convention: Some(convention), base: base.into(), rows, tool: tool.into() };
     let name = table["name"].as_str().unwrap().to_owned();
     let ranges = table["rows"].as_array().unwrap().iter().map(range).collect();
-    Mutable { name, case: Case { suspect, reference: Reference { joints } }, ranges }
+    Mutable { name, models: ModelPair { candidate, reference: ReferenceModel { joints } }, ranges }
 }
 
 /// The row's limits, or one turn, or half a metre to either side.

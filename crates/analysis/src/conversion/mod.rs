@@ -13,7 +13,7 @@ use congruent_description::{
     DhConvention, Diagnostic, JointIndex, RobotDescription, dh_section, parse_urdf, urdf_text,
 };
 use congruent_kinematics::{
-    DeriveError, Pose, Proof, ScrewChain, SerialDh, UrdfTree, derive_dh, probe_configurations,
+    DeriveError, Pose, Proof, ScrewChain, SerialDh, UrdfTree, derive_dh, sample_configurations,
 };
 use serde::Serialize;
 
@@ -88,7 +88,7 @@ pub fn convert(
 
 fn prove(subject: &Subject<'_>, conversion: &Conversion, found: &mut dyn FnMut(&[f64]) -> Pose) -> Proof {
     let configurations: Vec<Vec<f64>> =
-        probe_configurations(&subject.description.robot, conversion.seed, RANDOM_CONFIGURATIONS)
+        sample_configurations(&subject.description.robot, conversion.seed, RANDOM_CONFIGURATIONS)
             .iter()
             .map(|q| subject.coordinates.iter().map(|&coordinate| q[coordinate]).collect())
             .collect();

@@ -49,7 +49,7 @@ impl<'a> Subject<'a> {
     pub(super) fn screws(&self) -> ScrewChain {
         match self.declared() {
             Some(table) => SerialDh::from_table(table).screw_chain(),
-            None => ScrewChain::probe(self.joints.len(), self.forward()),
+            None => ScrewChain::identify(self.joints.len(), self.forward()),
         }
     }
 

@@ -22,7 +22,7 @@ pub struct Identification {
     /// Indices of the corrections that are estimated, ascending.
     pub kept: Vec<usize>,
     /// The others, held at nominal, with what they look like.
-    pub frozen: Vec<Frozen>,
+    pub fixed: Vec<FixedParameter>,
     /// Of all corrections together, the largest first.
     pub singular_values: Vec<f64>,
     /// Smallest of those kept, over the largest of all.
@@ -31,12 +31,12 @@ pub struct Identification {
 
 /// A correction that is held at nominal.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Frozen {
+pub struct FixedParameter {
     /// Index of the correction.
     pub parameter: usize,
     /// What one unit of it looks like in units of the estimated corrections; empty where it
     /// has no effect on the measurements at all. Their estimates hold that much of it.
-    pub looks_like: Vec<(usize, f64)>,
+    pub correlated_with: Vec<(usize, f64)>,
     /// The share of its effect (root mean square) that does not look like that.
     pub unexplained_share: f64,
 }
@@ -55,7 +55,7 @@ pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
     let largest = singular_values.first().copied().unwrap_or(0.0);
     let mut order: Vec<usize> = (0..parameters.len()).collect();
     order.sort_by_key(|&at| parameters[at].entry);
-    let (mut kept, mut frozen, mut kept_ratio) = (Vec::new(), Vec::new(), 1.0);
+    let (mut kept, mut fixed, mut kept_ratio) = (Vec::new(), Vec::new(), 1.0);
     for candidate in order {
         kept.push(candidate);
         let smallest = self::singular_values(&select(&information, &kept)).last().copied().unwrap_or(0.0);
@@ -63,21 +63,21 @@ pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
             kept_ratio = smallest / largest;
         } else {
             kept.pop();
-            frozen.push(candidate);
+            fixed.push(candidate);
         }
     }
     kept.sort_unstable();
-    frozen.sort_unstable();
+    fixed.sort_unstable();
     let effect = threshold * largest;
     let in_own_units = |parameter: usize| {
-        let mut frozen = relation((&information, effect), &kept, parameter);
-        for (other, factor) in &mut frozen.looks_like {
+        let mut fixed = relation((&information, effect), &kept, parameter);
+        for (other, factor) in &mut fixed.correlated_with {
             *factor *= scale(&parameters[parameter], reach_m) / scale(&parameters[*other], reach_m);
         }
-        frozen
+        fixed
     };
-    let frozen = frozen.into_iter().map(in_own_units).collect();
-    Identification { kept, frozen, singular_values, kept_ratio }
+    let fixed = fixed.into_iter().map(in_own_units).collect();
+    Identification { kept, fixed, singular_values, kept_ratio }
 }
 
 /// What a correction of one scaled unit is in its own: an angle that moves the reach by a metre.
@@ -122,9 +122,13 @@ fn singular_values(information: &DMatrix<f64>) -> Vec<f64> {
 }
 
 /// Least squares of one column of the Jacobian by the kept ones, in scaled units.
-fn relation((information, least_effect): (&DMatrix<f64>, f64), kept: &[usize], parameter: usize) -> Frozen {
+fn relation(
+    (information, least_effect): (&DMatrix<f64>, f64),
+    kept: &[usize],
+    parameter: usize,
+) -> FixedParameter {
     let effect_squared = information[(parameter, parameter)];
-    let nothing = Frozen { parameter, looks_like: Vec::new(), unexplained_share: 1.0 };
+    let nothing = FixedParameter { parameter, correlated_with: Vec::new(), unexplained_share: 1.0 };
     if effect_squared.sqrt() < least_effect || effect_squared <= 0.0 {
         return nothing;
     }
@@ -136,9 +140,9 @@ fn relation((information, least_effect): (&DMatrix<f64>, f64), kept: &[usize], p
     let shown = |(&other, &factor): (&usize, &f64)| {
         (factor.abs() > NEGLIGIBLE_SHARE * largest).then_some((other, factor))
     };
-    Frozen {
+    FixedParameter {
         parameter,
-        looks_like: kept.iter().zip(factors.iter()).filter_map(shown).collect(),
+        correlated_with: kept.iter().zip(factors.iter()).filter_map(shown).collect(),
         unexplained_share: ((effect_squared - explained).max(0.0) / effect_squared).sqrt(),
     }
 }

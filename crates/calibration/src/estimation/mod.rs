@@ -23,7 +23,7 @@ mod validate;
 
 pub use configurations::configurations;
 pub use estimate::{Fit, fit, fit_with_estimated_noise};
-pub use identify::{Frozen, Identification, identify};
+pub use identify::{FixedParameter, Identification, identify};
 pub use model::CorrectedChain;
 pub use noise::Noise;
 pub use parameter::{Entry, Parameter, ParameterUnit};

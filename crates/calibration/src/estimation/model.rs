@@ -86,7 +86,7 @@ impl CorrectedChain {
     pub fn linearise(&self, q: &[f64], p: &[f64], twists_in_base: &mut [Twist]) -> Pose {
         assert_eq!(twists_in_base.len(), self.parameters.len(), "one twist for each correction");
         self.walk(q, p, |at, before| {
-            twists_in_base[at] = self.parameters[at].generator_in_base.seen_from(before);
+            twists_in_base[at] = self.parameters[at].generator_in_base.transformed_by(before);
         })
     }
 

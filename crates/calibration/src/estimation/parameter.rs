@@ -5,7 +5,7 @@ use congruent_kinematics::Twist;
 /// What a correction changes.
 ///
 /// The order is that of preference: where measurements cannot tell two corrections apart, the one
-/// that comes first here is estimated, and the other is frozen.
+/// that comes first here is estimated, and the other is fixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Entry {
     /// The zero of a joint: what its coordinate reads where it should read nothing.

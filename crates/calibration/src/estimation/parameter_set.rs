@@ -114,7 +114,7 @@ pub fn dh_entries(
 }
 
 fn rigid(base_from_frame: &Pose, of: &str, entry: Entry, slot: usize) -> Vec<Parameter> {
-    let [roll, pitch, yaw, x, y, z] = Twist::units().map(|unit| unit.seen_from(base_from_frame));
+    let [roll, pitch, yaw, x, y, z] = Twist::units().map(|unit| unit.transformed_by(base_from_frame));
     let generators = [x, y, z, yaw, pitch, roll];
     let named = |(word, generator_in_base)| Parameter {
         name: format!("{of}.{word}"),

@@ -1,18 +1,18 @@
 //! From figures to the report.
 
-use congruent_description::{ByJoint, DhRow};
+use congruent_description::{DhRow, JointValues};
 
 use super::{
-    CalibrationReport, CostCurve, Estimate, Estimation, Explanation, FrozenParameter, HeldOutError,
-    Identifiability, LikelyReason, NextPose, Recommendation, Remainder, RowResidual, TableEntry,
+    CalibrationReport, CalibrationVerdict, CostCurve, Estimate, Estimation, HeldOutError, Identifiability,
+    LikelyReason, NextPose, Recommendation, Remainder, ReportedFixedParameter, RowResidual, TableEntry,
+    reach_scale::{LARGE_CORRECTION, Left, ReachScale},
     reading::{self, Doubt},
     statements,
-    yardstick::{LARGE_CORRECTION, Left, Yardstick},
 };
 use crate::{
     computed::Computed,
     estimation::{
-        Entry, Fit, Frozen, Loss, Measurement, Noise, ParameterUnit, Problem, Residual, Suggestion,
+        Entry, Fit, FixedParameter, Loss, Measurement, Noise, ParameterUnit, Problem, Residual, Suggestion,
         cost_curve,
     },
 };
@@ -34,9 +34,9 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     let verdict = explanation(computed, held_out.as_ref(), (&left, &before));
     let (verdict, likely_reason) = read_again(computed, verdict, &left);
     let recommended = match verdict {
-        Explanation::Explained | Explanation::UnexplainedRows | Explanation::NoiseExceeded => {
-            computed.best().1
-        }
+        CalibrationVerdict::Explained
+        | CalibrationVerdict::UnexplainedRows
+        | CalibrationVerdict::NoiseExceeded => computed.best().1,
         _ => Recommendation::Nominal,
     };
     let row_residuals = rows(computed, &nominal);
@@ -56,7 +56,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
         recommended,
         statements: Vec::new(),
         parameters: estimates(computed),
-        frozen: computed.identification.frozen.iter().map(|each| frozen(computed, each)).collect(),
+        fixed: computed.identification.fixed.iter().map(|each| fixed(computed, each)).collect(),
         identifiability: Identifiability {
             threshold: computed.options.threshold,
             singular_values: computed.identification.singular_values.clone(),
@@ -71,7 +71,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
             Loss::Tukey => "tukey",
         },
         held_out,
-        outliers: computed.aside.iter().map(|&row| row_residuals[row]).collect(),
+        outliers: computed.outlier_rows.iter().map(|&row| row_residuals[row]).collect(),
         row_residuals,
         covariance: computed
             .least_squares
@@ -132,7 +132,7 @@ fn held_out(computed: &Computed<'_>, nominal: &[Residual]) -> Option<HeldOutErro
     let held_out = computed.held_out.as_ref()?;
     let fits = |residuals: &[Residual]| -> Vec<Residual> {
         let rows = residuals.iter().enumerate();
-        rows.filter(|(row, _)| !computed.aside.contains(row)).map(|(_, each)| *each).collect()
+        rows.filter(|(row, _)| !computed.outlier_rows.contains(row)).map(|(_, each)| *each).collect()
     };
     let (left, before) = (remainder(&fits(&held_out.residuals)), remainder(&fits(nominal)));
     Some(HeldOutError {
@@ -147,10 +147,10 @@ fn held_out(computed: &Computed<'_>, nominal: &[Residual]) -> Option<HeldOutErro
 /// What is left of the rows that fit, on rows that were left out where some could be; and before.
 fn left(computed: &Computed<'_>, nominal: &[Residual]) -> (Left, Left) {
     let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
-    let yardstick = Yardstick::of(&problem);
+    let reach_scale = ReachScale::of(&problem);
     let unseen = computed.held_out.as_ref().map(|held_out| &held_out.residuals);
     let residuals = unseen.unwrap_or(&computed.best().0.residuals);
-    let left = |residuals: &[Residual]| yardstick.left(residuals, &computed.aside);
+    let left = |residuals: &[Residual]| reach_scale.left(residuals, &computed.outlier_rows);
     (left(residuals), left(nominal))
 }
 
@@ -158,18 +158,22 @@ fn left(computed: &Computed<'_>, nominal: &[Residual]) -> (Left, Left) {
 /// being large: `dh` turns metres into millimetres by lengths a thousand times as short.
 fn read_again(
     computed: &Computed<'_>,
-    verdict: Explanation,
+    verdict: CalibrationVerdict,
     left: &Left,
-) -> (Explanation, Option<LikelyReason>) {
+) -> (CalibrationVerdict, Option<LikelyReason>) {
     let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
-    let size = Yardstick::of(&problem).size_of(&computed.chain, &computed.best().0.corrections);
+    let size = ReachScale::of(&problem).size_of(&computed.chain, &computed.best().0.corrections);
     let doubt = match verdict {
-        Explanation::Unexplained => Doubt::Left(left.share()),
-        Explanation::Explained | Explanation::UnexplainedRows if size > LARGE_CORRECTION => Doubt::Size(size),
+        CalibrationVerdict::Unexplained => Doubt::Left(left.share()),
+        CalibrationVerdict::Explained | CalibrationVerdict::UnexplainedRows if size > LARGE_CORRECTION => {
+            Doubt::Size(size)
+        }
         _ => return (verdict, None),
     };
     match reading::likely_reason(&computed.nominal, computed.rows, computed.options, doubt) {
-        Some(reason) if verdict != Explanation::Unexplained => (Explanation::Misread, Some(reason)),
+        Some(reason) if verdict != CalibrationVerdict::Unexplained => {
+            (CalibrationVerdict::Misread, Some(reason))
+        }
         reason => (verdict, reason),
     }
 }
@@ -178,23 +182,23 @@ fn explanation(
     computed: &Computed<'_>,
     held_out: Option<&HeldOutError>,
     (left, before): (&Left, &Left),
-) -> Explanation {
+) -> CalibrationVerdict {
     if computed.identification.kept.is_empty() {
-        return Explanation::NothingIdentified;
+        return CalibrationVerdict::NothingIdentified;
     }
-    // Where the noise is stated, that is the yardstick.
+    // Where the noise is stated, that is the reach_scale.
     let is_noise = computed.options.noise.is_some() && !exceeds_noise(computed);
     if left.explains_nothing(before) && !is_noise {
-        return Explanation::Unexplained;
+        return CalibrationVerdict::Unexplained;
     }
     if computed.redundancy == 0 || held_out.is_none() {
-        return Explanation::NothingToJudgeBy;
+        return CalibrationVerdict::NothingToJudgeBy;
     }
-    if !computed.aside.is_empty() {
-        return Explanation::UnexplainedRows;
+    if !computed.outlier_rows.is_empty() {
+        return CalibrationVerdict::UnexplainedRows;
     }
     if computed.options.noise.is_some() && exceeds_noise(computed) {
-        return Explanation::NoiseExceeded;
+        return CalibrationVerdict::NoiseExceeded;
     }
     let Noise { position_m, orientation_rad } = computed.least_squares.noise;
     let size = |m: f64, rad: f64| (m / position_m).powi(2) + (rad / orientation_rad).powi(2);
@@ -202,9 +206,9 @@ fn explanation(
         Some(error)
             if size(error.rms_m, error.rms_rad) < size(error.nominal_rms_m, error.nominal_rms_rad) =>
         {
-            Explanation::Explained
+            CalibrationVerdict::Explained
         }
-        _ => Explanation::NoImprovement,
+        _ => CalibrationVerdict::NoImprovement,
     }
 }
 
@@ -266,18 +270,18 @@ fn in_table(computed: &Computed<'_>, name: &str, (entry, correction): (Entry, f6
     Some(TableEntry { entry, found, corrected: found + correction, line: row.line })
 }
 
-fn frozen(computed: &Computed<'_>, frozen: &Frozen) -> FrozenParameter {
+fn fixed(computed: &Computed<'_>, fixed: &FixedParameter) -> ReportedFixedParameter {
     let parameters = computed.chain.parameters();
-    let terms: Vec<(&str, f64, &'static str)> = frozen
-        .looks_like
+    let terms: Vec<(&str, f64, &'static str)> = fixed
+        .correlated_with
         .iter()
         .map(|&(at, factor)| (parameters[at].name.as_str(), factor, unit(parameters[at].unit())))
         .collect();
-    let own = &parameters[frozen.parameter];
-    FrozenParameter {
+    let own = &parameters[fixed.parameter];
+    ReportedFixedParameter {
         name: own.name.clone(),
-        looks_like: terms.iter().map(|(name, factor, _)| ((*name).to_owned(), *factor)).collect(),
-        reason: statements::why_frozen(unit(own.unit()), &terms),
+        correlated_with: terms.iter().map(|(name, factor, _)| ((*name).to_owned(), *factor)).collect(),
+        reason: statements::why_fixed(unit(own.unit()), &terms),
     }
 }
 
@@ -330,7 +334,7 @@ fn next(computed: &Computed<'_>) -> Vec<NextPose> {
     let names: Vec<String> = computed.nominal.joint_names().into_iter().map(str::to_owned).collect();
     let pose = |suggestion: &Suggestion| {
         let q = computed.nominal.of_configuration(&computed.candidates[suggestion.candidate]);
-        NextPose { q: ByJoint::new(&names, &q), gain_bits: suggestion.gain_bits }
+        NextPose { q: JointValues::new(&names, &q), gain_bits: suggestion.gain_bits }
     };
     computed.next.iter().map(pose).collect()
 }

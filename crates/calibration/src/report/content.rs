@@ -1,8 +1,8 @@
-//! What a calibration says: estimates, what is frozen, what does not fit, where to measure next.
+//! What a calibration says: estimates, what is fixed, what does not fit, where to measure next.
 
 use std::collections::BTreeMap;
 
-use congruent_description::ByJoint;
+use congruent_description::JointValues;
 use serde::Serialize;
 
 /// The answer of `congruent calibrate`. Metres and radians throughout.
@@ -22,7 +22,7 @@ pub struct CalibrationReport {
     /// corrections: what is left to judge by.
     pub redundancy: usize,
     /// Whether the measurements are explained, in one word.
-    pub verdict: Explanation,
+    pub verdict: CalibrationVerdict,
     /// What else the file may have meant, where that would explain it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub likely_reason: Option<LikelyReason>,
@@ -33,7 +33,7 @@ pub struct CalibrationReport {
     /// The estimates.
     pub parameters: Vec<Estimate>,
     /// What was held at nominal since the measurements do not tell it.
-    pub frozen: Vec<FrozenParameter>,
+    pub fixed: Vec<ReportedFixedParameter>,
     /// By which figures that was decided.
     pub identifiability: Identifiability,
     /// What is left with the nominal model.
@@ -74,7 +74,7 @@ pub struct CostCurve {
 /// Whether the corrected model explains the measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Explanation {
+pub enum CalibrationVerdict {
     /// The corrections hold on rows that were left out, and no row stands apart.
     Explained,
     /// Some rows are not explained by any value of the free corrections.
@@ -155,11 +155,11 @@ pub struct TableEntry {
 
 /// A correction that is held at nominal.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FrozenParameter {
+pub struct ReportedFixedParameter {
     /// Its name.
     pub name: String,
     /// What one unit of it looks like in units of estimated ones; empty for no effect.
-    pub looks_like: BTreeMap<String, f64>,
+    pub correlated_with: BTreeMap<String, f64>,
     /// In words.
     pub reason: String,
 }
@@ -251,7 +251,7 @@ pub struct RowResidual {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NextPose {
     /// Joint positions, rad or m.
-    pub q: ByJoint,
+    pub q: JointValues,
     /// With each bit the volume of the uncertainty is halved.
     pub gain_bits: f64,
 }

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::{
     LikelyReason,
-    yardstick::{LARGE_CORRECTION, Left, Yardstick},
+    reach_scale::{LARGE_CORRECTION, Left, ReachScale},
 };
 use crate::{
     chain::{Motion, NominalChain},
@@ -116,19 +116,19 @@ fn tried(
     if problem.redundancy(&kept) == 0 {
         return None;
     }
-    let yardstick = Yardstick::of(&problem);
+    let reach_scale = ReachScale::of(&problem);
     // Estimates that explain nothing converge slowly, so half of some rows must come near at once.
     let step = measurements.len().div_ceil(SOME_ROWS);
     let some: Vec<_> = measurements.iter().step_by(step).cloned().collect();
     let alike = Noise { position_m: 1.0, orientation_rad: 1.0 / problem.reach_m() };
     let first = fit(&Problem { chain: &chain, measurements: &some }, &kept, alike);
-    if yardstick.of_median_row(&first.residuals).is_large() {
+    if reach_scale.of_median_row(&first.residuals).is_large() {
         return None;
     }
     let plain = fit_with_estimated_noise(&problem, &kept);
     let robust = fit_robustly(&problem, &kept, Loss::Tukey, (&plain, None));
-    let left = yardstick.left(&robust.fit.residuals, &robust.outliers);
-    let size = yardstick.size_of(&chain, &robust.fit.corrections);
+    let left = reach_scale.left(&robust.fit.residuals, &robust.outliers);
+    let size = reach_scale.size_of(&chain, &robust.fit.corrections);
     Some(Tried { left, size, is_of_a_frame: !reading.free.is_empty() })
 }
 

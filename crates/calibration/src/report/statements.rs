@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-use super::{CalibrationReport, Explanation, Recommendation, RowResidual};
+use super::{CalibrationReport, CalibrationVerdict, Recommendation, RowResidual};
 
 /// Most terms of a relation that are written out.
 const MOST_TERMS: usize = 4;
 /// A factor this near to 1 is written as none. Kind: display.
 const UNIT_FACTOR: f64 = 1e-3;
 
-/// Why a correction is frozen: what it looks like, in units of the estimated ones.
-pub(super) fn why_frozen(unit: &str, terms: &[(&str, f64, &'static str)]) -> String {
+/// Why a correction is fixed: what it looks like, in units of the estimated ones.
+pub(super) fn why_fixed(unit: &str, terms: &[(&str, f64, &'static str)]) -> String {
     if let [(name, factor, of)] = terms
         && *of == unit
         && (factor.abs() - 1.0).abs() < UNIT_FACTOR
@@ -44,8 +44,8 @@ pub(super) fn statements(report: &CalibrationReport) -> Vec<String> {
             insignificant.join(", ")
         ));
     }
-    if !report.frozen.is_empty() {
-        let names: Vec<&str> = report.frozen.iter().map(|each| each.name.as_str()).collect();
+    if !report.fixed.is_empty() {
+        let names: Vec<&str> = report.fixed.iter().map(|each| each.name.as_str()).collect();
         statements.push(format!(
             "held at nominal, since these measurements do not tell them: {}",
             names.join(", ")
@@ -63,21 +63,23 @@ pub(super) fn statements(report: &CalibrationReport) -> Vec<String> {
 
 fn verdict(report: &CalibrationReport) -> String {
     match report.verdict {
-        Explanation::NothingIdentified => "nothing can be identified from these measurements".to_owned(),
-        Explanation::Unexplained => nothing_explained(report),
-        Explanation::Misread => misread(report),
-        Explanation::NothingToJudgeBy => nothing_to_judge_by(report),
-        Explanation::UnexplainedRows => unexplained(report),
-        Explanation::NoiseExceeded => format!(
+        CalibrationVerdict::NothingIdentified => {
+            "nothing can be identified from these measurements".to_owned()
+        }
+        CalibrationVerdict::Unexplained => nothing_explained(report),
+        CalibrationVerdict::Misread => misread(report),
+        CalibrationVerdict::NothingToJudgeBy => nothing_to_judge_by(report),
+        CalibrationVerdict::UnexplainedRows => unexplained(report),
+        CalibrationVerdict::NoiseExceeded => format!(
             "what is left ({} root mean square) is larger than the stated noise allows: the free corrections \
              do not explain the measurements",
             size(report.least_squares.left.rms_m, report.least_squares.left.rms_rad)
         ),
-        Explanation::NoImprovement => {
+        CalibrationVerdict::NoImprovement => {
             "on measurements that were left out the corrections are no better than the nominal model: keep it"
                 .to_owned()
         }
-        Explanation::Explained => {
+        CalibrationVerdict::Explained => {
             let held_out = report.held_out.as_ref();
             held_out.map_or_else(String::new, |error| {
                 format!(
@@ -156,7 +158,7 @@ fn unexplained(report: &CalibrationReport) -> String {
     if report.recommended == Recommendation::Robust {
         let _ = write!(
             text,
-            "; the robust estimate leaves {} aside and has {} on the others",
+            "; the robust estimate leaves {} outlier_rows and has {} on the others",
             them,
             report
                 .held_out

@@ -1,26 +1,33 @@
-//! Figures by joint in the order of the arm.
+//! Joint values by name, in the order of the robot: one shape in every answer.
 
 use serde::{Serialize, Serializer};
 
-/// One figure for each joint, base to tip; a map in JSON.
+use super::robot::Robot;
+
+/// One value for each joint, base to tip; a map in JSON.
 ///
 /// # Examples
 /// ```
-/// use crate::model::joint_values::ByJoint;
+/// use congruent_description::JointValues;
 /// let names = ["shoulder".to_owned(), "elbow".to_owned()];
-/// let q = ByJoint::new(&names, &[0.25, 1.5]);
+/// let q = JointValues::new(&names, &[0.25, 1.5]);
 /// assert_eq!(q.listed(2), "shoulder 0.25, elbow 1.50");
 /// ```
-#[derive(Debug, Clone, PartialEq)]
-pub struct ByJoint(Vec<(String, f64)>);
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct JointValues(Vec<(String, f64)>);
 
-impl ByJoint {
-    /// Pairs names with figures, in rad or m.
+impl JointValues {
+    /// Pairs names with values, in rad or m.
     pub fn new(names: &[String], values: &[f64]) -> Self {
-        Self(names.iter().cloned().zip(values.iter().copied()).collect())
+        names.iter().cloned().zip(values.iter().copied()).collect()
     }
 
-    /// Joints and figures, base to tip.
+    /// The values of all movable joints of a robot, in its order.
+    pub fn of_robot(robot: &Robot, values: &[f64]) -> Self {
+        robot.movable_joint_names().map(str::to_owned).zip(values.iter().copied()).collect()
+    }
+
+    /// Joints and values, base to tip.
     pub fn iter(&self) -> impl Iterator<Item = (&str, f64)> {
         self.0.iter().map(|(name, value)| (name.as_str(), *value))
     }
@@ -33,25 +40,14 @@ impl ByJoint {
     }
 }
 
-impl Serialize for ByJoint {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.iter())
+impl FromIterator<(String, f64)> for JointValues {
+    fn from_iter<I: IntoIterator<Item = (String, f64)>>(values: I) -> Self {
+        Self(values.into_iter().collect())
     }
 }
 
-/// A joint with its position.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct NamedValue {
-    /// The joint.
-    pub joint: String,
-    /// Its position, rad or m.
-    pub value: f64,
-}
-
-/// Joint positions as a map from names.
-///
-/// # Errors
-/// What the serializer says.
-pub fn as_map<S: Serializer>(values: &[NamedValue], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(values.iter().map(|named| (&named.joint, named.value)))
+impl Serialize for JointValues {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.iter())
+    }
 }

@@ -15,6 +15,6 @@ pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};
 pub use geometry::{Geometry, Mesh, Shape};
 pub use inertia::Inertia;
 pub use joint::{Joint, JointIndex, JointKind, JointLimit, Mimic};
-pub use joint_values::{ByJoint, NamedValue, as_map};
+pub use joint_values::JointValues;
 pub use link::{Link, LinkIndex};
 pub use robot::{JointParts, Robot, RobotError};

@@ -50,7 +50,7 @@ impl Proof {
     ) -> Self {
         let mut proof = Self { configurations: configurations.len(), ..Self::default() };
         let (by_found, by_expected) =
-            (ScrewChain::probe(n, &mut *found), ScrewChain::probe(n, &mut *expected));
+            (ScrewChain::identify(n, &mut *found), ScrewChain::identify(n, &mut *expected));
         for (found, expected) in by_found.twists_in_base.iter().zip(&by_expected.twists_in_base) {
             proof.screw_rad = larger(proof.screw_rad, (found.angular - expected.angular).norm());
             proof.screw_m = larger(proof.screw_m, (found.linear - expected.linear).norm());

@@ -176,7 +176,7 @@ impl UrdfTree {
         // From the link up to the root, as body twists, which need no more than what lies below.
         let root_from_link = self.visit_up(q, link, |joint, child_from_link| {
             if let Some((coordinate, twist_in_child)) = joint.motion.twist_in_child() {
-                columns[coordinate] = twist_in_child.seen_from(&child_from_link.inverse());
+                columns[coordinate] = twist_in_child.transformed_by(&child_from_link.inverse());
             }
         });
         for column in columns {

@@ -8,8 +8,8 @@ use super::{pose::Pose, rotation::hat, twist::Twist, wrench::Wrench};
 impl Pose {
     /// The matrix that takes a twist from frame b to frame a: `[[R, 0], [[p] R, R]]`.
     ///
-    /// [`Twist::seen_from`] does the same without a matrix. A wrench goes by the transpose of the
-    /// inverse, as [`Wrench::seen_from`] does.
+    /// [`Twist::transformed_by`] does the same without a matrix. A wrench goes by the transpose of the
+    /// inverse, as [`Wrench::transformed_by`] does.
     ///
     /// | value | shape | unit | frame |
     /// |---|---|---|---|
@@ -162,7 +162,7 @@ mod tests {
             let in_a = Twist::from(a_from_b.adjoint() * Vector6::from(in_b));
             let conjugated = homogeneous(&a_from_b) * in_b.hat() * homogeneous(&a_from_b.inverse());
             prop_assert!(support::within((in_a.hat() - conjugated).amax(), ROUNDING));
-            prop_assert!(support::within((in_b.seen_from(&a_from_b).hat() - conjugated).amax(), ROUNDING));
+            prop_assert!(support::within((in_b.transformed_by(&a_from_b).hat() - conjugated).amax(), ROUNDING));
         }
 
         #[test]
@@ -171,7 +171,7 @@ mod tests {
         ) {
             let in_b = Wrench { moment, force };
             let by_matrix = a_from_b.inverse().adjoint().transpose() * Vector6::from(in_b);
-            let difference = Vector6::from(in_b.seen_from(&a_from_b)) - by_matrix;
+            let difference = Vector6::from(in_b.transformed_by(&a_from_b)) - by_matrix;
             prop_assert!(support::within(difference.amax(), ROUNDING));
             prop_assert_eq!(Wrench::from(Vector6::from(in_b)), in_b);
         }
@@ -192,8 +192,8 @@ mod tests {
 
         #[test]
         fn the_bracket_does_not_depend_on_the_frame(a_from_b in pose(), v in twist(), w in twist()) {
-            let in_a = v.seen_from(&a_from_b).bracket(&w.seen_from(&a_from_b));
-            let difference = Vector6::from(in_a) - Vector6::from(v.bracket(&w).seen_from(&a_from_b));
+            let in_a = v.transformed_by(&a_from_b).bracket(&w.transformed_by(&a_from_b));
+            let difference = Vector6::from(in_a) - Vector6::from(v.bracket(&w).transformed_by(&a_from_b));
             prop_assert!(support::within(difference.amax(), ROUNDING));
         }
     }

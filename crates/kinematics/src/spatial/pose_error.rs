@@ -1,5 +1,6 @@
 //! How far two poses are apart.
 
+use congruent_description::Tolerance;
 use nalgebra::Isometry3;
 use serde::Serialize;
 
@@ -46,9 +47,9 @@ impl PoseError {
         }
     }
 
-    /// Whether both are within the limits; NaN never is.
-    pub fn is_within(&self, limits: &Self) -> bool {
-        self.position_m <= limits.position_m && self.orientation_rad <= limits.orientation_rad
+    /// Whether both are within a tolerance; NaN never is.
+    pub fn is_within(&self, tolerance: &Tolerance) -> bool {
+        self.position_m <= tolerance.position_m && self.orientation_rad <= tolerance.orientation_rad
     }
 }
 

@@ -96,10 +96,10 @@ impl Twist {
     /// use nalgebra::{Matrix3, Vector3};
     /// let turn_in_body = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
     /// let space_from_body = Pose::from_parts(Matrix3::identity(), Vector3::new(1., 0., 0.));
-    /// assert_eq!(turn_in_body.seen_from(&space_from_body).linear, Vector3::new(0., -1., 0.));
+    /// assert_eq!(turn_in_body.transformed_by(&space_from_body).linear, Vector3::new(0., -1., 0.));
     /// ```
     #[must_use]
-    pub fn seen_from(&self, a_from_b: &Pose) -> Self {
+    pub fn transformed_by(&self, a_from_b: &Pose) -> Self {
         let angular = a_from_b.rotation * self.angular;
         let linear = a_from_b.translation.cross(&angular) + a_from_b.rotation * self.linear;
         Self { angular, linear }

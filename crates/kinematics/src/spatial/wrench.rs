@@ -56,10 +56,10 @@ impl Wrench {
     /// use nalgebra::{Matrix3, Vector3};
     /// let push_in_tcp = Wrench { moment: Vector3::zeros(), force: Vector3::new(0., 2., 0.) };
     /// let base_from_tcp = Pose::from_parts(Matrix3::identity(), Vector3::new(3., 0., 0.));
-    /// assert_eq!(push_in_tcp.seen_from(&base_from_tcp).moment, Vector3::new(0., 0., 6.));
+    /// assert_eq!(push_in_tcp.transformed_by(&base_from_tcp).moment, Vector3::new(0., 0., 6.));
     /// ```
     #[must_use]
-    pub fn seen_from(&self, a_from_b: &Pose) -> Self {
+    pub fn transformed_by(&self, a_from_b: &Pose) -> Self {
         let force = a_from_b.rotation * self.force;
         Self { moment: a_from_b.rotation * self.moment + a_from_b.translation.cross(&force), force }
     }
@@ -104,7 +104,7 @@ mod tests {
         ) {
             let (wrench, twist) = (Wrench { moment, force }, Twist { angular, linear });
             let a_from_b = Pose::from(a_from_b);
-            let in_a = wrench.seen_from(&a_from_b).power(&twist.seen_from(&a_from_b));
+            let in_a = wrench.transformed_by(&a_from_b).power(&twist.transformed_by(&a_from_b));
             prop_assert!(support::within((in_a - wrench.power(&twist)).abs(), ROUNDING));
         }
 
@@ -113,7 +113,7 @@ mod tests {
             a_from_b in support::isometry(), [force, point] in [support::vector(), support::vector()],
         ) {
             let a_from_b = Pose::from(a_from_b);
-            let seen = Wrench::force_at(force, &Point3::from(point)).seen_from(&a_from_b);
+            let seen = Wrench::force_at(force, &Point3::from(point)).transformed_by(&a_from_b);
             let moved = Wrench::force_at(a_from_b.transform_vector(&force), &(a_from_b * Point3::from(point)));
             prop_assert!(support::within((seen.moment - moved.moment).norm(), ROUNDING));
             prop_assert_eq!(seen.force, moved.force);

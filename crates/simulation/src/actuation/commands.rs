@@ -8,7 +8,7 @@ use crate::engine::Engine;
 /// The desired state at the end of the step, one entry for each movable joint, mimic joints
 /// included, in the order of `Robot::movable_joints`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reference<'a> {
+pub struct Setpoint<'a> {
     /// Positions, rad or m.
     pub q: &'a [f64],
     /// Velocities, rad/s or m/s.
@@ -110,7 +110,7 @@ impl Commands {
 pub(crate) fn drive_all(
     gains: Gains,
     joints: &JointsView<'_>,
-    reference: &Reference<'_>,
+    reference: &Setpoint<'_>,
     commands: &mut Commands,
 ) {
     for (coordinate, (&q, &qd)) in reference.q.iter().zip(reference.qd).enumerate() {

@@ -1,7 +1,7 @@
 //! The torque that holds the robot against gravity, at every joint, mimic joints included; with
 //! gains, servos on top.
 
-use super::{Commands, Controller, Gains, JointsView, Reference, commands::drive_all};
+use super::{Commands, Controller, Gains, JointsView, Setpoint, commands::drive_all};
 
 pub(super) const NAME: &str = "gravity_compensation";
 
@@ -15,7 +15,7 @@ impl Controller for GravityCompensation {
         NAME
     }
 
-    fn command(&mut self, joints: &JointsView<'_>, reference: &Reference<'_>, commands: &mut Commands) {
+    fn command(&mut self, joints: &JointsView<'_>, reference: &Setpoint<'_>, commands: &mut Commands) {
         joints.add_gravity_torque(commands.torque_mut());
         drive_all(self.gains, joints, reference, commands);
     }

@@ -1,6 +1,6 @@
 //! Playback: the robot is where the reference says, whatever it weighs.
 
-use super::{Commands, Controller, JointsView, Reference};
+use super::{Commands, Controller, JointsView, Setpoint};
 
 pub(super) const NAME: &str = "kinematic";
 
@@ -12,7 +12,7 @@ impl Controller for Kinematic {
         NAME
     }
 
-    fn command(&mut self, _: &JointsView<'_>, _: &Reference<'_>, commands: &mut Commands) {
+    fn command(&mut self, _: &JointsView<'_>, _: &Setpoint<'_>, commands: &mut Commands) {
         commands.place();
     }
 }

@@ -7,7 +7,7 @@ mod kinematic;
 mod passive;
 mod pd;
 
-pub use commands::{Commands, JointsView, Motor, Reference};
+pub use commands::{Commands, JointsView, Motor, Setpoint};
 
 use crate::error::SimulationError;
 
@@ -20,7 +20,7 @@ pub trait Controller {
     fn name(&self) -> &'static str;
 
     /// Fills `commands`, which come cleared: no torque, no motor, dynamics on.
-    fn command(&mut self, joints: &JointsView<'_>, reference: &Reference<'_>, commands: &mut Commands);
+    fn command(&mut self, joints: &JointsView<'_>, reference: &Setpoint<'_>, commands: &mut Commands);
 }
 
 /// Gains of a joint servo, the same for every joint: N m/rad and N m s/rad for an angle, N/m and

@@ -1,6 +1,6 @@
 //! No actuation: the robot swings.
 
-use super::{Commands, Controller, JointsView, Reference};
+use super::{Commands, Controller, JointsView, Setpoint};
 
 pub(super) const NAME: &str = "passive";
 
@@ -12,5 +12,5 @@ impl Controller for Passive {
         NAME
     }
 
-    fn command(&mut self, _: &JointsView<'_>, _: &Reference<'_>, _: &mut Commands) {}
+    fn command(&mut self, _: &JointsView<'_>, _: &Setpoint<'_>, _: &mut Commands) {}
 }

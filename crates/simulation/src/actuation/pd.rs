@@ -1,7 +1,7 @@
 //! A servo at every joint: stiffness on the position error, damping on the velocity error.
 //! Without gravity compensation, so it sags by gravity torque / stiffness.
 
-use super::{Commands, Controller, Gains, JointsView, Reference, commands::drive_all};
+use super::{Commands, Controller, Gains, JointsView, Setpoint, commands::drive_all};
 
 pub(super) const NAME: &str = "pd";
 
@@ -15,7 +15,7 @@ impl Controller for Pd {
         NAME
     }
 
-    fn command(&mut self, joints: &JointsView<'_>, reference: &Reference<'_>, commands: &mut Commands) {
+    fn command(&mut self, joints: &JointsView<'_>, reference: &Setpoint<'_>, commands: &mut Commands) {
         drive_all(self.gains, joints, reference, commands);
     }
 }

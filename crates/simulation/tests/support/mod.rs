@@ -7,7 +7,7 @@
 use congruent_description::{
     Geometry, Inertia, Joint, JointKind, JointLimit, JointParts, Link, LinkIndex, Robot, Shape,
 };
-use congruent_simulation::{Controller, Gains, Reference, World, WorldSettings, controller};
+use congruent_simulation::{Controller, Gains, Setpoint, World, WorldSettings, controller};
 use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// A link index, which `Robot::new` overwrites.
@@ -155,7 +155,7 @@ pub fn steps(duration_s: f64, step_s: f64) -> usize {
 pub fn run(world: &mut World, controller: &mut dyn Controller, q: &[f64], steps: usize) {
     let qd = vec![0.0; q.len()];
     for _ in 0..steps {
-        world.step(controller, &Reference { q, qd: &qd }).unwrap();
+        world.step(controller, &Setpoint { q, qd: &qd }).unwrap();
     }
 }
 

@@ -1,6 +1,6 @@
 //! One quantity against its limit, sample after sample, without allocation.
 
-use congruent_description::NamedValue;
+use congruent_description::JointValues;
 
 use crate::{
     sample::Sample,
@@ -75,11 +75,7 @@ impl Watch {
                 time_s: seen.time_s,
                 subject: name(seen.subject),
                 value: seen.value,
-                q: joints
-                    .iter()
-                    .zip(&seen.q)
-                    .map(|(joint, &value)| NamedValue { joint: joint.clone(), value })
-                    .collect(),
+                q: JointValues::new(joints, &seen.q),
             })
         };
         Measure {

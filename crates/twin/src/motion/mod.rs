@@ -1,18 +1,18 @@
 //! What the arm is asked to do: motions one after another. Moves are planned when the scenario is
-//! read, servos are led in the run (`guide.rs`). A new kind of motion is a file here and a line in
+//! read, servos are servo_results in the run (`reference_generator.rs`). A new kind of motion is a file here and a line in
 //! `KINDS`.
 
-mod guide;
 mod joint_move;
 mod profile;
+mod reference_generator;
 mod tcp_move;
 mod tcp_servo;
 
 use congruent_description::{Diagnostic, Robot, RobotDescription};
 
-pub use guide::Guide;
 pub use profile::{Profile, Progress};
-pub use tcp_servo::{Led, Method, TcpServo};
+pub use reference_generator::ReferenceGenerator;
+pub use tcp_servo::{Method, ServoResult, TcpServo};
 
 use crate::scenario::Section;
 
@@ -55,7 +55,7 @@ pub struct Motion {
 pub enum Course {
     /// From one configuration to another.
     Joints(JointMove),
-    /// Where the tool is led, step by step.
+    /// Where the tool is servo_results, step by step.
     Servo(Box<TcpServo>),
 }
 
@@ -130,7 +130,7 @@ impl Trajectory {
         }
     }
 
-    /// Whether a motion is led in the run.
+    /// Whether a motion is servo_results in the run.
     fn has_servo(&self) -> bool {
         self.motions.iter().any(|motion| matches!(motion.course, Course::Servo(_)))
     }
@@ -192,9 +192,13 @@ mod tests {
 
     #[track_caller]
     fn at(trajectory: &Trajectory, time_s: f64, q: f64, qd: f64) {
-        let mut guide = Guide::with(trajectory, None);
-        guide.advance(time_s, &[f64::NAN]).unwrap();
-        assert_eq!((guide.q(), guide.qd()), (&[q][..], &[qd][..]), "at {time_s} s");
+        let mut reference_generator = ReferenceGenerator::with(trajectory, None);
+        reference_generator.advance(time_s, &[f64::NAN]).unwrap();
+        assert_eq!(
+            (reference_generator.q(), reference_generator.qd()),
+            (&[q][..], &[qd][..]),
+            "at {time_s} s"
+        );
     }
 
     #[test]

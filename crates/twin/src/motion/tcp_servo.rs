@@ -1,4 +1,4 @@
-//! `servo_tcp`: the tool centre point is led to a pose, or to a position, by differential inverse
+//! `servo_tcp`: the tool centre point is servo_results to a pose, or to a position, by differential inverse
 //! kinematics in the loop: at every step of the simulation the error and the Jacobian are those of
 //! the measured joint positions. There is no plan, so where it ends is known only in the run.
 //!
@@ -53,7 +53,7 @@ impl Method {
     }
 }
 
-/// One motion that is led and not planned.
+/// One motion that is servo_results and not planned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TcpServo {
     /// The target as the scenario gives it, in the world.
@@ -66,12 +66,12 @@ pub struct TcpServo {
     pub gain_per_s: f64,
 }
 
-/// Where a servo has led the tool.
+/// Where a servo has servo_results the tool.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Led {
+pub struct ServoResult {
     /// Number of the motion in the scenario, from 1.
     pub motion: usize,
-    /// How it was led.
+    /// How it was servo_results.
     pub method: Method,
     /// Distance to the target that is left.
     pub position_m: f64,
@@ -95,7 +95,7 @@ pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<M
 
 /// Leads an arm; allocates nothing from step to step.
 #[derive(Debug)]
-pub(super) struct Drive<'a> {
+pub(super) struct ServoController<'a> {
     robot: &'a Robot,
     solver: IkSolver,
     measured: Vec<f64>,
@@ -106,12 +106,12 @@ pub(super) struct Drive<'a> {
 }
 
 /// A step, and the part of it that lies within the motion.
-pub(super) struct Stride {
+pub(super) struct StepInterval {
     pub(super) step_s: f64,
     pub(super) moved_s: f64,
 }
 
-impl<'a> Drive<'a> {
+impl<'a> ServoController<'a> {
     pub(super) fn new(description: &'a RobotDescription) -> Result<Self, KinematicsError> {
         let arm = Arm::of(description)?;
         let joints = arm.joints().len();
@@ -131,7 +131,7 @@ impl<'a> Drive<'a> {
         &mut self,
         servo: &TcpServo,
         measured_q: &[f64],
-        Stride { step_s, moved_s }: Stride,
+        StepInterval { step_s, moved_s }: StepInterval,
         (q, qd): (&mut [f64], &mut [f64]),
     ) -> Result<(), KinematicsError> {
         if moved_s <= 0.0 {
@@ -168,7 +168,7 @@ impl<'a> Drive<'a> {
         motion: usize,
         measured_q: &[f64],
         q: &[f64],
-    ) -> Result<Led, KinematicsError> {
+    ) -> Result<ServoResult, KinematicsError> {
         self.look(measured_q, q);
         let (arm_q, method) = ((&self.measured[..], &self.commanded[..]), servo.method.into());
         let step = self.solver.change_towards(&servo.target, arm_q, method)?;
@@ -176,7 +176,7 @@ impl<'a> Drive<'a> {
         let held = step.limits_held.to_vec();
         let joints = self.solver.arm().joints();
         let name = |at: usize| self.robot.joint(joints[at].joint).name.clone();
-        Ok(Led {
+        Ok(ServoResult {
             motion,
             method: servo.method,
             position_m,
@@ -194,10 +194,10 @@ impl<'a> Drive<'a> {
     }
 }
 
-impl std::fmt::Display for Led {
-    /// In words: `led by pseudo_inverse, 1.2e-9 m left`.
+impl std::fmt::Display for ServoResult {
+    /// In words: `servo_results by pseudo_inverse, 1.2e-9 m left`.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "led by {}, {:.1e} m", self.method.name(), self.position_m)?;
+        write!(f, "servo_results by {}, {:.1e} m", self.method.name(), self.position_m)?;
         if let Some(orientation_rad) = self.orientation_rad {
             write!(f, " and {orientation_rad:.1e} rad")?;
         }

@@ -10,12 +10,12 @@ pub use files::{OutputError, OutputFolder, write_whole};
 pub use junit::{sentence, write_junit};
 
 use crate::{
-    motion::Led,
+    motion::ServoResult,
     run::{Outcome, RunError},
     scenario::Scenario,
     verdict::{CheckResult, Expectation, Status, Stop, Verdict},
 };
-use congruent_agreement::compare::model::PoseSource;
+use congruent_agreement::compare::PoseSource;
 
 /// The whole report of one scenario.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -38,9 +38,9 @@ pub struct RunReport {
     pub checks: Vec<CheckResult>,
     /// Where a check ended the run before its time: later steps were neither taken nor looked at.
     pub stopped: Option<Stop>,
-    /// Where each `servo_tcp` has led the tool.
+    /// Where each `servo_tcp` has servo_results the tool.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub servos: Vec<Led>,
+    pub servos: Vec<ServoResult>,
     /// Why the run broke off, where it did.
     pub error: Option<String>,
     /// The clock.

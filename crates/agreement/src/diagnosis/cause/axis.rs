@@ -1,12 +1,12 @@
 //! `axis_flipped`: a joint moves the other way.
 
-use crate::diagnosis::hypothesis::{Case, Cause, Hypothesis, Place};
+use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
 
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let flipped = |row: usize| {
-        Hypothesis::edit(Cause::AxisFlipped, Place::Rows(vec![row]), move |case: &mut Case| {
-            case.suspect.rows[row].rate *= -1.0;
+        Hypothesis::edit(Cause::AxisFlipped, Place::Rows(vec![row]), move |models: &mut ModelPair| {
+            models.candidate.rows[row].rate *= -1.0;
         })
     };
-    (0..case.suspect.rows.len()).map(flipped).collect()
+    (0..models.candidate.rows.len()).map(flipped).collect()
 }

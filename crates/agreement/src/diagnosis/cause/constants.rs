@@ -4,18 +4,18 @@
 use std::ops::Range;
 
 use crate::diagnosis::{
-    hypothesis::{Case, Cause, Hypothesis, Place},
-    suspect::Parameter,
+    candidate::ModelParameter,
+    hypothesis::{Cause, Hypothesis, ModelPair, Place},
 };
 
-pub(super) fn hypotheses(_: &Case) -> Vec<Hypothesis> {
+pub(super) fn hypotheses(_: &ModelPair) -> Vec<Hypothesis> {
     let single = (0..6).map(|component| component..component + 1);
     let parts: Vec<Range<usize>> = single.chain([0..3, 3..6, 0..6]).collect();
     let tool = |part: &Range<usize>| {
-        Hypothesis::fit(Cause::Tool, Place::Tool, part.clone().map(Parameter::Tool).collect())
+        Hypothesis::fit(Cause::Tool, Place::Tool, part.clone().map(ModelParameter::Tool).collect())
     };
     let base = |part: &Range<usize>| {
-        Hypothesis::fit(Cause::Base, Place::Base, part.clone().map(Parameter::Base).collect())
+        Hypothesis::fit(Cause::Base, Place::Base, part.clone().map(ModelParameter::Base).collect())
     };
     parts.iter().map(tool).chain(parts.iter().map(base)).collect()
 }

@@ -2,15 +2,15 @@
 
 use congruent_description::DhConvention;
 
-use crate::diagnosis::hypothesis::{Case, Cause, Hypothesis, Place};
+use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
 
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
-    let Some(convention) = case.suspect.convention else { return Vec::new() };
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+    let Some(convention) = models.candidate.convention else { return Vec::new() };
     let other = match convention {
         DhConvention::Standard => DhConvention::Modified,
         DhConvention::Modified => DhConvention::Standard,
     };
-    vec![Hypothesis::edit(Cause::ConventionSwapped, Place::Model, move |case| {
-        case.suspect.convention = Some(other);
+    vec![Hypothesis::edit(Cause::ConventionSwapped, Place::Model, move |models| {
+        models.candidate.convention = Some(other);
     })]
 }

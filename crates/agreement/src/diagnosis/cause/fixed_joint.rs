@@ -2,15 +2,15 @@
 
 use congruent_kinematics::Pose;
 
-use crate::diagnosis::hypothesis::{Case, Cause, Hypothesis, Place};
+use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
 
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
-    let reference = &case.reference;
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+    let reference = &models.reference;
     let dropped = |joint: usize| {
         Hypothesis::edit(
             Cause::FixedJointDropped,
             Place::ReferenceJoints(vec![joint]),
-            move |case: &mut Case| case.reference.joints[joint].parent_from_joint = Pose::identity(),
+            move |models: &mut ModelPair| models.reference.joints[joint].parent_from_joint = Pose::identity(),
         )
     };
     let is_fixed = |&joint: &usize| {

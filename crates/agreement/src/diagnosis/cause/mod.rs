@@ -15,10 +15,10 @@ mod rpy;
 mod units;
 mod zero;
 
-use super::hypothesis::{Case, Hypothesis};
+use super::hypothesis::{Hypothesis, ModelPair};
 
-/// The hypotheses of one family about a case.
-type Family = fn(&Case) -> Vec<Hypothesis>;
+/// The hypotheses of one family about a models.
+type Family = fn(&ModelPair) -> Vec<Hypothesis>;
 
 /// All families.
 const FAMILIES: [Family; 13] = [
@@ -37,7 +37,7 @@ const FAMILIES: [Family; 13] = [
     ratio::hypotheses,
 ];
 
-/// Everything that may be wrong with a case.
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
-    FAMILIES.iter().flat_map(|family| family(case)).collect()
+/// Everything that may be wrong with a models.
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+    FAMILIES.iter().flat_map(|family| family(models)).collect()
 }

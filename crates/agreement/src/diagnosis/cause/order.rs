@@ -1,24 +1,24 @@
 //! `joints_swapped`: two joints' names or whole rows are exchanged.
 
-use crate::diagnosis::hypothesis::{Case, Cause, Hypothesis, Place};
+use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
 
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
-    let rows = case.suspect.rows.len();
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+    let rows = models.candidate.rows.len();
     let pairs = (0..rows).flat_map(|second| (0..second).map(move |first| (first, second)));
     pairs.flat_map(|(first, second)| [names(first, second), whole_rows(first, second)]).collect()
 }
 
 /// The figures stand where they should, the names do not.
 fn names(first: usize, second: usize) -> Hypothesis {
-    Hypothesis::edit(Cause::JointsSwapped, Place::Rows(vec![first, second]), move |case: &mut Case| {
-        let rows = &mut case.suspect.rows;
+    Hypothesis::edit(Cause::JointsSwapped, Place::Rows(vec![first, second]), move |models: &mut ModelPair| {
+        let rows = &mut models.candidate.rows;
         (rows[first].joint, rows[second].joint) = (rows[second].joint, rows[first].joint);
     })
 }
 
 /// Names and figures have changed places together.
 fn whole_rows(first: usize, second: usize) -> Hypothesis {
-    Hypothesis::edit(Cause::JointsSwapped, Place::Rows(vec![first, second]), move |case: &mut Case| {
-        case.suspect.rows.swap(first, second);
+    Hypothesis::edit(Cause::JointsSwapped, Place::Rows(vec![first, second]), move |models: &mut ModelPair| {
+        models.candidate.rows.swap(first, second);
     })
 }

@@ -2,19 +2,19 @@
 //! offset that a prismatic joint drives is both.
 
 use crate::diagnosis::{
-    hypothesis::{Case, Cause, Hypothesis, Place},
-    suspect::{Entry, Parameter},
+    candidate::{DhEntry, ModelParameter},
+    hypothesis::{Cause, Hypothesis, ModelPair, Place},
 };
 
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
-    let suspect = &case.suspect;
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+    let candidate = &models.candidate;
     let mut list = Vec::new();
-    for row in 0..suspect.rows.len() {
-        for entry in [Entry::A, Entry::Alpha, Entry::D, Entry::Theta] {
-            let is_zero = entry == suspect.zero_entry(row) && entry == Entry::Theta;
-            if !is_zero && suspect.entry(row, entry).is_some() {
+    for row in 0..candidate.rows.len() {
+        for entry in [DhEntry::A, DhEntry::Alpha, DhEntry::D, DhEntry::Theta] {
+            let is_zero = entry == candidate.zero_entry(row) && entry == DhEntry::Theta;
+            if !is_zero && candidate.entry(row, entry).is_some() {
                 let place = Place::Entries(entry, vec![row]);
-                list.push(Hypothesis::fit(Cause::Parameter, place, vec![Parameter::Row(row, entry)]));
+                list.push(Hypothesis::fit(Cause::Parameter, place, vec![ModelParameter::Row(row, entry)]));
             }
         }
     }

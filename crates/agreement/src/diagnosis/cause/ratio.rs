@@ -1,11 +1,11 @@
 //! `ratio`: a joint moves more or less than its variable says.
 
 use crate::diagnosis::{
-    hypothesis::{Case, Cause, Hypothesis, Place},
-    suspect::Parameter,
+    candidate::ModelParameter,
+    hypothesis::{Cause, Hypothesis, ModelPair, Place},
 };
 
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
-    let ratio = |row| Hypothesis::fit(Cause::Ratio, Place::Rows(vec![row]), vec![Parameter::Rate(row)]);
-    (0..case.suspect.rows.len()).map(ratio).collect()
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+    let ratio = |row| Hypothesis::fit(Cause::Ratio, Place::Rows(vec![row]), vec![ModelParameter::Rate(row)]);
+    (0..models.candidate.rows.len()).map(ratio).collect()
 }

@@ -3,33 +3,37 @@
 use nalgebra::Matrix3;
 
 use crate::diagnosis::{
-    hypothesis::{Case, Cause, Hypothesis, Place},
-    reference::Reference,
+    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    reference_model::ReferenceModel,
 };
 
 /// How far a quarter turn with four decimals (1.5708) may be off, doubled for a half turn and for
 /// two of them in one joint.
 const FOUR_DECIMALS_RAD: f64 = 1e-4;
 
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
-    let rounded = rounded(&case.reference);
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+    let rounded = rounded(&models.reference);
     let all = (rounded.len() > 1).then(|| hypothesis(rounded.clone()));
     all.into_iter().chain(rounded.iter().map(|&joint| hypothesis(vec![joint]))).collect()
 }
 
 fn hypothesis(joints: Vec<usize>) -> Hypothesis {
-    Hypothesis::edit(Cause::Parameter, Place::ReferenceJoints(joints.clone()), move |case: &mut Case| {
-        for &joint in &joints {
-            let rotation = &mut case.reference.joints[joint].parent_from_joint.rotation;
-            if let Some(exact) = quarter_turns(rotation) {
-                *rotation = exact;
+    Hypothesis::edit(
+        Cause::Parameter,
+        Place::ReferenceJoints(joints.clone()),
+        move |models: &mut ModelPair| {
+            for &joint in &joints {
+                let rotation = &mut models.reference.joints[joint].parent_from_joint.rotation;
+                if let Some(exact) = quarter_turns(rotation) {
+                    *rotation = exact;
+                }
             }
-        }
-    })
+        },
+    )
 }
 
 /// Joints whose rotation is nearly one by quarter turns.
-fn rounded(reference: &Reference) -> Vec<usize> {
+fn rounded(reference: &ReferenceModel) -> Vec<usize> {
     let near = |&joint: &usize| {
         let rotation = &reference.joints[joint].parent_from_joint.rotation;
         reference.joints[joint].is_written

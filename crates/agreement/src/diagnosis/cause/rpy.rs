@@ -4,7 +4,7 @@
 use congruent_kinematics::EulerSet;
 use nalgebra::Matrix3;
 
-use crate::diagnosis::hypothesis::{Case, Cause, Hypothesis, Place};
+use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
 
 /// Figures below this make every order the same.
 const NO_TURN_RAD: f64 = 1e-12;
@@ -12,12 +12,12 @@ const NO_TURN_RAD: f64 = 1e-12;
 const SINGULAR_BELOW_RAD: f64 = 1e-9;
 
 /// What another order makes of a rotation.
-type Reading = fn([f64; 3], &Matrix3<f64>) -> Matrix3<f64>;
+type RpyReading = fn([f64; 3], &Matrix3<f64>) -> Matrix3<f64>;
 
 /// The same figures in another order, by product, by its reverse (at a quarter turn of pitch, where
 /// only the sum of the other two is known, without roll and without yaw), and by the place of the
 /// figures.
-const READINGS: [Reading; 4] = [
+const READINGS: [RpyReading; 4] = [
     |rpy, _| EulerSet::Xyz.rotation(rpy),
     |_, rotation| {
         let [roll, pitch, yaw] = EulerSet::Xyz.angles_singular_below(rotation, SINGULAR_BELOW_RAD).angles_rad;
@@ -31,28 +31,28 @@ const READINGS: [Reading; 4] = [
     |rpy, _| EulerSet::Zyx.rotation(rpy),
 ];
 
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let mut list = Vec::new();
     for reading in READINGS {
-        list.push(Hypothesis::edit(Cause::RpyOrder, Place::Base, move |case: &mut Case| {
-            let constant = &mut case.suspect.base;
+        list.push(Hypothesis::edit(Cause::RpyOrder, Place::Base, move |models: &mut ModelPair| {
+            let constant = &mut models.candidate.base;
             reread(&mut constant.pose.rotation, constant.written_rpy_rad, reading);
         }));
-        list.push(Hypothesis::edit(Cause::RpyOrder, Place::Tool, move |case: &mut Case| {
-            let constant = &mut case.suspect.tool;
+        list.push(Hypothesis::edit(Cause::RpyOrder, Place::Tool, move |models: &mut ModelPair| {
+            let constant = &mut models.candidate.tool;
             reread(&mut constant.pose.rotation, constant.written_rpy_rad, reading);
         }));
-        for joint in (0..case.reference.joints.len()).filter(|&at| case.reference.joints[at].is_written) {
+        for joint in (0..models.reference.joints.len()).filter(|&at| models.reference.joints[at].is_written) {
             let place = Place::ReferenceJoints(vec![joint]);
-            list.push(Hypothesis::edit(Cause::RpyOrder, place, move |case: &mut Case| {
-                reread(&mut case.reference.joints[joint].parent_from_joint.rotation, None, reading);
+            list.push(Hypothesis::edit(Cause::RpyOrder, place, move |models: &mut ModelPair| {
+                reread(&mut models.reference.joints[joint].parent_from_joint.rotation, None, reading);
             }));
         }
     }
     list
 }
 
-fn reread(rotation: &mut Matrix3<f64>, written_rpy_rad: Option<[f64; 3]>, reading: Reading) {
+fn reread(rotation: &mut Matrix3<f64>, written_rpy_rad: Option<[f64; 3]>, reading: RpyReading) {
     let rpy = written_rpy_rad.unwrap_or_else(|| rpy_of(rotation));
     // One turn alone has no order, but its figure has a place.
     if rpy.iter().any(|angle| angle.abs() > NO_TURN_RAD) {

@@ -5,114 +5,114 @@ use congruent_kinematics::rotation_exp;
 use nalgebra::Vector3;
 
 use crate::diagnosis::{
-    hypothesis::{Case, Cause, Hypothesis, Place},
-    suspect::{Constant, Entry, Suspect},
+    candidate::{Candidate, Constant, DhEntry},
+    hypothesis::{Cause, Hypothesis, ModelPair, Place},
 };
 
-const ANGLES: [Entry; 2] = [Entry::Alpha, Entry::Theta];
-const LENGTHS: [Entry; 2] = [Entry::A, Entry::D];
+const ANGLES: [DhEntry; 2] = [DhEntry::Alpha, DhEntry::Theta];
+const LENGTHS: [DhEntry; 2] = [DhEntry::A, DhEntry::D];
 
 /// A slip of a unit: what it is called, what undoes it, what it touches.
 #[derive(Clone, Copy)]
-struct Slip {
+struct UnitSlip {
     cause: Cause,
     factor: f64,
-    entries: &'static [Entry; 2],
+    entries: &'static [DhEntry; 2],
 }
 
-const SLIPS: [Slip; 4] = [
-    Slip { cause: Cause::DegreesAsRadians, factor: std::f64::consts::PI / 180.0, entries: &ANGLES },
-    Slip { cause: Cause::RadiansAsDegrees, factor: 180.0 / std::f64::consts::PI, entries: &ANGLES },
-    Slip { cause: Cause::MillimetresAsMetres, factor: 1e-3, entries: &LENGTHS },
-    Slip { cause: Cause::MillimetresAsMetres, factor: 1e3, entries: &LENGTHS },
+const SLIPS: [UnitSlip; 4] = [
+    UnitSlip { cause: Cause::DegreesAsRadians, factor: std::f64::consts::PI / 180.0, entries: &ANGLES },
+    UnitSlip { cause: Cause::RadiansAsDegrees, factor: 180.0 / std::f64::consts::PI, entries: &ANGLES },
+    UnitSlip { cause: Cause::MillimetresAsMetres, factor: 1e-3, entries: &LENGTHS },
+    UnitSlip { cause: Cause::MillimetresAsMetres, factor: 1e3, entries: &LENGTHS },
 ];
 
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let mut list = Vec::new();
     for slip in SLIPS {
-        table(&case.suspect, slip, &mut list);
+        table(&models.candidate, slip, &mut list);
         for place in [Place::Base, Place::Tool] {
             list.push(constant(place, slip));
         }
         if slip.entries == &LENGTHS {
             list.push(whole(slip));
         } else {
-            positions(case.suspect.rows.len(), slip, &mut list);
+            positions(models.candidate.rows.len(), slip, &mut list);
         }
     }
     list
 }
 
 /// Entries, columns, and both columns of a table.
-fn table(suspect: &Suspect, slip: Slip, list: &mut Vec<Hypothesis>) {
-    let Slip { cause, factor, entries } = slip;
-    for row in 0..suspect.rows.len() {
+fn table(candidate: &Candidate, slip: UnitSlip, list: &mut Vec<Hypothesis>) {
+    let UnitSlip { cause, factor, entries } = slip;
+    for row in 0..candidate.rows.len() {
         for &entry in entries {
-            if suspect.entry(row, entry).is_some_and(|value| value != 0.0) {
+            if candidate.entry(row, entry).is_some_and(|value| value != 0.0) {
                 let place = Place::Entries(entry, vec![row]);
-                list.push(Hypothesis::edit(cause, place, move |case| {
-                    scale(&mut case.suspect, row, entry, factor);
+                list.push(Hypothesis::edit(cause, place, move |models| {
+                    scale(&mut models.candidate, row, entry, factor);
                 }));
             }
         }
     }
     for column in [&entries[..1], &entries[1..], &entries[..]] {
-        let edit = move |case: &mut Case| scale_columns(&mut case.suspect, column, factor);
+        let edit = move |models: &mut ModelPair| scale_columns(&mut models.candidate, column, factor);
         list.push(Hypothesis::edit(cause, Place::Column(column.to_vec()), edit));
     }
 }
 
-fn constant(place: Place, slip: Slip) -> Hypothesis {
+fn constant(place: Place, slip: UnitSlip) -> Hypothesis {
     let at_base = place == Place::Base;
-    Hypothesis::edit(slip.cause, place, move |case: &mut Case| {
-        let suspect = &mut case.suspect;
-        rescale(if at_base { &mut suspect.base } else { &mut suspect.tool }, slip);
+    Hypothesis::edit(slip.cause, place, move |models: &mut ModelPair| {
+        let candidate = &mut models.candidate;
+        rescale(if at_base { &mut candidate.base } else { &mut candidate.tool }, slip);
     })
 }
 
 /// All lengths of the model, the declared transforms' too.
-fn whole(slip: Slip) -> Hypothesis {
-    Hypothesis::edit(slip.cause, Place::Model, move |case: &mut Case| {
-        let suspect = &mut case.suspect;
-        scale_columns(suspect, slip.entries, slip.factor);
-        for row in &mut suspect.rows {
+fn whole(slip: UnitSlip) -> Hypothesis {
+    Hypothesis::edit(slip.cause, Place::Model, move |models: &mut ModelPair| {
+        let candidate = &mut models.candidate;
+        scale_columns(candidate, slip.entries, slip.factor);
+        for row in &mut candidate.rows {
             row.rescale_screw(slip.factor);
         }
-        rescale(&mut suspect.base, slip);
-        rescale(&mut suspect.tool, slip);
+        rescale(&mut candidate.base, slip);
+        rescale(&mut candidate.tool, slip);
     })
 }
 
 /// The position of one joint, or of all: a joint that moves 57.3 times as far.
-fn positions(rows: usize, slip: Slip, list: &mut Vec<Hypothesis>) {
-    let Slip { cause, factor, .. } = slip;
+fn positions(rows: usize, slip: UnitSlip, list: &mut Vec<Hypothesis>) {
+    let UnitSlip { cause, factor, .. } = slip;
     for row in 0..rows {
-        list.push(Hypothesis::edit(cause, Place::Rows(vec![row]), move |case: &mut Case| {
-            case.suspect.rows[row].rate *= factor;
+        list.push(Hypothesis::edit(cause, Place::Rows(vec![row]), move |models: &mut ModelPair| {
+            models.candidate.rows[row].rate *= factor;
         }));
     }
-    list.push(Hypothesis::edit(cause, Place::Rows((0..rows).collect()), move |case: &mut Case| {
-        for row in &mut case.suspect.rows {
+    list.push(Hypothesis::edit(cause, Place::Rows((0..rows).collect()), move |models: &mut ModelPair| {
+        for row in &mut models.candidate.rows {
             row.rate *= factor;
         }
     }));
 }
 
-fn scale_columns(suspect: &mut Suspect, column: &[Entry], factor: f64) {
-    for row in 0..suspect.rows.len() {
+fn scale_columns(candidate: &mut Candidate, column: &[DhEntry], factor: f64) {
+    for row in 0..candidate.rows.len() {
         for &entry in column {
-            scale(suspect, row, entry, factor);
+            scale(candidate, row, entry, factor);
         }
     }
 }
 
-fn scale(suspect: &mut Suspect, row: usize, entry: Entry, factor: f64) {
-    if let Some(value) = suspect.entry_mut(row, entry) {
+fn scale(candidate: &mut Candidate, row: usize, entry: DhEntry, factor: f64) {
+    if let Some(value) = candidate.entry_mut(row, entry) {
         *value *= factor;
     }
 }
 
-fn rescale(constant: &mut Constant, slip: Slip) {
+fn rescale(constant: &mut Constant, slip: UnitSlip) {
     if slip.entries == &LENGTHS {
         constant.pose.translation *= slip.factor;
     } else if let Some(rpy) = constant.written_rpy_rad {

@@ -1,17 +1,17 @@
 //! `zero_offset`: a joint's zero is elsewhere than the model says.
 
 use crate::diagnosis::{
-    hypothesis::{Case, Cause, Hypothesis, Place},
-    suspect::Parameter,
+    candidate::ModelParameter,
+    hypothesis::{Cause, Hypothesis, ModelPair, Place},
 };
 
-pub(super) fn hypotheses(case: &Case) -> Vec<Hypothesis> {
-    let suspect = &case.suspect;
+pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+    let candidate = &models.candidate;
     let zero = |row: usize| {
-        let entry = suspect.zero_entry(row);
+        let entry = candidate.zero_entry(row);
         let place = Place::Entries(entry, vec![row]);
-        suspect.entry(row, entry)?;
-        Some(Hypothesis::fit(Cause::ZeroOffset, place, vec![Parameter::Row(row, entry)]))
+        candidate.entry(row, entry)?;
+        Some(Hypothesis::fit(Cause::ZeroOffset, place, vec![ModelParameter::Row(row, entry)]))
     };
-    (0..suspect.rows.len()).filter_map(zero).collect()
+    (0..candidate.rows.len()).filter_map(zero).collect()
 }

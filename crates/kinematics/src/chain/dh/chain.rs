@@ -50,7 +50,7 @@ use crate::{
 /// let mut frames = [Pose::identity(); 3];
 /// chain.dh_frames_into(&q, &mut frames)?;
 /// assert_eq!(frames[1].translation, Vector3::new(0.6, 0., 0.));
-/// let tip_from_elbow = chain.dhi_from_dhj(&q, DhFrames { seen_from: 2, of: 1 })?;
+/// let tip_from_elbow = chain.dhi_from_dhj(&q, DhFrames { transformed_by: 2, of: 1 })?;
 /// assert!((tip_from_elbow.translation - Vector3::new(-0.4, 0., 0.)).norm() < f64::EPSILON);
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())
 /// ```
@@ -161,12 +161,12 @@ impl DhChain {
         Ok(self.base_from_tip(q)? * *tip_from_tcp)
     }
 
-    /// Pose of frame `dh<of>` in frame `dh<seen_from>`, either way round and for equal numbers.
+    /// Pose of frame `dh<of>` in frame `dh<transformed_by>`, either way round and for equal numbers.
     ///
     /// | value | shape | unit | frame |
     /// |---|---|---|---|
     /// | `q` | the robot's dof | rad, m | order of [`Robot::movable_joints`] |
-    /// | result | SE(3) | m | `dhi_from_dhj`, i = `seen_from`, j = `of` |
+    /// | result | SE(3) | m | `dhi_from_dhj`, i = `transformed_by`, j = `of` |
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`], or [`KinematicsError::FrameIndex`] for a frame that is not there.
@@ -174,13 +174,13 @@ impl DhChain {
     /// See [`DhChain`].
     pub fn dhi_from_dhj(&self, q: &[f64], frames: DhFrames) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
-        let (first, last) = (frames.seen_from.min(frames.of), frames.seen_from.max(frames.of));
+        let (first, last) = (frames.transformed_by.min(frames.of), frames.transformed_by.max(frames.of));
         if last > self.rows.len() {
             return Err(KinematicsError::FrameIndex { index: last, last: self.rows.len() });
         }
         let first_from_last =
             self.visit(Axes::of(&Pose::identity()), &self.rows[first..last], q, |_, _| {}).pose();
-        Ok(if frames.seen_from <= frames.of { first_from_last } else { first_from_last.inverse() })
+        Ok(if frames.transformed_by <= frames.of { first_from_last } else { first_from_last.inverse() })
     }
 
     /// Pose of link `tip`, and its derivative by every figure of the table.
@@ -211,7 +211,7 @@ impl DhChain {
         });
         *base_from_tip = base_from_dhn.times(&self.dhn_from_tip);
         *by_base_from_dh0 = Twist::units();
-        *by_dhn_from_tip = Twist::units().map(|unit| unit.seen_from(&base_from_dhn.pose()));
+        *by_dhn_from_tip = Twist::units().map(|unit| unit.transformed_by(&base_from_dhn.pose()));
         Ok(())
     }
 
@@ -246,7 +246,7 @@ impl DhChain {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DhFrames {
     /// Number of the frame that the result is expressed in.
-    pub seen_from: usize,
+    pub transformed_by: usize,
     /// Number of the frame whose pose is asked for.
     pub of: usize,
 }

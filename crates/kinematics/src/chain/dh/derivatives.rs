@@ -51,7 +51,7 @@ impl DhRowTwists {
 /// | `by_dhn_from_tip` | 6 | 1 per rad, per m | a twist of the constant, in `dhn`: `exp([V]) dhn_from_tip` |
 ///
 /// The six are in the order of [`Twist::units`]. A space twist is that of every frame fixed to the tip,
-/// a tool's too; [`Twist::seen_from`] gives it in other frames.
+/// a tool's too; [`Twist::transformed_by`] gives it in other frames.
 ///
 /// Source: Lynch & Park, *Modern Robotics* (2017), eq. 5.11, for figures instead of joints.
 ///

@@ -182,7 +182,7 @@ impl SerialDh {
                 DhRowKind::Revolute => Twist { angular: along, linear: Vector3::zeros() },
                 DhRowKind::Prismatic => Twist { angular: Vector3::zeros(), linear: along },
             };
-            twists_in_base.push(in_frame.seen_from(&before_motion));
+            twists_in_base.push(in_frame.transformed_by(&before_motion));
             base_from_here = base_from_here * row.transform(self.convention, 0.0);
         }
         ScrewChain { twists_in_base, base_from_tip_at_zero: base_from_here * self.dhn_from_tip }

@@ -39,7 +39,7 @@ impl JacobianKind {
         match self {
             Self::Body => *body,
             Self::Geometric => Twist { angular: turn * body.angular, linear: turn * body.linear },
-            Self::Space => body.seen_from(root_from_link),
+            Self::Space => body.transformed_by(root_from_link),
         }
     }
 }

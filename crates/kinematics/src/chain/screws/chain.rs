@@ -39,12 +39,15 @@ impl ScrewChain {
     /// each joint, so that swapped joints show) the motion of one joint alone is
     /// `exp(h T_i)`, where `T_i` is its twist at `q0`; moving that back by the joints before it gives
     /// the twist at zero. For joints that follow screws this is exact, not a difference quotient.
-    pub fn probe(n: usize, mut base_from_tip: impl FnMut(&[f64]) -> Pose) -> Self {
-        let Ok(chain) = Self::try_probe(n, |q| Ok::<_, Infallible>(base_from_tip(q)));
+    pub fn identify(n: usize, mut base_from_tip: impl FnMut(&[f64]) -> Pose) -> Self {
+        let Ok(chain) = Self::try_identify(n, |q| Ok::<_, Infallible>(base_from_tip(q)));
         chain
     }
 
-    fn try_probe<E>(n: usize, mut base_from_tip: impl FnMut(&[f64]) -> Result<Pose, E>) -> Result<Self, E> {
+    fn try_identify<E>(
+        n: usize,
+        mut base_from_tip: impl FnMut(&[f64]) -> Result<Pose, E>,
+    ) -> Result<Self, E> {
         // Not simple multiples of one another, none near a quarter turn.
         #[expect(clippy::cast_precision_loss, reason = "arms have few joints")]
         let q0: Vec<f64> = (0..n).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
@@ -63,7 +66,7 @@ impl ScrewChain {
             // Half a unit of a joint that moves 57.3 times as far as it says would wrap.
             let rate = twist_by(SHORT_STEP)?.angular.norm();
             let at_q0 = twist_by(if rate * PROBE_STEP < 1.0 { PROBE_STEP } else { PROBE_STEP / rate })?;
-            let at_zero = at_q0.seen_from(&before.inverse());
+            let at_zero = at_q0.transformed_by(&before.inverse());
             before = before * at_zero.exp(q0[joint]);
             twists_in_base.push(at_zero);
         }
@@ -76,7 +79,7 @@ impl ScrewChain {
     /// [`KinematicsError::JointCount`] when `dof` is not that of the table's robot.
     pub fn from_dh(chain: &DhChain, dof: usize) -> Result<Self, KinematicsError> {
         let mut q = vec![0.0; dof];
-        Self::try_probe(chain.coordinates().len(), |rows| {
+        Self::try_identify(chain.coordinates().len(), |rows| {
             for (&coordinate, &value) in chain.coordinates().iter().zip(rows) {
                 q[coordinate] = value;
             }
@@ -96,7 +99,7 @@ impl ScrewChain {
     ) -> Result<Self, KinematicsError> {
         let tree = UrdfTree::new(robot);
         let mut q = vec![0.0; robot.dof()];
-        Self::try_probe(coordinates.len(), |values| {
+        Self::try_identify(coordinates.len(), |values| {
             for (&coordinate, &value) in coordinates.iter().zip(values) {
                 q[coordinate] = value;
             }
@@ -123,12 +126,12 @@ impl ScrewChain {
     /// ```
     pub fn twists_in_tip(&self) -> Vec<Twist> {
         let tip_from_base = self.base_from_tip_at_zero.inverse();
-        self.twists_in_base.iter().map(|twist| twist.seen_from(&tip_from_base)).collect()
+        self.twists_in_base.iter().map(|twist| twist.transformed_by(&tip_from_base)).collect()
     }
 
     /// The chain with these body screws, the inverse of [`ScrewChain::twists_in_tip`].
     pub fn from_twists_in_tip(twists_in_tip: &[Twist], base_from_tip_at_zero: Pose) -> Self {
-        let in_base = |twist: &Twist| twist.seen_from(&base_from_tip_at_zero);
+        let in_base = |twist: &Twist| twist.transformed_by(&base_from_tip_at_zero);
         Self { twists_in_base: twists_in_tip.iter().map(in_base).collect(), base_from_tip_at_zero }
     }
 
@@ -178,7 +181,7 @@ mod tests {
             ],
             base_from_tip_at_zero: twist([0.1, 0.2, 0.3], [1.0, 0.5, 0.2]).exp(1.0),
         };
-        let probed = ScrewChain::probe(4, |q| chain.base_from_tip(q).unwrap());
+        let probed = ScrewChain::identify(4, |q| chain.base_from_tip(q).unwrap());
         for (found, expected) in probed.twists_in_base.iter().zip(&chain.twists_in_base) {
             assert!((found.angular - expected.angular).norm() < ROUNDING);
             assert!((found.linear - expected.linear).norm() < ROUNDING);
@@ -193,7 +196,7 @@ mod tests {
         let turn =
             Twist { angular: Vector3::new(0.0, 180.0 / std::f64::consts::PI, 0.0), linear: Vector3::x() };
         let chain = ScrewChain { twists_in_base: vec![turn], base_from_tip_at_zero: Pose::identity() };
-        let probed = ScrewChain::probe(1, |q| chain.base_from_tip(q).unwrap());
+        let probed = ScrewChain::identify(1, |q| chain.base_from_tip(q).unwrap());
         assert!((probed.twists_in_base[0].angular - turn.angular).norm() < FAST);
         assert!((probed.twists_in_base[0].linear - turn.linear).norm() < FAST);
     }

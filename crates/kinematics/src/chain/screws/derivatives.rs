@@ -72,11 +72,11 @@ impl ScrewChain {
         by_screws.clear();
         let mut before = Pose::identity();
         for (twist, &q) in self.twists_in_base.iter().zip(q) {
-            let by = |unit: Twist| (*twist * q).dexp(&(unit * q)).seen_from(&before);
+            let by = |unit: Twist| (*twist * q).dexp(&(unit * q)).transformed_by(&before);
             by_screws.push(Twist::units().map(by));
             before = before * twist.exp(q);
         }
-        *by_home = Twist::units().map(|unit| unit.seen_from(&before));
+        *by_home = Twist::units().map(|unit| unit.transformed_by(&before));
         *base_from_tip = before * self.base_from_tip_at_zero;
         Ok(())
     }

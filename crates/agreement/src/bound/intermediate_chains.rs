@@ -1,5 +1,5 @@
 //! Ways from one chain to another over chains between them: by the triangle inequality no
-//! disagreement exceeds the sum of those along a way. Each step differs in one place only, so its gap
+//! disagreement exceeds the sum of those along a intermediate_chains. Each step differs in one place only, so its difference
 //! depends on fewer joints than the whole, and what the other joints turn is not seen at all: a wrong
 //! base and a wrong tool are worst where they add up, on a set of configurations so flat that a
 //! box around each of them would have to be divided.
@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{
     corner::Interval,
-    telescope::{Telescope, furthest},
+    telescoping::{TelescopingBound, furthest},
 };
 
 /// Screws that differ by less than this part of what the chains differ are taken for one: it decides
@@ -27,10 +27,10 @@ const ROUNDINGS: f64 = 1024.0;
 const MOST_SPLIT: usize = 4;
 
 /// Chains from the first to the last, each step to the next one.
-pub(super) type Way = Vec<[ScrewChain; 2]>;
+pub(super) type ChainSequence = Vec<[ScrewChain; 2]>;
 
 /// Ways over the places where the chains differ, in all groupings.
-pub(super) fn over_faults(a: &ScrewChain, b: &ScrewChain) -> Vec<Way> {
+pub(super) fn over_faults(a: &ScrewChain, b: &ScrewChain) -> Vec<ChainSequence> {
     let between = between(a, b);
     let groupings: Vec<Vec<usize>> = if between.len() <= MOST_SPLIT {
         let all = 0..between.len();
@@ -39,17 +39,17 @@ pub(super) fn over_faults(a: &ScrewChain, b: &ScrewChain) -> Vec<Way> {
     } else {
         (0..between.len()).map(|at| vec![at]).collect()
     };
-    let way = |stops: Vec<usize>| {
+    let intermediate_chains = |stops: Vec<usize>| {
         let stops = stops.into_iter().map(|at| between[at].clone());
         let chains: Vec<ScrewChain> = [b.clone()].into_iter().chain(stops).chain([a.clone()]).collect();
         chains.windows(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect()
     };
-    groupings.into_iter().map(way).collect()
+    groupings.into_iter().map(intermediate_chains).collect()
 }
 
 /// Ways over a point that rests in the base, for positions: both tips are within reach of it. Leading
 /// joints that turn about the point do not move it, so they may stand before it.
-pub(super) fn over_points(a: &ScrewChain, b: &ScrewChain) -> Vec<Way> {
+pub(super) fn over_points(a: &ScrewChain, b: &ScrewChain) -> Vec<ChainSequence> {
     let points: Vec<Vector3<f64>> = [a, b].into_iter().flat_map(crossings).collect();
     let mut told: Vec<Vector3<f64>> = Vec::new();
     for point in points {
@@ -68,7 +68,7 @@ fn between(a: &ScrewChain, b: &ScrewChain) -> Vec<ScrewChain> {
         a.twists_in_base.iter().zip(&b.twists_in_base).map(|(a, b)| distance(a, b)).fold(0.0, f64::max);
     let alike = (ALIKE * apart).max(LEAST_ALIKE);
     let matches = |a_from_b: &Pose, joint: usize| {
-        distance(&a.twists_in_base[joint], &b.twists_in_base[joint].seen_from(a_from_b)) <= alike
+        distance(&a.twists_in_base[joint], &b.twists_in_base[joint].transformed_by(a_from_b)) <= alike
     };
     let candidates = placements(a, b);
     let mut list: Vec<ScrewChain> = vec![b.clone()];
@@ -105,7 +105,7 @@ fn is_same(one: &ScrewChain, two: &ScrewChain) -> bool {
 
 /// The first joints of `a`, then those of `b` and its tip, moved.
 fn spliced(a: &ScrewChain, b: &ScrewChain, from: usize, a_from_b: &Pose) -> ScrewChain {
-    let moved = b.twists_in_base[from..].iter().map(|twist| twist.seen_from(a_from_b));
+    let moved = b.twists_in_base[from..].iter().map(|twist| twist.transformed_by(a_from_b));
     ScrewChain {
         twists_in_base: a.twists_in_base[..from].iter().copied().chain(moved).collect(),
         base_from_tip_at_zero: *a_from_b * b.base_from_tip_at_zero,
@@ -131,7 +131,7 @@ fn placements(a: &ScrewChain, b: &ScrewChain) -> Vec<Pose> {
 
 /// A frame that two axes which are not parallel define: z along the first, x along their common normal.
 fn frame(chain: &ScrewChain, first: usize, second: usize) -> Option<Pose> {
-    let [one, two] = [first, second].map(|joint| Axis::of(&chain.twists_in_base[joint]));
+    let [one, two] = [first, second].map(|joint| ScrewAxis::of(&chain.twists_in_base[joint]));
     let (one, two) = (one?, two?);
     let across = one.direction.cross(&two.direction);
     let x = across.try_normalize(PARALLEL)?;
@@ -141,8 +141,8 @@ fn frame(chain: &ScrewChain, first: usize, second: usize) -> Option<Pose> {
 
 /// Where consecutive axes come closest.
 fn crossings(chain: &ScrewChain) -> Vec<Vector3<f64>> {
-    let axes: Vec<Option<Axis>> = chain.twists_in_base.iter().map(Axis::of).collect();
-    let middle = |pair: &[Option<Axis>]| {
+    let axes: Vec<Option<ScrewAxis>> = chain.twists_in_base.iter().map(ScrewAxis::of).collect();
+    let middle = |pair: &[Option<ScrewAxis>]| {
         let [Some(one), Some(two)] = pair else { return None };
         let crosses = one.direction.cross(&two.direction).norm() > PARALLEL;
         crosses.then(|| (one.foot(two) + two.foot(one)) / 2.0)
@@ -173,7 +173,7 @@ pub(super) fn of_move(from: &ScrewChain, to: &ScrewChain, ranges: &[Interval]) -
     let first = pairs.take_while(|(from, to)| distance(from, to) <= LEAST_ALIKE).count();
     let moved = |pose: &Pose| spliced(to, from, first, pose);
     let by = placements(to, from).into_iter().find(|pose| is_same(&moved(pose), to))?;
-    let left = Telescope::new(&moved(&by), to, ranges);
+    let left = TelescopingBound::new(&moved(&by), to, ranges);
     let tip = from.base_from_tip_at_zero.translation;
     let mut reach_m = 0.0;
     let mut point = tip;
@@ -206,12 +206,12 @@ fn distance(a: &Twist, b: &Twist) -> f64 {
 
 /// The axis of a joint that turns.
 #[derive(Debug, Clone, Copy)]
-struct Axis {
+struct ScrewAxis {
     direction: Vector3<f64>,
     through: Vector3<f64>,
 }
 
-impl Axis {
+impl ScrewAxis {
     fn of(twist: &Twist) -> Option<Self> {
         let rate = twist.angular.norm();
         let direction = twist.angular.try_normalize(PARALLEL)?;

@@ -32,7 +32,7 @@ const SHARED: f64 = 1e-14;
 
 /// One joint's motion in one chain.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Motion {
+pub(super) struct AffineMotion {
     pub(super) constant: Matrix4<f64>,
     pub(super) first: Matrix4<f64>,
     pub(super) second: Matrix4<f64>,
@@ -41,7 +41,7 @@ pub(super) struct Motion {
     pub(super) carries: f64,
 }
 
-impl Motion {
+impl AffineMotion {
     /// The motion of a joint that does not move here.
     pub(super) fn none() -> Self {
         let (identity, zeros) = (Matrix4::identity(), Matrix4::zeros());
@@ -55,19 +55,19 @@ impl Motion {
 
 /// Features that both chains share, and what they do in each.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Slot {
+pub(super) struct FeatureSlot {
     /// Which joint position drives it.
     pub(super) joint: usize,
     /// Turn per unit of the position; a shift has none.
     pub(super) rate: Option<f64>,
     /// Of the first chain and of the second.
-    pub(super) motions: [Motion; 2],
+    pub(super) motions: [AffineMotion; 2],
     /// The later slot whose corner it takes.
     pub(super) like: Option<usize>,
 }
 
-impl Slot {
-    pub(super) fn new(joint: usize, rate: Option<f64>, motions: [Motion; 2]) -> Self {
+impl FeatureSlot {
+    pub(super) fn new(joint: usize, rate: Option<f64>, motions: [AffineMotion; 2]) -> Self {
         Self { joint, rate, motions, like: None }
     }
 
@@ -79,7 +79,7 @@ impl Slot {
             (None, None) => true,
             _ => false,
         };
-        let still = Motion::none();
+        let still = AffineMotion::none();
         let apart = self.motions.iter().zip(&other.motions).all(|(one, two)| *one == still || *two == still);
         self.joint == other.joint && same_rate && apart
     }
@@ -135,9 +135,9 @@ impl Slot {
 
 /// `|A_1(q) ... A_n(q) a - B_1(q) ... B_n(q) b|`.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Gap {
+pub(super) struct DifferenceNorm {
     /// Base to tip.
-    slots: Vec<Slot>,
+    slots: Vec<FeatureSlot>,
     /// The vectors at the end of the two chains.
     tips: [Vector4<f64>; 2],
 }
@@ -145,7 +145,7 @@ pub(super) struct Gap {
 /// A bound over a box, and what it says about where to look.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Enclosure {
-    /// No configuration of the box has a larger gap.
+    /// No configuration of the box has a larger difference.
     pub(super) bound: f64,
     /// The joint whose division promises most.
     pub(super) divide: usize,
@@ -157,7 +157,7 @@ pub(super) struct Enclosure {
     pub(super) corners: u64,
 }
 
-/// Room that [`Gap::enclose`] uses again and again.
+/// Room that [`DifferenceNorm::enclose`] uses again and again.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Room {
     corners: Vec<Vec<Corner>>,
@@ -166,9 +166,9 @@ pub(super) struct Room {
     best: Vec<Corner>,
 }
 
-impl Gap {
+impl DifferenceNorm {
     /// Pairs slots of one position where they can share their corners.
-    pub(super) fn new(mut slots: Vec<Slot>, tips: [Vector4<f64>; 2]) -> Self {
+    pub(super) fn new(mut slots: Vec<FeatureSlot>, tips: [Vector4<f64>; 2]) -> Self {
         for index in 0..slots.len() {
             let taken =
                 |later: usize| slots[later].like.is_some() || slots.iter().any(|it| it.like == Some(later));
@@ -181,7 +181,7 @@ impl Gap {
     /// The same without leading slots that move both chains alike: they turn the difference, and its
     /// length stays. What rounding has left between their motions is the second figure.
     pub(super) fn without_shared_lead(mut self, positions: &[Interval]) -> (Self, f64) {
-        let unlike = |slot: &Slot| {
+        let unlike = |slot: &FeatureSlot| {
             let [a, b] = &slot.motions;
             let parts = [a.constant - b.constant, a.first - b.first, a.second - b.second];
             let furthest = positions[slot.joint].0.abs().max(positions[slot.joint].1.abs()).max(1.0);
@@ -205,7 +205,7 @@ impl Gap {
         Self { tips: [self.tips[0], -self.tips[1]], ..self }
     }
 
-    /// Whether the gap depends on a joint position.
+    /// Whether the difference depends on a joint position.
     pub(super) fn depends_on(&self, joint: usize) -> bool {
         self.slots.iter().any(|slot| slot.joint == joint)
     }
@@ -215,7 +215,7 @@ impl Gap {
         self.slots.is_empty()
     }
 
-    /// The gap at joint positions `q`.
+    /// The difference at joint positions `q`.
     pub(super) fn at(&self, q: &[f64]) -> f64 {
         self.at_corners(self.slots.iter().map(|slot| slot.corner(q[slot.joint])))
     }
@@ -223,7 +223,7 @@ impl Gap {
     /// Most corners that a part of a box has.
     pub(super) fn most_corners(&self, cell: &[Interval]) -> u64 {
         let own = self.slots.iter().filter(|slot| slot.like.is_none());
-        let count = |slot: &Slot| slot.rate.map_or(2, |rate| corner_count(rate, cell[slot.joint]));
+        let count = |slot: &FeatureSlot| slot.rate.map_or(2, |rate| corner_count(rate, cell[slot.joint]));
         own.fold(1, |product, slot| product.saturating_mul(count(slot) as u64))
     }
 
@@ -234,17 +234,17 @@ impl Gap {
         32 + 20 * slots + 6 * slots * slots
     }
 
-    /// Bounds the gap over a box; `nearest` receives the configuration of the box that is next to
-    /// the worst corner, where a large gap is likely.
+    /// CertifiedBounds the difference over a box; `nearest` receives the configuration of the box that is next to
+    /// the worst corner, where a large difference is likely.
     pub(super) fn enclose(&self, cell: &[Interval], room: &mut Room, nearest: &mut [f64]) -> Enclosure {
         self.spread_corners(cell, room);
         self.multiply_out(room);
         let squared = |[a, b]: &[Vector4<f64>; 2]| (a - b).norm_squared();
         let (mut worst, mut largest) = (0, -1.0_f64);
         for (index, pair) in room.pairs.iter().enumerate() {
-            let gap = squared(pair);
-            if gap > largest {
-                (worst, largest) = (index, gap);
+            let difference = squared(pair);
+            if difference > largest {
+                (worst, largest) = (index, difference);
             }
         }
         self.decode(worst, room);
@@ -307,7 +307,7 @@ impl Gap {
         }
     }
 
-    /// The corners that an index of [`Gap::multiply_out`] stands for.
+    /// The corners that an index of [`DifferenceNorm::multiply_out`] stands for.
     fn decode(&self, mut index: usize, room: &mut Room) {
         room.best.clear();
         for (slot, corners) in self.slots.iter().zip(&room.corners) {
@@ -324,7 +324,7 @@ impl Gap {
     }
 
     /// The joint whose corners lie outside of its arcs, or apart from one another, by most, measured
-    /// in the gap; where none does, the joint that can turn or shift furthest.
+    /// in the difference; where none does, the joint that can turn or shift furthest.
     fn promises(&self, cell: &[Interval], worst: &[Corner], bound: f64) -> Enclosure {
         let here = self.at_corners(worst.iter().copied());
         let (mut divide, mut promise, mut promises) = (None, 0.0, 0.0);
@@ -340,21 +340,22 @@ impl Gap {
                 (divide, promise) = (Some(slot.joint), drop);
             }
         }
-        let width = |slot: &&Slot| slot.rate.unwrap_or(1.0) * (cell[slot.joint].1 - cell[slot.joint].0);
+        let width =
+            |slot: &&FeatureSlot| slot.rate.unwrap_or(1.0) * (cell[slot.joint].1 - cell[slot.joint].0);
         let widest = || self.slots.iter().max_by(|a, b| width(a).total_cmp(&width(b)));
         let divide = divide.or_else(|| widest().map(|slot| slot.joint)).unwrap_or(0);
         Enclosure { bound, divide, promise, promises, corners: 0 }
     }
 
-    /// The gap with all corners of one joint moved onto their curves, to where one of them is.
+    /// The difference with all corners of one joint moved onto their curves, to where one of them is.
     fn at_one_position(&self, cell: &[Interval], worst: &[Corner], (joint, taken): (usize, &Corner)) -> f64 {
-        let moved = |(slot, &corner): (&Slot, &Corner)| {
+        let moved = |(slot, &corner): (&FeatureSlot, &Corner)| {
             if slot.joint == joint { slot.on_curve(cell, corner, taken.position) } else { corner }
         };
         self.at_corners(self.slots.iter().zip(worst).map(moved))
     }
 
-    /// What rounding can take from the largest gap that [`Gap::enclose`] finds.
+    /// What rounding can take from the largest difference that [`DifferenceNorm::enclose`] finds.
     ///
     /// A step's own rounding is its share of the vector that it gives, and all later steps stretch
     /// both alike: so the sum of the shares times the largest vector at the base covers them all.

@@ -165,7 +165,7 @@ fn a_figure_of_a_mimic_joint_is_named() {
     stands_at(&cause, ("robot.toml", &file), "a_m = 0.41");
     // The physics, which knows no table, tells the same.
     let report = answer.json();
-    assert_eq!(report["ladders"][1]["diagnosis"][0]["joint"], "follower");
+    assert_eq!(report["diagnoses"][1]["diagnosis"][0]["joint"], "follower");
     near(&report["certificates"][1]["position_m"]["attained"], 0.01);
 }
 
@@ -179,7 +179,7 @@ fn a_row_that_is_missing_shows_in_the_invariants() {
     assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
     let report = answer.json();
     assert_eq!(report["diagnosis"][0]["cause"], "unexplained");
-    let first = &report["ladders"][0]["invariants"][0];
+    let first = &report["diagnoses"][0]["invariants"][0];
     assert_eq!(*first, json!({ "invariant": "kind", "joint": "follower", "found": null, "expected": 0.0 }));
 }
 

@@ -1,10 +1,15 @@
-//! What the suspect is held against: a chain of constant transforms and joints, of which hypotheses
+//! What the candidate is held against: a chain of constant transforms and joints, of which hypotheses
 //! may leave one out or read one differently.
 
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 use nalgebra::Matrix3;
 
-use super::snapshot::Snapshot;
+/// Space screws at a configuration, in the order of the reference's joints, and the tip.
+#[derive(Debug, Clone)]
+pub(super) struct ChainState {
+    pub(super) twists: Vec<Twist>,
+    pub(super) base_from_tip: Pose,
+}
 
 /// One joint of the reference, moving or fixed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,15 +31,15 @@ impl ReferenceJoint {
     }
 }
 
-/// The chain that the suspect should be: joints from base to tip.
+/// The chain that the candidate should be: joints from base to tip.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reference {
+pub struct ReferenceModel {
     /// All joints, fixed ones included; moving ones number the coordinates.
     pub joints: Vec<ReferenceJoint>,
 }
 
-impl Reference {
-    /// A reference of which only its screws are known: a black box that was probed.
+impl ReferenceModel {
+    /// A reference of which only its screws are known: a black box that was identified.
     pub fn from_screws(chain: &ScrewChain) -> Self {
         let moving = |&twist: &Twist| ReferenceJoint {
             parent_from_joint: Pose::identity(),
@@ -64,22 +69,22 @@ impl Reference {
 
     /// The space screws at position zero, and the home pose.
     pub fn screws(&self) -> ScrewChain {
-        let Snapshot { twists, base_from_tip } = self.snapshot(&vec![0.0; self.joint_count()]);
+        let ChainState { twists, base_from_tip } = self.snapshot(&vec![0.0; self.joint_count()]);
         ScrewChain { twists_in_base: twists, base_from_tip_at_zero: base_from_tip }
     }
 
-    pub(super) fn snapshot(&self, q: &[f64]) -> Snapshot {
+    pub(super) fn snapshot(&self, q: &[f64]) -> ChainState {
         let mut pose = Pose::identity();
         let mut twists = Vec::with_capacity(q.len());
         for joint in &self.joints {
             pose = pose * joint.step();
             if let Some(twist) = joint.twist_in_joint {
                 let position = q[twists.len()];
-                twists.push(twist.seen_from(&pose));
+                twists.push(twist.transformed_by(&pose));
                 pose = pose * twist.exp(position);
             }
         }
-        Snapshot { twists, base_from_tip: pose }
+        ChainState { twists, base_from_tip: pose }
     }
 
     /// Whether a joint's constant transform changes anything.

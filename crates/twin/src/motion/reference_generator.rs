@@ -5,26 +5,26 @@ use congruent_kinematics::KinematicsError;
 
 use super::{
     Course, Trajectory,
-    tcp_servo::{Drive, Led, Stride},
+    tcp_servo::{ServoController, ServoResult, StepInterval},
 };
 
-/// The reference of a run. Moves are planned and only looked up; servos are led by where the robot
+/// The reference of a run. Moves are planned and only looked up; servos are servo_results by where the robot
 /// is measured, so that the loop is closed at every step.
 #[derive(Debug)]
-pub struct Guide<'a> {
+pub struct ReferenceGenerator<'a> {
     trajectory: &'a Trajectory,
     /// What servos need; `None` where there are none.
-    drive: Option<Drive<'a>>,
+    servo_controller: Option<ServoController<'a>>,
     /// The motion of the last step.
     current: Option<usize>,
     /// The time that the reference is for.
     time_s: f64,
     q: Vec<f64>,
     qd: Vec<f64>,
-    led: Vec<Led>,
+    servo_results: Vec<ServoResult>,
 }
 
-impl<'a> Guide<'a> {
+impl<'a> ReferenceGenerator<'a> {
     /// At the start of a trajectory.
     ///
     /// # Errors
@@ -34,14 +34,15 @@ impl<'a> Guide<'a> {
         trajectory: &'a Trajectory,
         description: &'a RobotDescription,
     ) -> Result<Self, KinematicsError> {
-        let drive = trajectory.has_servo().then(|| Drive::new(description)).transpose()?;
-        Ok(Self::with(trajectory, drive))
+        let servo_controller =
+            trajectory.has_servo().then(|| ServoController::new(description)).transpose()?;
+        Ok(Self::with(trajectory, servo_controller))
     }
 
-    pub(super) fn with(trajectory: &'a Trajectory, drive: Option<Drive<'a>>) -> Self {
+    pub(super) fn with(trajectory: &'a Trajectory, servo_controller: Option<ServoController<'a>>) -> Self {
         let q = trajectory.start.clone();
         let qd = vec![0.0; q.len()];
-        Self { trajectory, drive, current: None, time_s: 0.0, q, qd, led: Vec::new() }
+        Self { trajectory, servo_controller, current: None, time_s: 0.0, q, qd, servo_results: Vec::new() }
     }
 
     /// The desired positions, rad or m, one entry for each movable joint.
@@ -76,23 +77,28 @@ impl<'a> Guide<'a> {
                 // The part of this step that lies within the motion.
                 let [from_s, to_s] =
                     [before_s, time_s].map(|time_s| (time_s - starts_s).clamp(0.0, motion.duration_s));
-                let stride = Stride { step_s: time_s - before_s, moved_s: to_s - from_s };
-                needed(&mut self.drive).lead(servo, measured_q, stride, (&mut self.q, &mut self.qd))?;
+                let interval = StepInterval { step_s: time_s - before_s, moved_s: to_s - from_s };
+                needed(&mut self.servo_controller).lead(
+                    servo,
+                    measured_q,
+                    interval,
+                    (&mut self.q, &mut self.qd),
+                )?;
             }
         }
         Ok(())
     }
 
-    /// Where the servos have led the tool, the one under way to where the robot is now, unless physics
+    /// Where the servos have servo_results the tool, the one under way to where the robot is now, unless physics
     /// has lost it.
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `measured_q` is no configuration of the robot.
-    pub fn finish(mut self, measured_q: &[f64]) -> Result<Vec<Led>, KinematicsError> {
+    pub fn finish(mut self, measured_q: &[f64]) -> Result<Vec<ServoResult>, KinematicsError> {
         if measured_q.iter().all(|q| q.is_finite()) {
             self.leave(measured_q)?;
         }
-        Ok(self.led)
+        Ok(self.servo_results)
     }
 
     /// Looks back on the motion that ends: the next begins at the end of a move, and where a servo has
@@ -102,13 +108,18 @@ impl<'a> Guide<'a> {
         match &self.trajectory.motions[index].course {
             Course::Joints(joints) => self.q.copy_from_slice(&joints.to),
             Course::Servo(servo) => {
-                self.led.push(needed(&mut self.drive).look_back(servo, index + 1, measured_q, &self.q)?);
+                self.servo_results.push(needed(&mut self.servo_controller).look_back(
+                    servo,
+                    index + 1,
+                    measured_q,
+                    &self.q,
+                )?);
             }
         }
         Ok(())
     }
 }
 
-fn needed<'d, 'a>(drive: &'d mut Option<Drive<'a>>) -> &'d mut Drive<'a> {
-    drive.as_mut().expect("a trajectory with a servo has a drive")
+fn needed<'d, 'a>(servo_controller: &'d mut Option<ServoController<'a>>) -> &'d mut ServoController<'a> {
+    servo_controller.as_mut().expect("a trajectory with a servo has a servo_controller")
 }

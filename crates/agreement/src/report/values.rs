@@ -7,7 +7,7 @@ use serde::Serialize;
 /// What stands somewhere, or should.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum Figure {
+pub enum ReportedValue {
     /// A number in rad, m, or without unit.
     Number(f64),
     /// Several, or a word.

@@ -13,14 +13,14 @@ const OUTWARD: f64 = 1.0 + 256.0 * f64::EPSILON;
 
 /// How much each exchange can move the tip, in position and in orientation.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Telescope {
+pub(super) struct TelescopingBound {
     /// For each joint, then for the home pose.
     pub(super) position_m: Vec<f64>,
     /// For each joint, then for the home pose.
     pub(super) orientation_rad: Vec<f64>,
 }
 
-impl Telescope {
+impl TelescopingBound {
     /// Of two chains with as many joints as there are ranges.
     ///
     /// Source for one joint: Duhamel's formula
@@ -59,7 +59,7 @@ pub(super) fn furthest((lower, upper): Interval) -> f64 {
     lower.abs().max(upper.abs())
 }
 
-/// How much further from the base's origin a joint can carry a point: the way that the origin
+/// How much further from the base's origin a joint can carry a point: the intermediate_chains that the origin
 /// itself makes, and no more than the diameter of its circle.
 fn carried_m(twist: &Twist, furthest: f64) -> f64 {
     let rate = twist.angular.norm();

@@ -15,7 +15,7 @@ pub(super) const LARGE_CORRECTION: f64 = 0.1;
 
 /// The size of an arm, which turns lengths into shares.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Yardstick {
+pub(super) struct ReachScale {
     reach_m: f64,
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Left {
     pub(super) reach_m: f64,
 }
 
-impl Yardstick {
+impl ReachScale {
     pub(super) fn of(problem: &Problem<'_>) -> Self {
         Self { reach_m: problem.reach_m() }
     }
@@ -43,11 +43,11 @@ impl Yardstick {
         chain.parameters().iter().zip(corrections).map(size).fold(0.0, f64::max)
     }
 
-    /// What is left of the rows besides `aside`; of all rows where that is more than half of them, since
+    /// What is left of the rows besides `outlier_rows`; of all rows where that is more than half of them, since
     /// then it is the estimate that stands apart.
-    pub(super) fn left(self, residuals: &[Residual], aside: &[usize]) -> Left {
-        let aside = if 2 * aside.len() > residuals.len() { &[] } else { aside };
-        let fitting = || residuals.iter().enumerate().filter(|(row, _)| !aside.contains(row));
+    pub(super) fn left(self, residuals: &[Residual], outlier_rows: &[usize]) -> Left {
+        let outlier_rows = if 2 * outlier_rows.len() > residuals.len() { &[] } else { outlier_rows };
+        let fitting = || residuals.iter().enumerate().filter(|(row, _)| !outlier_rows.contains(row));
         #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 rows")]
         let count = fitting().count().max(1) as f64;
         let root_mean =

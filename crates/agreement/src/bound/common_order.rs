@@ -5,9 +5,9 @@ use congruent_kinematics::{ScrewChain, Twist};
 use nalgebra::Vector3;
 
 /// A chain, and for each of its joints the position that drives it.
-pub(super) type Driven<'a> = (&'a ScrewChain, &'a [usize]);
+pub(super) type DrivenChain<'a> = (&'a ScrewChain, &'a [usize]);
 
-/// Two chains with the same joints in the same order.
+/// Two chains with the same joints in the same common_order.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SideBySide {
     pub(super) chains: [ScrewChain; 2],
@@ -17,18 +17,18 @@ pub(super) struct SideBySide {
 
 /// A joint of the two, and which of them have it.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct CommonJoint {
     driver: usize,
     is_in: [bool; 2],
 }
 
 impl SideBySide {
-    pub(super) fn new(a: Driven<'_>, b: Driven<'_>) -> Self {
+    pub(super) fn new(a: DrivenChain<'_>, b: DrivenChain<'_>) -> Self {
         let places = common_order(a.1, b.1);
         let still = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
         let spread = |which: usize, chain: &ScrewChain| {
             let mut twists = chain.twists_in_base.iter();
-            let twist = |place: &Place| {
+            let twist = |place: &CommonJoint| {
                 if place.is_in[which] { *twists.next().expect("a place for each joint") } else { still }
             };
             ScrewChain { twists_in_base: places.iter().map(twist).collect(), ..chain.clone() }
@@ -42,14 +42,14 @@ impl SideBySide {
 
 /// The joints of both, base to tip: those of the second, and between them those of the first that the
 /// second lacks or has in another place.
-fn common_order(first: &[usize], second: &[usize]) -> Vec<Place> {
-    let mut places: Vec<Place> =
-        second.iter().map(|&driver| Place { driver, is_in: [false, true] }).collect();
+fn common_order(first: &[usize], second: &[usize]) -> Vec<CommonJoint> {
+    let mut places: Vec<CommonJoint> =
+        second.iter().map(|&driver| CommonJoint { driver, is_in: [false, true] }).collect();
     let mut next = 0;
     for &driver in first {
         match places[next..].iter().position(|place| place.driver == driver) {
             Some(ahead) => next += ahead,
-            None => places.insert(next, Place { driver, is_in: [false, false] }),
+            None => places.insert(next, CommonJoint { driver, is_in: [false, false] }),
         }
         places[next].is_in[0] = true;
         next += 1;
@@ -64,7 +64,7 @@ mod tests {
     #[track_caller]
     fn assert_order(first: &[usize], second: &[usize], expected: &[usize]) {
         let places = common_order(first, second);
-        let of = |has: fn(&&Place) -> bool| -> Vec<usize> {
+        let of = |has: fn(&&CommonJoint) -> bool| -> Vec<usize> {
             places.iter().filter(has).map(|place| place.driver).collect()
         };
         assert_eq!(of(|_| true), expected);

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 /// An entry of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Entry {
+pub enum DhEntry {
     /// Link length.
     A,
     /// Link twist.
@@ -18,11 +18,11 @@ pub enum Entry {
     Theta,
 }
 
-/// One number of a suspect that can be refitted.
+/// One number of a candidate that can be refitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Parameter {
+pub enum ModelParameter {
     /// An entry of a row.
-    Row(usize, Entry),
+    Row(usize, DhEntry),
     /// How much the row moves for one unit of its joint.
     Rate(usize),
     /// Of the declared transform before the rows: x, y, z, then turns about the axes behind it.
@@ -49,18 +49,18 @@ impl From<Pose> for Constant {
 
 /// One row: how it moves with its joint, and its constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SuspectRow {
+pub struct CandidateRow {
     /// The joint that drives it: its place in the reference chain.
     pub joint: usize,
     /// How much it moves for one unit of the joint: the sign of a table's row.
     pub rate: f64,
     /// What stands in it.
-    pub link: SuspectLink,
+    pub link: RowConstants,
 }
 
 /// The constants of one row.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SuspectLink {
+pub enum RowConstants {
     /// A row of a table.
     Dh {
         /// Which entry the joint drives.
@@ -83,10 +83,10 @@ pub enum SuspectLink {
     },
 }
 
-impl SuspectRow {
+impl CandidateRow {
     /// Lengths of a screw in another unit; a table's entries are scaled one by one.
     pub(super) fn rescale_screw(&mut self, factor: f64) {
-        if let SuspectLink::Screw { twist, .. } = &mut self.link {
+        if let RowConstants::Screw { twist, .. } = &mut self.link {
             twist.linear *= factor;
         }
     }
@@ -94,13 +94,13 @@ impl SuspectRow {
 
 /// A model under suspicion: base, rows, tool.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Suspect {
+pub struct Candidate {
     /// Which equation its table stands for; `None` for a model in screws.
     pub convention: Option<DhConvention>,
     /// The declared transform before the rows.
     pub base: Constant,
     /// The rows, base to tip.
-    pub rows: Vec<SuspectRow>,
+    pub rows: Vec<CandidateRow>,
     /// The declared transform after the rows.
     pub tool: Constant,
 }
@@ -118,7 +118,7 @@ pub(super) struct Influence {
 
 /// The chain at one configuration: space screws of its rows there, tip, and frames of the walk.
 #[derive(Debug, Clone)]
-pub(super) struct Walk {
+pub(super) struct ChainWalk {
     pub(super) row_twists: Vec<Twist>,
     pub(super) base_from_tip: Pose,
     /// For each row what its entries do; a row in screws has `theta` alone.
@@ -126,13 +126,13 @@ pub(super) struct Walk {
     base_from_dhn: Pose,
 }
 
-impl Suspect {
+impl Candidate {
     /// A model of which only its screws are known, its joints in the order of the reference.
     pub fn from_screws(chain: &ScrewChain) -> Self {
-        let row = |(joint, &twist): (usize, &Twist)| SuspectRow {
+        let row = |(joint, &twist): (usize, &Twist)| CandidateRow {
             joint,
             rate: 1.0,
-            link: SuspectLink::Screw { twist, offset: 0.0 },
+            link: RowConstants::Screw { twist, offset: 0.0 },
         };
         Self {
             convention: None,
@@ -143,34 +143,34 @@ impl Suspect {
     }
 
     /// An entry of a row, where the row has it.
-    pub fn entry(&self, row: usize, entry: Entry) -> Option<f64> {
+    pub fn entry(&self, row: usize, entry: DhEntry) -> Option<f64> {
         match (self.rows[row].link, entry) {
-            (SuspectLink::Dh { a_m, .. }, Entry::A) => Some(a_m),
-            (SuspectLink::Dh { alpha_rad, .. }, Entry::Alpha) => Some(alpha_rad),
-            (SuspectLink::Dh { d_m, .. }, Entry::D) => Some(d_m),
-            (SuspectLink::Dh { theta_rad, .. }, Entry::Theta) => Some(theta_rad),
-            (SuspectLink::Screw { offset, .. }, Entry::Theta) => Some(offset),
-            (SuspectLink::Screw { .. }, _) => None,
+            (RowConstants::Dh { a_m, .. }, DhEntry::A) => Some(a_m),
+            (RowConstants::Dh { alpha_rad, .. }, DhEntry::Alpha) => Some(alpha_rad),
+            (RowConstants::Dh { d_m, .. }, DhEntry::D) => Some(d_m),
+            (RowConstants::Dh { theta_rad, .. }, DhEntry::Theta) => Some(theta_rad),
+            (RowConstants::Screw { offset, .. }, DhEntry::Theta) => Some(offset),
+            (RowConstants::Screw { .. }, _) => None,
         }
     }
 
     /// The place of an entry, where the row has it.
-    pub(super) fn entry_mut(&mut self, row: usize, entry: Entry) -> Option<&mut f64> {
+    pub(super) fn entry_mut(&mut self, row: usize, entry: DhEntry) -> Option<&mut f64> {
         match (&mut self.rows[row].link, entry) {
-            (SuspectLink::Dh { a_m, .. }, Entry::A) => Some(a_m),
-            (SuspectLink::Dh { alpha_rad, .. }, Entry::Alpha) => Some(alpha_rad),
-            (SuspectLink::Dh { d_m, .. }, Entry::D) => Some(d_m),
-            (SuspectLink::Dh { theta_rad, .. }, Entry::Theta) => Some(theta_rad),
-            (SuspectLink::Screw { offset, .. }, Entry::Theta) => Some(offset),
-            (SuspectLink::Screw { .. }, _) => None,
+            (RowConstants::Dh { a_m, .. }, DhEntry::A) => Some(a_m),
+            (RowConstants::Dh { alpha_rad, .. }, DhEntry::Alpha) => Some(alpha_rad),
+            (RowConstants::Dh { d_m, .. }, DhEntry::D) => Some(d_m),
+            (RowConstants::Dh { theta_rad, .. }, DhEntry::Theta) => Some(theta_rad),
+            (RowConstants::Screw { offset, .. }, DhEntry::Theta) => Some(offset),
+            (RowConstants::Screw { .. }, _) => None,
         }
     }
 
     /// The entry that the joint of a row drives: its value at position zero.
-    pub fn zero_entry(&self, row: usize) -> Entry {
+    pub fn zero_entry(&self, row: usize) -> DhEntry {
         match self.rows[row].link {
-            SuspectLink::Dh { kind: DhRowKind::Prismatic, .. } => Entry::D,
-            _ => Entry::Theta,
+            RowConstants::Dh { kind: DhRowKind::Prismatic, .. } => DhEntry::D,
+            _ => DhEntry::Theta,
         }
     }
 
@@ -180,28 +180,28 @@ impl Suspect {
     }
 
     /// Moves a parameter by `by`; one that the model does not have stays.
-    pub(super) fn shift(&mut self, parameter: Parameter, by: f64) {
+    pub(super) fn shift(&mut self, parameter: ModelParameter, by: f64) {
         match parameter {
-            Parameter::Row(row, entry) => {
+            ModelParameter::Row(row, entry) => {
                 if let Some(value) = self.entry_mut(row, entry) {
                     *value += by;
                 }
             }
-            Parameter::Rate(row) => self.rows[row].rate += by,
-            Parameter::Base(component) => self.base = moved(&self.base.pose, component, by).into(),
-            Parameter::Tool(component) => self.tool = moved(&self.tool.pose, component, by).into(),
+            ModelParameter::Rate(row) => self.rows[row].rate += by,
+            ModelParameter::Base(component) => self.base = moved(&self.base.pose, component, by).into(),
+            ModelParameter::Tool(component) => self.tool = moved(&self.tool.pose, component, by).into(),
         }
     }
 
     /// Everything about the chain at `q` that derivatives need.
-    pub(super) fn walk(&self, q: &[f64]) -> Walk {
+    pub(super) fn walk(&self, q: &[f64]) -> ChainWalk {
         let mut pose = self.base.pose;
         let mut row_twists = Vec::with_capacity(self.rows.len());
         let mut entries = Vec::with_capacity(self.rows.len());
         for row in &self.rows {
             let motion = row.rate * q[row.joint];
             match row.link {
-                SuspectLink::Dh { kind, a_m, alpha_rad, d_m, theta_rad } => {
+                RowConstants::Dh { kind, a_m, alpha_rad, d_m, theta_rad } => {
                     let (turn, slide) = match kind {
                         DhRowKind::Revolute => (theta_rad + motion, d_m),
                         DhRowKind::Prismatic => (theta_rad, d_m + motion),
@@ -219,46 +219,53 @@ impl Suspect {
                     entries.push(by);
                     pose = behind.pose();
                 }
-                SuspectLink::Screw { twist, offset } => {
-                    let theta = twist.seen_from(&pose);
+                RowConstants::Screw { twist, offset } => {
+                    let theta = twist.transformed_by(&pose);
                     row_twists.push(theta * row.rate);
                     entries.push(DhRowTwists { theta, ..DhRowTwists::default() });
                     pose = pose * twist.exp(offset + motion);
                 }
             }
         }
-        Walk { row_twists, base_from_tip: pose * self.tool.pose, entries, base_from_dhn: pose }
+        ChainWalk { row_twists, base_from_tip: pose * self.tool.pose, entries, base_from_dhn: pose }
     }
 
     /// How a parameter moves the chain at `q`, whose walk is given; `None` where the model does not
     /// have it.
-    pub(super) fn influence(&self, parameter: Parameter, q: &[f64], walk: &Walk) -> Option<Influence> {
+    pub(super) fn influence(
+        &self,
+        parameter: ModelParameter,
+        q: &[f64],
+        walk: &ChainWalk,
+    ) -> Option<Influence> {
         let rows = self.rows.len();
         let rigid = |generator, from_row| Some(Influence { generator, from_row, grows: None });
         match parameter {
-            Parameter::Row(row, entry) => {
+            ModelParameter::Row(row, entry) => {
                 self.entry(row, entry)?;
                 let by = &walk.entries[row];
                 // Behind a modified row's `a` and `alpha` its own axis moves too.
                 let own = usize::from(self.convention != Some(DhConvention::Modified));
                 match entry {
-                    Entry::A => rigid(by.a, row + own),
-                    Entry::Alpha => rigid(by.alpha, row + own),
-                    Entry::D => rigid(by.d, row + 1),
-                    Entry::Theta => rigid(by.theta, row + 1),
+                    DhEntry::A => rigid(by.a, row + own),
+                    DhEntry::Alpha => rigid(by.alpha, row + own),
+                    DhEntry::D => rigid(by.d, row + 1),
+                    DhEntry::Theta => rigid(by.theta, row + 1),
                 }
             }
-            Parameter::Rate(row) => {
+            ModelParameter::Rate(row) => {
                 let share = q[self.rows[row].joint] / self.rows[row].rate;
                 let generator = walk.row_twists[row] * share;
                 Some(Influence { generator, from_row: row + 1, grows: Some(row) })
             }
-            Parameter::Base(component) if component < 3 => rigid(unit(component), 0),
-            Parameter::Base(component) => rigid(unit(component).seen_from(&self.base.pose), 0),
-            Parameter::Tool(component) if component < 3 => {
-                rigid(unit(component).seen_from(&walk.base_from_dhn), rows)
+            ModelParameter::Base(component) if component < 3 => rigid(unit(component), 0),
+            ModelParameter::Base(component) => rigid(unit(component).transformed_by(&self.base.pose), 0),
+            ModelParameter::Tool(component) if component < 3 => {
+                rigid(unit(component).transformed_by(&walk.base_from_dhn), rows)
             }
-            Parameter::Tool(component) => rigid(unit(component).seen_from(&walk.base_from_tip), rows),
+            ModelParameter::Tool(component) => {
+                rigid(unit(component).transformed_by(&walk.base_from_tip), rows)
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
-//! From two chains to the smallest gap that says the same: what both chains share at the base or at
+//! From two chains to the smallest difference that says the same: what both chains share at the base or at
 //! the tip does not change how far they are apart. What is shared only almost is exchanged, and
-//! the exchange is paid for by the telescoped bound.
+//! the exchange is paid for by the telescoping_bound bound.
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -9,18 +9,18 @@ use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
 use super::{
     corner::Interval,
-    gap::{Gap, Motion, Slot},
-    telescope::{Telescope, furthest},
+    difference_norm::{AffineMotion, DifferenceNorm, FeatureSlot},
+    telescoping::{TelescopingBound, furthest},
 };
 
 /// Turns and shifts over a whole range below which a twist's part is taken for rounding of whoever
-/// made the chain. Unit: rad and m; kind: rounding; a probed chain shows some 1e-15. It decides only
+/// made the chain. Unit: rad and m; kind: rounding; a identified chain shows some 1e-15. It decides only
 /// what is exchanged: the price is computed from what was there.
 const NOISE: f64 = 1e-12;
 
 /// Two chains without noise.
 #[derive(Debug, Clone)]
-pub(super) struct Tidied {
+pub(super) struct Denoised {
     pub(super) a: ScrewChain,
     pub(super) b: ScrewChain,
     /// For each joint, the position that drives it.
@@ -29,20 +29,20 @@ pub(super) struct Tidied {
     pub(super) positions: Vec<Interval>,
     /// The same for each joint.
     ranges: Vec<Interval>,
-    /// How far the tidied chains may be from the given ones, together.
+    /// How far the denoised chains may be from the given ones, together.
     pub(super) price_m: f64,
     /// Likewise.
     pub(super) price_rad: f64,
 }
 
-/// A gap with what it leaves out.
+/// A difference with what it leaves out.
 #[derive(Debug, Clone)]
-pub(super) struct Reduced {
-    pub(super) gap: Gap,
+pub(super) struct Simplified {
+    pub(super) difference: DifferenceNorm,
     pub(super) price: f64,
 }
 
-impl Tidied {
+impl Denoised {
     /// Removes turns, pitches and differences of rate that are noise.
     pub(super) fn new((a, b): (&ScrewChain, &ScrewChain), drivers: &[usize], positions: &[Interval]) -> Self {
         let (mut tidy_a, mut tidy_b) = (a.clone(), b.clone());
@@ -56,7 +56,7 @@ impl Tidied {
             if rate_b > 0.0 && (rate_a - rate_b).abs() * furthest <= NOISE {
                 let scale = rate_b / rate_a;
                 *a = Twist { angular: a.angular * scale, linear: a.linear * scale };
-                let repeats = [*a, *b].iter().all(|twist| Screw::new(twist).shift == Vector3::zeros());
+                let repeats = [*a, *b].iter().all(|twist| ScrewParts::new(twist).shift == Vector3::zeros());
                 let alone = drivers.iter().filter(|&&other| other == driver).count() == 1;
                 if repeats && alone {
                     one_turn[driver] = within_one_turn(positions[driver], rate_b);
@@ -64,8 +64,8 @@ impl Tidied {
             }
         }
         let whole: Vec<Interval> = drivers.iter().map(|&driver| positions[driver]).collect();
-        let price_a = Telescope::new(a, &tidy_a, &whole);
-        let price_b = Telescope::new(b, &tidy_b, &whole);
+        let price_a = TelescopingBound::new(a, &tidy_a, &whole);
+        let price_b = TelescopingBound::new(b, &tidy_b, &whole);
         Self {
             a: tidy_a,
             b: tidy_b,
@@ -77,10 +77,10 @@ impl Tidied {
         }
     }
 
-    /// The gap between the tips' positions, in metres; `allowance_m` may be lost on each side.
-    pub(super) fn position(&self, allowance_m: f64) -> Reduced {
-        let telescope = Telescope::new(&self.a, &self.b, &self.ranges);
-        let first = shared_count(&telescope.position_m, allowance_m);
+    /// The difference between the tips' positions, in metres; `allowance_m` may be lost on each side.
+    pub(super) fn position(&self, allowance_m: f64) -> Simplified {
+        let telescoping = TelescopingBound::new(&self.a, &self.b, &self.ranges);
+        let first = shared_count(&telescoping.position_m, allowance_m);
         let mut price = self.exchanged(first).total_m();
         let tips = [&self.a, &self.b].map(|chain| chain.base_from_tip_at_zero.translation);
         let mut last = self.ranges.len();
@@ -97,16 +97,16 @@ impl Tidied {
             last -= 1;
         }
         let slots = (first..last).flat_map(|joint| self.point_slots(joint)).collect();
-        let gap = Gap::new(slots, tips.map(|tip| tip.push(1.0)));
-        let (gap, of_lead) = gap.without_shared_lead(&self.positions);
-        Reduced { gap, price: price + of_lead }
+        let difference = DifferenceNorm::new(slots, tips.map(|tip| tip.push(1.0)));
+        let (difference, of_lead) = difference.without_shared_lead(&self.positions);
+        Simplified { difference, price: price + of_lead }
     }
 
-    /// The gap between the tips' unit quaternions, `2 sin(angle / 4)` along the way from the middle of
+    /// The difference between the tips' unit quaternions, `2 sin(angle / 4)` along the intermediate_chains from the middle of
     /// the ranges; `allowance_rad` may be lost on each side.
-    pub(super) fn orientation(&self, allowance_rad: f64) -> Reduced {
-        let telescope = Telescope::new(&self.a, &self.b, &self.ranges);
-        let first = shared_count(&telescope.orientation_rad, allowance_rad);
+    pub(super) fn orientation(&self, allowance_rad: f64) -> Simplified {
+        let telescoping = TelescopingBound::new(&self.a, &self.b, &self.ranges);
+        let first = shared_count(&telescoping.orientation_rad, allowance_rad);
         let mut price = self.exchanged(first).total_rad();
         let homes = [&self.a, &self.b].map(|chain| chain.base_from_tip_at_zero.rotation);
         let mut last = self.ranges.len();
@@ -124,38 +124,38 @@ impl Tidied {
             last -= 1;
         }
         let slots = (first..last).flat_map(|joint| self.quaternion_slots(joint)).collect();
-        let gap = Gap::new(slots, homes.map(|home| Vector4::from(quaternion_of(&home))));
-        let (gap, of_lead) = gap.without_shared_lead(&self.positions);
+        let difference = DifferenceNorm::new(slots, homes.map(|home| Vector4::from(quaternion_of(&home))));
+        let (difference, of_lead) = difference.without_shared_lead(&self.positions);
         // A chord of quaternions is about half of the angle, and at least a quarter.
         let price = price + 4.0 * of_lead;
         let middle: Vec<f64> = self.positions.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
         // A quaternion and its negative are one orientation: the nearer one.
-        let gap = if gap.at(&middle) > SQRT_2 { gap.negated() } else { gap };
-        Reduced { gap, price }
+        let difference = if difference.at(&middle) > SQRT_2 { difference.negated() } else { difference };
+        Simplified { difference, price }
     }
 
     /// What it costs to give the first chain the second one's leading joints.
-    fn exchanged(&self, count: usize) -> Telescope {
+    fn exchanged(&self, count: usize) -> TelescopingBound {
         let mut a = self.a.clone();
         a.twists_in_base[..count].copy_from_slice(&self.b.twists_in_base[..count]);
-        Telescope::new(&self.a, &a, &self.ranges)
+        TelescopingBound::new(&self.a, &a, &self.ranges)
     }
 
-    fn screws(&self, joint: usize) -> [Screw; 2] {
-        [&self.a, &self.b].map(|chain| Screw::new(&chain.twists_in_base[joint]))
+    fn screws(&self, joint: usize) -> [ScrewParts; 2] {
+        [&self.a, &self.b].map(|chain| ScrewParts::new(&chain.twists_in_base[joint]))
     }
 
-    fn point_slots(&self, joint: usize) -> Vec<Slot> {
+    fn point_slots(&self, joint: usize) -> Vec<FeatureSlot> {
         let (screws, joint) = (self.screws(joint), self.drivers[joint]);
-        let mut slots = turns(joint, &screws, Screw::turn_of_points);
+        let mut slots = turns(joint, &screws, ScrewParts::turn_of_points);
         if screws.iter().any(|screw| screw.shift != Vector3::zeros()) {
-            slots.push(Slot::new(joint, None, screws.each_ref().map(Screw::shift_of_points)));
+            slots.push(FeatureSlot::new(joint, None, screws.each_ref().map(ScrewParts::shift_of_points)));
         }
         slots
     }
 
-    fn quaternion_slots(&self, joint: usize) -> Vec<Slot> {
-        let mut slots = turns(self.drivers[joint], &self.screws(joint), Screw::turn_of_quaternions);
+    fn quaternion_slots(&self, joint: usize) -> Vec<FeatureSlot> {
+        let mut slots = turns(self.drivers[joint], &self.screws(joint), ScrewParts::turn_of_quaternions);
         for slot in &mut slots {
             slot.rate = slot.rate.map(|rate| rate / 2.0);
         }
@@ -164,28 +164,32 @@ impl Tidied {
 }
 
 /// One turn with the rate that both screws have, and one for what the faster has beyond it.
-fn turns(joint: usize, screws: &[Screw; 2], motion: fn(&Screw) -> Motion) -> Vec<Slot> {
+fn turns(
+    joint: usize,
+    screws: &[ScrewParts; 2],
+    motion: fn(&ScrewParts) -> AffineMotion,
+) -> Vec<FeatureSlot> {
     let [a, b] = screws;
-    // Tidied rates differ by rounding or by more than noise.
+    // Denoised rates differ by rounding or by more than noise.
     let alike = (a.rate - b.rate).abs() <= 8.0 * f64::EPSILON * b.rate;
     let shared = if alike { b.rate } else { a.rate.min(b.rate) };
-    let slot = |rate: f64, motions| Slot::new(joint, Some(rate), motions);
+    let slot = |rate: f64, motions| FeatureSlot::new(joint, Some(rate), motions);
     let mut slots = Vec::new();
     if shared > 0.0 {
         slots.push(slot(shared, [motion(a), motion(b)]));
     }
     if !alike && a.rate > shared {
-        slots.push(slot(a.rate - shared, [motion(a), Motion::none()]));
+        slots.push(slot(a.rate - shared, [motion(a), AffineMotion::none()]));
     }
     if !alike && b.rate > shared {
-        slots.push(slot(b.rate - shared, [Motion::none(), motion(b)]));
+        slots.push(slot(b.rate - shared, [AffineMotion::none(), motion(b)]));
     }
     slots
 }
 
 /// A twist taken apart: a turn about a line, then a shift along it.
 #[derive(Debug, Clone, Copy)]
-struct Screw {
+struct ScrewParts {
     /// Turn per unit of the joint's position.
     rate: f64,
     axis: Vector3<f64>,
@@ -195,7 +199,7 @@ struct Screw {
     shift: Vector3<f64>,
 }
 
-impl Screw {
+impl ScrewParts {
     fn new(twist: &Twist) -> Self {
         let rate = twist.angular.norm();
         if rate == 0.0 {
@@ -210,12 +214,12 @@ impl Screw {
     }
 
     /// `R = n n' + cos (I - n n') + sin [n]`, `p = sin m + (1 - cos) n x m`.
-    fn turn_of_points(&self) -> Motion {
+    fn turn_of_points(&self) -> AffineMotion {
         let along = self.axis * self.axis.transpose();
         let inwards = self.axis.cross(&self.moment);
         let mut constant = homogeneous(&along, &inwards);
         constant[(3, 3)] = 1.0;
-        Motion {
+        AffineMotion {
             constant,
             first: homogeneous(&(Matrix3::identity() - along), &-inwards),
             second: homogeneous(&hat(&self.axis), &self.moment),
@@ -223,16 +227,16 @@ impl Screw {
         }
     }
 
-    fn shift_of_points(&self) -> Motion {
+    fn shift_of_points(&self) -> AffineMotion {
         let first = homogeneous(&Matrix3::zeros(), &self.shift);
-        Motion { first, carries: self.shift.norm(), ..Motion::none() }
+        AffineMotion { first, carries: self.shift.norm(), ..AffineMotion::none() }
     }
 
     /// `cos + sin n` of half the angle, as a matrix that multiplies `(w, x, y, z)` from the left.
-    fn turn_of_quaternions(&self) -> Motion {
+    fn turn_of_quaternions(&self) -> AffineMotion {
         let [x, y, z] = self.axis.into();
         let second = Matrix4::new(0.0, -x, -y, -z, x, 0.0, -z, y, y, z, 0.0, -x, z, -y, x, 0.0);
-        Motion { constant: Matrix4::zeros(), first: Matrix4::identity(), second, carries: 0.0 }
+        AffineMotion { constant: Matrix4::zeros(), first: Matrix4::identity(), second, carries: 0.0 }
     }
 }
 

@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    snapshot::{Snapshot, Viewpoint},
-    suspect::{Parameter, Suspect, Walk},
+    candidate::{Candidate, ChainWalk, ModelParameter},
+    evaluation_point::EvaluationPoint,
+    reference_model::ChainState,
 };
 
 /// A loop bound, not a quality: fits that reach zero take some six steps.
@@ -14,54 +15,54 @@ const LEAST_GAIN: f64 = 1e-3;
 /// Norm, without unit, at which rounding is all that is left of some fifty numbers.
 const ROUNDING: f64 = 3e-16;
 
-/// A suspect with its free numbers fitted.
+/// A candidate with its free numbers fitted.
 #[derive(Debug, Clone)]
-pub(super) struct Fit {
-    pub(super) suspect: Suspect,
+pub(super) struct FittedCandidate {
+    pub(super) candidate: Candidate,
     /// Root of the sum of squares that is left, without unit.
     pub(super) norm: f64,
 }
 
-/// What is fitted to: the reference's screws and tip, seen from a viewpoint.
+/// What is fitted to: the reference's screws and tip, seen from a evaluation_point.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Target<'a> {
-    pub(super) viewpoint: &'a Viewpoint,
-    pub(super) snapshot: &'a Snapshot,
+pub(super) struct FitTarget<'a> {
+    pub(super) evaluation_point: &'a EvaluationPoint,
+    pub(super) snapshot: &'a ChainState,
 }
 
-impl Target<'_> {
-    /// How far a suspect is from the target as it stands.
-    pub(super) fn norm(&self, suspect: &Suspect) -> f64 {
-        norm(&self.difference(suspect, &suspect.walk(&self.viewpoint.q)))
+impl FitTarget<'_> {
+    /// How far a candidate is from the target as it stands.
+    pub(super) fn norm(&self, candidate: &Candidate) -> f64 {
+        norm(&self.difference(candidate, &candidate.walk(&self.evaluation_point.q)))
     }
 
-    fn difference(&self, suspect: &Suspect, walk: &Walk) -> Vec<f64> {
-        self.viewpoint.difference(suspect, walk, self.snapshot)
+    fn difference(&self, candidate: &Candidate, walk: &ChainWalk) -> Vec<f64> {
+        self.evaluation_point.difference(candidate, walk, self.snapshot)
     }
 
-    /// Fits `free` from where the suspect stands.
+    /// Fits `free` from where the candidate stands.
     ///
     /// Source: Marquardt (1963), the damping scaled by the diagonal, which mixes rad and m safely.
-    pub(super) fn refit(&self, suspect: &Suspect, free: &[Parameter]) -> Fit {
-        let mut walk = suspect.walk(&self.viewpoint.q);
-        let mut difference = self.difference(suspect, &walk);
-        let mut best = Fit { suspect: suspect.clone(), norm: norm(&difference) };
+    pub(super) fn refit(&self, candidate: &Candidate, free: &[ModelParameter]) -> FittedCandidate {
+        let mut walk = candidate.walk(&self.evaluation_point.q);
+        let mut difference = self.difference(candidate, &walk);
+        let mut best = FittedCandidate { candidate: candidate.clone(), norm: norm(&difference) };
         let mut damping = 1e-6;
         for _ in 0..MOST_STEPS {
             if best.norm < ROUNDING || free.is_empty() {
                 break;
             }
-            let Some(step) = self.step(&best.suspect, (&walk, &difference), free, damping) else { break };
-            let mut moved = best.suspect.clone();
+            let Some(step) = self.step(&best.candidate, (&walk, &difference), free, damping) else { break };
+            let mut moved = best.candidate.clone();
             for (&parameter, &by) in free.iter().zip(step.iter()) {
                 moved.shift(parameter, by);
             }
-            let moved_walk = moved.walk(&self.viewpoint.q);
+            let moved_walk = moved.walk(&self.evaluation_point.q);
             let moved_difference = self.difference(&moved, &moved_walk);
             let left = norm(&moved_difference);
             if left < best.norm {
                 let gain = 1.0 - left / best.norm;
-                best = Fit { suspect: moved, norm: left };
+                best = FittedCandidate { candidate: moved, norm: left };
                 (walk, difference) = (moved_walk, moved_difference);
                 damping = (damping * 0.1_f64).max(1e-12);
                 if gain < LEAST_GAIN {
@@ -79,14 +80,14 @@ impl Target<'_> {
 
     fn step(
         &self,
-        suspect: &Suspect,
-        (walk, difference): (&Walk, &[f64]),
-        free: &[Parameter],
+        candidate: &Candidate,
+        (walk, difference): (&ChainWalk, &[f64]),
+        free: &[ModelParameter],
         damping: f64,
     ) -> Option<DVector<f64>> {
-        let column = |&parameter: &Parameter| {
-            let influence = suspect.influence(parameter, &self.viewpoint.q, walk)?;
-            Some(self.viewpoint.derivative(suspect, walk, &influence))
+        let column = |&parameter: &ModelParameter| {
+            let influence = candidate.influence(parameter, &self.evaluation_point.q, walk)?;
+            Some(self.evaluation_point.derivative(candidate, walk, &influence))
         };
         let columns: Vec<Vec<f64>> = free.iter().map(column).collect::<Option<_>>()?;
         let count = columns.len();

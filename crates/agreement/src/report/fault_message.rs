@@ -10,15 +10,15 @@ use congruent_description::{
 use congruent_kinematics::{Pose, rotation_log};
 
 use super::{
-    figures::{Figure, angle, isometry, length},
-    ladder::Names,
-    ladder_report::Blame,
+    content::Fault,
+    names::ModelNames,
+    values::{ReportedValue, angle, isometry, length},
 };
-use crate::diagnosis::{Case, Cause, Entry, Part, Place, Suspect, SuspectLink};
+use crate::diagnosis::{Candidate, Cause, DhEntry, ModelPair, Part, Place, RowConstants};
 
 /// A fault, as programs read it and in words.
-pub(super) struct Accusation {
-    pub(super) blame: Blame,
+pub(super) struct FaultMessage {
+    pub(super) fault: Fault,
     pub(super) message: String,
     pub(super) spot: Option<Spot>,
     cause: Cause,
@@ -30,7 +30,7 @@ pub(super) struct Spot {
     pub(super) span: Range<usize>,
 }
 
-impl Accusation {
+impl FaultMessage {
     /// The finding's stable code.
     pub(super) fn code(&self) -> &'static str {
         match self.cause {
@@ -55,54 +55,59 @@ impl Accusation {
 }
 
 /// Both models before and after a fault is undone, with their names.
-pub(super) struct Witness<'a> {
+pub(super) struct FaultContext<'a> {
     pub(super) part: &'a Part,
-    pub(super) before: &'a Case,
-    pub(super) after: &'a Case,
-    names: &'a Names<'a>,
+    pub(super) before: &'a ModelPair,
+    pub(super) after: &'a ModelPair,
+    names: &'a ModelNames<'a>,
 }
 
 /// Says what a part of an explanation accuses.
-pub(super) fn accuse(part: &Part, before: &Case, after: &Case, names: &Names<'_>) -> Accusation {
-    let witness = Witness { part, before, after, names };
-    let (mut blame, message, spot) = match &part.place {
-        Place::Model => witness.model(),
-        Place::Rows(rows) => witness.rows(rows),
-        Place::Entries(entry, rows) => witness.entries(*entry, rows),
-        Place::Column(entries) => witness.columns(entries),
-        Place::Base => witness.constant(ConstantKey::BaseFromDh0),
-        Place::Tool => witness.constant(ConstantKey::DhnFromTip),
-        Place::ReferenceJoints(joints) => witness.reference_joints(joints),
+pub(super) fn fault_message_of(
+    part: &Part,
+    before: &ModelPair,
+    after: &ModelPair,
+    names: &ModelNames<'_>,
+) -> FaultMessage {
+    let fault_context = FaultContext { part, before, after, names };
+    let (mut fault, message, spot) = match &part.place {
+        Place::Model => fault_context.model(),
+        Place::Rows(rows) => fault_context.rows(rows),
+        Place::Entries(entry, rows) => fault_context.entries(*entry, rows),
+        Place::Column(entries) => fault_context.columns(entries),
+        Place::Base => fault_context.constant(ConstantKey::BaseFromDh0),
+        Place::Tool => fault_context.constant(ConstantKey::DhnFromTip),
+        Place::ReferenceJoints(joints) => fault_context.reference_joints(joints),
     };
-    blame.cause = part.cause.name();
+    fault.cause = part.cause.name();
     if let Some(Spot { source, span }) = &spot {
-        blame.file = Some(source.path.display().to_string());
-        blame.line = Some(line_column(&source.text, span.start).0);
+        fault.file = Some(source.path.display().to_string());
+        fault.line = Some(line_column(&source.text, span.start).0);
     }
-    Accusation { blame, message, spot, cause: part.cause }
+    FaultMessage { fault, message, spot, cause: part.cause }
 }
 
 /// What is said, and where it stands.
-pub(super) type Said = (Blame, String, Option<Spot>);
+pub(super) type Said = (Fault, String, Option<Spot>);
 
-impl Witness<'_> {
+impl FaultContext<'_> {
     fn model(&self) -> Said {
         if self.part.cause != Cause::ConventionSwapped {
-            return self.columns(&[Entry::A, Entry::D]);
+            return self.columns(&[DhEntry::A, DhEntry::D]);
         }
         let span = self.names.places.as_ref().and_then(RobotFilePlaces::convention);
-        let word = |suspect: &Suspect| match suspect.convention {
+        let word = |candidate: &Candidate| match candidate.convention {
             Some(DhConvention::Modified) => "modified",
             _ => "standard",
         };
-        let (found, expected) = (word(&self.before.suspect), word(&self.after.suspect));
-        let blame = Blame {
-            found: Some(Figure::Text(found.to_owned())),
-            expected: Some(Figure::Text(expected.to_owned())),
+        let (found, expected) = (word(&self.before.candidate), word(&self.after.candidate));
+        let fault = Fault {
+            found: Some(ReportedValue::Text(found.to_owned())),
+            expected: Some(ReportedValue::Text(expected.to_owned())),
             suggestion: format!("write convention = \"{expected}\""),
-            ..Blame::default()
+            ..Fault::default()
         };
-        (blame, format!("the table is read as {found}, its figures are {expected}"), self.in_robot_file(span))
+        (fault, format!("the table is read as {found}, its figures are {expected}"), self.in_robot_file(span))
     }
 
     fn rows(&self, rows: &[usize]) -> Said {
@@ -112,17 +117,17 @@ impl Witness<'_> {
         let names: Vec<String> = rows.iter().map(|&row| self.joint(row)).collect();
         let listed = names.join("\", \"");
         let joint = if let [name] = &names[..] { Some(name.clone()) } else { None };
-        let rate = |case: &Case| case.suspect.rows[rows[0]].rate;
+        let rate = |models: &ModelPair| models.candidate.rows[rows[0]].rate;
         let (found, expected) = (rate(self.before), rate(self.after));
-        let ratio = |blame: Blame| Blame {
+        let ratio = |fault: Fault| Fault {
             value: Some(found / expected),
-            found: Some(Figure::Number(found)),
-            expected: Some(Figure::Number(expected)),
-            ..blame
+            found: Some(ReportedValue::Number(found)),
+            expected: Some(ReportedValue::Number(expected)),
+            ..fault
         };
         let named =
-            Blame { joints: if joint.is_some() { Vec::new() } else { names }, joint, ..Blame::default() };
-        let (blame, message, suggestion) = match self.part.cause {
+            Fault { joints: if joint.is_some() { Vec::new() } else { names }, joint, ..Fault::default() };
+        let (fault, message, suggestion) = match self.part.cause {
             Cause::AxisFlipped => (
                 ratio(named),
                 format!(
@@ -162,47 +167,48 @@ impl Witness<'_> {
             Cause::ParametersExchanged => RowKey::D,
             _ => RowKey::Joint,
         };
-        (Blame { suggestion, ..blame }, message, self.spot(rows[0], key))
+        (Fault { suggestion, ..fault }, message, self.spot(rows[0], key))
     }
 
     fn kind(&self, row: usize) -> Said {
-        let kind = |case: &Case| match case.suspect.rows[row].link {
-            SuspectLink::Dh { kind: DhRowKind::Prismatic, .. } => "prismatic",
+        let kind = |models: &ModelPair| match models.candidate.rows[row].link {
+            RowConstants::Dh { kind: DhRowKind::Prismatic, .. } => "prismatic",
             _ => "revolute",
         };
         let (found, expected, joint) = (kind(self.before), kind(self.after), self.joint(row));
         let message = format!("the row of joint \"{joint}\" is {found}, the joint is {expected}");
-        let blame = Blame {
+        let fault = Fault {
             joint: Some(joint),
             parameter: Some("kind".to_owned()),
-            found: Some(Figure::Text(found.to_owned())),
-            expected: Some(Figure::Text(expected.to_owned())),
+            found: Some(ReportedValue::Text(found.to_owned())),
+            expected: Some(ReportedValue::Text(expected.to_owned())),
             suggestion: format!("write kind = \"{expected}\""),
-            ..Blame::default()
+            ..Fault::default()
         };
-        (blame, message, self.spot(row, RowKey::Kind))
+        (fault, message, self.spot(row, RowKey::Kind))
     }
 
-    fn lengths_exchanged(&self, named: Blame, row: usize) -> (Blame, String, String) {
-        let pair = |case: &Case| {
-            let figure = |entry| self.written(row, entry, case.suspect.entry(row, entry).unwrap_or_default());
-            [figure(Entry::A), figure(Entry::D)]
+    fn lengths_exchanged(&self, named: Fault, row: usize) -> (Fault, String, String) {
+        let pair = |models: &ModelPair| {
+            let figure =
+                |entry| self.written(row, entry, models.candidate.entry(row, entry).unwrap_or_default());
+            [figure(DhEntry::A), figure(DhEntry::D)]
         };
         let (found, expected) = (pair(self.before).join(", "), pair(self.after));
-        let blame = Blame {
+        let fault = Fault {
             parameter: Some("a, d".to_owned()),
-            found: Some(Figure::Text(found.clone())),
-            expected: Some(Figure::Text(expected.join(", "))),
+            found: Some(ReportedValue::Text(found.clone())),
+            expected: Some(ReportedValue::Text(expected.join(", "))),
             ..named
         };
         let message =
             format!("a and d of joint \"{}\" stand in each other's place: {found}", self.joint(row));
-        (blame, message, format!("write {}", expected.join(" and ")))
+        (fault, message, format!("write {}", expected.join(" and ")))
     }
 
-    fn entries(&self, entry: Entry, rows: &[usize]) -> Said {
+    fn entries(&self, entry: DhEntry, rows: &[usize]) -> Said {
         let row = rows[0];
-        let value = |case: &Case, row: usize| case.suspect.entry(row, entry).unwrap_or_default();
+        let value = |models: &ModelPair, row: usize| models.candidate.entry(row, entry).unwrap_or_default();
         let (found, expected) = (value(self.before, row), value(self.after, row));
         let parameter = Some(entry_name(entry).to_owned());
         if let &[first, second] = rows {
@@ -214,8 +220,8 @@ impl Witness<'_> {
                 self.written(first, entry, expected),
                 self.written(second, entry, value(self.after, second))
             );
-            let blame = Blame { joints, parameter, suggestion, ..Blame::default() };
-            return (blame, message, self.spot(second, row_key(entry)));
+            let fault = Fault { joints, parameter, suggestion, ..Fault::default() };
+            return (fault, message, self.spot(second, row_key(entry)));
         }
         let joint = self.joint(row);
         let right = self.written(row, entry, expected);
@@ -225,22 +231,22 @@ impl Witness<'_> {
             (format!("{} is not written, so 0", entry_name(entry)), format!("add {right} to the row"))
         };
         let message = format!("joint \"{joint}\": {stands}, it should be {right}");
-        let blame = Blame {
+        let fault = Fault {
             joint: Some(joint),
             parameter,
             value: Some(off(entry, found, expected)),
-            found: Some(Figure::Number(found)),
-            expected: Some(Figure::Number(expected)),
+            found: Some(ReportedValue::Number(found)),
+            expected: Some(ReportedValue::Number(expected)),
             suggestion,
-            ..Blame::default()
+            ..Fault::default()
         };
-        (blame, message, self.spot(row, row_key(entry)))
+        (fault, message, self.spot(row, row_key(entry)))
     }
 
     fn constant(&self, key: ConstantKey) -> Said {
-        let pose: fn(&Case) -> Pose = match key {
-            ConstantKey::BaseFromDh0 => |case| case.suspect.base.pose,
-            ConstantKey::DhnFromTip => |case| case.suspect.tool.pose,
+        let pose: fn(&ModelPair) -> Pose = match key {
+            ConstantKey::BaseFromDh0 => |models| models.candidate.base.pose,
+            ConstantKey::DhnFromTip => |models| models.candidate.tool.pose,
         };
         let name = key.name();
         let (found, expected) = (pose(self.before), pose(self.after));
@@ -257,28 +263,29 @@ impl Witness<'_> {
             Some(places) => places.constant_as(key, &expected),
             None => format!("write {name} = {}", fitted_transform(&expected)),
         };
-        let blame = Blame {
-            found: Some(Figure::Text(fitted_transform(&found))),
-            expected: Some(Figure::Text(fitted_transform(&expected))),
+        let fault = Fault {
+            found: Some(ReportedValue::Text(fitted_transform(&found))),
+            expected: Some(ReportedValue::Text(fitted_transform(&expected))),
             translation_m: Some(shift.into()),
             rotation_rad: Some(turn.into()),
             suggestion,
-            ..Blame::default()
+            ..Fault::default()
         };
         let part = if shift.norm() > turn.norm() { ConstantPart::Shift } else { ConstantPart::Turn };
         let span = places.map(|places| places.constant(key, part));
-        (blame, format!("the declared transform {name} {how}"), self.in_robot_file(span))
+        (fault, format!("the declared transform {name} {how}"), self.in_robot_file(span))
     }
 
     fn reference_joints(&self, joints: &[usize]) -> Said {
         let names: Vec<String> = joints.iter().map(|&joint| self.names.chain_joint(joint)).collect();
         let listed = names.join("\", \"");
-        let rotation = |case: &Case, joint: usize| case.reference.joints[joint].parent_from_joint.rotation;
+        let rotation =
+            |models: &ModelPair, joint: usize| models.reference.joints[joint].parent_from_joint.rotation;
         let turn = |joint: usize| {
             rotation_log(&(rotation(self.after, joint).transpose() * rotation(self.before, joint))).norm()
         };
         let most = joints.iter().map(|&joint| turn(joint)).fold(0.0, f64::max);
-        let mut blame = Blame::default();
+        let mut fault = Fault::default();
         let (message, suggestion) = match self.part.cause {
             Cause::FixedJointDropped => (
                 format!("the model leaves out the fixed joint \"{listed}\" of the URDF"),
@@ -289,8 +296,8 @@ impl Witness<'_> {
                 format!("check the rpy of joint \"{listed}\": R = Rz(yaw) Ry(pitch) Rx(roll)"),
             ),
             _ => {
-                blame.parameter = Some("rpy".to_owned());
-                blame.value = Some(most);
+                fault.parameter = Some("rpy".to_owned());
+                fault.value = Some(most);
                 (
                     format!(
                         "the URDF writes quarter turns of joints \"{listed}\" with too few digits, off by up to {most:.1e} rad"
@@ -303,14 +310,14 @@ impl Witness<'_> {
             Some(Spot { source: Arc::clone(urdf.source()), span: urdf.joint_origin(names.first()?)? })
         });
         match <[String; 1]>::try_from(names) {
-            Ok([name]) => blame.joint = Some(name),
-            Err(names) => blame.joints = names,
+            Ok([name]) => fault.joint = Some(name),
+            Err(names) => fault.joints = names,
         }
-        (Blame { suggestion, ..blame }, message, spot)
+        (Fault { suggestion, ..fault }, message, spot)
     }
 
     fn joint(&self, row: usize) -> String {
-        self.names.moving_joint(self.before.suspect.rows[row].joint)
+        self.names.moving_joint(self.before.candidate.rows[row].joint)
     }
 
     fn in_robot_file(&self, span: Option<Range<usize>>) -> Option<Spot> {
@@ -330,11 +337,11 @@ impl Witness<'_> {
 
     /// Whether the figures have changed places with the names.
     fn figures_moved(&self, rows: &[usize]) -> bool {
-        self.before.suspect.rows[rows[0]].link != self.after.suspect.rows[rows[0]].link
+        self.before.candidate.rows[rows[0]].link != self.after.candidate.rows[rows[0]].link
     }
 
     /// A figure of a row as the file writes it, in the unit of its key there.
-    fn written(&self, row: usize, entry: Entry, value: f64) -> String {
+    fn written(&self, row: usize, entry: DhEntry, value: f64) -> String {
         let place = self.names.places.as_ref().and_then(|places| places.figure(row, row_key(entry)));
         let unit = if is_angle(entry) { Unit::Angle } else { Unit::Length };
         match place {
@@ -354,29 +361,29 @@ fn off_by(shift_m: f64, turn_rad: f64) -> String {
 }
 
 /// Found less expected; of angles within half a turn.
-fn off(entry: Entry, found: f64, expected: f64) -> f64 {
+fn off(entry: DhEntry, found: f64, expected: f64) -> f64 {
     let off = found - expected;
     if is_angle(entry) { off.sin().atan2(off.cos()) } else { off }
 }
 
-pub(super) fn is_angle(entry: Entry) -> bool {
-    matches!(entry, Entry::Alpha | Entry::Theta)
+pub(super) fn is_angle(entry: DhEntry) -> bool {
+    matches!(entry, DhEntry::Alpha | DhEntry::Theta)
 }
 
-pub(super) fn entry_name(entry: Entry) -> &'static str {
+pub(super) fn entry_name(entry: DhEntry) -> &'static str {
     match entry {
-        Entry::A => "a",
-        Entry::Alpha => "alpha",
-        Entry::D => "d",
-        Entry::Theta => "theta",
+        DhEntry::A => "a",
+        DhEntry::Alpha => "alpha",
+        DhEntry::D => "d",
+        DhEntry::Theta => "theta",
     }
 }
 
-pub(super) fn row_key(entry: Entry) -> RowKey {
+pub(super) fn row_key(entry: DhEntry) -> RowKey {
     match entry {
-        Entry::A => RowKey::A,
-        Entry::Alpha => RowKey::Alpha,
-        Entry::D => RowKey::D,
-        Entry::Theta => RowKey::Theta,
+        DhEntry::A => RowKey::A,
+        DhEntry::Alpha => RowKey::Alpha,
+        DhEntry::D => RowKey::D,
+        DhEntry::Theta => RowKey::Theta,
     }
 }

@@ -5,28 +5,21 @@ use congruent_kinematics::{Pose, Twist};
 use nalgebra::Vector3;
 
 use super::{
-    reference::Reference,
-    suspect::{Influence, Suspect, Walk},
+    candidate::{Candidate, ChainWalk, Influence},
+    reference_model::{ChainState, ReferenceModel},
 };
-
-/// Space screws at a configuration, in the order of the reference's joints, and the tip.
-#[derive(Debug, Clone)]
-pub(super) struct Snapshot {
-    pub(super) twists: Vec<Twist>,
-    pub(super) base_from_tip: Pose,
-}
 
 /// Where chains are compared, and the length that makes metres comparable to radians.
 #[derive(Debug, Clone)]
-pub(super) struct Viewpoint {
+pub(super) struct EvaluationPoint {
     pub(super) q: Vec<f64>,
     pub(super) length_m: f64,
 }
 
-impl Viewpoint {
+impl EvaluationPoint {
     /// A generic configuration of `reference`: at zero, a table whose rows are in another order
     /// could have the same screws and still be another robot.
-    pub(super) fn of(reference: &Reference) -> Self {
+    pub(super) fn of(reference: &ReferenceModel) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "arms have few joints")]
         let q: Vec<f64> =
             (0..reference.joint_count()).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
@@ -36,11 +29,16 @@ impl Viewpoint {
         Self { q, length_m: if length_m > 0.0 { length_m } else { 1.0 } }
     }
 
-    /// Suspect less target, without unit: six numbers for each joint, then the tip.
-    pub(super) fn difference(&self, suspect: &Suspect, walk: &Walk, target: &Snapshot) -> Vec<f64> {
+    /// Candidate less target, without unit: six numbers for each joint, then the tip.
+    pub(super) fn difference(
+        &self,
+        candidate: &Candidate,
+        walk: &ChainWalk,
+        target: &ChainState,
+    ) -> Vec<f64> {
         let mut numbers = Vec::with_capacity(6 * target.twists.len() + 12);
         let mut twists = vec![Twist::zero(); target.twists.len()];
-        for (row, twist) in suspect.rows.iter().zip(&walk.row_twists) {
+        for (row, twist) in candidate.rows.iter().zip(&walk.row_twists) {
             twists[row.joint] = *twist;
         }
         for (found, expected) in twists.iter().zip(&target.twists) {
@@ -53,11 +51,16 @@ impl Viewpoint {
         numbers
     }
 
-    /// Derivative of [`Viewpoint::difference`] with respect to a parameter.
+    /// Derivative of [`EvaluationPoint::difference`] with respect to a parameter.
     ///
     /// What lies behind the parameter moves rigidly: a screw by the bracket with the generator, the
     /// tip by the generator itself (Lynch & Park, *Modern Robotics* (2017), section 8.3.1).
-    pub(super) fn derivative(&self, suspect: &Suspect, walk: &Walk, influence: &Influence) -> Vec<f64> {
+    pub(super) fn derivative(
+        &self,
+        candidate: &Candidate,
+        walk: &ChainWalk,
+        influence: &Influence,
+    ) -> Vec<f64> {
         let Influence { generator, from_row, grows } = influence;
         let mut numbers = vec![0.0; 6 * self.q.len()];
         let mut put = |joint: usize, twist: Twist| {
@@ -65,11 +68,11 @@ impl Viewpoint {
             place[..3].copy_from_slice(twist.angular.as_slice());
             place[3..].copy_from_slice((twist.linear / self.length_m).as_slice());
         };
-        for (row, twist) in suspect.rows.iter().zip(&walk.row_twists).skip(*from_row) {
+        for (row, twist) in candidate.rows.iter().zip(&walk.row_twists).skip(*from_row) {
             put(row.joint, generator.bracket(twist));
         }
         if let Some(row) = *grows {
-            put(suspect.rows[row].joint, walk.row_twists[row] * (1.0 / suspect.rows[row].rate));
+            put(candidate.rows[row].joint, walk.row_twists[row] * (1.0 / candidate.rows[row].rate));
         }
         let Pose { rotation, translation } = &walk.base_from_tip;
         for axis in 0..3 {
