@@ -1,6 +1,6 @@
 //! `congruent fk`: poses of links by a chosen witness.
 
-use congruent_description::{Diagnostic, RobotDescription};
+use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 use congruent_kinematics::{
     DhChain, KinematicsError, LinkPoses, LinkPosesError, Pose, ReportedPose, UrdfTree,
 };
@@ -82,7 +82,7 @@ impl From<ForwardError> for Diagnostic {
 pub fn forward(
     description: &RobotDescription,
     (source, link_poses): (Source, &mut dyn LinkPoses),
-    configurations: &[Vec<f64>],
+    configurations: &[RobotQ],
 ) -> Result<ForwardReport, ForwardError> {
     let robot = &description.robot;
     let mut root_from_links = vec![Pose::identity(); robot.links().len()];
@@ -118,7 +118,7 @@ fn report(description: &RobotDescription, source: Source, results: Vec<Poses>) -
 /// [`ForwardError::NoTable`] for a robot without a table.
 pub fn forward_by_table(
     description: &RobotDescription,
-    configurations: &[Vec<f64>],
+    configurations: &[RobotQ],
 ) -> Result<ForwardReport, ForwardError> {
     let robot = &description.robot;
     let table =
@@ -127,7 +127,7 @@ pub fn forward_by_table(
     let tree = UrdfTree::new(robot);
     let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
     let mut base_from_dh = vec![Pose::identity(); chain.joint_count() + 1];
-    let at = |q: &Vec<f64>| -> Result<Poses, KinematicsError> {
+    let at = |q: &RobotQ| -> Result<Poses, KinematicsError> {
         let root_from_base = tree.root_from_link(q, description.base)?;
         chain.dh_frames_into(q, &mut base_from_dh)?;
         let root_from_tip = root_from_base * chain.base_from_tip(q)?;

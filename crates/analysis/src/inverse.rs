@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path};
 
-use congruent_description::{Diagnostic, Robot, RobotDescription, read_text};
+use congruent_description::{ArmQ, Diagnostic, Robot, RobotDescription, read_text};
 use congruent_kinematics::{Arm, IkResult, IkSolver, IkTarget, KinematicsError, Pose};
 
 pub use congruent_kinematics::{IkMethod, IkOptions, TargetPart};
@@ -171,8 +171,7 @@ pub fn inverse(
     let mut results = Vec::with_capacity(targets.len());
     for target in targets {
         let start = joints.iter().zip(&middle);
-        let start: Vec<f64> =
-            start.map(|(joint, middle)| *target.start.get(joint).unwrap_or(middle)).collect();
+        let start: ArmQ = start.map(|(joint, middle)| *target.start.get(joint).unwrap_or(middle)).collect();
         results.push(solution(&solver.solve(&target.target, &start, options, || true)?, &joints));
     }
     Ok(InverseReport {

@@ -1,6 +1,6 @@
 //! `congruent jacobian`: how joint velocities move a link.
 
-use congruent_description::{LinkIndex, Robot};
+use congruent_description::{LinkIndex, Robot, RobotQ};
 
 pub use congruent_kinematics::JacobianKind;
 use congruent_kinematics::{Jacobian, KinematicsError, UrdfTree};
@@ -64,10 +64,10 @@ pub fn jacobians(
     robot: &Robot,
     link: LinkIndex,
     kind: JacobianKind,
-    configurations: &[Vec<f64>],
+    configurations: &[RobotQ],
 ) -> Result<JacobianReport, KinematicsError> {
     let tree = UrdfTree::new(robot);
-    let at = |q: &Vec<f64>| {
+    let at = |q: &RobotQ| {
         let jacobian = tree.jacobian(q, link, kind)?;
         Ok(JacobianResult { jacobian: Blocks::from(&jacobian), derivative: None })
     };

@@ -1,6 +1,6 @@
 //! `congruent manipulability`: how well the tool moves in each direction.
 
-use congruent_description::{JointValues, LinkIndex, RobotDescription};
+use congruent_description::{JointValues, LinkIndex, RobotDescription, RobotQ};
 use congruent_kinematics::{
     Arm, Dexterity, KinematicsError, Manipulability, Pose, UrdfTree, VelocityEllipsoid,
 };
@@ -92,7 +92,7 @@ impl From<&VelocityEllipsoid> for ReportedEllipsoid {
 /// [`KinematicsError`] where the robot has no arm.
 pub fn manipulability(
     description: &RobotDescription,
-    configurations: &[Vec<f64>],
+    configurations: &[RobotQ],
 ) -> Result<ManipulabilityReport, KinematicsError> {
     let mut arm = Arm::of(description)?;
     let joints = joint_names(description, &arm);
@@ -131,7 +131,7 @@ const CORNERS: u16 = 96;
 /// [`PlotError`] where the drawing library refuses.
 pub fn plot(
     description: &RobotDescription,
-    q_robot: &[f64],
+    q_robot: &RobotQ,
     result: &ConfigurationDexterity,
 ) -> Result<String, PlotError> {
     let tcp = Vector3::from(result.tcp_in_base_m);
@@ -189,7 +189,7 @@ fn outline(
 }
 
 /// Origins of the links from base to tip, in the base.
-fn skeleton(description: &RobotDescription, q_robot: &[f64]) -> Vec<Vector3<f64>> {
+fn skeleton(description: &RobotDescription, q_robot: &RobotQ) -> Vec<Vector3<f64>> {
     let robot = &description.robot;
     let mut poses = vec![Pose::identity(); robot.links().len()];
     if UrdfTree::new(robot).root_from_links_into(q_robot, &mut poses).is_err() {

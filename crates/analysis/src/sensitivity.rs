@@ -1,6 +1,6 @@
 //! `congruent sensitivity`: what 1 degree or 1 mm in each parameter does at the tool.
 
-use congruent_description::{DhRow, DhRowKind, DhTable, JointValues, RobotDescription};
+use congruent_description::{ArmQ, DhRow, DhRowKind, DhTable, JointValues, RobotDescription, RobotQ};
 use congruent_kinematics::{
     Arm, ArmJoint, DhChain, Displacement, KinematicsError, Pose, Sampling, displacement,
 };
@@ -103,11 +103,11 @@ fn zero_effects(arm: &Arm, names: &[String], sampling: Sampling) -> Vec<Effect> 
     let effect = |(at, (joint, name)): (usize, (&ArmJoint, &String))| {
         let parameter = Parameter { name: "zero", is_angle: joint.turns };
         let (mut meant, mut built) = (arm.clone(), arm.clone());
-        let mut shifted = vec![0.0; names.len()];
-        let pair = |q: &[f64]| {
+        let mut shifted = ArmQ::zeros(names.len());
+        let pair = |q: &ArmQ| {
             shifted.copy_from_slice(q);
             shifted[at] += parameter.error();
-            let pose = |arm: &mut Arm, q: &[f64]| arm.base_from_tcp(q).expect("q is a configuration");
+            let pose = |arm: &mut Arm, q: &ArmQ| arm.base_from_tcp(q).expect("q is a configuration");
             (pose(&mut meant, q), pose(&mut built, &shifted))
         };
         (name.clone(), parameter, displacement(arm.joints(), pair, sampling))
@@ -125,14 +125,14 @@ fn table_effects(
     let robot = &description.robot;
     let meant = DhChain::new(table, robot);
     let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
-    let mut q_robot = vec![0.0; robot.dof()];
+    let mut q_robot = RobotQ::zeros(robot.dof());
     let mut effects = Vec::new();
     for at in 0..table.rows.len() {
         for (parameter, entry) in entries(table.rows[at].kind) {
             let mut off = table.clone();
             *entry(&mut off.rows[at]) += parameter.error();
             let built = DhChain::new(&off, robot);
-            let pair = |q: &[f64]| {
+            let pair = |q: &ArmQ| {
                 arm.write_to_robot(q, &mut q_robot);
                 robot.apply_mimic(&mut q_robot);
                 let pose = |chain: &DhChain| {

@@ -1,6 +1,6 @@
 //! `congruent calibrate`: corrections from measurements, with what cannot be known from them.
 
-use congruent_description::{Diagnostic, RobotDescription};
+use congruent_description::{ChainQ, Diagnostic, RobotDescription};
 use congruent_kinematics::random_configurations;
 
 use crate::{
@@ -63,7 +63,7 @@ pub fn calibrate(
         if use_robust { robustly(problem, kept).fit.corrections } else { plain(problem, kept).corrections }
     });
     let candidates = random_configurations(&description.robot, options.seed, CANDIDATES);
-    let in_chain: Vec<Vec<f64>> = candidates.iter().map(|q| nominal.of_configuration(q)).collect();
+    let in_chain: Vec<ChainQ> = candidates.iter().map(|q| nominal.of_configuration(q)).collect();
     let best = if use_robust { &robust.fit } else { &least_squares };
     let is_noise_known = redundancy > 0 || options.noise.is_some();
     let noise = if is_noise_known { best.noise } else { ordinary_noise(&problem) };

@@ -1,6 +1,6 @@
 //! The chain that is calibrated: the table where there is one, the URDF otherwise, up to the tool.
 
-use congruent_description::{DhTable, Diagnostic, LinkIndex, Robot, RobotDescription};
+use congruent_description::{ChainQ, DhTable, Diagnostic, LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, ScrewChain};
 
 /// How a joint moves.
@@ -58,8 +58,8 @@ impl<'a> NominalChain<'a> {
     }
 
     /// The chain's part of a configuration vector.
-    pub(super) fn of_configuration(&self, q: &[f64]) -> Vec<f64> {
-        self.coordinates.iter().map(|&coordinate| q[coordinate]).collect()
+    pub(super) fn of_configuration(&self, q: &RobotQ) -> ChainQ {
+        q.of_chain(&self.coordinates)
     }
 }
 

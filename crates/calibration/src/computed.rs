@@ -1,6 +1,6 @@
 //! Everything that a calibration has computed, before it is put into words.
 
-use congruent_description::RobotDescription;
+use congruent_description::{RobotDescription, RobotQ};
 
 use crate::{
     chain::NominalChain,
@@ -27,7 +27,7 @@ pub(crate) struct Computed<'a> {
     /// Rows that stand apart from the others; none where they would be more than half.
     pub(crate) outlier_rows: Vec<usize>,
     pub(crate) held_out: Option<HeldOut>,
-    pub(crate) candidates: Vec<Vec<f64>>,
+    pub(crate) candidates: Vec<RobotQ>,
     pub(crate) next: Vec<Suggestion>,
 }
 

@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, path::PathBuf};
 
 use congruent::description::{
-    Diagnostic, JointState, Robot, RobotDescription, configuration, load_robot, read_configurations,
+    Diagnostic, JointState, Robot, RobotDescription, RobotQ, configuration, load_robot, read_configurations,
     read_states,
 };
 
@@ -57,7 +57,7 @@ pub(crate) struct ConfigurationArguments {
 
 impl ConfigurationArguments {
     /// The configuration vectors: those of the file, or the one of `--at`, or zero.
-    pub(crate) fn read(&self, robot: &Robot) -> Result<Vec<Vec<f64>>, Failure> {
+    pub(crate) fn read(&self, robot: &Robot) -> Result<Vec<RobotQ>, Failure> {
         if let Some(path) = &self.configurations {
             return Ok(read_configurations(path, robot)?);
         }

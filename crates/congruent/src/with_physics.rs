@@ -2,7 +2,7 @@
 
 use congruent_agreement::compare::{CheckError, CheckOptions, CheckReport};
 use congruent_analysis::forward::{ForwardError, ForwardReport, Source, forward_by_table};
-use congruent_description::RobotDescription;
+use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, ScrewTree, UrdfTree};
 use congruent_twin::source::SimulatedPoses;
 
@@ -22,7 +22,7 @@ pub fn check(description: &RobotDescription, options: &CheckOptions) -> Result<C
 pub fn forward(
     description: &RobotDescription,
     source: Source,
-    configurations: &[Vec<f64>],
+    configurations: &[RobotQ],
 ) -> Result<ForwardReport, ForwardError> {
     let robot = &description.robot;
     let mut link_poses: Box<dyn LinkPoses> = match source {

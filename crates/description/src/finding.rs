@@ -1,11 +1,12 @@
 //! Diagnostics in the JSON of reports.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::diagnostic::{Diagnostic, Severity};
 
 /// A diagnostic as programs read it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Finding {
     /// `error` or `warning`.
     pub severity: &'static str,

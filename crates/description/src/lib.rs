@@ -5,6 +5,7 @@
 
 mod configuration_file;
 mod diagnostic;
+pub mod display;
 mod file;
 mod finding;
 mod findings;
@@ -30,9 +31,9 @@ pub use findings::Findings;
 pub use fixed_array::fixed_array;
 pub use load::load_robot;
 pub use model::{
-    DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind, JointLimit,
-    JointParts, JointValues, Link, LinkIndex, Mesh, Mimic, Robot, RobotDescription, RobotError, Shape,
-    Tolerance,
+    ArmQ, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
+    JointLimit, JointParts, JointValues, Link, LinkIndex, Mesh, Mimic, Robot, RobotDescription, RobotError,
+    RobotQ, Shape, Tolerance,
 };
 pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey, dh_section};
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};

@@ -1,10 +1,8 @@
 //! Configurations at which two models are held against each other without motion.
 
-use congruent_description::{Joint, JointIndex, JointKind, Robot};
-use rand_chacha::{
-    ChaCha8Rng,
-    rand_core::{RngCore, SeedableRng},
-};
+use congruent_description::{Joint, JointIndex, JointKind, Robot, RobotQ};
+
+use crate::uniform::Uniform;
 
 /// How far one axis is moved alone: 10 degrees.
 const AXIS_STEP_RAD: f64 = std::f64::consts::PI / 18.0;
@@ -13,12 +11,12 @@ const AXIS_STEP_M: f64 = 0.01;
 
 /// Zero, one axis at a time, `random` seeded draws within the limits, and the limits themselves:
 /// each joint alone at both ends with the others half way, then all at their lower and upper ends.
-pub fn sample_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<Vec<f64>> {
+pub fn sample_configurations(robot: &Robot, seed: u64, random: usize) -> Vec<RobotQ> {
     let joints: Vec<&Joint> = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).collect();
-    let mut configurations = vec![vec![0.0; joints.len()]];
+    let mut configurations = vec![RobotQ::zeros(joints.len())];
     configurations.extend(axis_steps(robot).into_iter().map(|step| step.q));
     configurations.extend(random_configurations(robot, seed, random));
-    let middle: Vec<f64> = joints.iter().map(|joint| f64::midpoint(range(joint).0, range(joint).1)).collect();
+    let middle: RobotQ = joints.iter().map(|joint| f64::midpoint(range(joint).0, range(joint).1)).collect();
     for (coordinate, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.mimic.is_none()) {
         let (lower, upper) = range(joint);
         for end in [lower, upper] {
@@ -43,14 +41,14 @@ pub struct AxisStep {
     /// Its position: 10 degrees or 10 mm.
     pub by: f64,
     /// The configuration; joints that mimic this one follow it.
-    pub q: Vec<f64>,
+    pub q: RobotQ,
 }
 
 /// Each joint that mimics no other moved alone, in the robot's order.
 pub fn axis_steps(robot: &Robot) -> Vec<AxisStep> {
     let step = |(coordinate, &joint): (usize, &JointIndex)| {
         let by = if robot.joint(joint).kind == JointKind::Prismatic { AXIS_STEP_M } else { AXIS_STEP_RAD };
-        let mut q = vec![0.0; robot.dof()];
+        let mut q = RobotQ::zeros(robot.dof());
         q[coordinate] = by;
         robot.apply_mimic(&mut q);
         AxisStep { joint, by, q }
@@ -60,14 +58,11 @@ pub fn axis_steps(robot: &Robot) -> Vec<AxisStep> {
 }
 
 /// Seeded draws within the limits; mimic joints follow their masters.
-pub fn random_configurations(robot: &Robot, seed: u64, count: usize) -> Vec<Vec<f64>> {
-    let mut generator = ChaCha8Rng::seed_from_u64(seed);
-    let mut draw = |&joint: &JointIndex| {
-        let (lower, upper) = range(robot.joint(joint));
-        lower + (upper - lower) * unit_interval(&mut generator)
-    };
+pub fn random_configurations(robot: &Robot, seed: u64, count: usize) -> Vec<RobotQ> {
+    let mut random = Uniform::seeded(seed);
+    let mut draw = |&joint: &JointIndex| random.between(range(robot.joint(joint)));
     let mut configuration = || {
-        let mut q: Vec<f64> = robot.movable_joints().iter().map(&mut draw).collect();
+        let mut q: RobotQ = robot.movable_joints().iter().map(&mut draw).collect();
         robot.apply_mimic(&mut q);
         q
     };
@@ -80,17 +75,11 @@ pub fn range(joint: &Joint) -> (f64, f64) {
 }
 
 /// Moves each position to the limit nearest to it where it is outside; mimic joints follow.
-pub fn move_inside_limits(q: &mut [f64], robot: &Robot) {
+pub fn move_inside_limits(q: &mut RobotQ, robot: &Robot) {
     for (&joint, q) in robot.movable_joints().iter().zip(q.iter_mut()) {
         if let Some((lower, upper)) = robot.joint(joint).position_range() {
             *q = q.clamp(lower, upper);
         }
     }
     robot.apply_mimic(q);
-}
-
-/// A number in [0, 1) with 53 random bits.
-#[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
-fn unit_interval(generator: &mut ChaCha8Rng) -> f64 {
-    (generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }

@@ -1,6 +1,8 @@
 //! Where link poses come from: one trait for tables, URDF chains, screws, physics, and whatever else places
 //! the links of a robot.
 
+use congruent_description::RobotQ;
+
 use crate::{
     chain::{screws::tree::ScrewTree, urdf::UrdfTree},
     error::KinematicsError,
@@ -21,8 +23,11 @@ pub trait LinkPoses {
     ///
     /// # Errors
     /// [`LinkPosesError`] if the source refuses the configuration, or a length does not fit.
-    fn root_from_links_into(&mut self, q: &[f64], root_from_links: &mut [Pose])
-    -> Result<(), LinkPosesError>;
+    fn root_from_links_into(
+        &mut self,
+        q: &RobotQ,
+        root_from_links: &mut [Pose],
+    ) -> Result<(), LinkPosesError>;
 }
 
 /// Why a source has no poses.
@@ -47,7 +52,7 @@ impl LinkPosesError {
 impl LinkPoses for UrdfTree {
     fn root_from_links_into(
         &mut self,
-        q: &[f64],
+        q: &RobotQ,
         root_from_links: &mut [Pose],
     ) -> Result<(), LinkPosesError> {
         Ok(UrdfTree::root_from_links_into(self, q, root_from_links)?)
@@ -57,7 +62,7 @@ impl LinkPoses for UrdfTree {
 impl LinkPoses for ScrewTree {
     fn root_from_links_into(
         &mut self,
-        q: &[f64],
+        q: &RobotQ,
         root_from_links: &mut [Pose],
     ) -> Result<(), LinkPosesError> {
         Ok(ScrewTree::root_from_links_into(self, q, root_from_links)?)

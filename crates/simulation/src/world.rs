@@ -1,6 +1,6 @@
 //! The world: one robot, fixed at its root, and what stands around it.
 
-use congruent_description::{LinkIndex, Robot};
+use congruent_description::{LinkIndex, Robot, RobotQ};
 use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::{
@@ -73,7 +73,7 @@ pub struct World {
 /// What is ours of the state; rapier's part is [`Sets`].
 #[derive(Debug, Clone)]
 struct State {
-    q: Vec<f64>,
+    q: RobotQ,
     qd: Vec<f64>,
     torque: Vec<f64>,
     step_count: u64,
@@ -108,7 +108,7 @@ impl World {
             joint_names: movable().map(|joint| joint.name.clone()).collect(),
             links: bodies.links,
             commands: Commands::new(dof),
-            state: State { q: vec![0.0; dof], qd: vec![0.0; dof], torque: vec![0.0; dof], step_count: 0 },
+            state: State { q: RobotQ::zeros(dof), qd: vec![0.0; dof], torque: vec![0.0; dof], step_count: 0 },
         })
     }
 
@@ -118,7 +118,7 @@ impl World {
     /// # Errors
     /// [`SimulationError::Length`], and [`SimulationError::NotFinite`] for an entry that is no
     /// number; the state is then as before.
-    pub fn set_state(&mut self, q: &[f64], qd: &[f64]) -> Result<(), SimulationError> {
+    pub fn set_state(&mut self, q: &RobotQ, qd: &[f64]) -> Result<(), SimulationError> {
         self.check_vector("position", q)?;
         self.check_vector("velocity", qd)?;
         self.engine.place(q, qd);
@@ -128,7 +128,7 @@ impl World {
     }
 
     /// Joint positions: rapier's own coordinates.
-    pub fn q(&self) -> &[f64] {
+    pub fn q(&self) -> &RobotQ {
         &self.state.q
     }
 

@@ -43,7 +43,7 @@ pub struct Outcome {
     pub steps: u64,
     /// Where a check ended the run before its time.
     pub stopped: Option<Stop>,
-    /// Where each servo has servo_results the tool.
+    /// How far each servo has brought the TCP.
     pub servos: Vec<ServoResult>,
     /// SHA-256 over the joint positions of every sample.
     pub trajectory_sha256: String,

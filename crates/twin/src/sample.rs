@@ -1,5 +1,6 @@
 //! What one instant of a run looks like to monitors and recorders.
 
+use congruent_description::RobotQ;
 use congruent_kinematics::{Pose, PoseError};
 use nalgebra::Isometry3;
 
@@ -16,7 +17,7 @@ pub struct Sample<'a> {
     /// a check has just made.
     pub is_last: bool,
     /// Joint positions of the twin, in the robot's order of movable joints.
-    pub q: &'a [f64],
+    pub q: &'a RobotQ,
     /// Poses by analysis, in the root link's frame and the robot's order of links.
     pub model: &'a [Pose],
     /// Poses by physics, likewise.

@@ -63,7 +63,7 @@ struct Cell {
     by: usize,
 }
 
-/// Largest bound first; of equal ones the oldest, so that the common_order is fixed.
+/// Largest bound first; of equal ones the oldest, so that the order is fixed.
 impl Ord for Cell {
     fn cmp(&self, other: &Self) -> Ordering {
         self.bound.total_cmp(&other.bound).then(other.number.cmp(&self.number))
@@ -84,7 +84,7 @@ impl PartialEq for Cell {
 
 impl Eq for Cell {}
 
-/// A search under intermediate_chains.
+/// A search under way.
 struct BranchAndBound<'a> {
     task: &'a BracketTask<'a>,
     attained: Attained,

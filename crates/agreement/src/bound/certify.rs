@@ -108,7 +108,7 @@ pub fn certify(
     certify_driven((a, &each_its_own), (b, &each_its_own), ranges, budget)
 }
 
-/// The same where the joints of the chains are driven in any common_order: beside each chain stands, for
+/// The same where the joints of the chains are driven in any order: beside each chain stands, for
 /// each of its joints, the index of its position in `ranges`. So joints that mimic others are held, and
 /// chains that have their joints in different orders.
 ///
@@ -145,7 +145,7 @@ pub fn certify_driven(
     let mut position_m = problem.bracket(&POSITION, first.total_m());
     let mut orientation_rad = problem.bracket(&ORIENTATION, first.total_rad());
     let at = |chain: &ScrewChain, positions: &[f64]| {
-        chain.base_from_tip(&drivers.iter().map(|&driver| positions[driver]).collect::<Vec<_>>())
+        chain.base_from_tip(&drivers.iter().map(|&driver| positions[driver]).collect())
     };
     position_m.attain(at(&a, &position_m.at)?.distance_m(&at(&b, &position_m.at)?));
     orientation_rad.attain(at(&a, &orientation_rad.at)?.angle_rad(&at(&b, &orientation_rad.at)?));

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 /// A chain, and for each of its joints the position that drives it.
 pub(super) type DrivenChain<'a> = (&'a ScrewChain, &'a [usize]);
 
-/// Two chains with the same joints in the same common_order.
+/// Two chains with the same joints in the same order.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SideBySide {
     pub(super) chains: [ScrewChain; 2],

@@ -1,5 +1,5 @@
 //! Ways from one chain to another over chains between them: by the triangle inequality no
-//! disagreement exceeds the sum of those along a intermediate_chains. Each step differs in one place only, so its difference
+//! disagreement exceeds the sum of those along a way. Each step differs in one place only, so its difference
 //! depends on fewer joints than the whole, and what the other joints turn is not seen at all: a wrong
 //! base and a wrong tool are worst where they add up, on a set of configurations so flat that a
 //! box around each of them would have to be divided.

@@ -102,7 +102,7 @@ impl Denoised {
         Simplified { difference, price: price + of_lead }
     }
 
-    /// The difference between the tips' unit quaternions, `2 sin(angle / 4)` along the intermediate_chains from the middle of
+    /// The difference between the tips' unit quaternions, `2 sin(angle / 4)` along the way from the middle of
     /// the ranges; `allowance_rad` may be lost on each side.
     pub(super) fn orientation(&self, allowance_rad: f64) -> Simplified {
         let telescoping = TelescopingBound::new(&self.a, &self.b, &self.ranges);

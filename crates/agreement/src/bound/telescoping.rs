@@ -59,7 +59,7 @@ pub(super) fn furthest((lower, upper): Interval) -> f64 {
     lower.abs().max(upper.abs())
 }
 
-/// How much further from the base's origin a joint can carry a point: the intermediate_chains that the origin
+/// How much further from the base's origin a joint can carry a point: the way that the origin
 /// itself makes, and no more than the diameter of its circle.
 fn carried_m(twist: &Twist, furthest: f64) -> f64 {
     let rate = twist.angular.norm();

@@ -1,7 +1,7 @@
 //! The checks before any use, on the tool center point: where it is at zero, which way each joint
 //! moves it, and whether the transforms are rigid motions at all.
 
-use congruent_description::{LinkIndex, RobotDescription};
+use congruent_description::{LinkIndex, RobotDescription, RobotQ};
 use congruent_kinematics::{
     DhChain, KinematicsError, Pose, ReportedPose, UrdfTree, axis_steps, larger, rotation_log,
 };
@@ -96,7 +96,7 @@ impl Sources {
         }
     }
 
-    fn base_from_tcp(&self, q: &[f64]) -> Result<BySource<Pose>, KinematicsError> {
+    fn base_from_tcp(&self, q: &RobotQ) -> Result<BySource<Pose>, KinematicsError> {
         let base_from_root = self.tree.root_from_link(q, self.base)?.inverse();
         let urdf = base_from_root * self.tree.root_from_link(q, self.tip)? * self.tip_from_tcp;
         let by_table = |table: &DhChain| table.base_from_tcp(q, &self.tip_from_tcp);
@@ -117,11 +117,11 @@ impl<T> BySource<T> {
 /// [`KinematicsError`] when a configuration is none of the robot.
 pub(crate) fn basics(
     description: &RobotDescription,
-    configurations: &[Vec<f64>],
+    configurations: &[RobotQ],
 ) -> Result<Basics, KinematicsError> {
     let robot = &description.robot;
     let sources = Sources::new(description);
-    let mut zero = vec![0.0; robot.dof()];
+    let mut zero = RobotQ::zeros(robot.dof());
     robot.apply_mimic(&mut zero);
     let at_zero = sources.base_from_tcp(&zero)?;
     let mut basics = Basics {

@@ -1,7 +1,7 @@
 //! The certificates of a robot: how far two of its models can be apart at link `tip`, over the whole
 //! joint range, sampled or not. Table and URDF are known, the physics as far as it was identified.
 
-use congruent_description::{DhTable, JointValues, Mimic, Robot, RobotDescription};
+use congruent_description::{DhTable, JointValues, Mimic, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{
     DhChain, LinkPoses, Pose, PoseError, ScrewChain, Twist, UrdfTree, move_inside_limits, range,
 };
@@ -45,9 +45,9 @@ pub struct Brackets {
 impl Brackets {
     /// The configurations of the robot that attain them; joints that do not move the tip stand at
     /// zero, or at the limit nearest to it.
-    pub(crate) fn attained_at(&self, robot: &Robot) -> [Vec<f64>; 2] {
+    pub(crate) fn attained_at(&self, robot: &Robot) -> [RobotQ; 2] {
         [&self.position_m, &self.orientation_rad].map(|bracket| {
-            let mut q = vec![0.0; robot.dof()];
+            let mut q = RobotQ::zeros(robot.dof());
             for (joint, value) in bracket.at.iter() {
                 let joint = robot.find_joint(joint).expect("the bracket names joints of the robot");
                 q[robot.coordinate(joint).expect("a joint that drives the tip moves")] = value;
@@ -151,7 +151,7 @@ struct Side<'a> {
 }
 
 /// Pose of the tip in the base; the physics is asked in its world.
-type TipPose<'a> = dyn Fn(&mut dyn LinkPoses, &[f64]) -> Result<Pose, CheckError> + 'a;
+type TipPose<'a> = dyn Fn(&mut dyn LinkPoses, &RobotQ) -> Result<Pose, CheckError> + 'a;
 
 impl<'a> Side<'a> {
     fn table(robot: &Robot, table: &DhTable) -> Result<Self, CheckError> {
@@ -241,7 +241,8 @@ fn report(
     physics: &mut dyn LinkPoses,
 ) -> Result<Option<Brackets>, CheckError> {
     let Some(certificate) = certificate else { return Ok(None) };
-    let mut bracket = |Bracket { mut at, certified, .. }: Bracket, measure: fn(PoseError) -> f64| {
+    let mut bracket = |Bracket { at, certified, .. }: Bracket, measure: fn(PoseError) -> f64| {
+        let mut at = RobotQ::from(at);
         robot.apply_mimic(&mut at);
         let [a, b] = sides.map(|side| (side.base_from_tip)(physics, &at));
         let attained = measure(PoseError::between(&a?, &b?)).min(certified);

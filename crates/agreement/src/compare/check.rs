@@ -1,6 +1,6 @@
 //! Model against URDF against physics, without motion: are they the same robot?
 
-use congruent_description::{Finding, JointValues, RobotDescription};
+use congruent_description::{Finding, JointValues, RobotDescription, RobotQ};
 use congruent_kinematics::{
     KinematicsError, LinkPoses, Pose, PoseError, ScrewTree, UrdfTree, larger, sample_configurations,
 };
@@ -21,7 +21,7 @@ pub struct CheckOptions {
     /// Seed of the random configurations.
     pub seed: u64,
     /// Further configuration vectors of the robot; the report has the difference at each.
-    pub configurations: Vec<Vec<f64>>,
+    pub configurations: Vec<RobotQ>,
 }
 
 /// Random configurations of a check.
@@ -133,7 +133,7 @@ impl<'a> Sources<'a> {
         })
     }
 
-    fn look(&mut self, q: &[f64]) -> Result<(), CheckError> {
+    fn look(&mut self, q: &RobotQ) -> Result<(), CheckError> {
         self.model.root_from_links(q)?;
         self.urdf.root_from_links_into(q, &mut self.by_urdf)?;
         self.screws.root_from_links_into(q, &mut self.by_screws)?;
@@ -207,7 +207,7 @@ impl Tally {
         here
     }
 
-    fn finish(&self, description: &RobotDescription, configurations: &[Vec<f64>]) -> Comparison {
+    fn finish(&self, description: &RobotDescription, configurations: &[RobotQ]) -> Comparison {
         let robot = &description.robot;
         let deciding = || self.worst.iter().zip(&self.decides).filter(|(_, decides)| **decides);
         let worst = deciding().fold(PoseError::default(), |worst, (error, _)| worst.larger(*error));

@@ -1,7 +1,7 @@
 //! The physics as a black box: the screws of the chain from base to tip that its poses show, and how
 //! well it keeps to them.
 
-use congruent_description::RobotDescription;
+use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, ScrewChain};
 use serde::Serialize;
 
@@ -40,15 +40,13 @@ impl IdentifiedChain {
     pub(crate) fn new(
         description: &RobotDescription,
         physics: &mut dyn LinkPoses,
-        configurations: &[Vec<f64>],
+        configurations: &[RobotQ],
     ) -> Result<Self, LinkPosesError> {
         let coordinates = description.moving_coordinates();
-        let mut q = vec![0.0; description.robot.dof()];
+        let mut q = RobotQ::zeros(description.robot.dof());
         let mut refused = None;
         let chain = ScrewChain::identify(coordinates.len(), |values| {
-            for (&coordinate, &value) in coordinates.iter().zip(values) {
-                q[coordinate] = value;
-            }
+            q.set_chain(&coordinates, values);
             base_from_tip(description, physics, &q).unwrap_or_else(|error| {
                 refused = Some(error);
                 Pose::identity()
@@ -59,8 +57,8 @@ impl IdentifiedChain {
         }
         let mut worst = PoseError::default();
         for q in configurations {
-            let of_chain: Vec<f64> = coordinates.iter().map(|&coordinate| q[coordinate]).collect();
-            let expected = chain.base_from_tip(&of_chain).expect("as many positions as joints");
+            let expected =
+                chain.base_from_tip(&q.of_chain(&coordinates)).expect("as many positions as joints");
             worst = worst.larger(PoseError::between(&base_from_tip(description, physics, q)?, &expected));
         }
         let premise = Premise {
@@ -77,7 +75,7 @@ impl IdentifiedChain {
 pub(crate) fn base_from_tip(
     description: &RobotDescription,
     source: &mut dyn LinkPoses,
-    q: &[f64],
+    q: &RobotQ,
 ) -> Result<Pose, LinkPosesError> {
     let mut root_from_links = vec![Pose::identity(); description.robot.links().len()];
     source.root_from_links_into(q, &mut root_from_links)?;

@@ -1,7 +1,7 @@
-//! The analytical fault_context: a pose for every link from the declared table where it reaches, from
+//! The analytical model: a pose for every link from the declared table where it reaches, from
 //! the URDF chain elsewhere, and a note of which it was.
 
-use congruent_description::{LinkIndex, Robot, RobotDescription};
+use congruent_description::{LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree};
 
 /// Where the model's pose of a link comes from.
@@ -52,7 +52,7 @@ impl Model {
         let robot = &description.robot;
         let tree = UrdfTree::new(robot);
         let mut root_from_links = vec![Pose::identity(); robot.links().len()];
-        tree.root_from_links_into(&vec![0.0; robot.dof()], &mut root_from_links)?;
+        tree.root_from_links_into(&RobotQ::zeros(robot.dof()), &mut root_from_links)?;
         let mut sources = vec![PoseSource::Urdf; robot.links().len()];
         let dh = match &description.dh {
             Some(_) => Some(DhModel::new(description, &root_from_links, &mut sources)?),
@@ -75,7 +75,7 @@ impl Model {
     ///
     /// # Errors
     /// [`KinematicsError`] when `q` is no configuration vector of the robot.
-    pub fn root_from_links(&mut self, q: &[f64]) -> Result<&[Pose], KinematicsError> {
+    pub fn root_from_links(&mut self, q: &RobotQ) -> Result<&[Pose], KinematicsError> {
         self.tree.root_from_links_into(q, &mut self.root_from_links)?;
         if let Some(dh) = &mut self.dh {
             dh.overwrite(q, &mut self.root_from_links)?;
@@ -95,7 +95,7 @@ impl DhModel {
         };
         let chain = DhChain::new(table, robot);
         let mut base_from_frames = vec![Pose::identity(); chain.joint_count() + 1];
-        chain.dh_frames_into(&vec![0.0; robot.dof()], &mut base_from_frames)?;
+        chain.dh_frames_into(&RobotQ::zeros(robot.dof()), &mut base_from_frames)?;
         let root_from_base = root_from_links_at_zero[description.base.get()];
         let mut links = Vec::new();
         for link in robot.link_indices() {
@@ -115,7 +115,7 @@ impl DhModel {
         Ok(Self { chain, base: description.base, links, base_from_frames })
     }
 
-    fn overwrite(&mut self, q: &[f64], root_from_links: &mut [Pose]) -> Result<(), KinematicsError> {
+    fn overwrite(&mut self, q: &RobotQ, root_from_links: &mut [Pose]) -> Result<(), KinematicsError> {
         self.chain.dh_frames_into(q, &mut self.base_from_frames)?;
         let root_from_base = root_from_links[self.base.get()];
         for link in &self.links {

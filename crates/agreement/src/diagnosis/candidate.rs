@@ -1,7 +1,7 @@
 //! The model under suspicion, in numbers that hypotheses may change: a Denavit-Hartenberg table, or
 //! screws where nothing is known but what the model does.
 
-use congruent_description::{DhConvention, DhRowKind};
+use congruent_description::{ChainQ, DhConvention, DhRowKind};
 use congruent_kinematics::{Axes, DhRowTwists, Pose, ScrewChain, SinCos, Twist, rotation_exp};
 use nalgebra::Vector3;
 
@@ -175,7 +175,7 @@ impl Candidate {
     }
 
     /// Pose of the tip at joint positions `q`, in the order of the reference chain.
-    pub fn base_from_tip(&self, q: &[f64]) -> Pose {
+    pub fn base_from_tip(&self, q: &ChainQ) -> Pose {
         self.walk(q).base_from_tip
     }
 
@@ -194,7 +194,7 @@ impl Candidate {
     }
 
     /// Everything about the chain at `q` that derivatives need.
-    pub(super) fn walk(&self, q: &[f64]) -> ChainWalk {
+    pub(super) fn walk(&self, q: &ChainQ) -> ChainWalk {
         let mut pose = self.base.pose;
         let mut row_twists = Vec::with_capacity(self.rows.len());
         let mut entries = Vec::with_capacity(self.rows.len());
@@ -235,7 +235,7 @@ impl Candidate {
     pub(super) fn influence(
         &self,
         parameter: ModelParameter,
-        q: &[f64],
+        q: &ChainQ,
         walk: &ChainWalk,
     ) -> Option<Influence> {
         let rows = self.rows.len();

@@ -2,7 +2,7 @@
 //! read from the models that they correct, and where no freedom is known that makes the two one, only
 //! what they do is said.
 
-use congruent_description::DhConvention;
+use congruent_description::{ChainQ, DhConvention};
 use congruent_kinematics::{Pose, PoseError, Twist};
 use nalgebra::Vector3;
 
@@ -98,7 +98,7 @@ fn is_same_model(criterion: &Criterion, named: &Explanation, other: &Explanation
     }
     let (one, two) = (&named.corrected, &other.corrected);
     let apart_at =
-        |q: &Vec<f64>| PoseError::between(&one.candidate.base_from_tip(q), &two.candidate.base_from_tip(q));
+        |q: &ChainQ| PoseError::between(&one.candidate.base_from_tip(q), &two.candidate.base_from_tip(q));
     let apart = criterion.configurations.iter().map(apart_at).fold(PoseError::default(), PoseError::larger);
     let same = |left: f64| SAME.max(SAME_SHARE * left);
     one.reference == two.reference

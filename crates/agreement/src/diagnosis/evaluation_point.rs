@@ -1,6 +1,7 @@
 //! Two chains side by side at one generic configuration: space screws and tip. For chains with
 //! their joints in one order, equal there is equal everywhere.
 
+use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, Twist};
 use nalgebra::Vector3;
 
@@ -12,7 +13,7 @@ use super::{
 /// Where chains are compared, and the length that makes metres comparable to radians.
 #[derive(Debug, Clone)]
 pub(super) struct EvaluationPoint {
-    pub(super) q: Vec<f64>,
+    pub(super) q: ChainQ,
     pub(super) length_m: f64,
 }
 
@@ -21,8 +22,7 @@ impl EvaluationPoint {
     /// could have the same screws and still be another robot.
     pub(super) fn of(reference: &ReferenceModel) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "arms have few joints")]
-        let q: Vec<f64> =
-            (0..reference.joint_count()).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
+        let q: ChainQ = (0..reference.joint_count()).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
         let snapshot = reference.snapshot(&q);
         let reach = snapshot.twists.iter().map(|twist| twist.linear.norm());
         let length_m = reach.fold(snapshot.base_from_tip.translation.norm(), f64::max);

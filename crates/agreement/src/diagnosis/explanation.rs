@@ -1,6 +1,6 @@
 //! Explanations of a difference, and when a difference counts as none.
 
-use congruent_description::Tolerance;
+use congruent_description::{ChainQ, Tolerance};
 use congruent_kinematics::PoseError;
 
 use super::{
@@ -14,7 +14,7 @@ pub struct Criterion {
     /// Largest difference of the tips that counts as none.
     pub tolerance: Tolerance,
     /// Configurations at which residuals are measured, in the order of the reference's joints.
-    pub configurations: Vec<Vec<f64>>,
+    pub configurations: Vec<ChainQ>,
 }
 
 /// One fault of an explanation.
@@ -64,7 +64,7 @@ impl ModelPair {
         criterion.configurations.iter().all(|q| criterion.accepts(&self.residual_at(q)))
     }
 
-    fn residual_at(&self, q: &[f64]) -> PoseError {
+    fn residual_at(&self, q: &ChainQ) -> PoseError {
         PoseError::between(&self.candidate.base_from_tip(q), &self.reference.base_from_tip(q))
     }
 }

@@ -1,6 +1,7 @@
 //! What the candidate is held against: a chain of constant transforms and joints, of which hypotheses
 //! may leave one out or read one differently.
 
+use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 use nalgebra::Matrix3;
 
@@ -63,17 +64,17 @@ impl ReferenceModel {
     }
 
     /// Pose of the tip at joint positions `q`.
-    pub fn base_from_tip(&self, q: &[f64]) -> Pose {
+    pub fn base_from_tip(&self, q: &ChainQ) -> Pose {
         self.snapshot(q).base_from_tip
     }
 
     /// The space screws at position zero, and the home pose.
     pub fn screws(&self) -> ScrewChain {
-        let ChainState { twists, base_from_tip } = self.snapshot(&vec![0.0; self.joint_count()]);
+        let ChainState { twists, base_from_tip } = self.snapshot(&ChainQ::zeros(self.joint_count()));
         ScrewChain { twists_in_base: twists, base_from_tip_at_zero: base_from_tip }
     }
 
-    pub(super) fn snapshot(&self, q: &[f64]) -> ChainState {
+    pub(super) fn snapshot(&self, q: &ChainQ) -> ChainState {
         let mut pose = Pose::identity();
         let mut twists = Vec::with_capacity(q.len());
         for joint in &self.joints {

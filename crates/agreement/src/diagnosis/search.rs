@@ -66,7 +66,7 @@ pub struct Diagnosis {
 /// let mut candidate = Candidate::from_screws(&chain);
 /// candidate.rows[0].rate = -1.0;
 /// let models = ModelPair { candidate, reference: ReferenceModel::from_screws(&chain) };
-/// let criterion = Criterion { tolerance: Tolerance::default(), configurations: vec![vec![1.0]] };
+/// let criterion = Criterion { tolerance: Tolerance::default(), configurations: vec![[1.0].into()] };
 /// let diagnosis = diagnose(&models, &criterion);
 /// assert_eq!(diagnosis.explanations[0].cause(), Cause::AxisFlipped);
 /// assert_eq!(diagnosis.explanations[0].corrected.candidate.rows[0].rate, 1.0);

@@ -1,7 +1,7 @@
 //! The agreement ladder for a description: the model against its URDF and against the physics, the
 //! latter identified as a black box. What is found is told in names, lines and figures of the robot file.
 
-use congruent_description::{JointIndex, RobotDescription, RobotFilePlaces, UrdfPlaces};
+use congruent_description::{JointIndex, RobotDescription, RobotFilePlaces, RobotQ, UrdfPlaces};
 use congruent_kinematics::ScrewChain;
 
 use super::{
@@ -24,7 +24,7 @@ const URDF_SIMULATION: PairTitle =
 pub fn diagnose_models(
     description: &RobotDescription,
     physics: &ScrewChain,
-    configurations: &[Vec<f64>],
+    configurations: &[RobotQ],
 ) -> Vec<ReportedDiagnosis> {
     let robot = &description.robot;
     let Some((urdf, chain)) = ReferenceModel::from_urdf(robot, description.base, description.tip) else {
@@ -35,10 +35,9 @@ pub fn diagnose_models(
     let coordinates: Vec<usize> = moving.iter().filter_map(|&joint| robot.coordinate(joint)).collect();
     let places = description.dh.as_ref().and_then(|_| RobotFilePlaces::read(&description.path));
     let physics = ReferenceModel::from_screws(physics);
-    let of_chain = |q: &Vec<f64>| coordinates.iter().map(|&coordinate| q[coordinate]).collect();
     let criterion = Criterion {
         tolerance: description.tolerance,
-        configurations: configurations.iter().map(of_chain).collect(),
+        configurations: configurations.iter().map(|q| q.of_chain(&coordinates)).collect(),
     };
     let names =
         ModelNames { description, moving, chain, places, urdf: UrdfPlaces::read(&description.urdf_path) };

@@ -9,8 +9,8 @@ mod faults;
 mod matrix;
 mod robots;
 
-use congruent_description::Tolerance;
 use congruent_agreement::diagnosis::{Criterion, ModelPair, diagnose};
+use congruent_description::Tolerance;
 use faults::Fault;
 use matrix::{Matrix, Outcome};
 use rand_chacha::{

@@ -10,7 +10,7 @@ pub use report::{
 };
 
 use congruent_description::{
-    DhConvention, Diagnostic, JointIndex, RobotDescription, dh_section, parse_urdf, urdf_text,
+    ChainQ, DhConvention, Diagnostic, JointIndex, RobotDescription, RobotQ, dh_section, parse_urdf, urdf_text,
 };
 use congruent_kinematics::{
     DeriveError, Pose, Proof, ScrewChain, SerialDh, UrdfTree, derive_dh, sample_configurations,
@@ -86,11 +86,11 @@ pub fn convert(
     Ok(report)
 }
 
-fn prove(subject: &Subject<'_>, conversion: &Conversion, found: &mut dyn FnMut(&[f64]) -> Pose) -> Proof {
-    let configurations: Vec<Vec<f64>> =
+fn prove(subject: &Subject<'_>, conversion: &Conversion, found: &mut dyn FnMut(&ChainQ) -> Pose) -> Proof {
+    let configurations: Vec<ChainQ> =
         sample_configurations(&subject.description.robot, conversion.seed, RANDOM_CONFIGURATIONS)
             .iter()
-            .map(|q| subject.coordinates.iter().map(|&coordinate| q[coordinate]).collect())
+            .map(|q| q.of_chain(&subject.coordinates))
             .collect();
     let mut expected = subject.forward();
     Proof::of(subject.joints.len(), &configurations, found, &mut expected)
@@ -116,7 +116,7 @@ fn to_table(
     report.table = Some(TableReport::new(&table, robot));
     // What is proved is the table as it is written, constants in quaternions.
     let written = SerialDh::from_table(&table);
-    let mut found = |q: &[f64]| written.base_from_tip(q).expect("one position for each row");
+    let mut found = |q: &ChainQ| written.base_from_tip(q).expect("one position for each row");
     Ok(prove(subject, conversion, &mut found))
 }
 
@@ -125,7 +125,7 @@ fn to_screws(subject: &Subject<'_>, conversion: &Conversion, report: &mut Conver
     report.poe = Some(PoeReport::new(&chain, subject));
     // By body screws, so that both kinds of screw are proved.
     let by_body = ScrewChain::from_twists_in_tip(&chain.twists_in_tip(), chain.base_from_tip_at_zero);
-    let mut found = |q: &[f64]| by_body.base_from_tip(q).expect("one position for each screw");
+    let mut found = |q: &ChainQ| by_body.base_from_tip(q).expect("one position for each screw");
     prove(subject, conversion, &mut found)
 }
 
@@ -152,11 +152,9 @@ fn to_urdf(
         robot.find_joint(name).and_then(|joint| robot.coordinate(joint)).expect("written by that name")
     };
     let coordinates: Vec<usize> = subject.joints.iter().map(coordinate).collect();
-    let mut q = vec![0.0; robot.dof()];
-    let mut found = |values: &[f64]| {
-        for (&coordinate, &value) in coordinates.iter().zip(values) {
-            q[coordinate] = value;
-        }
+    let mut q = RobotQ::zeros(robot.dof());
+    let mut found = |values: &ChainQ| {
+        q.set_chain(&coordinates, values);
         let root_from = |link| tree.root_from_link(&q, link).expect("the robot's own configuration");
         root_from(base).inverse() * root_from(tip)
     };

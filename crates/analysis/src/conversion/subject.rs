@@ -1,6 +1,6 @@
 //! The model that is converted: its joints by name, and its forward kinematics.
 
-use congruent_description::{DhTable, Diagnostic, JointIndex, RobotDescription};
+use congruent_description::{ChainQ, DhTable, Diagnostic, JointIndex, RobotDescription, RobotQ};
 use congruent_kinematics::{DhChain, Pose, ScrewChain, SerialDh, UrdfTree};
 
 use super::Origin;
@@ -54,16 +54,14 @@ impl<'a> Subject<'a> {
     }
 
     /// `base_from_tip` at the positions of the joints, by the arithmetic that `congruent check` judges.
-    pub(super) fn forward(&self) -> impl FnMut(&[f64]) -> Pose + use<'a> {
+    pub(super) fn forward(&self) -> impl FnMut(&ChainQ) -> Pose + use<'a> {
         let RobotDescription { robot, base, tip, .. } = self.description;
         let table = self.declared().map(|table| DhChain::new(table, robot));
         let tree = UrdfTree::new(robot);
         let coordinates = self.coordinates.clone();
-        let mut q = vec![0.0; robot.dof()];
-        move |values: &[f64]| {
-            for (&coordinate, &value) in coordinates.iter().zip(values) {
-                q[coordinate] = value;
-            }
+        let mut q = RobotQ::zeros(robot.dof());
+        move |values: &ChainQ| {
+            q.set_chain(&coordinates, values);
             let root_from = |link| tree.root_from_link(&q, link).expect("the robot's own configuration");
             match &table {
                 Some(chain) => chain.base_from_tip(&q).expect("the robot's own configuration"),

@@ -1,5 +1,6 @@
 //! A chain with corrections between its joints: pose, and the exact derivative by each of them.
 
+use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 
 use super::parameter::Parameter;
@@ -66,7 +67,7 @@ impl CorrectedChain {
     ///
     /// # Panics
     /// When `q` or `p` has another length.
-    pub fn base_from_tip(&self, q: &[f64], p: &[f64]) -> Pose {
+    pub fn base_from_tip(&self, q: &ChainQ, p: &[f64]) -> Pose {
         self.walk(q, p, |_, _| {})
     }
 
@@ -83,14 +84,14 @@ impl CorrectedChain {
     ///
     /// # Panics
     /// When `q`, `p` or `twists_in_base` has another length.
-    pub fn linearise(&self, q: &[f64], p: &[f64], twists_in_base: &mut [Twist]) -> Pose {
+    pub fn linearise(&self, q: &ChainQ, p: &[f64], twists_in_base: &mut [Twist]) -> Pose {
         assert_eq!(twists_in_base.len(), self.parameters.len(), "one twist for each correction");
         self.walk(q, p, |at, before| {
             twists_in_base[at] = self.parameters[at].generator_in_base.transformed_by(before);
         })
     }
 
-    fn walk(&self, q: &[f64], p: &[f64], mut each: impl FnMut(usize, &Pose)) -> Pose {
+    fn walk(&self, q: &ChainQ, p: &[f64], mut each: impl FnMut(usize, &Pose)) -> Pose {
         assert_eq!(q.len(), self.chain.joint_count(), "one entry for each joint");
         assert_eq!(p.len(), self.parameters.len(), "one entry for each correction");
         let mut pose = Pose::identity();

@@ -1,6 +1,6 @@
 //! The corrections that one would free: zeros, table entries, axes, base, tool.
 
-use congruent_description::{DhConvention, DhRowKind, DhTable};
+use congruent_description::{DhConvention, DhRowKind, DhTable, RobotQ};
 use congruent_kinematics::{Axes, DhChain, DhRowTwists, KinematicsError, Pose, ScrewChain, Twist};
 use nalgebra::Vector3;
 
@@ -84,7 +84,7 @@ pub fn dh_entries(
 ) -> Result<Vec<Parameter>, KinematicsError> {
     let rows = table.rows.len();
     let mut base_from_dh = vec![Pose::identity(); rows + 1];
-    chain.dh_frames_into(&vec![0.0; dof], &mut base_from_dh)?;
+    chain.dh_frames_into(&RobotQ::zeros(dof), &mut base_from_dh)?;
     let mut parameters = Vec::with_capacity(5 * rows);
     for (at, (row, joint)) in table.rows.iter().zip(joints).enumerate() {
         let (x_slot, has_neighbour) = match table.convention {

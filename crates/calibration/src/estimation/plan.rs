@@ -1,5 +1,6 @@
 //! Where to measure next: the configurations that would tell most about the corrections.
 
+use congruent_description::ChainQ;
 use congruent_kinematics::Pose;
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
@@ -39,7 +40,7 @@ pub struct Suggestion {
 pub fn most_telling(
     problem: &Problem<'_>,
     (corrections, noise): (&[f64], &Noise),
-    candidates: &[Vec<f64>],
+    candidates: &[ChainQ],
     count: usize,
 ) -> Vec<Suggestion> {
     let Some(like) = problem.measurements.first() else { return Vec::new() };
@@ -88,8 +89,8 @@ pub fn most_telling(
 }
 
 /// How far the candidates spread, for each joint.
-fn ranges(candidates: &[Vec<f64>]) -> Vec<f64> {
-    let joints = candidates.first().map_or(0, Vec::len);
+fn ranges(candidates: &[ChainQ]) -> Vec<f64> {
+    let joints = candidates.first().map_or(0, |q| q.len());
     let of = |joint: usize| {
         let values = || candidates.iter().map(|q| q[joint]);
         values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
@@ -102,13 +103,13 @@ fn are_alike(ranges: &[f64], a: &[f64], b: &[f64]) -> bool {
 }
 
 /// The same kind of measurement elsewhere, showing what is expected there.
-fn like_at(like: &Measurement, q: &[f64], expected: Pose) -> Measurement {
+fn like_at(like: &Measurement, q: &ChainQ, expected: Pose) -> Measurement {
     let mut tip_in_base_m = like.tip_in_base_m;
     for (coordinate, expected) in tip_in_base_m.iter_mut().zip(&expected.translation) {
         *coordinate = coordinate.and(Some(*expected));
     }
     Measurement {
-        q: q.to_vec(),
+        q: q.clone(),
         tip_in_base_m,
         base_from_tip: like.base_from_tip.and(Some(expected.rotation)),
     }

@@ -1,5 +1,6 @@
 //! Measured against modelled: residuals, and the normal equations that they sum up to.
 
+use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, Twist, hat, log_ratio, rotation_log};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
@@ -19,7 +20,7 @@ const SHOWS: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
     /// Joint positions as the robot reported them.
-    pub q: Vec<f64>,
+    pub q: ChainQ,
     /// Measured position of the tip.
     pub tip_in_base_m: [Option<f64>; 3],
     /// Measured orientation of the tip.

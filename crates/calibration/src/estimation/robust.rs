@@ -1,5 +1,5 @@
 //! Estimates that gross errors cannot bend: least squares reweighted by a robust loss, and the rows
-//! that such an estimate leaves outlier_rows.
+//! that such an estimate leaves out.
 
 use super::{
     estimate::{Fit, as_f64, weighted_fit},
@@ -191,7 +191,7 @@ fn comparable_noise(problem: &Problem<'_>, residuals: &[Residual]) -> Noise {
     }
 }
 
-/// Least squares over that half of the rows which it fits best, found by leaving the worst half outlier_rows
+/// Least squares over that half of the rows which it fits best, found by leaving the worst half out
 /// again and again: up to nearly half of the rows may be wrong.
 ///
 /// Source: Rousseeuw & Van Driessen, *Computing LTS regression for large data sets* (2006), the

@@ -3,7 +3,7 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
-use congruent_description::{Diagnostic, Robot, line_column};
+use congruent_description::{Diagnostic, Robot, RobotQ, line_column};
 use csv::{ByteRecord, ReaderBuilder};
 
 use super::{
@@ -152,7 +152,7 @@ fn row(
     }
     let mut row = MeasuredRow {
         line: record.line,
-        q: vec![0.0; robot.dof()],
+        q: RobotQ::zeros(robot.dof()),
         tip_in_base_m: [None; 3],
         orientation: None,
     };

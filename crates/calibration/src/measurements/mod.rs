@@ -6,7 +6,7 @@ mod json;
 
 use std::path::Path;
 
-use congruent_description::{Diagnostic, Robot, read_text};
+use congruent_description::{Diagnostic, Robot, RobotQ, read_text};
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector4};
 
 /// Largest file that is read.
@@ -22,7 +22,7 @@ pub struct MeasuredRow {
     /// Line in the file, from 1.
     pub line: usize,
     /// Configuration vector of the robot, rad and m.
-    pub q: Vec<f64>,
+    pub q: RobotQ,
     /// Measured position in link `base`, m; `None` where a coordinate was not measured.
     pub tip_in_base_m: [Option<f64>; 3],
     /// Measured orientation in link `base`.

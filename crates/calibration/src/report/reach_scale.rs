@@ -43,7 +43,7 @@ impl ReachScale {
         chain.parameters().iter().zip(corrections).map(size).fold(0.0, f64::max)
     }
 
-    /// What is left of the rows besides `outlier_rows`; of all rows where that is more than half of them, since
+    /// The residual of the rows besides `outlier_rows`; of all rows if those are more than half of them, since
     /// then it is the estimate that stands apart.
     pub(super) fn left(self, residuals: &[Residual], outlier_rows: &[usize]) -> Left {
         let outlier_rows = if 2 * outlier_rows.len() > residuals.len() { &[] } else { outlier_rows };

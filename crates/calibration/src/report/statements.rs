@@ -9,7 +9,7 @@ const MOST_TERMS: usize = 4;
 /// A factor this near to 1 is written as none. Kind: display.
 const UNIT_FACTOR: f64 = 1e-3;
 
-/// Why a correction is fixed: what it looks like, in units of the estimated ones.
+/// Why a correction is held at nominal: what it is correlated with, in units of the estimated ones.
 pub(super) fn why_fixed(unit: &str, terms: &[(&str, f64, &'static str)]) -> String {
     if let [(name, factor, of)] = terms
         && *of == unit
@@ -158,7 +158,7 @@ fn unexplained(report: &CalibrationReport) -> String {
     if report.recommended == Recommendation::Robust {
         let _ = write!(
             text,
-            "; the robust estimate leaves {} outlier_rows and has {} on the others",
+            "; the robust estimate leaves {} out and has {} on the others",
             them,
             report
                 .held_out

@@ -6,7 +6,7 @@ use std::{collections::BTreeMap, path::Path};
 
 use serde::Deserialize;
 
-use crate::{Diagnostic, Robot, known_names, read_text};
+use crate::{Diagnostic, Robot, RobotQ, known_names, read_text};
 
 pub use self::json_list::JsonList;
 
@@ -39,7 +39,7 @@ struct Written {
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointState {
     /// Positions in rad and m.
-    pub q: Vec<f64>,
+    pub q: RobotQ,
     /// Speeds in rad/s and m/s.
     pub qd: Vec<f64>,
 }
@@ -49,7 +49,7 @@ pub struct JointState {
 ///
 /// # Errors
 /// Where the file cannot be read, is no such array, or names an unknown joint.
-pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, Vec<Diagnostic>> {
+pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<RobotQ>, Vec<Diagnostic>> {
     read(path, robot, |written| configuration(&written.q, robot))
 }
 
@@ -60,7 +60,7 @@ pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<Vec<f64>>, 
 /// As [`read_configurations`], and where a mimic joint is not as fast as its master makes it.
 pub fn read_states(path: &Path, robot: &Robot) -> Result<Vec<JointState>, Vec<Diagnostic>> {
     let state = |written: &Written| {
-        let qd = followed(&written.v, robot, Robot::apply_mimic_to_speeds)?;
+        let qd = followed(&written.v, robot, |robot, qd| robot.apply_mimic_to_speeds(qd))?.to_vec();
         Ok(JointState { q: configuration(&written.q, robot)?, qd })
     };
     read(path, robot, state)
@@ -87,7 +87,7 @@ fn read<T>(
 ///
 /// # Errors
 /// Where a joint is unknown, or a mimic joint is not where its master puts it.
-pub fn configuration(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Vec<f64>, Diagnostic> {
+pub fn configuration(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<RobotQ, Diagnostic> {
     followed(values, robot, Robot::apply_mimic)
 }
 
@@ -95,12 +95,12 @@ pub fn configuration(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Ve
 fn followed(
     values: &BTreeMap<String, f64>,
     robot: &Robot,
-    apply_mimic: fn(&Robot, &mut [f64]),
-) -> Result<Vec<f64>, Diagnostic> {
+    apply_mimic: fn(&Robot, &mut RobotQ),
+) -> Result<RobotQ, Diagnostic> {
     let mut vector = place(values, robot)?;
     let given = vector.clone();
     apply_mimic(robot, &mut vector);
-    for ((&joint, implied), given) in robot.movable_joints().iter().zip(&vector).zip(&given) {
+    for ((&joint, implied), given) in robot.movable_joints().iter().zip(vector.iter()).zip(given.iter()) {
         let name = &robot.joint(joint).name;
         if values.contains_key(name) && (implied - given).abs() > MIMIC_DIGITS {
             let message =
@@ -112,8 +112,8 @@ fn followed(
     Ok(vector)
 }
 
-fn place(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<Vec<f64>, Diagnostic> {
-    let mut vector = vec![0.0; robot.dof()];
+fn place(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<RobotQ, Diagnostic> {
+    let mut vector = RobotQ::zeros(robot.dof());
     for (name, &value) in values {
         let coordinate = robot.find_joint(name).and_then(|joint| robot.coordinate(joint));
         let Some(coordinate) = coordinate else {

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// How far two poses may be apart and still count as the same.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Tolerance {
     /// Distance of the origins.
     pub position_m: f64,

@@ -1,5 +1,8 @@
 //! Joint values by name, in the order of the robot: one shape in every answer.
 
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Serialize, Serializer};
 
 use super::robot::Robot;
@@ -49,5 +52,19 @@ impl FromIterator<(String, f64)> for JointValues {
 impl Serialize for JointValues {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.iter())
+    }
+}
+
+impl JsonSchema for JointValues {
+    fn schema_name() -> Cow<'static, str> {
+        "JointValues".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": "object",
+            "description": "One value for each joint by name, in rad or m",
+            "additionalProperties": { "type": ["number", "null"] }
+        })
     }
 }

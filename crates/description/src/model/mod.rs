@@ -7,6 +7,7 @@ pub(crate) mod inertia;
 pub(crate) mod joint;
 pub(crate) mod joint_values;
 pub(crate) mod link;
+pub(crate) mod positions;
 pub(crate) mod robot;
 pub(crate) mod tree;
 
@@ -17,4 +18,5 @@ pub use inertia::Inertia;
 pub use joint::{Joint, JointIndex, JointKind, JointLimit, Mimic};
 pub use joint_values::JointValues;
 pub use link::{Link, LinkIndex};
+pub use positions::{ArmQ, ChainQ, RobotQ};
 pub use robot::{JointParts, Robot, RobotError};

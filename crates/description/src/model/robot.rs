@@ -3,6 +3,7 @@
 use super::{
     joint::{Joint, JointIndex, JointKind, Mimic},
     link::{Link, LinkIndex},
+    positions::RobotQ,
 };
 
 /// A joint before its robot exists: links and mimicked joint by name, the rest as in [`Joint`].
@@ -274,7 +275,7 @@ impl Robot {
     ///
     /// # Panics
     /// When `q` is not a configuration vector of this robot.
-    pub fn apply_mimic(&self, q: &mut [f64]) {
+    pub fn apply_mimic(&self, q: &mut RobotQ) {
         self.follow_masters(q, |mimic| mimic.offset);
     }
 

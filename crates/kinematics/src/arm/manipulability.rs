@@ -1,5 +1,6 @@
 //! How well the tool moves in each direction at one configuration: the velocity ellipsoids.
 
+use congruent_description::ArmQ;
 use nalgebra::{DMatrix, Matrix3};
 
 use super::Arm;
@@ -54,7 +55,7 @@ impl Arm {
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `q` is no configuration of the arm.
-    pub fn manipulability(&mut self, q: &[f64]) -> Result<Manipulability, KinematicsError> {
+    pub fn manipulability(&mut self, q: &ArmQ) -> Result<Manipulability, KinematicsError> {
         let ranks = self.attainable_ranks();
         let [linear, angular, whole] = self.jacobians(q)?;
         Ok(Manipulability {
@@ -65,7 +66,7 @@ impl Arm {
     }
 
     /// Linear, angular and whole Jacobian, the last without units.
-    fn jacobians(&mut self, q: &[f64]) -> Result<[DMatrix<f64>; 3], KinematicsError> {
+    fn jacobians(&mut self, q: &ArmQ) -> Result<[DMatrix<f64>; 3], KinematicsError> {
         let rad_per_metre = 1.0 / self.metres_per_rad();
         let (_, columns) = self.pose_and_jacobian(q)?;
         let part = |of: fn(&Twist) -> nalgebra::Vector3<f64>| {

@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use congruent_description::{JointIndex, LinkIndex, Mimic, Robot, RobotDescription};
+use congruent_description::{ArmQ, ChainQ, JointIndex, LinkIndex, Mimic, Robot, RobotDescription, RobotQ};
 
 use crate::{
     chain::{jacobian::JacobianKind, serial::chain::SerialChain},
@@ -90,7 +90,7 @@ pub struct Arm {
     joints: Vec<ArmJoint>,
     follows: Vec<Follows>,
     metres_per_rad: f64,
-    positions: Vec<f64>,
+    positions: ChainQ,
     of_chain: Vec<Twist>,
     columns: Vec<Twist>,
 }
@@ -123,7 +123,7 @@ impl Arm {
             return Err(KinematicsError::NoJoint);
         }
         let mut arm = Self {
-            positions: vec![0.0; follows.len()],
+            positions: ChainQ::zeros(follows.len()),
             of_chain: vec![Twist::zero(); follows.len()],
             columns: vec![Twist::zero(); joints.len()],
             chain,
@@ -148,19 +148,19 @@ impl Arm {
     }
 
     /// The middle of every range.
-    pub fn middle(&self) -> Vec<f64> {
+    pub fn middle(&self) -> ArmQ {
         let middle = |joint: &ArmJoint| f64::midpoint(joint.sampled_range().0, joint.sampled_range().1);
         self.joints.iter().map(middle).collect()
     }
 
     /// The arm's part of a configuration vector of the robot.
-    pub fn from_robot(&self, q_robot: &[f64]) -> Vec<f64> {
+    pub fn from_robot(&self, q_robot: &RobotQ) -> ArmQ {
         self.joints.iter().map(|joint| q_robot[joint.coordinate]).collect()
     }
 
     /// Writes a configuration of the arm into one of the robot; mimic joints are left to
     /// [`Robot::apply_mimic`].
-    pub fn write_to_robot(&self, q: &[f64], q_robot: &mut [f64]) {
+    pub fn write_to_robot(&self, q: &ArmQ, q_robot: &mut RobotQ) {
         for (joint, &q) in self.joints.iter().zip(q) {
             q_robot[joint.coordinate] = q;
         }
@@ -170,7 +170,7 @@ impl Arm {
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `q` is no configuration of the arm.
-    pub fn base_from_tcp(&mut self, q: &[f64]) -> Result<Pose, KinematicsError> {
+    pub fn base_from_tcp(&mut self, q: &ArmQ) -> Result<Pose, KinematicsError> {
         self.place(q)?;
         Ok(self.chain.base_from_tip(&self.positions)? * self.tip_from_tcp)
     }
@@ -185,7 +185,7 @@ impl Arm {
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `q` is no configuration of the arm.
-    pub fn pose_and_jacobian(&mut self, q: &[f64]) -> Result<(Pose, &[Twist]), KinematicsError> {
+    pub fn pose_and_jacobian(&mut self, q: &ArmQ) -> Result<(Pose, &[Twist]), KinematicsError> {
         self.place(q)?;
         let kind = JacobianKind::Geometric;
         let base_from_tip = self.chain.pose_and_jacobian_into(&self.positions, kind, &mut self.of_chain)?;
@@ -201,14 +201,14 @@ impl Arm {
     }
 
     /// Draws a configuration within the limits.
-    pub(crate) fn draw(&self, random: &mut Uniform, q: &mut [f64]) {
+    pub(crate) fn draw(&self, random: &mut Uniform, q: &mut ArmQ) {
         for (q, joint) in q.iter_mut().zip(&self.joints) {
             *q = random.between(joint.sampled_range());
         }
     }
 
     /// Positions of the chain's joints, mimics included.
-    fn place(&mut self, q: &[f64]) -> Result<(), KinematicsError> {
+    fn place(&mut self, q: &ArmQ) -> Result<(), KinematicsError> {
         KinematicsError::check_joints(self.joints.len(), q)?;
         for (position, follows) in self.positions.iter_mut().zip(&self.follows) {
             *position = follows.multiplier * q[follows.independent] + follows.offset;

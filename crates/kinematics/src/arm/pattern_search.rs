@@ -1,5 +1,7 @@
 //! Local search for the largest value of a figure over an arm's ranges.
 
+use congruent_description::ArmQ;
+
 use super::ArmJoint;
 
 /// First step of each joint as a share of its range.
@@ -13,7 +15,7 @@ const MOST_SWEEPS: usize = 400;
 /// configuration in `q` and gives its value.
 ///
 /// Source: Hooke & Jeeves, *Direct Search* (1961), without the pattern moves.
-pub(crate) fn maximize(joints: &[ArmJoint], q: &mut [f64], mut value: impl FnMut(&[f64]) -> f64) -> f64 {
+pub(crate) fn maximize(joints: &[ArmJoint], q: &mut ArmQ, mut value: impl FnMut(&ArmQ) -> f64) -> f64 {
     let mut best = value(q);
     let mut share = FIRST_SHARE;
     for _ in 0..MOST_SWEEPS {

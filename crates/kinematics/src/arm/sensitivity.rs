@@ -1,5 +1,7 @@
 //! What a small error of one parameter does to the tool over the whole joint range.
 
+use congruent_description::ArmQ;
+
 use super::{ArmJoint, pattern_search::maximize};
 use crate::{spatial::pose::Pose, uniform::Uniform};
 
@@ -22,7 +24,7 @@ pub struct Displacement {
     /// Largest angle over the samples, rad.
     pub worst_rad: f64,
     /// The configuration of the largest distance, one entry for each joint.
-    pub worst_at: Vec<f64>,
+    pub worst_at: ArmQ,
 }
 
 /// Samples from which the worst case is looked for.
@@ -33,7 +35,7 @@ const CLIMBS: usize = 4;
 /// # Examples
 /// A turning arm of 0.5 m, off by one degree: 2 sin(0.5 deg) times its length, everywhere.
 /// ```
-/// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+/// # use congruent_description::{ArmQ, Joint, JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
 /// use congruent_kinematics::{Arm, Pose, Sampling, displacement};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
@@ -60,13 +62,13 @@ const CLIMBS: usize = 4;
 /// ```
 pub fn displacement(
     joints: &[ArmJoint],
-    mut meant_and_built: impl FnMut(&[f64]) -> (Pose, Pose),
+    mut meant_and_built: impl FnMut(&ArmQ) -> (Pose, Pose),
     sampling: Sampling,
 ) -> Displacement {
     let mut random = Uniform::seeded(sampling.seed);
-    let mut q = vec![0.0; joints.len()];
+    let mut q = ArmQ::zeros(joints.len());
     let (mut sum_m, mut worst_rad) = (0.0, 0.0_f64);
-    let mut worst: Vec<(f64, Vec<f64>)> = Vec::with_capacity(CLIMBS + 1);
+    let mut worst: Vec<(f64, ArmQ)> = Vec::with_capacity(CLIMBS + 1);
     for _ in 0..sampling.samples {
         for (q, joint) in q.iter_mut().zip(joints) {
             *q = random.between(joint.sampled_range());
@@ -81,7 +83,7 @@ pub fn displacement(
             worst.truncate(CLIMBS);
         }
     }
-    let mut distance_m = |q: &[f64]| {
+    let mut distance_m = |q: &ArmQ| {
         let (meant, built) = meant_and_built(q);
         meant.distance_m(&built)
     };

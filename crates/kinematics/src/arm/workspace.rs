@@ -2,6 +2,7 @@
 
 use std::{array::from_fn, collections::BTreeSet};
 
+use congruent_description::ArmQ;
 use nalgebra::Vector3;
 
 use super::{Arm, pattern_search::maximize, sensitivity::Sampling};
@@ -23,7 +24,7 @@ pub struct Workspace {
     /// Smallest and largest distance from the base's origin, m.
     pub reach_m: [f64; 2],
     /// Configurations at which these are attained.
-    pub reach_at: [Vec<f64>; 2],
+    pub reach_at: [ArmQ; 2],
     /// Smallest coordinates in the base, m.
     pub lower_in_base: Vector3<f64>,
     /// Largest coordinates in the base, m.
@@ -51,7 +52,7 @@ impl Arm {
         let values: [fn(&Vector3<f64>) -> f64; 8] =
             [|p| -p.norm(), |p| p.norm(), |p| -p.x, |p| -p.y, |p| -p.z, |p| p.x, |p| p.y, |p| p.z];
         let none = || (f64::NEG_INFINITY, q.clone());
-        let mut starts: [[(f64, Vec<f64>); STARTS]; 8] = from_fn(|_| from_fn(|_| none()));
+        let mut starts: [[(f64, ArmQ); STARTS]; 8] = from_fn(|_| from_fn(|_| none()));
         for sample in 0..sampling.samples {
             self.draw(&mut random, &mut q);
             let point = self.tcp_in_base(&q);
@@ -92,7 +93,7 @@ impl Arm {
     }
 
     /// At one of its own configurations.
-    fn tcp_in_base(&mut self, q: &[f64]) -> Vector3<f64> {
+    fn tcp_in_base(&mut self, q: &ArmQ) -> Vector3<f64> {
         self.base_from_tcp(q).expect("q is a configuration of this arm").translation
     }
 }

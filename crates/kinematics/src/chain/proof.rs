@@ -1,6 +1,8 @@
 //! Two forward kinematics of one serial chain held against each other: the proof that a conversion
 //! carries with it.
 
+use congruent_description::ChainQ;
+
 use super::screws::chain::ScrewChain;
 use crate::spatial::{pose::Pose, pose_error::larger};
 
@@ -13,10 +15,11 @@ use crate::spatial::{pose::Pose, pose_error::larger};
 ///
 /// # Examples
 /// ```
+/// use congruent_description::ChainQ;
 /// use congruent_kinematics::{Pose, Proof, Screw};
 /// use nalgebra::Vector3;
-/// let lift = |q: &[f64]| Screw::prismatic(Vector3::z_axis()).exp(q[0]);
-/// let proof = Proof::of(1, &[vec![0.3]], &mut |q| lift(q), &mut |q| lift(q));
+/// let lift = |q: &ChainQ| Screw::prismatic(Vector3::z_axis()).exp(q[0]);
+/// let proof = Proof::of(1, &[[0.3].into()], &mut |q| lift(q), &mut |q| lift(q));
 /// assert_eq!(proof.worst(), 0.0);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -38,13 +41,13 @@ pub struct Proof {
 }
 
 /// A forward kinematics as a black box: `base_from_tip` at the positions of the chain's joints.
-type Forward<'a> = dyn FnMut(&[f64]) -> Pose + 'a;
+type Forward<'a> = dyn FnMut(&ChainQ) -> Pose + 'a;
 
 impl Proof {
     /// Probes both models of `n` joints and compares them at the configurations too.
     pub fn of(
         n: usize,
-        configurations: &[Vec<f64>],
+        configurations: &[ChainQ],
         found: &mut Forward<'_>,
         expected: &mut Forward<'_>,
     ) -> Self {
@@ -82,7 +85,7 @@ mod tests {
     #[test]
     fn a_model_that_gives_no_numbers_proves_nothing() {
         let nowhere = Pose { translation: Vector3::repeat(f64::NAN), ..Pose::identity() };
-        let proof = Proof::of(1, &[vec![0.3]], &mut |_| nowhere, &mut |_| Pose::identity());
+        let proof = Proof::of(1, &[[0.3].into()], &mut |_| nowhere, &mut |_| Pose::identity());
         assert!(proof.worst().is_nan());
     }
 }

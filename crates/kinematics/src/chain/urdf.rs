@@ -1,6 +1,6 @@
 //! Forward kinematics of the description itself: joint after joint along the tree.
 
-use congruent_description::{Joint, JointKind, LinkIndex, Robot};
+use congruent_description::{Joint, JointKind, LinkIndex, Robot, RobotQ};
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
@@ -111,7 +111,7 @@ impl UrdfTree {
     /// See [`UrdfTree`].
     pub fn root_from_links_into(
         &self,
-        q: &[f64],
+        q: &RobotQ,
         root_from_links: &mut [Pose],
     ) -> Result<(), KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
@@ -142,7 +142,7 @@ impl UrdfTree {
     /// When `link` is a link of a larger robot.
     /// # Examples
     /// See [`UrdfTree`].
-    pub fn root_from_link(&self, q: &[f64], link: LinkIndex) -> Result<Pose, KinematicsError> {
+    pub fn root_from_link(&self, q: &RobotQ, link: LinkIndex) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
         Ok(self.visit_up(q, link, |_, _| {}))
     }
@@ -165,7 +165,7 @@ impl UrdfTree {
     /// See [`UrdfTree::jacobian`].
     pub fn jacobian_into(
         &self,
-        q: &[f64],
+        q: &RobotQ,
         link: LinkIndex,
         kind: JacobianKind,
         columns: &mut [Twist],
@@ -217,7 +217,7 @@ impl UrdfTree {
     /// ```
     pub fn jacobian(
         &self,
-        q: &[f64],
+        q: &RobotQ,
         link: LinkIndex,
         kind: JacobianKind,
     ) -> Result<Jacobian, KinematicsError> {
@@ -229,7 +229,7 @@ impl UrdfTree {
     /// Climbs from a link to the root, the sines of a block first, so that they are computed
     /// together; `each` sees a joint and the link's pose in its child. Gives the pose in the root.
     #[inline]
-    fn visit_up(&self, q: &[f64], link: LinkIndex, mut each: impl FnMut(&TreeJoint, &Pose)) -> Pose {
+    fn visit_up(&self, q: &RobotQ, link: LinkIndex, mut each: impl FnMut(&TreeJoint, &Pose)) -> Pose {
         let mut above_from_link = Pose::identity();
         let mut next = self.parent_joints[link.get()];
         while next.is_some() {
@@ -254,7 +254,7 @@ impl UrdfTree {
 impl Motion {
     /// The angle whose sine and cosine the motion needs; 0 where it needs none.
     #[inline]
-    fn angle_rad(&self, q: &[f64]) -> f64 {
+    fn angle_rad(&self, q: &RobotQ) -> f64 {
         if let Self::Turn { coordinate, .. } = self { q[*coordinate] } else { 0.0 }
     }
 
@@ -295,7 +295,7 @@ impl TreeJoint {
     }
 
     #[inline]
-    fn parent_from_child(&self, q: &[f64], turn: SinCos) -> Pose {
+    fn parent_from_child(&self, q: &RobotQ, turn: SinCos) -> Pose {
         let Pose { rotation, translation } = self.parent_from_joint;
         match &self.motion {
             Motion::Fixed => self.parent_from_joint,

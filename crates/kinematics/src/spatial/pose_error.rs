@@ -2,6 +2,7 @@
 
 use congruent_description::Tolerance;
 use nalgebra::Isometry3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::pose::Pose;
@@ -19,7 +20,7 @@ use super::pose::Pose;
 /// let error = PoseError::between(&Pose::identity(), &shifted);
 /// assert_eq!(error, PoseError { position_m: 0.005, orientation_rad: 0.0 });
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, JsonSchema)]
 pub struct PoseError {
     /// Distance of the origins.
     pub position_m: f64,

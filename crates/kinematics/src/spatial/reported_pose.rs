@@ -1,11 +1,12 @@
 //! Poses in the JSON of reports.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::pose::Pose;
 
 /// A pose as programs read it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedPose {
     /// Origin, in the root link's frame where nothing else is said.
     pub translation_m: [f64; 3],

@@ -1,5 +1,6 @@
 //! What a controller sees and what it may command.
 
+use congruent_description::RobotQ;
 use nalgebra::Vector3;
 
 use super::Gains;
@@ -10,7 +11,7 @@ use crate::engine::Engine;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setpoint<'a> {
     /// Positions, rad or m.
-    pub q: &'a [f64],
+    pub q: &'a RobotQ,
     /// Velocities, rad/s or m/s.
     pub qd: &'a [f64],
 }

@@ -34,7 +34,7 @@ pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<M
         mm: written.move_joints_mm,
     }
     .resolve(context.robot)?;
-    let mut to = context.from.to_vec();
+    let mut to = context.from.clone();
     for target in targets {
         if let Some(message) = target.beyond_limits(context.robot, "target") {
             context.warnings.push(Diagnostic::warning("scenario::target_limit", message).at(target.span));
@@ -43,6 +43,6 @@ pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<M
         to[coordinate] = target.value;
     }
     context.robot.apply_mimic(&mut to);
-    let course = JointMove { from: context.from.to_vec(), to, profile: written.profile };
+    let course = JointMove { from: context.from.clone(), to, profile: written.profile };
     Ok(Motion { duration_s: written.duration_s.get(), course: Course::Joints(course) })
 }

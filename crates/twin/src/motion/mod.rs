@@ -1,5 +1,5 @@
 //! What the arm is asked to do: motions one after another. Moves are planned when the scenario is
-//! read, servos are servo_results in the run (`reference_generator.rs`). A new kind of motion is a file here and a line in
+//! read, servos are computed in the run (`reference_generator.rs`). A new kind of motion is a file here and a line in
 //! `KINDS`.
 
 mod joint_move;
@@ -8,7 +8,7 @@ mod reference_generator;
 mod tcp_move;
 mod tcp_servo;
 
-use congruent_description::{Diagnostic, Robot, RobotDescription};
+use congruent_description::{Diagnostic, Robot, RobotDescription, RobotQ};
 
 pub use profile::{Profile, Progress};
 pub use reference_generator::ReferenceGenerator;
@@ -22,7 +22,7 @@ struct Context<'a> {
     robot: &'a Robot,
     /// Where the motion before it ends; before a motion that needs no start, the last place that is
     /// known.
-    from: &'a [f64],
+    from: &'a RobotQ,
     warnings: &'a mut Vec<Diagnostic>,
 }
 
@@ -55,7 +55,7 @@ pub struct Motion {
 pub enum Course {
     /// From one configuration to another.
     Joints(JointMove),
-    /// Where the tool is servo_results, step by step.
+    /// Closed over the measured positions, step by step.
     Servo(Box<TcpServo>),
 }
 
@@ -63,16 +63,16 @@ pub enum Course {
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointMove {
     /// Positions at its start, rad or m.
-    pub from: Vec<f64>,
+    pub from: RobotQ,
     /// Positions at its end, rad or m.
-    pub to: Vec<f64>,
+    pub to: RobotQ,
     /// Its course in between.
     pub profile: Profile,
 }
 
 impl JointMove {
     /// Writes positions and velocities where a share of the way is done.
-    fn at(&self, progress: Progress, q: &mut [f64], qd: &mut [f64]) {
+    fn at(&self, progress: Progress, q: &mut RobotQ, qd: &mut [f64]) {
         for ((q, qd), (from, to)) in q.iter_mut().zip(qd).zip(self.from.iter().zip(&self.to)) {
             *q = from + (to - from) * progress.share;
             *qd = (to - from) * progress.share_per_s;
@@ -83,7 +83,7 @@ impl JointMove {
 /// All motions of a scenario; the arm holds before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
-    start: Vec<f64>,
+    start: RobotQ,
     motions: Vec<Motion>,
     /// Start time of each motion.
     starts_s: Vec<f64>,
@@ -97,10 +97,10 @@ impl Trajectory {
     pub fn parse(
         sections: Vec<Section<'_>>,
         description: &RobotDescription,
-        start: &[f64],
+        start: &RobotQ,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let mut trajectory = Self { start: start.to_vec(), motions: Vec::new(), starts_s: Vec::new() };
+        let mut trajectory = Self { start: start.clone(), motions: Vec::new(), starts_s: Vec::new() };
         for section in sections {
             let starts_s = trajectory.duration_s();
             let mut context =
@@ -130,7 +130,7 @@ impl Trajectory {
         }
     }
 
-    /// Whether a motion is servo_results in the run.
+    /// Whether a motion is computed in the run.
     fn has_servo(&self) -> bool {
         self.motions.iter().any(|motion| matches!(motion.course, Course::Servo(_)))
     }
@@ -141,7 +141,7 @@ impl Trajectory {
     }
 
     /// Where the last motion ends whose end is known.
-    fn end(&self) -> &[f64] {
+    fn end(&self) -> &RobotQ {
         let known = self.motions.iter().rev().find_map(|motion| match &motion.course {
             Course::Joints(joints) => Some(&joints.to),
             Course::Servo(_) => None,

@@ -1,6 +1,6 @@
 //! A trajectory under way: what it asks of the joints, step after step.
 
-use congruent_description::RobotDescription;
+use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::KinematicsError;
 
 use super::{
@@ -8,7 +8,7 @@ use super::{
     tcp_servo::{ServoController, ServoResult, StepInterval},
 };
 
-/// The reference of a run. Moves are planned and only looked up; servos are servo_results by where the robot
+/// The reference of a run. Moves are planned and only looked up; servos follow where the robot
 /// is measured, so that the loop is closed at every step.
 #[derive(Debug)]
 pub struct ReferenceGenerator<'a> {
@@ -19,7 +19,7 @@ pub struct ReferenceGenerator<'a> {
     current: Option<usize>,
     /// The time that the reference is for.
     time_s: f64,
-    q: Vec<f64>,
+    q: RobotQ,
     qd: Vec<f64>,
     servo_results: Vec<ServoResult>,
 }
@@ -46,7 +46,7 @@ impl<'a> ReferenceGenerator<'a> {
     }
 
     /// The desired positions, rad or m, one entry for each movable joint.
-    pub fn q(&self) -> &[f64] {
+    pub fn q(&self) -> &RobotQ {
         &self.q
     }
 
@@ -60,7 +60,7 @@ impl<'a> ReferenceGenerator<'a> {
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `measured_q` is no configuration of the robot.
-    pub fn advance(&mut self, time_s: f64, measured_q: &[f64]) -> Result<(), KinematicsError> {
+    pub fn advance(&mut self, time_s: f64, measured_q: &RobotQ) -> Result<(), KinematicsError> {
         let before_s = std::mem::replace(&mut self.time_s, time_s);
         let Some((index, starts_s)) = self.trajectory.under_way(time_s) else { return Ok(()) };
         if self.current != Some(index) {
@@ -89,12 +89,12 @@ impl<'a> ReferenceGenerator<'a> {
         Ok(())
     }
 
-    /// Where the servos have servo_results the tool, the one under way to where the robot is now, unless physics
+    /// The results of the servos, of the one under way for where the robot is now, unless physics
     /// has lost it.
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `measured_q` is no configuration of the robot.
-    pub fn finish(mut self, measured_q: &[f64]) -> Result<Vec<ServoResult>, KinematicsError> {
+    pub fn finish(mut self, measured_q: &RobotQ) -> Result<Vec<ServoResult>, KinematicsError> {
         if measured_q.iter().all(|q| q.is_finite()) {
             self.leave(measured_q)?;
         }
@@ -103,7 +103,7 @@ impl<'a> ReferenceGenerator<'a> {
 
     /// Looks back on the motion that ends: the next begins at the end of a move, and where a servo has
     /// come to.
-    fn leave(&mut self, measured_q: &[f64]) -> Result<(), KinematicsError> {
+    fn leave(&mut self, measured_q: &RobotQ) -> Result<(), KinematicsError> {
         let Some(index) = self.current else { return Ok(()) };
         match &self.trajectory.motions[index].course {
             Course::Joints(joints) => self.q.copy_from_slice(&joints.to),
@@ -121,5 +121,5 @@ impl<'a> ReferenceGenerator<'a> {
 }
 
 fn needed<'d, 'a>(servo_controller: &'d mut Option<ServoController<'a>>) -> &'d mut ServoController<'a> {
-    servo_controller.as_mut().expect("a trajectory with a servo has a servo_controller")
+    servo_controller.as_mut().expect("a trajectory with a servo has a servo controller")
 }

@@ -1,7 +1,7 @@
 //! `move_tcp`: the tool centre point goes to a pose in the world. The nearest solution of inverse
 //! kinematics is taken and the joints go there together: the path in between is no straight line.
 
-use congruent_description::{Diagnostic, WrittenTransform};
+use congruent_description::{Diagnostic, RobotQ, WrittenTransform};
 use congruent_kinematics::{Arm, IkOptions, IkSolver, IkTarget, KinematicsError, Pose, TargetPart, UrdfTree};
 use serde::Deserialize;
 use toml::Spanned;
@@ -26,7 +26,7 @@ struct Written {
 pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<Motion, Vec<Diagnostic>> {
     let written: Written = section.read()?;
     let to = reach(&written.move_tcp, context).map_err(|error| vec![error])?;
-    let course = JointMove { from: context.from.to_vec(), to, profile: written.profile };
+    let course = JointMove { from: context.from.clone(), to, profile: written.profile };
     Ok(Motion { duration_s: written.duration_s.get(), course: Course::Joints(course) })
 }
 
@@ -49,7 +49,7 @@ pub(super) fn target(
 }
 
 /// The configuration nearest to the motion's start that brings the tool there.
-fn reach(written: &Spanned<WrittenTransform>, context: &Context<'_>) -> Result<Vec<f64>, Diagnostic> {
+fn reach(written: &Spanned<WrittenTransform>, context: &Context<'_>) -> Result<RobotQ, Diagnostic> {
     let span = written.span();
     let (arm, target) = target(written, context)?;
     let start = arm.from_robot(context.from);
@@ -66,8 +66,8 @@ fn reach(written: &Spanned<WrittenTransform>, context: &Context<'_>) -> Result<V
             .with_help("the pose is the tool centre point's in the world; leave the rotation out to ask for a position alone")
             .at(span.clone()));
     }
-    let q = found.q.to_vec();
-    let mut to = context.from.to_vec();
+    let q = found.q.clone();
+    let mut to = context.from.clone();
     solver.arm().write_to_robot(&q, &mut to);
     context.robot.apply_mimic(&mut to);
     Ok(to)

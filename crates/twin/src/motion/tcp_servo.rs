@@ -1,4 +1,4 @@
-//! `servo_tcp`: the tool centre point is servo_results to a pose, or to a position, by differential inverse
+//! `servo_tcp`: the tool centre point is driven to a pose, or to a position, by differential inverse
 //! kinematics in the loop: at every step of the simulation the error and the Jacobian are those of
 //! the measured joint positions. There is no plan, so where it ends is known only in the run.
 //!
@@ -7,7 +7,7 @@
 //! is brought to the target all the same. For the same reason it is asked for more and more, up to
 //! its limits, where an obstacle keeps it from following: checks see that, the servo does not.
 
-use congruent_description::{Diagnostic, Robot, RobotDescription, WrittenTransform};
+use congruent_description::{ArmQ, Diagnostic, Robot, RobotDescription, RobotQ, WrittenTransform};
 use congruent_kinematics::{
     Arm, ArmJoint, DifferentialMethod, IkSolver, IkTarget, KinematicsError, TargetPart,
 };
@@ -53,7 +53,7 @@ impl Method {
     }
 }
 
-/// One motion that is servo_results and not planned.
+/// One motion that is closed over the measured positions and not planned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TcpServo {
     /// The target as the scenario gives it, in the world.
@@ -66,12 +66,12 @@ pub struct TcpServo {
     pub gain_per_s: f64,
 }
 
-/// Where a servo has servo_results the tool.
+/// How far a servo has brought the TCP.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ServoResult {
     /// Number of the motion in the scenario, from 1.
     pub motion: usize,
-    /// How it was servo_results.
+    /// How joint speeds followed from the error.
     pub method: Method,
     /// Distance to the target that is left.
     pub position_m: f64,
@@ -98,11 +98,11 @@ pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<M
 pub(super) struct ServoController<'a> {
     robot: &'a Robot,
     solver: IkSolver,
-    measured: Vec<f64>,
-    commanded: Vec<f64>,
+    measured: ArmQ,
+    commanded: ArmQ,
     change: Vec<f64>,
     /// The whole reference before the step.
-    before: Vec<f64>,
+    before: RobotQ,
 }
 
 /// A step, and the part of it that lies within the motion.
@@ -118,10 +118,10 @@ impl<'a> ServoController<'a> {
         Ok(Self {
             robot: &description.robot,
             solver: IkSolver::new(arm),
-            measured: vec![0.0; joints],
-            commanded: vec![0.0; joints],
+            measured: ArmQ::zeros(joints),
+            commanded: ArmQ::zeros(joints),
             change: vec![0.0; joints],
-            before: vec![0.0; description.robot.dof()],
+            before: RobotQ::zeros(description.robot.dof()),
         })
     }
 
@@ -130,16 +130,16 @@ impl<'a> ServoController<'a> {
     pub(super) fn lead(
         &mut self,
         servo: &TcpServo,
-        measured_q: &[f64],
+        measured_q: &RobotQ,
         StepInterval { step_s, moved_s }: StepInterval,
-        (q, qd): (&mut [f64], &mut [f64]),
+        (q, qd): (&mut RobotQ, &mut [f64]),
     ) -> Result<(), KinematicsError> {
         if moved_s <= 0.0 {
             qd.fill(0.0);
             return Ok(());
         }
         self.look(measured_q, q);
-        let (arm_q, method) = ((&self.measured[..], &self.commanded[..]), servo.method.into());
+        let (arm_q, method) = ((&self.measured, &self.commanded), servo.method.into());
         self.change.copy_from_slice(self.solver.change_towards(&servo.target, arm_q, method)?.change);
         // What the law de/dt = -gain e does in this time: it never goes too far, whatever the gain.
         let share = -(-servo.gain_per_s * moved_s).exp_m1();
@@ -166,11 +166,11 @@ impl<'a> ServoController<'a> {
         &mut self,
         servo: &TcpServo,
         motion: usize,
-        measured_q: &[f64],
-        q: &[f64],
+        measured_q: &RobotQ,
+        q: &RobotQ,
     ) -> Result<ServoResult, KinematicsError> {
         self.look(measured_q, q);
-        let (arm_q, method) = ((&self.measured[..], &self.commanded[..]), servo.method.into());
+        let (arm_q, method) = ((&self.measured, &self.commanded), servo.method.into());
         let step = self.solver.change_towards(&servo.target, arm_q, method)?;
         let (position_m, orientation_rad) = (step.residual_position_m, step.residual_orientation_rad);
         let held = step.limits_held.to_vec();
@@ -186,7 +186,7 @@ impl<'a> ServoController<'a> {
     }
 
     /// Takes the arm's joints out of the robot's.
-    fn look(&mut self, measured_q: &[f64], reference_q: &[f64]) {
+    fn look(&mut self, measured_q: &RobotQ, reference_q: &RobotQ) {
         for (at, joint) in self.solver.arm().joints().iter().enumerate() {
             self.measured[at] = measured_q[joint.coordinate];
             self.commanded[at] = reference_q[joint.coordinate];
@@ -195,13 +195,12 @@ impl<'a> ServoController<'a> {
 }
 
 impl std::fmt::Display for ServoResult {
-    /// In words: `servo_results by pseudo_inverse, 1.2e-9 m left`.
+    /// In words: `servo by pseudo_inverse, residual 1.2e-9 m`.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "servo_results by {}, {:.1e} m", self.method.name(), self.position_m)?;
+        write!(f, "servo by {}, residual {:.1e} m", self.method.name(), self.position_m)?;
         if let Some(orientation_rad) = self.orientation_rad {
             write!(f, " and {orientation_rad:.1e} rad")?;
         }
-        f.write_str(" left")?;
         if !self.limits_held.is_empty() {
             write!(f, ", held by limits of {}", self.limits_held.join(", "))?;
         }

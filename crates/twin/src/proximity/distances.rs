@@ -1,6 +1,6 @@
 //! `congruent clearance`: distances between links at given configurations.
 
-use congruent_description::RobotDescription;
+use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::{KinematicsError, Pose, UrdfTree};
 use congruent_simulation::Obstacle;
 use nalgebra::Isometry3;
@@ -60,7 +60,7 @@ pub fn distances(
     description: &RobotDescription,
     obstacles: &[Obstacle],
     (choice, overlap): (PairChoice, Overlap),
-    configurations: &[Vec<f64>],
+    configurations: &[RobotQ],
 ) -> Result<DistanceReport, DistanceError> {
     let robot = &description.robot;
     let mut clearance = Clearance::new(description, obstacles, choice)?;

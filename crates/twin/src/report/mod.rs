@@ -38,7 +38,7 @@ pub struct RunReport {
     pub checks: Vec<CheckResult>,
     /// Where a check ended the run before its time: later steps were neither taken nor looked at.
     pub stopped: Option<Stop>,
-    /// Where each `servo_tcp` has servo_results the tool.
+    /// How far each `servo_tcp` has brought the TCP.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub servos: Vec<ServoResult>,
     /// Why the run broke off, where it did.

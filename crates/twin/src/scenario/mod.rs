@@ -11,7 +11,7 @@ mod zone;
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{Diagnostic, RobotDescription, Severity, load_robot};
+use congruent_description::{Diagnostic, RobotDescription, RobotQ, Severity, load_robot};
 use congruent_simulation::{Gains, Obstacle};
 use nalgebra::Vector3;
 
@@ -69,7 +69,7 @@ pub struct Scenario {
     /// Clock and world.
     pub simulation: SimulationSettings,
     /// Configuration at the start.
-    pub start: Vec<f64>,
+    pub start: RobotQ,
     /// What moves the twin.
     pub controller: ControllerSettings,
     /// What it is asked to do.

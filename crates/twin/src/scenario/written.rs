@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{Diagnostic, Findings, RobotDescription, known_names, toml_text};
+use congruent_description::{Diagnostic, Findings, RobotDescription, RobotQ, known_names, toml_text};
 use congruent_kinematics::move_inside_limits;
 use congruent_simulation::{Gains, controller_names};
 use serde::Deserialize;
@@ -123,7 +123,7 @@ impl<'a> Document<'a> {
         let mut found = self.findings;
         let seed = found.keep(read_seed(overrides, self.top.seed.as_ref()));
         let start = keep_all(&mut found, read_start(self.start, &description));
-        let start = start.unwrap_or_else(|| vec![0.0; description.robot.dof()]);
+        let start = start.unwrap_or_else(|| RobotQ::zeros(description.robot.dof()));
         let mut warnings = start_warnings(&start, &description);
         let mut start = start;
         move_inside_limits(&mut start, &description.robot);
@@ -212,7 +212,7 @@ fn check_top(top: &Top) -> Result<(), Diagnostic> {
 fn read_start(
     section: Option<Section<'_>>,
     description: &RobotDescription,
-) -> Result<Vec<f64>, Vec<Diagnostic>> {
+) -> Result<RobotQ, Vec<Diagnostic>> {
     let robot = &description.robot;
     let written: Start = section.map_or(Ok(Start::default()), Section::read)?;
     let values = JointValues {
@@ -222,7 +222,7 @@ fn read_start(
         mm: written.joints_mm,
     }
     .resolve(robot)?;
-    let mut q = vec![0.0; robot.dof()];
+    let mut q = RobotQ::zeros(robot.dof());
     let mut errors = Vec::new();
     for value in values {
         if let Some(message) = value.beyond_limits(robot, "start") {
@@ -234,7 +234,7 @@ fn read_start(
 }
 
 /// A joint that is not named starts at 0, or at its limit nearest to 0, which is said.
-fn start_warnings(start: &[f64], description: &RobotDescription) -> Vec<Diagnostic> {
+fn start_warnings(start: &RobotQ, description: &RobotDescription) -> Vec<Diagnostic> {
     let robot = &description.robot;
     let mut warnings = Vec::new();
     for (&joint, &q) in robot.movable_joints().iter().zip(start) {

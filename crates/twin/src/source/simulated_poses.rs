@@ -1,6 +1,6 @@
 //! Link poses by physics, for whoever compares sources and knows no engine.
 
-use congruent_description::Robot;
+use congruent_description::{Robot, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose};
 use congruent_simulation::{SimulationError, World, WorldSettings};
 use nalgebra::Isometry3;
@@ -35,7 +35,7 @@ impl SimulatedPoses {
 impl LinkPoses for SimulatedPoses {
     fn root_from_links_into(
         &mut self,
-        q: &[f64],
+        q: &RobotQ,
         root_from_links: &mut [Pose],
     ) -> Result<(), LinkPosesError> {
         self.world.set_state(q, &self.at_rest).map_err(LinkPosesError::source)?;

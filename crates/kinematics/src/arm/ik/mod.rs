@@ -7,6 +7,8 @@ mod residual;
 mod solver;
 mod step;
 
+use congruent_description::ArmQ;
+
 pub use residual::{IkTarget, TargetPart};
 pub use solver::IkSolver;
 
@@ -97,7 +99,7 @@ impl Default for IkOptions {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IkResult<'a> {
     /// The configuration, one entry for each joint of the arm.
-    pub q: &'a [f64],
+    pub q: &'a ArmQ,
     /// Whether both residuals are within tolerance.
     pub converged: bool,
     /// Distance that is left, m.

@@ -1,5 +1,7 @@
 //! Of several solutions the one nearest to where the arm stands.
 
+use congruent_description::ArmQ;
+
 use super::{IkOptions, IkResult, IkSolver, IkTarget};
 use crate::{error::KinematicsError, uniform::Uniform};
 
@@ -16,19 +18,19 @@ impl IkSolver {
     pub fn solve_nearest(
         &mut self,
         target: &IkTarget,
-        start: &[f64],
+        start: &ArmQ,
         options: &IkOptions,
         attempts: usize,
     ) -> Result<IkResult<'_>, KinematicsError> {
         let mut random = Uniform::seeded(options.seed);
-        let mut from = start.to_vec();
-        let mut nearest = (f64::INFINITY, start.to_vec());
+        let mut from = start.clone();
+        let mut nearest = (f64::INFINITY, start.clone());
         for _ in 0..=attempts {
             let converged = self.solve(target, &from, options, || true)?.converged;
             if converged {
                 let distance = self.turn_towards(start);
                 if distance < nearest.0 {
-                    nearest = (distance, self.solution().to_vec());
+                    nearest = (distance, self.solution().clone());
                 }
             }
             self.arm().draw(&mut random, &mut from);

@@ -1,5 +1,6 @@
 //! The loop around the steps: attempts, limits, restarts, and what is reported at the end.
 
+use congruent_description::ArmQ;
 use nalgebra::Vector6;
 
 use super::{
@@ -27,8 +28,8 @@ const STANDSTILL: f64 = 1e-15;
 #[derive(Debug, Clone)]
 pub struct IkSolver {
     arm: Arm,
-    q: Vec<f64>,
-    best: Vec<f64>,
+    q: ArmQ,
+    best: ArmQ,
     change: Vec<f64>,
     columns: Vec<Vector6<f64>>,
     held: Vec<bool>,
@@ -40,8 +41,8 @@ impl IkSolver {
     pub fn new(arm: Arm) -> Self {
         let n = arm.joints().len();
         Self {
-            q: vec![0.0; n],
-            best: vec![0.0; n],
+            q: ArmQ::zeros(n),
+            best: ArmQ::zeros(n),
             change: vec![0.0; n],
             columns: vec![Vector6::zeros(); n],
             held: vec![false; n],
@@ -70,7 +71,7 @@ impl IkSolver {
     /// # Examples
     /// An arm of two links of 0.6 m and 0.4 m reaches (0.6, 0.4), and says what is left of (2, 0):
     /// ```
-    /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
+    /// # use congruent_description::{ArmQ, Joint, JointKind, JointParts, Link, Robot};
     /// # use nalgebra::{Isometry3, Matrix3, Vector3};
     /// use congruent_kinematics::{Arm, IkOptions, IkSolver, IkTarget, Pose, TargetPart};
     /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
@@ -103,7 +104,7 @@ impl IkSolver {
     pub fn solve(
         &mut self,
         target: &IkTarget,
-        start: &[f64],
+        start: &ArmQ,
         options: &IkOptions,
         keep_going: impl FnMut() -> bool,
     ) -> Result<IkResult<'_>, KinematicsError> {
@@ -176,7 +177,7 @@ impl IkSolver {
     pub fn change_towards(
         &mut self,
         target: &IkTarget,
-        (q, commanded): (&[f64], &[f64]),
+        (q, commanded): (&ArmQ, &ArmQ),
         method: DifferentialMethod,
     ) -> Result<IkChange<'_>, KinematicsError> {
         KinematicsError::check_joints(self.q.len(), q)?;
@@ -203,13 +204,13 @@ impl IkSolver {
     }
 
     /// The configuration that was found last.
-    pub(super) fn solution(&self) -> &[f64] {
+    pub(super) fn solution(&self) -> &ArmQ {
         &self.best
     }
 
     /// Takes whole turns out of the solution, as near to `start` as the limits allow; gives the sum of
     /// squares of what is left between the two, in radians.
-    pub(super) fn turn_towards(&mut self, start: &[f64]) -> f64 {
+    pub(super) fn turn_towards(&mut self, start: &ArmQ) -> f64 {
         let rad_per_metre = 1.0 / self.arm.metres_per_rad();
         let mut sum = 0.0;
         for ((q, joint), &start) in self.best.iter_mut().zip(self.arm.joints()).zip(start) {

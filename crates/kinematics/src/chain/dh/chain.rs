@@ -1,7 +1,7 @@
 //! Forward kinematics of a declared table, of either convention. The equations of a single row are
 //! `standard.rs` and `modified.rs`.
 
-use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Robot};
+use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Robot, RobotQ};
 
 use super::{Axes, DhDerivatives, DhRowTwists};
 use crate::{
@@ -122,7 +122,7 @@ impl DhChain {
     /// [`KinematicsError::JointCount`] or [`KinematicsError::PoseCount`] when a length is wrong.
     /// # Examples
     /// See [`DhChain`].
-    pub fn dh_frames_into(&self, q: &[f64], base_from_dh: &mut [Pose]) -> Result<(), KinematicsError> {
+    pub fn dh_frames_into(&self, q: &RobotQ, base_from_dh: &mut [Pose]) -> Result<(), KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
         KinematicsError::check_poses(self.rows.len() + 1, base_from_dh)?;
         base_from_dh[0] = self.base_from_dh0;
@@ -141,7 +141,7 @@ impl DhChain {
     /// [`KinematicsError::JointCount`] when `q` is no configuration vector of the robot.
     /// # Examples
     /// See [`DhChain`].
-    pub fn base_from_tip(&self, q: &[f64]) -> Result<Pose, KinematicsError> {
+    pub fn base_from_tip(&self, q: &RobotQ) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
         let base_from_dhn = self.visit(Axes::of(&self.base_from_dh0), &self.rows, q, |_, _| {});
         Ok(base_from_dhn.times(&self.dhn_from_tip))
@@ -157,7 +157,7 @@ impl DhChain {
     ///
     /// # Errors
     /// As [`DhChain::base_from_tip`].
-    pub fn base_from_tcp(&self, q: &[f64], tip_from_tcp: &Pose) -> Result<Pose, KinematicsError> {
+    pub fn base_from_tcp(&self, q: &RobotQ, tip_from_tcp: &Pose) -> Result<Pose, KinematicsError> {
         Ok(self.base_from_tip(q)? * *tip_from_tcp)
     }
 
@@ -172,7 +172,7 @@ impl DhChain {
     /// [`KinematicsError::JointCount`], or [`KinematicsError::FrameIndex`] for a frame that is not there.
     /// # Examples
     /// See [`DhChain`].
-    pub fn dhi_from_dhj(&self, q: &[f64], frames: DhFrames) -> Result<Pose, KinematicsError> {
+    pub fn dhi_from_dhj(&self, q: &RobotQ, frames: DhFrames) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
         let (first, last) = (frames.transformed_by.min(frames.of), frames.transformed_by.max(frames.of));
         if last > self.rows.len() {
@@ -198,7 +198,7 @@ impl DhChain {
     /// See [`DhDerivatives`].
     pub fn derivatives_into(
         &self,
-        q: &[f64],
+        q: &RobotQ,
         derivatives: &mut DhDerivatives,
     ) -> Result<(), KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
@@ -217,7 +217,7 @@ impl DhChain {
 
     /// Steps along `rows`, the sines of a block first, so that they are computed together.
     #[inline]
-    fn visit(&self, from: Axes, rows: &[Row], q: &[f64], mut each: impl FnMut(usize, &Axes)) -> Axes {
+    fn visit(&self, from: Axes, rows: &[Row], q: &RobotQ, mut each: impl FnMut(usize, &Axes)) -> Axes {
         let mut axes = from;
         let mut at = 0;
         for block in rows.chunks(BLOCK) {

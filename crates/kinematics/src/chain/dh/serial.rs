@@ -2,7 +2,7 @@
 //! conversions read and write. Its forward kinematics multiplies the rows' own transforms and
 //! shares no step with `chain.rs`.
 
-use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, JointIndex};
+use congruent_description::{ChainQ, DhConvention, DhRow, DhRowKind, DhTable, JointIndex};
 use nalgebra::Vector3;
 
 use super::{ModifiedDh, StandardDh};
@@ -132,7 +132,7 @@ impl SerialDh {
     /// [`KinematicsError::JointCount`] when `q` has another length.
     /// # Examples
     /// See [`SerialDh`].
-    pub fn base_from_tip(&self, q: &[f64]) -> Result<Pose, KinematicsError> {
+    pub fn base_from_tip(&self, q: &ChainQ) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.rows.len(), q)?;
         let step = |pose: Pose, (row, &q): (&SerialDhRow, &f64)| pose * row.transform(self.convention, q);
         Ok(self.rows.iter().zip(q).fold(self.base_from_dh0, step) * self.dhn_from_tip)

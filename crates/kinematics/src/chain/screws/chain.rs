@@ -3,7 +3,7 @@
 
 use std::convert::Infallible;
 
-use congruent_description::{LinkIndex, Robot};
+use congruent_description::{ChainQ, LinkIndex, Robot, RobotQ};
 
 use crate::{
     chain::{dh::DhChain, urdf::UrdfTree},
@@ -39,18 +39,18 @@ impl ScrewChain {
     /// each joint, so that swapped joints show) the motion of one joint alone is
     /// `exp(h T_i)`, where `T_i` is its twist at `q0`; moving that back by the joints before it gives
     /// the twist at zero. For joints that follow screws this is exact, not a difference quotient.
-    pub fn identify(n: usize, mut base_from_tip: impl FnMut(&[f64]) -> Pose) -> Self {
+    pub fn identify(n: usize, mut base_from_tip: impl FnMut(&ChainQ) -> Pose) -> Self {
         let Ok(chain) = Self::try_identify(n, |q| Ok::<_, Infallible>(base_from_tip(q)));
         chain
     }
 
     fn try_identify<E>(
         n: usize,
-        mut base_from_tip: impl FnMut(&[f64]) -> Result<Pose, E>,
+        mut base_from_tip: impl FnMut(&ChainQ) -> Result<Pose, E>,
     ) -> Result<Self, E> {
         // Not simple multiples of one another, none near a quarter turn.
         #[expect(clippy::cast_precision_loss, reason = "arms have few joints")]
-        let q0: Vec<f64> = (0..n).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
+        let q0: ChainQ = (0..n).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
         let at_q0 = base_from_tip(&q0)?;
         let mut q = q0.clone();
         let mut twists_in_base: Vec<Twist> = Vec::with_capacity(n);
@@ -78,11 +78,9 @@ impl ScrewChain {
     /// # Errors
     /// [`KinematicsError::JointCount`] when `dof` is not that of the table's robot.
     pub fn from_dh(chain: &DhChain, dof: usize) -> Result<Self, KinematicsError> {
-        let mut q = vec![0.0; dof];
+        let mut q = RobotQ::zeros(dof);
         Self::try_identify(chain.coordinates().len(), |rows| {
-            for (&coordinate, &value) in chain.coordinates().iter().zip(rows) {
-                q[coordinate] = value;
-            }
+            q.set_chain(chain.coordinates(), rows);
             chain.base_from_tip(&q)
         })
     }
@@ -98,11 +96,9 @@ impl ScrewChain {
         coordinates: &[usize],
     ) -> Result<Self, KinematicsError> {
         let tree = UrdfTree::new(robot);
-        let mut q = vec![0.0; robot.dof()];
+        let mut q = RobotQ::zeros(robot.dof());
         Self::try_identify(coordinates.len(), |values| {
-            for (&coordinate, &value) in coordinates.iter().zip(values) {
-                q[coordinate] = value;
-            }
+            q.set_chain(coordinates, values);
             let root_from_base = tree.root_from_link(&q, base)?;
             Ok(root_from_base.inverse() * tree.root_from_link(&q, tip)?)
         })
@@ -149,7 +145,7 @@ impl ScrewChain {
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `q` has another length.
-    pub fn base_from_tip(&self, q: &[f64]) -> Result<Pose, KinematicsError> {
+    pub fn base_from_tip(&self, q: &ChainQ) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.twists_in_base.len(), q)?;
         let product = |pose: Pose, (twist, &q): (&Twist, &f64)| pose * twist.exp(q);
         let moved = self.twists_in_base.iter().zip(q).fold(Pose::identity(), product);

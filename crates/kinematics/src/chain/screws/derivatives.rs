@@ -1,5 +1,7 @@
 //! What every number of a product of exponentials does to the tip: derivatives of the pose as twists.
 
+use congruent_description::ChainQ;
+
 use super::chain::ScrewChain;
 use crate::{
     error::KinematicsError,
@@ -64,7 +66,7 @@ impl ScrewChain {
     /// See [`ScrewDerivatives`].
     pub fn derivatives_into(
         &self,
-        q: &[f64],
+        q: &ChainQ,
         derivatives: &mut ScrewDerivatives,
     ) -> Result<(), KinematicsError> {
         KinematicsError::check_joints(self.joint_count(), q)?;

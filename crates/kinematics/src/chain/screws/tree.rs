@@ -3,7 +3,7 @@
 //! It takes axes and origins from the description and shares no step with `urdf_tree.rs`, so that
 //! the two can be held against each other.
 
-use congruent_description::{JointIndex, JointKind, LinkIndex, Robot};
+use congruent_description::{JointIndex, JointKind, LinkIndex, Robot, RobotQ};
 use nalgebra::{Isometry3, Point3};
 
 use crate::{
@@ -123,7 +123,7 @@ impl ScrewTree {
     /// See [`ScrewTree`].
     pub fn root_from_links_into(
         &self,
-        q: &[f64],
+        q: &RobotQ,
         root_from_links: &mut [Pose],
     ) -> Result<(), KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
@@ -158,7 +158,7 @@ impl ScrewTree {
     /// When `link` is a link of a larger robot.
     /// # Examples
     /// See [`ScrewTree`].
-    pub fn root_from_link(&self, q: &[f64], link: LinkIndex) -> Result<Pose, KinematicsError> {
+    pub fn root_from_link(&self, q: &RobotQ, link: LinkIndex) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.dof, q)?;
         let mut pose = self.homes[link.get()];
         let mut above = link.get();

@@ -46,7 +46,7 @@ impl SerialChain {
     /// let configurations = [[0.0, 0.0], [0.3, -0.7], [1.0, 2.0]];
     /// let mut base_from_tips = [Pose::identity(); 3];
     /// chain.base_from_tips_into(configurations.as_flattened(), &mut base_from_tips)?;
-    /// assert_eq!(base_from_tips[1], chain.base_from_tip(&configurations[1])?);
+    /// assert_eq!(base_from_tips[1], chain.base_from_tip(&configurations[1].into())?);
     /// # Ok::<(), congruent_kinematics::KinematicsError>(())
     /// ```
     pub fn base_from_tips_into(
@@ -60,7 +60,7 @@ impl SerialChain {
         let (together, alone) = configurations.split_at(n * LANES * groups.len());
         Arch::new().dispatch(Groups { chain: self, configurations: together, base_from_tips: groups });
         for (at, base_from_tip) in rest.iter_mut().enumerate() {
-            *base_from_tip = self.base_from_tip(&alone[n * at..][..n])?;
+            *base_from_tip = self.base_from_tip_at(&alone[n * at..][..n]);
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 //! chain was written as. For use in loops; the forms that are held against each other are
 //! `dh/chain.rs`, `urdf_tree.rs` and `screw_tree.rs`.
 
-use congruent_description::{DhTable, LinkIndex, Robot};
+use congruent_description::{ChainQ, DhTable, LinkIndex, Robot};
 use nalgebra::Vector3;
 
 use super::steps::{Path, Step};
@@ -133,9 +133,14 @@ impl SerialChain {
     /// [`KinematicsError::JointCount`] when `q` has another length than the chain.
     /// # Examples
     /// See [`SerialChain`].
-    pub fn base_from_tip(&self, q: &[f64]) -> Result<Pose, KinematicsError> {
+    pub fn base_from_tip(&self, q: &ChainQ) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.rows.len(), q)?;
-        Ok(self.visit(q, |_, _| {}).pose())
+        Ok(self.base_from_tip_at(q))
+    }
+
+    /// The same for positions that were counted before.
+    pub(super) fn base_from_tip_at(&self, q: &[f64]) -> Pose {
+        self.visit(q, |_, _| {}).pose()
     }
 
     /// Pose of the tip and its Jacobian, in one pass.
@@ -154,7 +159,7 @@ impl SerialChain {
     /// See [`SerialChain`].
     pub fn pose_and_jacobian_into(
         &self,
-        q: &[f64],
+        q: &ChainQ,
         kind: JacobianKind,
         columns: &mut [Twist],
     ) -> Result<Pose, KinematicsError> {
