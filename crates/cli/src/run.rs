@@ -11,10 +11,10 @@ use std::{
 use congruent::{
     description::Diagnostic,
     twin::{
-        ExecuteError, Options, RecordingFormat, execute,
+        ExecuteError, Options, RecordingFormat, RunSetup, execute,
         report::{OutputError, OutputFolder, RunReport, sentence, write_junit},
-        scenario::{Overrides, Scenario},
-        verdict::{CheckResult, Expectation, Verdict},
+        scenario::{Expectation, Override},
+        verdict::{CheckResult, Verdict},
     },
 };
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
@@ -37,7 +37,11 @@ pub(crate) struct Arguments {
     /// How many scenarios run at once.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: u16,
-    /// Use this seed instead of the scenario's.
+    /// Use another value than the scenarios': KEY is the keys of the file joined by dots, with the number of
+    /// an entry of a list, from 1. May be given several times.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_override)]
+    overrides: Vec<Override>,
+    /// Use this seed instead of the scenario's; the same as --set seed=N.
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX.unsigned_abs()))]
     seed: Option<u64>,
     /// Write no recording.
@@ -46,6 +50,18 @@ pub(crate) struct Arguments {
     /// Also write one JUnit file over all scenarios.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
+}
+
+fn parse_override(text: &str) -> Result<Override, String> {
+    text.parse().map_err(|error: Diagnostic| {
+        error.help.map_or(error.message.clone(), |help| format!("{}; {help}", error.message))
+    })
+}
+
+impl Arguments {
+    fn overrides(&self) -> Vec<Override> {
+        self.overrides.iter().cloned().chain(self.seed.map(Override::seed)).collect()
+    }
 }
 
 /// What became of one scenario.
@@ -140,21 +156,21 @@ impl Finished {
 }
 
 /// Reads all scenarios before the first one runs, so that a slip in the last is known at once.
-fn load(arguments: &Arguments, printer: &Printer) -> Result<Vec<Scenario>, Failure> {
-    let overrides = Overrides { seed: arguments.seed };
+fn load(arguments: &Arguments, printer: &Printer) -> Result<Vec<RunSetup>, Failure> {
+    let overrides = arguments.overrides();
     let mut scenarios = Vec::new();
     let mut findings = Vec::new();
     let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
     for path in &arguments.scenarios {
-        match Scenario::load(path, overrides) {
-            Ok(scenario) => {
-                let folder = OutputFolder::path_for(&arguments.out, &scenario.name);
+        match RunSetup::load(path, &overrides) {
+            Ok(setup) => {
+                let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
                 if let Some(other) = folders.insert(folder.clone(), path.clone()) {
                     findings.push(same_folder(&folder, &other, path));
                 }
-                printer.warnings(&scenario.description.warnings);
-                printer.warnings(&scenario.warnings);
-                scenarios.push(scenario);
+                printer.warnings(&setup.description.warnings);
+                printer.warnings(&setup.warnings);
+                scenarios.push(setup);
             }
             Err(errors) => findings.extend(errors),
         }
@@ -169,7 +185,7 @@ fn same_folder(folder: &Path, a: &Path, b: &Path) -> Diagnostic {
 }
 
 /// Runs scenarios on `--jobs` threads; results are in the order of the arguments.
-fn run_all(scenarios: Vec<Scenario>, arguments: &Arguments, printer: &Printer) -> Vec<Finished> {
+fn run_all(scenarios: Vec<RunSetup>, arguments: &Arguments, printer: &Printer) -> Vec<Finished> {
     let options = Options {
         out: arguments.out.clone(),
         recording: (!arguments.no_recording).then_some(recording_format()).flatten(),
@@ -182,7 +198,7 @@ fn run_all(scenarios: Vec<Scenario>, arguments: &Arguments, printer: &Printer) -
         loop {
             let next = waiting.lock().expect("no thread panics while it takes a scenario").next();
             let Some((index, scenario)) = next else { return finished };
-            finished.push((index, run_one(scenario, &options, bars.as_ref())));
+            finished.push((index, run_one(&scenario, &options, bars.as_ref())));
         }
     };
     let mut finished: Vec<(usize, Finished)> = std::thread::scope(|scope| {
@@ -204,18 +220,18 @@ fn recording_format() -> Option<&'static dyn RecordingFormat> {
     None
 }
 
-fn run_one(scenario: Scenario, options: &Options<'_>, bars: Option<&MultiProgress>) -> Finished {
+fn run_one(setup: &RunSetup, options: &Options<'_>, bars: Option<&MultiProgress>) -> Finished {
     /// Steps between two looks at the progress bar.
     const STEPS_A_TICK: u64 = 256;
-    let bar = bars.map(|bars| bars.add(progress_bar(&scenario)));
-    let name = scenario.name.clone();
+    let bar = bars.map(|bars| bars.add(progress_bar(setup)));
+    let name = setup.scenario.name.clone();
     let progress = |steps| {
         if let Some(bar) = bar.as_ref().filter(|_| steps % STEPS_A_TICK == 0) {
             bar.set_position(steps);
         }
     };
     // A fault in one scenario must not take the results of the others with it.
-    let result = catch_unwind(AssertUnwindSafe(|| execute(scenario, options, progress)));
+    let result = catch_unwind(AssertUnwindSafe(|| execute(setup, options, progress)));
     if let Some(bar) = bar {
         bar.finish_and_clear();
     }
@@ -230,16 +246,16 @@ fn run_one(scenario: Scenario, options: &Options<'_>, bars: Option<&MultiProgres
         Ok(Err(ExecuteError::Recording(error))) => Finished::Refused(Failure::Machine(error.to_string())),
         Ok(Err(error)) => Finished::Refused(Diagnostic::error("run::cannot_run", error.to_string()).into()),
         Err(_) => {
-            let message = format!("scenario \"{name}\" met a fault of this program; please report it");
+            let message = format!("scenario \"{name}\" ended in an internal error; please report it");
             Finished::Refused(Failure::Machine(message))
         }
     }
 }
 
-fn progress_bar(scenario: &Scenario) -> ProgressBar {
+fn progress_bar(setup: &RunSetup) -> ProgressBar {
     let style = ProgressStyle::with_template("{prefix} {bar:40} {percent:>3} %")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(scenario.simulation.steps).with_style(style).with_prefix(scenario.name.clone())
+    ProgressBar::new(setup.clock.steps).with_style(style).with_prefix(setup.scenario.name.clone())
 }
 
 /// A place that cannot be written is the user's to change, a full disk is the machine's failure.
@@ -261,9 +277,9 @@ fn described(report: &RunReport) -> String {
     let mut text = String::new();
     let verdict = match (report.verdict, &report.expected) {
         (Verdict::AsExpected, Expectation::Pass) => "pass",
-        (Verdict::AsExpected, Expectation::Fail { .. }) => "pass: it fails as expected",
+        (Verdict::AsExpected, Expectation::Fail { .. }) => "pass (expected failure)",
         (Verdict::NotAsExpected, Expectation::Pass) => "FAIL",
-        (Verdict::NotAsExpected, Expectation::Fail { .. }) => "FAIL: it should have failed otherwise",
+        (Verdict::NotAsExpected, Expectation::Fail { .. }) => "FAIL (the expected failure did not come)",
         (Verdict::NothingChecked, _) => "NOTHING CHECKED: add a [[check]]",
         (Verdict::Broken, _) => "BROKEN",
     };
@@ -287,7 +303,7 @@ fn described(report: &RunReport) -> String {
 fn checked(text: &mut String, check: &CheckResult) {
     let lines = check.measures.iter().map(sentence).chain(check.notes.clone());
     for (index, line) in lines.enumerate() {
-        let (kind, status) = if index == 0 { (check.check, check.status.word()) } else { ("", "") };
+        let (kind, status) = if index == 0 { (check.check.word(), check.status.word()) } else { ("", "") };
         let _ = writeln!(text, "  {kind:10} {status:7} {line}");
     }
 }

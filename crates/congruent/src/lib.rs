@@ -26,9 +26,9 @@ pub mod prelude {
     #[cfg(feature = "recording")]
     pub use congruent_recording::RerunFormat;
     pub use congruent_twin::{
-        Options, Run, execute,
+        Options, Run, RunSetup, execute,
         report::RunReport,
-        scenario::{Overrides, Scenario},
+        scenario::{Override, Scenario},
         verdict::Verdict,
     };
 

@@ -6,18 +6,15 @@
 use std::path::Path;
 
 use congruent_recording::RerunRecorder;
-use congruent_twin::{
-    Run,
-    scenario::{Overrides, Scenario},
-};
+use congruent_twin::{Run, RunSetup};
 
 fn main() {
     divan::main();
 }
 
-fn scenario() -> Scenario {
+fn setup() -> RunSetup {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/ur5e_pick.toml");
-    Scenario::load(&path, Overrides::default()).expect("the scenario is part of the project")
+    RunSetup::load(&path, &[]).expect("the scenario is part of the project")
 }
 
 #[divan::bench]
@@ -25,15 +22,14 @@ fn run_and_recording(bencher: divan::Bencher<'_, '_>) {
     let path = std::env::temp_dir().join("congruent-bench.rrd");
     bencher
         .with_inputs(|| {
-            let mut scenario = scenario();
-            let checks = std::mem::take(&mut scenario.checks);
-            (scenario, checks)
+            let setup = setup();
+            let checks = setup.checks();
+            (setup, checks)
         })
-        .bench_local_values(|(scenario, mut checks)| {
-            let run = Run::new(&scenario).expect("the scenario runs");
-            let mut recorder =
-                RerunRecorder::create(&path, &scenario, run.names(), run.model().sources(), &checks)
-                    .expect("a temporary file");
+        .bench_local_values(|(setup, mut checks)| {
+            let run = Run::new(&setup).expect("the scenario runs");
+            let mut recorder = RerunRecorder::create(&path, &setup, run.names(), run.model().sources())
+                .expect("a temporary file");
             run.finish(&mut checks, &mut recorder, |_| ())
         });
 }

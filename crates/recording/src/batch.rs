@@ -67,7 +67,7 @@ impl Batch {
         self.twin.extend(sample.twin.iter().map(Placed::from));
         self.model.extend(sample.model.iter().map(|pose: &Pose| Placed::from(&pose.to_isometry())));
         self.errors.extend_from_slice(sample.errors);
-        self.q.extend_from_slice(sample.q);
+        self.q.extend_from_slice(sample.joints.truth.q);
         self.tool.push(vector(&tool_in_world.coords));
     }
 

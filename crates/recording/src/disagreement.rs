@@ -2,7 +2,7 @@
 //! to the model's in true length, and the worst link carries its error as a label.
 
 use congruent_kinematics::PoseError;
-use congruent_twin::{Sample, monitor::Check, recorder::RecordingError};
+use congruent_twin::{Sample, recorder::RecordingError, scenario::Check};
 use rerun::{
     Arrows3D, Ellipsoids3D, EntityPath, FillMode, Points3D, Radius, SerializedComponentBatch,
     SerializedComponentColumn,
@@ -36,9 +36,8 @@ impl AgreementLimits {
     /// The tightest limits of all checks; `None` where no check looks at agreement.
     pub(super) fn of(checks: &[Check]) -> Option<Self> {
         let limits = checks.iter().filter_map(|check| {
-            let settings = check.monitor.resolved();
-            let limit = |key| settings.get(key).and_then(toml::Value::as_float);
-            Some(Self { position_m: limit("position_m")?, orientation_rad: limit("orientation_rad")? })
+            let Check::Agreement(limits) = check else { return None };
+            Some(Self { position_m: limits.position_m?, orientation_rad: limits.orientation_rad? })
         });
         limits.reduce(|a, b| Self {
             position_m: a.position_m.min(b.position_m),

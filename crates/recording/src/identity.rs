@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use congruent_twin::scenario::Scenario;
+use congruent_twin::RunSetup;
 use rerun::{ApplicationId, StoreId, StoreKind};
 use sha2::{Digest, Sha256};
 
@@ -13,10 +13,10 @@ const LONGEST: usize = 160;
 const DIGITS: usize = 16;
 
 /// The store of a scenario's recording, or of its layout.
-pub(super) fn store(scenario: &Scenario, kind: StoreKind) -> StoreId {
-    let name = application(&scenario.name);
+pub(super) fn store(setup: &RunSetup, kind: StoreKind) -> StoreId {
+    let name = application(&setup.scenario.name);
     let application = ApplicationId::new_or_unknown(name.as_str());
-    let recording = format!("{name} {}", fingerprint(scenario));
+    let recording = format!("{name} {}", fingerprint(setup));
     StoreId::new(kind, application, recording)
 }
 
@@ -28,11 +28,11 @@ fn application(scenario: &str) -> String {
 }
 
 /// Hash over the scenario and the robot without its meshes: runs that may differ have another.
-fn fingerprint(scenario: &Scenario) -> String {
-    let description = &scenario.description;
+fn fingerprint(setup: &RunSetup) -> String {
+    let description = &setup.description;
     let robot = &description.robot;
     let mut hash = Sha256::new();
-    hash.update(scenario.resolved());
+    hash.update(setup.scenario.to_toml());
     hash.update(format!("{:?}", robot.joints()));
     for link in robot.links() {
         hash.update(format!("{:?} {:?}", link.name, link.inertia));

@@ -43,11 +43,10 @@ use crate::{
 };
 use congruent_agreement::compare::PoseSource;
 use congruent_twin::{
-    Recording, RecordingFormat, Run, Sample,
-    monitor::{Check, Names},
+    Recording, RecordingFormat, Run, RunSetup, Sample,
+    monitor::Names,
     recorder::{Recorder, RecordingError},
     report::RunReport,
-    scenario::Scenario,
 };
 
 /// Samples are kept at this rate of simulated time, or at every step where steps are longer.
@@ -87,31 +86,30 @@ impl RerunRecorder {
     /// [`RecordingError`] where the file cannot be written.
     pub fn create(
         path: &Path,
-        scenario: &Scenario,
+        setup: &RunSetup,
         names: &Names,
         sources: &[PoseSource],
-        checks: &[Check],
     ) -> Result<Self, RecordingError> {
-        let description = &scenario.description;
+        let description = &setup.description;
         let tolerance = description.tolerance;
-        let limits = AgreementLimits::of(checks).unwrap_or(AgreementLimits {
+        let limits = AgreementLimits::of(&setup.scenario.check).unwrap_or(AgreementLimits {
             position_m: tolerance.position_m,
             orientation_rad: tolerance.orientation_rad,
         });
-        let mut writer = RrdWriter::create(path, identity::store(scenario, StoreKind::Recording))?;
+        let mut writer = RrdWriter::create(path, identity::store(setup, StoreKind::Recording))?;
         let bodies = scene::bodies(&description.robot, 0.0);
-        scene::write(&mut writer, scenario, &bodies)?;
+        scene::write(&mut writer, setup, &bodies)?;
         scene::write_styles(&mut writer, &description.robot, names, sources)?;
         writer.flush()?;
         Ok(Self {
             writer,
-            layout: identity::store(scenario, StoreKind::Blueprint),
+            layout: identity::store(setup, StoreKind::Blueprint),
             names: names.clone(),
             description: description.clone(),
-            obstacles: scenario.obstacles.clone(),
+            obstacles: setup.obstacles.clone(),
             bodies,
             tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
-            stride: stride(scenario.simulation.step_s),
+            stride: stride(setup.clock.step_s),
             batch: Batch::new(names),
             disagreement: Disagreement::new(names.links.len(), limits),
             distances: Distances::default(),
@@ -153,14 +151,8 @@ impl Recording for RerunRecorder {
 pub struct RerunFormat;
 
 impl RecordingFormat for RerunFormat {
-    fn begin(
-        &self,
-        path: &Path,
-        run: &Run<'_>,
-        checks: &[Check],
-    ) -> Result<Box<dyn Recording>, RecordingError> {
-        let recorder =
-            RerunRecorder::create(path, run.scenario(), run.names(), run.model().sources(), checks)?;
+    fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
+        let recorder = RerunRecorder::create(path, run.setup(), run.names(), run.model().sources())?;
         Ok(Box::new(recorder))
     }
 }

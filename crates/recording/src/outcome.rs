@@ -3,6 +3,7 @@
 use congruent_twin::{
     recorder::RecordingError,
     report::RunReport,
+    scenario::CheckKind,
     verdict::{CheckResult, Measure, Moment, Status},
 };
 use rerun::{
@@ -13,7 +14,7 @@ use crate::{batch::exponent, palette, paths, times::Instant, units, writer::RrdW
 
 /// All quantities of all checks of one kind.
 pub(super) fn measures<'a>(report: &'a RunReport, kind: &'a str) -> impl Iterator<Item = &'a Measure> {
-    report.checks.iter().filter(move |check| check.check == kind).flat_map(|check| &check.measures)
+    report.checks.iter().filter(move |check| check.check.word() == kind).flat_map(|check| &check.measures)
 }
 
 /// When something was outside its limit first.
@@ -59,10 +60,10 @@ fn write_limits(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
     };
     for check in &report.checks {
         for measure in &check.measures {
-            if let Some((path, name)) = plotted(check.check, measure.quantity) {
+            if let Some((path, name)) = plotted(check.check.word(), measure.quantity) {
                 write_line(writer, report, &path, (name, measure.limit))?;
             }
-            if check.check == "agreement" {
+            if check.check == CheckKind::Agreement {
                 let name = format!("{} tolerance", measure.quantity);
                 let path = paths::worst_of_links(&name);
                 write_line(writer, report, &path, (&name, exponent(measure.limit)))?;
@@ -90,7 +91,10 @@ fn write_line(
 fn lane_names(report: &RunReport) -> impl Iterator<Item = String> + '_ {
     report.checks.iter().enumerate().map(|(index, check)| {
         let is_again = report.checks[..index].iter().any(|before| before.check == check.check);
-        if is_again { format!("{} (line {})", check.check, check.line) } else { check.check.to_owned() }
+        match check.line {
+            Some(line) if is_again => format!("{} (line {line})", check.check),
+            _ => check.check.to_string(),
+        }
     })
 }
 

@@ -3,7 +3,7 @@
 use congruent_agreement::compare::PoseSource;
 use congruent_description::{Link, Robot, Shape};
 use congruent_simulation::Obstacle;
-use congruent_twin::{monitor::Names, recorder::RecordingError, scenario::Scenario};
+use congruent_twin::{RunSetup, monitor::Names, recorder::RecordingError};
 use rerun::{Color, EntityPath, LineStrips3D, Radius, SeriesLines, TimePoint, ViewCoordinates};
 
 use crate::{
@@ -30,21 +30,17 @@ pub(super) fn bodies(robot: &Robot, inset_m: f64) -> Vec<Body> {
 }
 
 /// Writes shapes. The twin's links have no colour yet: it follows their error.
-pub(super) fn write(
-    writer: &mut RrdWriter,
-    scenario: &Scenario,
-    bodies: &[Body],
-) -> Result<(), RecordingError> {
+pub(super) fn write(writer: &mut RrdWriter, setup: &RunSetup, bodies: &[Body]) -> Result<(), RecordingError> {
     writer.log_static(&paths::world(), &ViewCoordinates::RIGHT_HAND_Z_UP())?;
-    let robot = &scenario.description.robot;
+    let robot = &setup.description.robot;
     for ((link, twin), ghost) in robot.links().iter().zip(bodies).zip(self::bodies(robot, GHOST_INSET_M)) {
         write_body(writer, twin, &paths::twin(&link.name), None)?;
         write_body(writer, &ghost, &paths::model(&link.name), Some(Paint::Plain(palette::GHOST)))?;
     }
-    for (index, obstacle) in scenario.obstacles.iter().enumerate() {
+    for (index, obstacle) in setup.obstacles.iter().enumerate() {
         write_standing(writer, obstacle, &paths::obstacle(&obstacle.name), palette::obstacle(index))?;
     }
-    for zone in &scenario.zones {
+    for zone in &setup.zones {
         write_standing(writer, &zone.space, &paths::zone(&zone.space.name), palette::ZONE)?;
     }
     let trail = LineStrips3D::update_fields()

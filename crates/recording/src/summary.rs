@@ -5,7 +5,8 @@ use std::{fmt::Write, sync::Arc};
 use congruent_twin::{
     recorder::RecordingError,
     report::RunReport,
-    verdict::{CheckResult, Expectation, Moment, Status, Verdict},
+    scenario::Expectation,
+    verdict::{CheckResult, Moment, Status, Verdict},
 };
 use rerun::{
     AnyValues, RecordingInfo, TextDocument,
@@ -44,8 +45,12 @@ fn properties(report: &RunReport) -> AnyValues {
 
 /// The verdict in a sentence.
 pub(super) fn verdict(report: &RunReport) -> String {
-    let failed: Vec<_> =
-        report.checks.iter().filter(|check| check.status == Status::Fail).map(|check| check.check).collect();
+    let failed: Vec<_> = report
+        .checks
+        .iter()
+        .filter(|check| check.status == Status::Fail)
+        .map(|check| check.check.word())
+        .collect();
     let failed = failed.join(", ");
     match (report.verdict, &report.expected) {
         (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
@@ -60,7 +65,8 @@ pub(super) fn verdict(report: &RunReport) -> String {
 }
 
 fn command(report: &RunReport) -> String {
-    format!("congruent run {} --seed {}", report.scenario_file, report.seed)
+    let file = report.scenario_file.as_deref().unwrap_or("FILE");
+    format!("congruent run {file} --seed {}", report.seed)
 }
 
 fn markdown(report: &RunReport) -> String {

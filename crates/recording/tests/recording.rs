@@ -12,10 +12,9 @@ use congruent_recording::{
     EntitySummary, InspectError, RecordingSummary, RerunFormat, RerunRecorder, ScalarSummary, inspect,
 };
 use congruent_twin::{
-    Options, Recording as _, Run, Sample, execute,
+    Options, Recording as _, Run, RunSetup, Sample, execute,
     recorder::{Recorder, RecordingError},
     report::RunReport,
-    scenario::{Overrides, Scenario},
 };
 
 /// A folder that goes away with the test.
@@ -44,7 +43,7 @@ fn repository() -> PathBuf {
 }
 
 /// A UR5e over a table, checked for agreement and clearance.
-fn scenario(folder: &Folder, robot: &str) -> Scenario {
+fn scenario(folder: &Folder, robot: &str) -> RunSetup {
     let text = format!(
         r#"
         schema_version = 1
@@ -80,16 +79,16 @@ fn scenario(folder: &Folder, robot: &str) -> Scenario {
     load(folder, &text)
 }
 
-fn load(folder: &Folder, text: &str) -> Scenario {
+fn load(folder: &Folder, text: &str) -> RunSetup {
     let path = folder.file("scenario.toml");
     fs::write(&path, text).unwrap();
-    Scenario::load(&path, Overrides::default()).unwrap()
+    RunSetup::load(&path, &[]).unwrap()
 }
 
 /// Runs a scenario; gives its report and where its recording is.
-fn recorded(folder: &Folder, out: &str, scenario: Scenario) -> (RunReport, PathBuf) {
+fn recorded(folder: &Folder, out: &str, scenario: RunSetup) -> (RunReport, PathBuf) {
     let options = Options { out: folder.file(out), recording: Some(&RerunFormat) };
-    let (report, results) = execute(scenario, &options, |_| ()).unwrap();
+    let (report, results) = execute(&scenario, &options, |_| ()).unwrap();
     (report, results.file("recording.rrd"))
 }
 
@@ -151,7 +150,7 @@ impl Recorder for Witness {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
         if sample.step.is_multiple_of(10) || sample.step == 255 {
             self.errors_m.push(sample.errors[self.tip].position_m);
-            self.q = sample.q.to_vec();
+            self.q = sample.joints.truth.q.to_vec();
         }
         self.recorder.record(sample)
     }
@@ -161,12 +160,12 @@ impl Recorder for Witness {
 fn scalars_are_exact() {
     let folder = Folder::new("exact");
     let path = folder.file("recording.rrd");
-    let mut scenario = scenario(&folder, "ur5e");
-    let mut checks = std::mem::take(&mut scenario.checks);
+    let scenario = scenario(&folder, "ur5e");
+    let mut checks = scenario.checks();
     let run = Run::new(&scenario).unwrap();
     let sources = run.model().sources().to_vec();
     let names = run.names().clone();
-    let recorder = RerunRecorder::create(&path, &scenario, &names, &sources, &checks).unwrap();
+    let recorder = RerunRecorder::create(&path, &scenario, &names, &sources).unwrap();
     let tip = scenario.description.tip.get();
     let mut witness = Witness { recorder, tip, errors_m: Vec::new(), q: Vec::new() };
     let (outcome, result) = run.finish(&mut checks, &mut witness, |_| ());
@@ -320,12 +319,12 @@ fn what_cannot_be_written_is_said() {
     let run = Run::new(&scenario).unwrap();
     let (names, sources) = (run.names(), run.model().sources());
     let path = folder.file("no/such/folder.rrd");
-    let error = RerunRecorder::create(&path, &scenario, names, sources, &[]).unwrap_err();
+    let error = RerunRecorder::create(&path, &scenario, names, sources).unwrap_err();
     assert!(error.to_string().contains("cannot write"), "{error}");
     // A disk that is full takes nothing; the first bytes are handed over before anything is run.
     let full = Path::new("/dev/full");
     if full.exists() {
-        let error = RerunRecorder::create(full, &scenario, names, sources, &[]).unwrap_err();
+        let error = RerunRecorder::create(full, &scenario, names, sources).unwrap_err();
         assert!(error.to_string().contains("space"), "{error}");
     }
 }

@@ -5,19 +5,18 @@
 use std::path::Path;
 
 use congruent_twin::{
-    Run,
-    monitor::Check,
+    Run, RunSetup,
+    monitor::RunningCheck,
     recorder::{NoRecorder, Recorder},
-    scenario::{Overrides, Scenario},
 };
 
 fn main() {
     divan::main();
 }
 
-fn scenario() -> Scenario {
+fn setup() -> RunSetup {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/ur5e_pick.toml");
-    Scenario::load(&path, Overrides::default()).expect("the scenario is part of the project")
+    RunSetup::load(&path, &[]).expect("the scenario is part of the project")
 }
 
 /// What a run does besides physics.
@@ -27,9 +26,9 @@ struct Stages {
     observe: bool,
 }
 
-fn run(scenario: &Scenario, checks: &mut [Check], recorder: &mut dyn Recorder, stages: Stages) {
-    let mut run = Run::new(scenario).expect("the scenario runs");
-    for _ in 0..scenario.simulation.steps {
+fn run(setup: &RunSetup, checks: &mut [RunningCheck], recorder: &mut dyn Recorder, stages: Stages) {
+    let mut run = Run::new(setup).expect("the scenario runs");
+    for _ in 0..setup.clock.steps {
         run.step().expect("the physics holds");
         if stages.compare {
             run.compare().expect("model and robot fit");
@@ -40,15 +39,15 @@ fn run(scenario: &Scenario, checks: &mut [Check], recorder: &mut dyn Recorder, s
     }
 }
 
-fn bench(bencher: divan::Bencher<'_, '_>, stages: Stages, checks: fn(&Check) -> bool) {
+fn bench(bencher: divan::Bencher<'_, '_>, stages: Stages, checks: fn(&RunningCheck) -> bool) {
     bencher
         .with_inputs(|| {
-            let mut scenario = scenario();
-            let mut kept = std::mem::take(&mut scenario.checks);
+            let setup = setup();
+            let mut kept = setup.checks();
             kept.retain(checks);
-            (scenario, kept)
+            (setup, kept)
         })
-        .bench_local_values(|(scenario, mut checks)| run(&scenario, &mut checks, &mut NoRecorder, stages));
+        .bench_local_values(|(setup, mut checks)| run(&setup, &mut checks, &mut NoRecorder, stages));
 }
 
 #[divan::bench]

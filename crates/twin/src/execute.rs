@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::{
-    monitor::Check,
     recorder::{NoRecorder, Recorder, RecordingError},
     report::{OutputError, OutputFolder, RunReport, write_junit},
     run::{Run, RunError},
-    scenario::Scenario,
+    setup::RunSetup,
 };
 
 /// Where results go and which.
@@ -34,12 +33,7 @@ pub trait RecordingFormat: Sync {
     ///
     /// # Errors
     /// [`RecordingError`] if it cannot be written.
-    fn begin(
-        &self,
-        path: &Path,
-        run: &Run<'_>,
-        checks: &[Check],
-    ) -> Result<Box<dyn Recording>, RecordingError>;
+    fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError>;
 }
 
 impl std::fmt::Debug for Options<'_> {
@@ -86,18 +80,19 @@ pub enum ExecuteError {
 /// # Errors
 /// [`ExecuteError`] when there can be no report. A run that breaks on the way has one.
 pub fn execute(
-    mut scenario: Scenario,
+    setup: &RunSetup,
     options: &Options<'_>,
     progress: impl FnMut(u64),
 ) -> Result<(RunReport, OutputFolder), ExecuteError> {
-    let folder = OutputFolder::create(&options.out, &scenario.name)?;
-    folder.write("scenario.resolved.toml", scenario.resolved().as_bytes())?;
-    let mut checks = std::mem::take(&mut scenario.checks);
-    let cannot_run = |source: RunError| ExecuteError::CannotRun { scenario: scenario.name.clone(), source };
-    let run = Run::new(&scenario).map_err(cannot_run)?;
+    let folder = OutputFolder::create(&options.out, &setup.scenario.name)?;
+    folder.write("scenario.resolved.toml", setup.scenario.to_toml().as_bytes())?;
+    let mut checks = setup.checks();
+    let cannot_run =
+        |source: RunError| ExecuteError::CannotRun { scenario: setup.scenario.name.clone(), source };
+    let run = Run::new(setup).map_err(cannot_run)?;
     let sources = run.model().sources().to_vec();
     let mut recording = match options.recording {
-        Some(format) => Some(format.begin(&folder.file(PARTIAL), &run, &checks)?),
+        Some(format) => Some(format.begin(&folder.file(PARTIAL), &run)?),
         None => None,
     };
     let mut nothing = NoRecorder;
@@ -106,13 +101,13 @@ pub fn execute(
         None => &mut nothing,
     };
     let (outcome, result) = run.finish(&mut checks, recorder, progress);
-    let mut report = RunReport::new(&scenario, &sources, outcome.clone(), result.as_ref().err());
+    let mut report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
     let mut published = Ok(());
     let is_recorded = recording.is_some();
     if let Err(error) = recording.map_or(Ok(()), |recording| recording.finish(&report)) {
         // What broke the run comes before what breaks with it.
         let first = result.err().unwrap_or(error.into());
-        report = RunReport::new(&scenario, &sources, outcome, Some(&first));
+        report = RunReport::new(setup, &sources, outcome, Some(&first));
         // On a full disk it stands in the way of the report, which matters more.
         published = folder.remove(PARTIAL);
     } else if is_recorded {

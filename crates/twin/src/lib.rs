@@ -10,9 +10,11 @@ pub mod report;
 mod run;
 mod sample;
 pub mod scenario;
+pub mod setup;
 pub mod source;
 pub mod verdict;
 
 pub use execute::{ExecuteError, Options, Recording, RecordingFormat, execute};
 pub use run::{Outcome, Run, RunError};
 pub use sample::Sample;
+pub use setup::RunSetup;

@@ -1,18 +1,19 @@
-//! The run loop: physics, comparison, clearance, checks and recording, one step after another.
+//! The run loop: a source of joint states, comparison with the model, clearance, checks and recording, one
+//! sample after another. It does not know what the source is.
 
 use congruent_agreement::compare::Model;
-use congruent_kinematics::{KinematicsError, Pose, PoseError};
-use congruent_simulation::{Controller, Setpoint, SimulationError, World, WorldSettings, controller};
+use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
 
 use crate::{
-    monitor::{Check, Names},
-    motion::{ReferenceGenerator, ServoResult},
+    monitor::{Names, RunningCheck},
+    motion::ServoResult,
     proximity::{Clearance, PairChoice, ProximityError},
     recorder::{Recorder, RecordingError},
     sample::Sample,
-    scenario::Scenario,
+    setup::RunSetup,
+    source::{JointStateSource, SimulationSource, SourceError},
     verdict::{CheckResult, Stop},
 };
 
@@ -20,9 +21,9 @@ use crate::{
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The physics refused the robot or broke on the way.
+    /// The source of joint states cannot begin, or broke on the way.
     #[error(transparent)]
-    Simulation(#[from] SimulationError),
+    Source(#[from] SourceError),
     /// The model does not fit the robot.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
@@ -45,22 +46,23 @@ pub struct Outcome {
     pub stopped: Option<Stop>,
     /// How far each servo has brought the TCP.
     pub servos: Vec<ServoResult>,
-    /// SHA-256 over the joint positions of every sample.
+    /// SHA-256 over the true joint positions of every sample.
     pub trajectory_sha256: String,
 }
 
 /// A run under way. [`Run::finish`] does all of it; the stages are public so that a benchmark can
 /// take them apart.
 pub struct Run<'a> {
-    scenario: &'a Scenario,
-    world: World,
-    controller: Box<dyn Controller>,
+    setup: &'a RunSetup,
+    source: Box<dyn JointStateSource + 'a>,
     model: Model,
+    /// Places the links for a source that does not see them.
+    tree: UrdfTree,
     clearance: Clearance,
     zones: Clearance,
     names: Names,
-    reference_generator: ReferenceGenerator<'a>,
     root_from_links: Vec<Isometry3<f64>>,
+    by_tree: Vec<Pose>,
     errors: Vec<PoseError>,
     hash: Sha256,
 }
@@ -68,47 +70,51 @@ pub struct Run<'a> {
 impl std::fmt::Debug for Run<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Run")
-            .field("scenario", &self.scenario.name)
-            .field("steps", &self.world.step_count())
+            .field("scenario", &self.setup.scenario.name)
+            .field("steps", &self.source.step_count())
             .finish_non_exhaustive()
     }
 }
 
 impl<'a> Run<'a> {
-    /// Builds world and model and places the robot at the start.
+    /// A run of the simulation that the scenario describes.
     ///
     /// # Errors
-    /// [`RunError`] where the robot cannot be simulated.
-    pub fn new(scenario: &'a Scenario) -> Result<Self, RunError> {
-        let robot = &scenario.description.robot;
-        let settings = WorldSettings {
-            step_s: scenario.simulation.step_s,
-            gravity_in_world: scenario.simulation.gravity_in_world,
-            obstacles: scenario.obstacles.clone(),
-            contacts: true,
-        };
-        let mut world = World::new(robot, &settings)?;
-        world.set_state(&scenario.start, &vec![0.0; robot.dof()])?;
-        let clearance = Clearance::new(&scenario.description, &scenario.obstacles, PairChoice::Usual)?;
-        let zones = clearance.before_zones(&scenario.zones)?;
+    /// [`RunError`] if the robot cannot be simulated.
+    pub fn new(setup: &'a RunSetup) -> Result<Self, RunError> {
+        Self::with_source(setup, Box::new(SimulationSource::new(setup)?))
+    }
+
+    /// A run whose joint states come from another source.
+    ///
+    /// # Errors
+    /// [`RunError`] if the model does not fit the robot, or a collision shape has no hull.
+    pub fn with_source(
+        setup: &'a RunSetup,
+        source: Box<dyn JointStateSource + 'a>,
+    ) -> Result<Self, RunError> {
+        let robot = &setup.description.robot;
+        let links = robot.links().len();
+        let clearance = Clearance::new(&setup.description, &setup.obstacles, PairChoice::Usual)?;
+        let zones = clearance.before_zones(&setup.zones)?;
         Ok(Self {
-            scenario,
-            world,
-            controller: controller(&scenario.controller.kind, scenario.controller.gains)?,
-            model: Model::new(&scenario.description)?,
+            setup,
+            source,
+            model: Model::new(&setup.description)?,
+            tree: UrdfTree::new(robot),
             names: Names::new(robot, &clearance, &zones),
             clearance,
             zones,
-            reference_generator: ReferenceGenerator::new(&scenario.trajectory, &scenario.description)?,
-            root_from_links: vec![Isometry3::identity(); robot.links().len()],
-            errors: vec![PoseError::default(); robot.links().len()],
+            root_from_links: vec![Isometry3::identity(); links],
+            by_tree: vec![Pose::identity(); links],
+            errors: vec![PoseError::default(); links],
             hash: Sha256::new(),
         })
     }
 
     /// What is run.
-    pub fn scenario(&self) -> &'a Scenario {
-        self.scenario
+    pub fn setup(&self) -> &'a RunSetup {
+        self.setup
     }
 
     /// Names for the numbers of samples.
@@ -121,24 +127,28 @@ impl<'a> Run<'a> {
         &self.model
     }
 
-    /// One step of physics towards the motion's next point, which may depend on where the robot is.
+    /// Takes the source one sample on.
     ///
     /// # Errors
-    /// [`RunError::Simulation`] when the physics breaks.
+    /// [`RunError::Source`] if the source breaks.
     pub fn step(&mut self) -> Result<(), RunError> {
-        let time_s = self.scenario.simulation.time_s(self.world.step_count() + 1);
-        self.reference_generator.advance(time_s, self.world.q())?;
-        let reference = Setpoint { q: self.reference_generator.q(), qd: self.reference_generator.qd() };
-        Ok(self.world.step(&mut *self.controller, &reference)?)
+        let time_s = self.setup.clock.time_s(self.source.step_count() + 1);
+        Ok(self.source.advance(time_s)?)
     }
 
-    /// Poses of all links by both witnesses at this instant, and how far they are apart.
+    /// Poses of all links by the model and by the twin at this instant, and how far they are apart.
     ///
     /// # Errors
-    /// [`KinematicsError`] never comes once [`Run::new`] has succeeded.
+    /// [`KinematicsError`] if the source gives no configuration of the robot.
     pub fn compare(&mut self) -> Result<(), KinematicsError> {
-        self.world.root_from_links_into(&mut self.root_from_links);
-        let model: &[Pose] = self.model.root_from_links(self.world.q())?;
+        let joints = self.source.joints();
+        if !self.source.root_from_links_into(&mut self.root_from_links) {
+            self.tree.root_from_links_into(joints.truth.q, &mut self.by_tree)?;
+            for (isometry, pose) in self.root_from_links.iter_mut().zip(&self.by_tree) {
+                *isometry = pose.to_isometry();
+            }
+        }
+        let model: &[Pose] = self.model.root_from_links(joints.measured.q)?;
         for ((error, model), twin) in self.errors.iter_mut().zip(model).zip(&self.root_from_links) {
             *error = PoseError::to_isometry(model, twin);
         }
@@ -146,23 +156,24 @@ impl<'a> Run<'a> {
     }
 
     /// Shows this instant to all checks and to the recorder; gives the number of the check that ends
-    /// the run here, where one does.
+    /// the run here, if one does.
     ///
     /// # Errors
-    /// [`RunError::Recording`] when the recorder cannot write.
+    /// [`RunError::Recording`] if the recorder cannot write.
     pub fn observe(
         &mut self,
-        checks: &mut [Check],
+        checks: &mut [RunningCheck],
         recorder: &mut dyn Recorder,
     ) -> Result<Option<usize>, RunError> {
         self.clearance.move_links(&self.root_from_links);
         self.zones.move_links(&self.root_from_links);
-        let step = self.world.step_count();
+        let step = self.source.step_count();
+        let joints = self.source.joints();
         let mut sample = Sample {
             step,
-            time_s: self.scenario.simulation.time_s(step),
-            is_last: step >= self.scenario.simulation.steps,
-            q: self.world.q(),
+            time_s: self.setup.clock.time_s(step),
+            is_last: step >= self.setup.clock.steps,
+            joints,
             model: self.model.latest(),
             twin: &self.root_from_links,
             errors: &self.errors,
@@ -172,9 +183,9 @@ impl<'a> Run<'a> {
         for check in checks.iter_mut() {
             check.monitor.observe(&mut sample);
         }
-        let stopping = checks.iter().position(Check::stops);
+        let stopping = checks.iter().position(RunningCheck::stops);
         sample.is_last |= stopping.is_some();
-        for q in sample.q {
+        for q in joints.truth.q {
             self.hash.update(q.to_le_bytes());
         }
         recorder.record(&mut sample)?;
@@ -185,32 +196,32 @@ impl<'a> Run<'a> {
     /// an error is in the results all the same.
     pub fn finish(
         mut self,
-        checks: &mut [Check],
+        checks: &mut [RunningCheck],
         recorder: &mut dyn Recorder,
         mut progress: impl FnMut(u64),
     ) -> (Outcome, Result<(), RunError>) {
-        let end = self.scenario.simulation.steps;
+        let end = self.setup.clock.steps;
         let mut stopping = None;
         let mut go = || -> Result<(), RunError> {
             self.compare()?;
             stopping = self.observe(checks, recorder)?;
-            while stopping.is_none() && self.world.step_count() < end {
+            while stopping.is_none() && self.source.step_count() < end {
                 self.step()?;
                 self.compare()?;
                 stopping = self.observe(checks, recorder)?;
-                progress(self.world.step_count());
+                progress(self.source.step_count());
             }
             Ok(())
         };
         let result = go();
-        let (servos, result) = match self.reference_generator.finish(self.world.q()) {
+        let (servos, result) = match self.source.finish() {
             Ok(servos) => (servos, result),
             Err(error) => (Vec::new(), result.and(Err(error.into()))),
         };
-        let steps = self.world.step_count();
+        let steps = self.source.step_count();
         let mut results: Vec<CheckResult> = checks.iter().map(|check| check.result(&self.names)).collect();
         let outcome = Outcome {
-            stopped: stopping.map(|index| stopped_by(&mut results[index], self.scenario, steps)),
+            stopped: stopping.map(|index| stopped_by(&mut results[index], self.setup, steps)),
             checks: results,
             steps,
             servos,
@@ -221,8 +232,8 @@ impl<'a> Run<'a> {
 }
 
 /// Where a run stands after `step` steps, ended by a check; its result tells people so.
-fn stopped_by(result: &mut CheckResult, scenario: &Scenario, step: u64) -> Stop {
-    let (time_s, steps) = (scenario.simulation.time_s(step), scenario.simulation.steps);
+fn stopped_by(result: &mut CheckResult, setup: &RunSetup, step: u64) -> Stop {
+    let (time_s, steps) = (setup.clock.time_s(step), setup.clock.steps);
     result.notes.push(format!("stopped the run at {time_s:.3} s, after {step} of {steps} steps"));
     Stop { check: result.check, line: result.line, step, time_s }
 }

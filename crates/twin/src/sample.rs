@@ -1,26 +1,26 @@
 //! What one instant of a run looks like to monitors and recorders.
 
-use congruent_description::RobotQ;
 use congruent_kinematics::{Pose, PoseError};
 use nalgebra::Isometry3;
 
-use crate::proximity::Clearance;
+use crate::{proximity::Clearance, source::JointSample};
 
 /// One instant: borrowed from the run loop, nothing is copied.
 #[derive(Debug)]
 pub struct Sample<'a> {
-    /// Number of physics steps so far.
+    /// Number of steps so far.
     pub step: u64,
-    /// Simulated time.
+    /// Time of the source.
     pub time_s: f64,
     /// Whether no step follows. Monitors see the end of the scenario, recorders also the end that
     /// a check has just made.
     pub is_last: bool,
-    /// Joint positions of the twin, in the robot's order of movable joints.
-    pub q: &'a RobotQ,
-    /// Poses by analysis, in the root link's frame and the robot's order of links.
+    /// The joints: as they are, as they are measured, and what was asked of them.
+    pub joints: JointSample<'a>,
+    /// Poses by analysis at the measured joint positions, in the root link's frame and the robot's order of
+    /// links.
     pub model: &'a [Pose],
-    /// Poses by physics, likewise.
+    /// Poses of the twin, likewise.
     pub twin: &'a [Isometry3<f64>],
     /// Model against twin, link by link.
     pub errors: &'a [PoseError],

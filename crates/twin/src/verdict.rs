@@ -1,10 +1,13 @@
 //! What a check found: one shape for every check, so that every report and exit code agrees.
 
 use congruent_description::JointValues;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::scenario::{CheckKind, Expectation};
+
 /// The outcome of one check.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// Every value was within its limit.
@@ -30,7 +33,7 @@ impl Status {
 }
 
 /// One instant of a run, with what was seen there.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Moment {
     /// Simulated time.
     pub time_s: f64,
@@ -43,7 +46,7 @@ pub struct Moment {
 }
 
 /// One quantity that a check holds against a limit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Measure {
     /// What it is: `position`, `orientation`, `distance`.
     pub quantity: &'static str,
@@ -61,7 +64,7 @@ pub struct Measure {
 }
 
 /// On which side of a limit values are fine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Bound {
     /// Fine up to the limit.
@@ -103,12 +106,12 @@ impl Bound {
 }
 
 /// The result of one check of a scenario.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CheckResult {
     /// The kind of check, as the scenario names it.
-    pub check: &'static str,
+    pub check: CheckKind,
     /// Line of the check in the scenario file, from 1.
-    pub line: usize,
+    pub line: Option<usize>,
     /// The outcome.
     pub status: Status,
     /// How many instants were looked at.
@@ -121,12 +124,12 @@ pub struct CheckResult {
 }
 
 /// Where a run ended before its time, because a check says `on_violation = "stop"`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Stop {
     /// The kind of check that was violated.
-    pub check: &'static str,
+    pub check: CheckKind,
     /// Its line in the scenario file, from 1.
-    pub line: usize,
+    pub line: Option<usize>,
     /// Steps taken until then: the last of them shows the violation.
     pub step: u64,
     /// Simulated time of the violation.
@@ -134,7 +137,7 @@ pub struct Stop {
 }
 
 /// What a run has shown, all checks together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// All as the scenario expects.
@@ -159,85 +162,73 @@ impl Verdict {
     }
 }
 
-/// What a scenario says will happen.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[serde(tag = "verdict", rename_all = "snake_case")]
-pub enum Expectation {
-    /// Every check passes.
-    Pass,
-    /// A negative control: exactly these kinds of check fail (any, where none is named).
-    Fail {
-        /// Kinds of check.
-        checks: Vec<String>,
-    },
-}
-
-impl Expectation {
-    /// Judges the results of all checks.
-    pub fn judge(&self, results: &[CheckResult]) -> Verdict {
-        let looked_at = |result: &&CheckResult| result.status != Status::Skipped;
-        if !results.iter().any(|result| looked_at(&result)) {
-            return Verdict::NothingChecked;
-        }
-        if results.iter().any(|result| result.status == Status::Error) {
-            return Verdict::Broken;
-        }
-        let failed =
-            |kind: &str| results.iter().any(|result| result.check == kind && result.status == Status::Fail);
-        let any_failed = results.iter().any(|result| result.status == Status::Fail);
-        let as_expected = match self {
-            Self::Pass => !any_failed,
-            Self::Fail { checks } if checks.is_empty() => any_failed,
-            Self::Fail { checks } => {
-                let others_pass = results.iter().all(|result| {
-                    result.status != Status::Fail || checks.iter().any(|kind| kind == result.check)
-                });
-                checks.iter().all(|kind| failed(kind)) && others_pass
-            }
-        };
-        if as_expected { Verdict::AsExpected } else { Verdict::NotAsExpected }
+/// Judges the results of all checks by what the scenario expects.
+pub fn judge(expected: &Expectation, results: &[CheckResult]) -> Verdict {
+    let looked_at = |result: &&CheckResult| result.status != Status::Skipped;
+    if !results.iter().any(|result| looked_at(&result)) {
+        return Verdict::NothingChecked;
     }
+    if results.iter().any(|result| result.status == Status::Error) {
+        return Verdict::Broken;
+    }
+    let failed =
+        |kind: CheckKind| results.iter().any(|result| result.check == kind && result.status == Status::Fail);
+    let any_failed = results.iter().any(|result| result.status == Status::Fail);
+    let as_expected = match expected {
+        Expectation::Pass => !any_failed,
+        Expectation::Fail { checks } if checks.is_empty() => any_failed,
+        Expectation::Fail { checks } => {
+            let others_pass =
+                results.iter().all(|result| result.status != Status::Fail || checks.contains(&result.check));
+            checks.iter().all(|&kind| failed(kind)) && others_pass
+        }
+    };
+    if as_expected { Verdict::AsExpected } else { Verdict::NotAsExpected }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn result(check: &'static str, status: Status) -> CheckResult {
-        CheckResult { check, line: 1, status, samples: 1, measures: Vec::new(), notes: Vec::new() }
+    fn result(check: CheckKind, status: Status) -> CheckResult {
+        CheckResult { check, line: Some(1), status, samples: 1, measures: Vec::new(), notes: Vec::new() }
     }
 
     #[track_caller]
     fn judged(expected: &Expectation, results: &[CheckResult], verdict: Verdict) {
-        assert_eq!(expected.judge(results), verdict);
+        assert_eq!(judge(expected, results), verdict);
     }
 
-    fn fail(checks: &[&str]) -> Expectation {
-        Expectation::Fail { checks: checks.iter().map(|&kind| kind.to_owned()).collect() }
+    fn fail(checks: &[CheckKind]) -> Expectation {
+        Expectation::Fail { checks: checks.to_vec() }
     }
 
     #[test]
     fn nothing_checked_is_no_success() {
         judged(&Expectation::Pass, &[], Verdict::NothingChecked);
-        judged(&Expectation::Pass, &[result("limits", Status::Skipped)], Verdict::NothingChecked);
+        judged(&Expectation::Pass, &[result(CheckKind::Limits, Status::Skipped)], Verdict::NothingChecked);
         judged(&fail(&[]), &[], Verdict::NothingChecked);
     }
 
     #[test]
     fn a_negative_control_fails_for_its_own_reason_only() {
-        let agreement = result("agreement", Status::Fail);
-        let clearance = result("clearance", Status::Fail);
-        let passing = result("limits", Status::Pass);
-        judged(&fail(&["agreement"]), &[agreement.clone(), passing.clone()], Verdict::AsExpected);
-        judged(&fail(&["agreement"]), &[agreement.clone(), clearance.clone()], Verdict::NotAsExpected);
-        judged(&fail(&["agreement"]), &[clearance], Verdict::NotAsExpected);
-        judged(&fail(&["agreement"]), &[passing], Verdict::NotAsExpected);
+        let agreement = result(CheckKind::Agreement, Status::Fail);
+        let clearance = result(CheckKind::Clearance, Status::Fail);
+        let passing = result(CheckKind::Limits, Status::Pass);
+        judged(&fail(&[CheckKind::Agreement]), &[agreement.clone(), passing.clone()], Verdict::AsExpected);
+        judged(
+            &fail(&[CheckKind::Agreement]),
+            &[agreement.clone(), clearance.clone()],
+            Verdict::NotAsExpected,
+        );
+        judged(&fail(&[CheckKind::Agreement]), &[clearance], Verdict::NotAsExpected);
+        judged(&fail(&[CheckKind::Agreement]), &[passing], Verdict::NotAsExpected);
         judged(&fail(&[]), &[agreement], Verdict::AsExpected);
     }
 
     #[test]
     fn a_broken_run_is_neither() {
-        judged(&Expectation::Pass, &[result("agreement", Status::Error)], Verdict::Broken);
+        judged(&Expectation::Pass, &[result(CheckKind::Agreement, Status::Error)], Verdict::Broken);
     }
 
     #[test]

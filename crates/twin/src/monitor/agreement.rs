@@ -1,50 +1,35 @@
 //! Model against twin: position and orientation of every link, at every sample.
 
-use congruent_description::{Diagnostic, RobotDescription};
-use serde::Deserialize;
+use congruent_description::RobotDescription;
 
-use super::{Findings, Monitor, Names, watch::Watch};
-use crate::{
-    sample::Sample,
-    scenario::{Positive, Section},
-    verdict::Bound,
+use super::{
+    monitor::{Monitor, Observed},
+    names::Names,
+    watch::Watch,
 };
+use crate::{sample::Sample, scenario::AgreementCheck, verdict::Bound};
 
-pub(super) const NAME: &str = "agreement";
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    position_m: Option<Positive>,
-    orientation_rad: Option<Positive>,
-}
-
-struct Agreement {
+pub(super) struct AgreementMonitor {
     position: Watch,
     orientation: Watch,
-    limits: [f64; 2],
     samples: u64,
 }
 
-/// Limits that are not given are the robot file's tolerance.
-pub(super) fn parse(
-    section: Section<'_>,
-    description: &RobotDescription,
-) -> Result<Box<dyn Monitor>, Vec<Diagnostic>> {
-    let written: Written = section.read()?;
-    let dof = description.robot.dof();
-    let position_m = written.position_m.map_or(description.tolerance.position_m, Positive::get);
-    let orientation_rad =
-        written.orientation_rad.map_or(description.tolerance.orientation_rad, Positive::get);
-    Ok(Box::new(Agreement {
-        position: Watch::new("position", "m", Bound::AtMost, position_m, dof),
-        orientation: Watch::new("orientation", "rad", Bound::AtMost, orientation_rad, dof),
-        limits: [position_m, orientation_rad],
-        samples: 0,
-    }))
+impl AgreementMonitor {
+    /// Limits that are not given are the robot file's tolerance.
+    pub(super) fn new(check: &AgreementCheck, description: &RobotDescription) -> Self {
+        let dof = description.robot.dof();
+        let position_m = check.position_m.unwrap_or(description.tolerance.position_m);
+        let orientation_rad = check.orientation_rad.unwrap_or(description.tolerance.orientation_rad);
+        Self {
+            position: Watch::new("position", "m", Bound::AtMost, position_m, dof),
+            orientation: Watch::new("orientation", "rad", Bound::AtMost, orientation_rad, dof),
+            samples: 0,
+        }
+    }
 }
 
-impl Monitor for Agreement {
+impl Monitor for AgreementMonitor {
     fn observe(&mut self, sample: &mut Sample<'_>) {
         self.samples += 1;
         for (link, error) in sample.errors.iter().enumerate() {
@@ -53,9 +38,9 @@ impl Monitor for Agreement {
         }
     }
 
-    fn finish(&self, names: &Names) -> Findings {
+    fn finish(&self, names: &Names) -> Observed {
         let name = |link: usize| names.links[link].clone();
-        Findings {
+        Observed {
             samples: self.samples,
             measures: vec![
                 self.position.measure(&names.joints, name),
@@ -67,13 +52,5 @@ impl Monitor for Agreement {
 
     fn has_failed(&self) -> bool {
         self.position.is_violated() || self.orientation.is_violated()
-    }
-
-    fn resolved(&self) -> toml::Table {
-        let [position_m, orientation_rad] = self.limits;
-        toml::Table::from_iter([
-            ("position_m".to_owned(), position_m.into()),
-            ("orientation_rad".to_owned(), orientation_rad.into()),
-        ])
     }
 }

@@ -31,7 +31,7 @@ struct Seen {
 impl Seen {
     fn set(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
         (self.value, self.subject, self.time_s, self.is_set) = (value, subject, sample.time_s, true);
-        self.q.copy_from_slice(sample.q);
+        self.q.copy_from_slice(sample.joints.truth.q);
     }
 }
 

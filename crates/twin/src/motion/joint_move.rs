@@ -1,48 +1,48 @@
 //! `move_joints_*`: named joints move to absolute positions, the others hold.
 
-use congruent_description::Diagnostic;
-use serde::Deserialize;
+use congruent_description::{Diagnostic, RobotQ};
 
-use super::{Context, Course, JointMove, Motion, Profile};
-use crate::scenario::{JointValues, Positive, Section, WrittenJoints};
+use super::{
+    planning::Planning,
+    trajectory::{Course, Motion},
+};
+use crate::{
+    scenario::{JointMotion, Profile, Progress, mark},
+    setup::JointTargets,
+};
 
-/// The keys that make a section this kind of motion.
-pub(super) const KEYS: &[&str] = &["move_joints_deg", "move_joints_rad", "move_joints_m", "move_joints_mm"];
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    #[serde(default)]
-    move_joints_deg: WrittenJoints,
-    #[serde(default)]
-    move_joints_rad: WrittenJoints,
-    #[serde(default)]
-    move_joints_m: WrittenJoints,
-    #[serde(default)]
-    move_joints_mm: WrittenJoints,
-    duration_s: Positive,
-    #[serde(default)]
-    profile: Profile,
+/// A planned move from one configuration to another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointMove {
+    /// Positions at its start.
+    pub from: RobotQ,
+    /// Positions at its end.
+    pub to: RobotQ,
+    /// How it runs in between.
+    pub profile: Profile,
 }
 
-pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<Motion, Vec<Diagnostic>> {
-    let written: Written = section.read()?;
-    let targets = JointValues {
-        deg: written.move_joints_deg,
-        rad: written.move_joints_rad,
-        m: written.move_joints_m,
-        mm: written.move_joints_mm,
-    }
-    .resolve(context.robot)?;
-    let mut to = context.from.clone();
-    for target in targets {
-        if let Some(message) = target.beyond_limits(context.robot, "target") {
-            context.warnings.push(Diagnostic::warning("scenario::target_limit", message).at(target.span));
+impl JointMove {
+    /// Writes positions and velocities after a share of the move is done.
+    pub(super) fn at(&self, progress: Progress, q: &mut RobotQ, qd: &mut [f64]) {
+        for ((q, qd), (from, to)) in q.iter_mut().zip(qd).zip(self.from.iter().zip(&self.to)) {
+            *q = from + (to - from) * progress.share;
+            *qd = (to - from) * progress.share_per_s;
         }
-        let coordinate = context.robot.coordinate(target.joint).expect("resolved joints move");
-        to[coordinate] = target.value;
     }
-    context.robot.apply_mimic(&mut to);
-    let course = JointMove { from: context.from.clone(), to, profile: written.profile };
-    Ok(Motion { duration_s: written.duration_s.get(), course: Course::Joints(course) })
+}
+
+pub(super) fn plan(settings: &JointMotion, planning: &mut Planning<'_>) -> Result<Motion, Vec<Diagnostic>> {
+    let robot = &planning.description.robot;
+    let mut to = planning.from.clone();
+    for target in JointTargets::from(settings).resolve(robot, planning.place)? {
+        if let Some(message) = target.beyond_limits(robot, "target") {
+            let warning = Diagnostic::warning("scenario::target_limit", message);
+            planning.warnings.push(mark(warning, target.span.clone()));
+        }
+        target.put(robot, &mut to);
+    }
+    robot.apply_mimic(&mut to);
+    let course = JointMove { from: planning.from.clone(), to, profile: settings.profile };
+    Ok(Motion { duration_s: settings.duration_s, course: Course::Joints(course) })
 }

@@ -4,8 +4,8 @@ use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::KinematicsError;
 
 use super::{
-    Course, Trajectory,
     tcp_servo::{ServoController, ServoResult, StepInterval},
+    trajectory::{Course, Trajectory},
 };
 
 /// The reference of a run. Moves are planned and only looked up; servos follow where the robot
@@ -94,11 +94,11 @@ impl<'a> ReferenceGenerator<'a> {
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `measured_q` is no configuration of the robot.
-    pub fn finish(mut self, measured_q: &RobotQ) -> Result<Vec<ServoResult>, KinematicsError> {
+    pub fn finish(&mut self, measured_q: &RobotQ) -> Result<Vec<ServoResult>, KinematicsError> {
         if measured_q.iter().all(|q| q.is_finite()) {
             self.leave(measured_q)?;
         }
-        Ok(self.servo_results)
+        Ok(std::mem::take(&mut self.servo_results))
     }
 
     /// Looks back on the motion that ends: the next begins at the end of a move, and where a servo has

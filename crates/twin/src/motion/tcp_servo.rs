@@ -7,72 +7,41 @@
 //! is brought to the target all the same. For the same reason it is asked for more and more, up to
 //! its limits, where an obstacle keeps it from following: checks see that, the servo does not.
 
-use congruent_description::{ArmQ, Diagnostic, Robot, RobotDescription, RobotQ, WrittenTransform};
+use congruent_description::{ArmQ, Diagnostic, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{
     Arm, ArmJoint, DifferentialMethod, IkSolver, IkTarget, KinematicsError, TargetPart,
 };
-use serde::{Deserialize, Serialize};
-use toml::Spanned;
+use schemars::JsonSchema;
+use serde::Serialize;
 
-use super::{Context, Course, Motion, tcp_move};
-use crate::scenario::{Positive, Section};
+use super::{
+    planning::Planning,
+    tcp_move,
+    trajectory::{Course, Motion},
+};
+use crate::scenario::{ServoMethod, ServoMotion};
 
-/// The keys that make a section this kind of motion.
-pub(super) const KEYS: &[&str] = &["servo_tcp"];
 /// Without a gain, an error falls to 1/e in 0.2 s.
-const DEFAULT_GAIN_PER_S: f64 = 5.0;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    servo_tcp: Spanned<WrittenTransform>,
-    #[serde(default)]
-    method: Method,
-    gain_per_s: Option<Positive>,
-    duration_s: Positive,
-}
-
-/// How joint speeds follow from the error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Method {
-    /// By the pseudo-inverse of the Jacobian, damped where the arm is nearly singular.
-    #[default]
-    PseudoInverse,
-    /// By the transpose of the Jacobian.
-    Transpose,
-}
-
-impl Method {
-    /// The name in scenario files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PseudoInverse => "pseudo_inverse",
-            Self::Transpose => "transpose",
-        }
-    }
-}
+pub(crate) const DEFAULT_GAIN_PER_S: f64 = 5.0;
 
 /// One motion that is closed over the measured positions and not planned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TcpServo {
-    /// The target as the scenario gives it, in the world.
-    pub written: WrittenTransform,
     /// The target in the arm's base.
     pub target: IkTarget,
     /// How joint speeds follow from the error.
-    pub method: Method,
+    pub method: ServoMethod,
     /// How fast the error decays: as `exp(-gain t)` where nothing limits the joints.
     pub gain_per_s: f64,
 }
 
 /// How far a servo has brought the TCP.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ServoResult {
     /// Number of the motion in the scenario, from 1.
     pub motion: usize,
     /// How joint speeds followed from the error.
-    pub method: Method,
+    pub method: ServoMethod,
     /// Distance to the target that is left.
     pub position_m: f64,
     /// Angle that is left; `None` where no orientation was asked for.
@@ -81,16 +50,15 @@ pub struct ServoResult {
     pub limits_held: Vec<String>,
 }
 
-pub(super) fn parse(section: Section<'_>, context: &mut Context<'_>) -> Result<Motion, Vec<Diagnostic>> {
-    let written: Written = section.read()?;
-    let (_, target) = tcp_move::target(&written.servo_tcp, context)?;
+pub(super) fn plan(settings: &ServoMotion, planning: &Planning<'_>) -> Result<Motion, Diagnostic> {
+    let place = planning.place.key("servo_tcp");
+    let (_, target) = tcp_move::target((&settings.servo_tcp, place), planning)?;
     let servo = TcpServo {
         target,
-        written: written.servo_tcp.into_inner(),
-        method: written.method,
-        gain_per_s: written.gain_per_s.map_or(DEFAULT_GAIN_PER_S, Positive::get),
+        method: settings.method,
+        gain_per_s: settings.gain_per_s.unwrap_or(DEFAULT_GAIN_PER_S),
     };
-    Ok(Motion { duration_s: written.duration_s.get(), course: Course::Servo(Box::new(servo)) })
+    Ok(Motion { duration_s: settings.duration_s, course: Course::Servo(Box::new(servo)) })
 }
 
 /// Leads an arm; allocates nothing from step to step.
@@ -197,7 +165,7 @@ impl<'a> ServoController<'a> {
 impl std::fmt::Display for ServoResult {
     /// In words: `servo by pseudo_inverse, residual 1.2e-9 m`.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "servo by {}, residual {:.1e} m", self.method.name(), self.position_m)?;
+        write!(f, "servo by {}, residual {:.1e} m", self.method.word(), self.position_m)?;
         if let Some(orientation_rad) = self.orientation_rad {
             write!(f, " and {orientation_rad:.1e} rad")?;
         }
@@ -208,11 +176,11 @@ impl std::fmt::Display for ServoResult {
     }
 }
 
-impl From<Method> for DifferentialMethod {
-    fn from(method: Method) -> Self {
+impl From<ServoMethod> for DifferentialMethod {
+    fn from(method: ServoMethod) -> Self {
         match method {
-            Method::PseudoInverse => Self::PseudoInverse,
-            Method::Transpose => Self::Transpose,
+            ServoMethod::PseudoInverse => Self::PseudoInverse,
+            ServoMethod::Transpose => Self::Transpose,
         }
     }
 }

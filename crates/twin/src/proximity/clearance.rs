@@ -12,7 +12,7 @@ use congruent_simulation::Obstacle;
 use nalgebra::{Isometry3, Vector3};
 
 use super::hulls::{Hulls, ProximityError};
-use crate::scenario::Zone;
+use crate::setup::Zone;
 
 /// Subtracted from every bound: what an exact distance may be off, and then some.
 /// Kind: solver stop. Bound: 1e-7 m (worst of 1,950 mesh hull pairs of four arms: 2.5e-8 m).

@@ -4,8 +4,14 @@ use std::{fs, io, path::Path};
 
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-use super::{OutputError, RunReport, write_whole};
-use crate::verdict::{CheckResult, Expectation, Measure, Status, Verdict};
+use super::{
+    files::{OutputError, write_whole},
+    run_report::RunReport,
+};
+use crate::{
+    scenario::Expectation,
+    verdict::{CheckResult, Measure, Status, Verdict},
+};
 
 /// Writes all scenarios as one JUnit document; makes the folder that it goes to.
 ///
@@ -38,7 +44,7 @@ fn suite(report: &RunReport) -> TestSuite {
 fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
     let must_fail = match &report.expected {
         Expectation::Pass => false,
-        Expectation::Fail { checks } => checks.is_empty() || checks.iter().any(|kind| kind == check.check),
+        Expectation::Fail { checks } => checks.is_empty() || checks.contains(&check.check),
     };
     let mut status = match check.status {
         Status::Pass if !must_fail => TestCaseStatus::success(),
@@ -60,7 +66,7 @@ fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
             status.set_message(text.clone());
         }
     }
-    let mut case = TestCase::new(format!("{}_{}", index + 1, check.check), status);
+    let mut case = TestCase::new(format!("{}_{}", index + 1, check.check.word()), status);
     case.set_classname(printable(&report.scenario)).set_system_out(text);
     case
 }

@@ -1,7 +1,5 @@
 //! One table of a scenario file, on its way to the module that knows what it means.
 
-use std::rc::Rc;
-
 use congruent_description::{Diagnostic, Findings, known_names, toml_text};
 use serde::de::DeserializeOwned;
 use toml::{
@@ -11,36 +9,23 @@ use toml::{
 
 /// A table with its place in the text.
 #[derive(Debug, Clone)]
-pub struct Section<'a> {
-    /// Where each line of the whole text starts.
-    line_starts: Rc<[usize]>,
+pub(super) struct Section<'a> {
     table: Spanned<DeTable<'a>>,
 }
 
 impl<'a> Section<'a> {
-    /// The whole document.
-    ///
-    /// # Errors
-    /// A diagnostic where the text is no TOML.
-    pub fn document(text: &'a str) -> Result<Self, Diagnostic> {
-        let table = DeTable::parse(text).map_err(|error| toml_text::diagnostic(&error))?;
-        let after_breaks = text.match_indices('\n').map(|(line_break, _)| line_break + 1);
-        Ok(Self { line_starts: std::iter::once(0).chain(after_breaks).collect(), table })
-    }
-
-    /// Line of the section, from 1.
-    pub fn line(&self) -> usize {
-        let start = self.table.span().start;
-        self.line_starts.partition_point(|&line_start| line_start <= start)
+    /// A whole document.
+    pub(super) fn new(table: Spanned<DeTable<'a>>) -> Self {
+        Self { table }
     }
 
     /// The section's place in the text.
-    pub fn span(&self) -> std::ops::Range<usize> {
+    pub(super) fn span(&self) -> std::ops::Range<usize> {
         self.table.span()
     }
 
     /// Whether the section has this key.
-    pub fn has(&self, key: &str) -> bool {
+    pub(super) fn has(&self, key: &str) -> bool {
         self.table.get_ref().contains_key(key)
     }
 
@@ -48,15 +33,15 @@ impl<'a> Section<'a> {
     ///
     /// # Errors
     /// A diagnostic where the key holds something else.
-    pub fn take_table(&mut self, key: &str) -> Result<Option<Self>, Diagnostic> {
-        self.table.get_mut().remove(key).map(|value| self.as_section(key, value)).transpose()
+    pub(super) fn take_table(&mut self, key: &str) -> Result<Option<Self>, Diagnostic> {
+        self.table.get_mut().remove(key).map(|value| Self::as_section(key, value)).transpose()
     }
 
     /// Refuses something else than a table under `key`: serde would read an array into a struct.
     ///
     /// # Errors
     /// A diagnostic where the key holds something else.
-    pub fn require_table(&self, key: &str) -> Result<(), Diagnostic> {
+    pub(super) fn require_table(&self, key: &str) -> Result<(), Diagnostic> {
         match self.table.get_ref().get(key) {
             Some(value) if !value.get_ref().is_table() => {
                 Err(wrong_type(key, "a table", value.get_ref().type_str()).at(value.span()))
@@ -69,37 +54,20 @@ impl<'a> Section<'a> {
     ///
     /// # Errors
     /// A diagnostic where the key holds something else.
-    pub fn take_tables(&mut self, key: &str) -> Result<Vec<Self>, Diagnostic> {
+    pub(super) fn take_tables(&mut self, key: &str) -> Result<Vec<Self>, Diagnostic> {
         let Some(value) = self.table.get_mut().remove(key) else { return Ok(Vec::new()) };
         let span = value.span();
         match value.into_inner() {
-            DeValue::Array(items) => items.into_iter().map(|item| self.as_section(key, item)).collect(),
+            DeValue::Array(items) => items.into_iter().map(|item| Self::as_section(key, item)).collect(),
             other => Err(wrong_type(key, "an array of tables", other.type_str()).at(span)),
         }
-    }
-
-    /// Takes an array of strings out of this one; `None` where the key is absent.
-    ///
-    /// # Errors
-    /// A diagnostic where the key holds something else.
-    pub fn take_strings(&mut self, key: &str) -> Result<Option<Vec<Spanned<String>>>, Diagnostic> {
-        let Some(value) = self.table.get_mut().remove(key) else { return Ok(None) };
-        let refused = |value: &Spanned<DeValue<'_>>| {
-            wrong_type(key, "an array of strings", value.get_ref().type_str()).at(value.span())
-        };
-        let items = value.get_ref().as_array().ok_or_else(|| refused(&value))?;
-        let string = |item: &Spanned<DeValue<'_>>| {
-            let text = item.get_ref().as_str().ok_or_else(|| refused(item))?;
-            Ok(Spanned::new(item.span(), text.to_owned()))
-        };
-        items.iter().map(string).collect::<Result<_, _>>().map(Some)
     }
 
     /// Takes the string under `key` out and gives the one of `known` that has this name.
     ///
     /// # Errors
     /// A diagnostic at the unknown name, or at the section where there is none.
-    pub fn select<'k, T>(
+    pub(super) fn select<'k, T>(
         &mut self,
         key: &str,
         what: &str,
@@ -128,7 +96,7 @@ impl<'a> Section<'a> {
     ///
     /// # Errors
     /// A diagnostic at every unknown key and at the first value that is wrong.
-    pub fn read<T: DeserializeOwned>(self) -> Result<T, Vec<Diagnostic>> {
+    pub(super) fn read<T: DeserializeOwned>(self) -> Result<T, Vec<Diagnostic>> {
         let mut findings = Findings::default();
         match self.read_into(&mut findings) {
             Some(value) if !findings.has_error() => Ok(value),
@@ -137,16 +105,14 @@ impl<'a> Section<'a> {
     }
 
     /// Like [`Section::read`], but gives a value as well where the only faults are unknown keys.
-    pub fn read_into<T: DeserializeOwned>(self, findings: &mut Findings) -> Option<T> {
+    pub(super) fn read_into<T: DeserializeOwned>(self, findings: &mut Findings) -> Option<T> {
         toml_text::read_table(self.table, findings)
     }
 
-    fn as_section(&self, key: &str, value: Spanned<DeValue<'a>>) -> Result<Self, Diagnostic> {
+    fn as_section(key: &str, value: Spanned<DeValue<'a>>) -> Result<Self, Diagnostic> {
         let span = value.span();
         match value.into_inner() {
-            DeValue::Table(table) => {
-                Ok(Self { line_starts: Rc::clone(&self.line_starts), table: Spanned::new(span, table) })
-            }
+            DeValue::Table(table) => Ok(Self { table: Spanned::new(span, table) }),
             other => Err(wrong_type(key, "a table", other.type_str()).at(span)),
         }
     }

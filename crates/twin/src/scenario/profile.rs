@@ -1,6 +1,7 @@
 //! How a motion runs from 0 to 1 over its duration.
 
-use serde::Deserialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Position and rate of a motion at one instant, both as a share of the whole way.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,7 +13,7 @@ pub struct Progress {
 }
 
 /// The course of a motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Profile {
     /// Rest to rest without a jump in acceleration: `10 s^3 - 15 s^4 + 6 s^5`
@@ -26,19 +27,10 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// The name in scenario files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Quintic => "quintic",
-            Self::Cubic => "cubic",
-            Self::Linear => "linear",
-        }
-    }
-
     /// Where a motion of `duration_s` is after `elapsed_s`; it rests before its start and after its end.
     ///
     /// ```
-    /// use congruent_twin::motion::Profile;
+    /// use congruent_twin::scenario::Profile;
     /// let half_way = Profile::Quintic.at(1.0, 2.0);
     /// assert_eq!((half_way.share, half_way.share_per_s), (0.5, 1.875 / 2.0));
     /// ```

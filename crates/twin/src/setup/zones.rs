@@ -1,14 +1,11 @@
 //! `[[zone]]`: space that links are forbidden to enter, in the root link's frame. A zone is no body:
 //! physics knows nothing of it, the check `zone` watches it.
 
-use std::ops::Range;
-
 use congruent_description::{Diagnostic, Geometry, Link, LinkIndex, Robot, known_names};
 use congruent_simulation::Obstacle;
-use toml::Spanned;
 
-use super::{obstacle, section::Section};
-use crate::monitor::{Check, ZONE};
+use super::spaces;
+use crate::scenario::{Check, CheckKind, ObstacleSettings, Place, ZoneSettings};
 
 /// Space that is forbidden to some links.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,22 +17,26 @@ pub struct Zone {
     pub links: Vec<LinkIndex>,
 }
 
-/// Reads all zones; names as of obstacles.
+/// Builds all zones; names as of obstacles.
 ///
 /// `links` holds names of links, in which `*` stands for any characters. A name with `*` means the
 /// links that can move and have a collision shape: what stands with the root link stands where
 /// the scenario put it. A link that is named in full counts in any case.
-pub(super) fn read(sections: Vec<Section<'_>>, robot: &Robot) -> Result<Vec<Zone>, Vec<Diagnostic>> {
+pub(super) fn build(
+    all: &[ZoneSettings],
+    places: Place<'_>,
+    robot: &Robot,
+) -> Result<Vec<Zone>, Vec<Diagnostic>> {
     let mut errors = Vec::new();
-    let (mut links, mut rest) = (Vec::new(), Vec::new());
-    for mut section in sections {
-        match forbidden_links(&mut section, robot) {
+    let mut links = Vec::new();
+    for (index, zone) in all.iter().enumerate() {
+        match forbidden_links(&zone.links, places.item(index), robot) {
             Ok(found) => links.push(found),
             Err(found) => errors.extend(found),
         }
-        rest.push(section);
     }
-    let spaces = obstacle::read(rest, &obstacle::ZONE, robot).map_err(|found| errors.extend(found));
+    let spaces: Vec<ObstacleSettings> = all.iter().map(ZoneSettings::space).collect();
+    let spaces = spaces::build(&spaces, places, &spaces::ZONE, robot).map_err(|found| errors.extend(found));
     match spaces {
         Ok(spaces) if errors.is_empty() => {
             Ok(spaces.into_iter().zip(links).map(|(space, links)| Zone { space, links }).collect())
@@ -47,41 +48,47 @@ pub(super) fn read(sections: Vec<Section<'_>>, robot: &Robot) -> Result<Vec<Zone
 /// Zones and their check go together: a check without a zone would look at nothing, and a zone
 /// without a check would forbid nothing.
 pub(super) fn paired_with_checks(
-    zone: Option<Range<usize>>,
-    checks: &[(&Check, Range<usize>)],
+    zones: &[ZoneSettings],
+    checks: &[Check],
+    place: Place<'_>,
 ) -> Result<(), Diagnostic> {
-    let check = checks.iter().find(|(check, _)| check.kind == ZONE);
-    match (zone, check) {
-        (Some(span), None) => {
-            Err(Diagnostic::error("scenario::zone_unchecked", "nothing watches the zones of this scenario")
-                .with_help(format!("add a [[check]] with kind = \"{ZONE}\""))
-                .at(span))
-        }
-        (None, Some((_, span))) => {
-            let message = format!("check \"{ZONE}\" has nothing to look at: the scenario has no zone");
-            Err(Diagnostic::error("scenario::no_zone", message)
-                .with_help("add a [[zone]] with name, links, a shape and its place")
-                .at(span.clone()))
+    let word = CheckKind::Zone.word();
+    let check = checks.iter().position(|check| check.kind() == CheckKind::Zone);
+    match (zones.is_empty(), check) {
+        (false, None) => Err(place.key("zone").item(0).mark(
+            Diagnostic::error("scenario::zone_unchecked", "nothing watches the zones of this scenario")
+                .with_help(format!("add a [[check]] with kind = \"{word}\"")),
+        )),
+        (true, Some(check)) => {
+            let message = format!("check \"{word}\" has nothing to look at: the scenario has no zone");
+            Err(place.key("check").item(check).mark(
+                Diagnostic::error("scenario::no_zone", message)
+                    .with_help("add a [[zone]] with name, links, a shape and its place"),
+            ))
         }
         _ => Ok(()),
     }
 }
 
-fn forbidden_links(section: &mut Section<'_>, robot: &Robot) -> Result<Vec<LinkIndex>, Vec<Diagnostic>> {
-    let span = section.span();
-    let names = section.take_strings("links")?.unwrap_or_default();
+fn forbidden_links(
+    names: &[String],
+    place: Place<'_>,
+    robot: &Robot,
+) -> Result<Vec<LinkIndex>, Vec<Diagnostic>> {
     if names.is_empty() {
-        return Err(Diagnostic::error("scenario::zone_links", "the zone is forbidden to no link")
-            .with_help("give links = [\"*\"] for all links that move, or their names")
-            .at(span)
+        return Err(place
+            .mark(
+                Diagnostic::error("scenario::zone_links", "the zone is forbidden to no link")
+                    .with_help("give links = [\"*\"] for all links that move, or their names"),
+            )
             .into());
     }
     let mut links = Vec::new();
     let mut errors = Vec::new();
-    for name in &names {
+    for (index, name) in names.iter().enumerate() {
         match links_named(name, robot) {
             Ok(found) => links.extend(found),
-            Err(error) => errors.push(error.at(name.span())),
+            Err(error) => errors.push(place.key("links").item(index).mark(error)),
         }
     }
     links.sort_unstable();
@@ -89,8 +96,7 @@ fn forbidden_links(section: &mut Section<'_>, robot: &Robot) -> Result<Vec<LinkI
     if errors.is_empty() { Ok(links) } else { Err(errors) }
 }
 
-fn links_named(name: &Spanned<String>, robot: &Robot) -> Result<Vec<LinkIndex>, Diagnostic> {
-    let name = name.get_ref().as_str();
+fn links_named(name: &str, robot: &Robot) -> Result<Vec<LinkIndex>, Diagnostic> {
     let can_enter = |link: LinkIndex| has_shape(robot.link(link));
     if name.contains('*') {
         let links = robot.link_indices().filter(|&link| {

@@ -1,0 +1,38 @@
+//! Names that turn the numbers of a sample into words.
+
+use congruent_description::Robot;
+
+use crate::proximity::Clearance;
+
+/// Names that turn numbers of a sample into words.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Names {
+    /// Links, in the robot's order.
+    pub links: Vec<String>,
+    /// Movable joints, in the order of configuration vectors.
+    pub joints: Vec<String>,
+    /// Watched pairs, as `a--b`.
+    pub pairs: Vec<String>,
+    /// Links with the zones that are forbidden to them, as `link--zone`.
+    pub zones: Vec<String>,
+}
+
+impl Names {
+    /// The names of a robot, of the pairs that are watched around it, and of its zones.
+    pub fn new(robot: &Robot, clearance: &Clearance, zones: &Clearance) -> Self {
+        let pair = |index| {
+            let (a, b) = clearance.names(index);
+            format!("{a}--{b}")
+        };
+        let in_zone = |index| {
+            let (zone, link) = zones.names(index);
+            format!("{link}--{zone}")
+        };
+        Self {
+            links: robot.links().iter().map(|link| link.name.clone()).collect(),
+            joints: robot.movable_joint_names().map(str::to_owned).collect(),
+            pairs: (0..clearance.pairs().len()).map(pair).collect(),
+            zones: (0..zones.pairs().len()).map(in_zone).collect(),
+        }
+    }
+}

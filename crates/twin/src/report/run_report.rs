@@ -1,0 +1,125 @@
+//! The report of one run.
+
+use congruent_agreement::compare::PoseSource;
+use congruent_description::Finding;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::{
+    motion::ServoResult,
+    run::{Outcome, RunError},
+    scenario::Expectation,
+    setup::RunSetup,
+    verdict::{CheckResult, Status, Stop, Verdict, judge},
+};
+
+/// The whole report of one scenario.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct RunReport {
+    /// Name and version of this format.
+    pub format: &'static str,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// The scenario file, as it was named.
+    pub scenario_file: Option<String>,
+    /// Name of the robot.
+    pub robot: String,
+    /// Whether the run went as the scenario expects.
+    pub verdict: Verdict,
+    /// The exit code that stands for the verdict.
+    pub exit_code: u8,
+    /// What the scenario expects.
+    pub expected: Expectation,
+    /// Every check.
+    pub checks: Vec<CheckResult>,
+    /// Where a check ended the run before its time: later steps were neither taken nor looked at.
+    pub stopped: Option<Stop>,
+    /// How far each `servo_tcp` has brought the TCP.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub servos: Vec<ServoResult>,
+    /// Why the run broke off, where it did.
+    pub error: Option<String>,
+    /// The clock.
+    pub simulation: RunClockReport,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// SHA-256 over the joint positions of every sample: equal runs have equal hashes.
+    pub trajectory_sha256: String,
+    /// Where the model's pose of each link comes from.
+    pub links: Vec<LinkSource>,
+    /// What computed it.
+    pub versions: Versions,
+    /// What was suspicious in the input.
+    pub warnings: Vec<Finding>,
+}
+
+/// The clock of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct RunClockReport {
+    /// Length of a step.
+    pub step_s: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Simulated time.
+    pub duration_s: f64,
+}
+
+/// A link with the origin of its pose in the model.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct LinkSource {
+    /// The link.
+    pub link: String,
+    /// Where the model's pose of it comes from.
+    pub source: PoseSource,
+}
+
+/// Programs that took part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Versions {
+    /// This program.
+    pub congruent: &'static str,
+    /// The physics engine.
+    pub physics: &'static str,
+}
+
+impl RunReport {
+    /// Puts together what a run has found.
+    pub fn new(setup: &RunSetup, sources: &[PoseSource], outcome: Outcome, error: Option<&RunError>) -> Self {
+        let robot = &setup.description.robot;
+        let mut checks = outcome.checks;
+        if error.is_some() {
+            for check in checks.iter_mut().filter(|check| check.status == Status::Pass) {
+                check.status = Status::Error; // it was not looked at to the end
+            }
+        }
+        let verdict = if error.is_some() { Verdict::Broken } else { judge(&setup.scenario.expect, &checks) };
+        let links = robot.links().iter().zip(sources);
+        let warnings = setup.description.warnings.iter().chain(&setup.warnings);
+        Self {
+            format: "congruent-report/1",
+            scenario: setup.scenario.name.clone(),
+            scenario_file: setup.path.as_ref().map(|path| path.display().to_string()),
+            robot: robot.name().to_owned(),
+            verdict,
+            exit_code: verdict.exit_code(),
+            expected: setup.scenario.expect.clone(),
+            checks,
+            stopped: outcome.stopped,
+            servos: outcome.servos,
+            error: error.map(ToString::to_string),
+            simulation: RunClockReport {
+                step_s: setup.clock.step_s,
+                steps: outcome.steps,
+                duration_s: setup.clock.time_s(outcome.steps),
+            },
+            seed: setup.scenario.seed,
+            trajectory_sha256: outcome.trajectory_sha256,
+            links: links.map(|(link, &source)| LinkSource { link: link.name.clone(), source }).collect(),
+            versions: Versions {
+                congruent: env!("CARGO_PKG_VERSION"),
+                physics: congruent_simulation::ENGINE,
+            },
+            warnings: warnings.map(Finding::from).collect(),
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! `[[check]]`: what is looked at in a run, and the limits it is held against.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    number::{non_negative, optional_positive, positive},
+    on_violation::OnViolation,
+    pose::PoseSettings,
+};
+
+/// One check.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Check {
+    /// Model against twin: position and orientation of every link, at every sample.
+    Agreement(AgreementCheck),
+    /// Distance between links and to obstacles.
+    Clearance(ClearanceCheck),
+    /// Where the TCP is at the end.
+    Goal(GoalCheck),
+    /// Joint positions within their limits.
+    Limits(LimitsCheck),
+    /// Forbidden zones.
+    Zone(ZoneCheck),
+}
+
+/// The kind of a check, as files name it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CheckKind {
+    /// See [`Check::Agreement`].
+    Agreement,
+    /// See [`Check::Clearance`].
+    Clearance,
+    /// See [`Check::Goal`].
+    Goal,
+    /// See [`Check::Limits`].
+    Limits,
+    /// See [`Check::Zone`].
+    Zone,
+}
+
+impl CheckKind {
+    /// Every kind.
+    pub const ALL: [Self; 5] = [Self::Agreement, Self::Clearance, Self::Goal, Self::Limits, Self::Zone];
+
+    /// The word of files and reports.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Agreement => "agreement",
+            Self::Clearance => "clearance",
+            Self::Goal => "goal",
+            Self::Limits => "limits",
+            Self::Zone => "zone",
+        }
+    }
+}
+
+impl std::fmt::Display for CheckKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+impl Check {
+    /// Its kind.
+    pub fn kind(&self) -> CheckKind {
+        match self {
+            Self::Agreement(_) => CheckKind::Agreement,
+            Self::Clearance(_) => CheckKind::Clearance,
+            Self::Goal(_) => CheckKind::Goal,
+            Self::Limits(_) => CheckKind::Limits,
+            Self::Zone(_) => CheckKind::Zone,
+        }
+    }
+
+    /// What follows its first violation.
+    pub fn on_violation(&self) -> OnViolation {
+        match self {
+            Self::Agreement(check) => check.on_violation,
+            Self::Clearance(check) => check.on_violation,
+            Self::Goal(check) => check.on_violation,
+            Self::Limits(check) => check.on_violation,
+            Self::Zone(check) => check.on_violation,
+        }
+    }
+}
+
+/// Limits that are left out are the robot file's tolerance.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AgreementCheck {
+    /// Largest distance of the origins of a link.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub position_m: Option<f64>,
+    /// Largest angle between the orientations of a link.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub orientation_rad: Option<f64>,
+    /// What follows its first violation.
+    #[serde(default)]
+    pub on_violation: OnViolation,
+}
+
+/// Links come no closer to each other and to obstacles than this.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ClearanceCheck {
+    /// Smallest distance.
+    #[serde(deserialize_with = "non_negative")]
+    pub minimum_m: f64,
+    /// What follows its first violation.
+    #[serde(default)]
+    pub on_violation: OnViolation,
+}
+
+/// A pose needs both tolerances, a position one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GoalCheck {
+    /// Where the TCP of the twin ought to be at the end, in the world.
+    pub tcp: PoseSettings,
+    /// Largest distance from there.
+    #[serde(deserialize_with = "positive")]
+    pub position_m: f64,
+    /// Largest angle from there, if a rotation is asked for.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub orientation_rad: Option<f64>,
+    /// What follows its first violation.
+    #[serde(default)]
+    pub on_violation: OnViolation,
+}
+
+/// No joint is outside its position limits.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitsCheck {
+    /// What follows its first violation.
+    #[serde(default)]
+    pub on_violation: OnViolation,
+}
+
+/// No link touches a zone that is forbidden to it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ZoneCheck {
+    /// What follows its first violation.
+    #[serde(default)]
+    pub on_violation: OnViolation,
+}

@@ -1,0 +1,162 @@
+//! The whole of a scenario.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    checks::{Check, CheckKind},
+    joints::StartSettings,
+    motions::MotionSettings,
+    number::{finite_array, non_negative, optional_positive, positive},
+    spaces::{ObstacleSettings, ZoneSettings},
+};
+
+/// The one version of the format that exists.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// A scenario: which robot does what among which obstacles, and what is checked.
+///
+/// # Examples
+/// Made in code, a scenario is what a file would say:
+/// ```
+/// use congruent_twin::scenario::{AgreementCheck, Check, ControllerSettings, Scenario};
+/// let scenario = Scenario {
+///     name: "hold".to_owned(),
+///     robot: "robots/ur5e".to_owned(),
+///     controller: ControllerSettings { kind: "kinematic".to_owned(), ..ControllerSettings::default() },
+///     check: vec![Check::Agreement(AgreementCheck::default())],
+///     ..Scenario::default()
+/// };
+/// assert!(scenario.to_toml().contains("kind = \"agreement\""));
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// Version of the format: 1.
+    pub schema_version: u32,
+    /// Its name; results go to a folder of this name.
+    pub name: String,
+    /// A folder with robot.toml, a robot file or a .urdf, relative to the scenario file.
+    pub robot: String,
+    /// Seed of everything random.
+    #[serde(default)]
+    pub seed: u64,
+    /// Clock and gravity.
+    #[serde(default)]
+    pub simulation: SimulationSettings,
+    /// Where the robot starts.
+    #[serde(default)]
+    pub start: StartSettings,
+    /// What moves the twin.
+    pub controller: ControllerSettings,
+    /// What the arm is asked to do, one after another.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub motion: Vec<MotionSettings>,
+    /// What stands around.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub obstacle: Vec<ObstacleSettings>,
+    /// Where links may not be.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub zone: Vec<ZoneSettings>,
+    /// What is looked at.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub check: Vec<Check>,
+    /// What must come out.
+    #[serde(default)]
+    pub expect: Expectation,
+}
+
+impl Default for Scenario {
+    fn default() -> Self {
+        Self {
+            schema_version: SCHEMA_VERSION,
+            name: String::new(),
+            robot: String::new(),
+            seed: 0,
+            simulation: SimulationSettings::default(),
+            start: StartSettings::default(),
+            controller: ControllerSettings::default(),
+            motion: Vec::new(),
+            obstacle: Vec::new(),
+            zone: Vec::new(),
+            check: Vec::new(),
+            expect: Expectation::default(),
+        }
+    }
+}
+
+impl Scenario {
+    /// The scenario as the text of a file.
+    ///
+    /// # Panics
+    /// For a seed above `i64::MAX`, which TOML does not have; a setup has refused it.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("a scenario is TOML")
+    }
+}
+
+/// `[simulation]`: clock and gravity.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SimulationSettings {
+    /// Length of a physics step.
+    #[serde(default = "one_millisecond", deserialize_with = "positive")]
+    pub step_s: f64,
+    /// Simulated time; the run ends with its motions if it is left out.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub duration_s: Option<f64>,
+    /// Gravity in the root link's frame.
+    #[serde(default = "down", deserialize_with = "finite_array")]
+    pub gravity_m_s2: [f64; 3],
+}
+
+fn one_millisecond() -> f64 {
+    1e-3
+}
+
+fn down() -> [f64; 3] {
+    [0.0, 0.0, -9.81]
+}
+
+impl Default for SimulationSettings {
+    fn default() -> Self {
+        Self { step_s: one_millisecond(), duration_s: None, gravity_m_s2: down() }
+    }
+}
+
+/// `[controller]`: what moves the twin.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerSettings {
+    /// Its name.
+    #[schemars(extend("enum" = congruent_simulation::controller_names().collect::<Vec<_>>()))]
+    pub kind: String,
+    /// Torque per position error: N m/rad, N/m.
+    #[serde(default, deserialize_with = "non_negative")]
+    pub stiffness: f64,
+    /// Torque per velocity error: N m s/rad, N s/m.
+    #[serde(default, deserialize_with = "non_negative")]
+    pub damping: f64,
+}
+
+impl Default for ControllerSettings {
+    /// Playback of the motions without dynamics.
+    fn default() -> Self {
+        Self { kind: "kinematic".to_owned(), stiffness: 0.0, damping: 0.0 }
+    }
+}
+
+/// `[expect]`: what must come out.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "verdict", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Expectation {
+    /// Every check passes.
+    #[default]
+    Pass,
+    /// A negative control: exactly these kinds of check fail (any, if none is named).
+    Fail {
+        /// Kinds of check.
+        #[serde(default)]
+        checks: Vec<CheckKind>,
+    },
+}

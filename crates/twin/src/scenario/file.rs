@@ -1,0 +1,314 @@
+//! A scenario file: TOML text to plain data, every fault a diagnostic at its place.
+
+use std::{
+    ops::Range,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use congruent_description::{Diagnostic, Findings, SourceFile, known_names, read_text, toml_text};
+use congruent_simulation::controller_names;
+use serde::Deserialize;
+use toml::{Spanned, de::DeTable};
+
+use super::{
+    checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck},
+    data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario},
+    motions::{JOINT_KEYS, JointMotion, MotionSettings, SERVO_KEY, ServoMotion, TCP_KEY, TcpMotion},
+    overrides::Override,
+    place::{Place, PlaceNode},
+    section::Section,
+};
+
+/// Largest scenario file that is read.
+const MOST_BYTES: u64 = 4 << 20;
+/// The keys that every check has, whatever its kind.
+const COMMON_CHECK_KEYS: &str = "kind, on_violation";
+
+/// A scenario with the places of its values.
+#[derive(Debug, Clone)]
+pub struct ScenarioFile {
+    /// What the file says, with what was set beside it.
+    pub scenario: Scenario,
+    source: Arc<SourceFile>,
+    places: PlaceNode,
+    /// Keys that nothing has: the rest is good enough to be looked at.
+    findings: Vec<Diagnostic>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Top {
+    schema_version: Spanned<u32>,
+    name: Spanned<String>,
+    robot: String,
+    #[serde(default)]
+    seed: u64,
+}
+
+/// The sections of a file besides its top.
+const SECTIONS: [&str; 8] =
+    ["simulation", "start", "controller", "motion", "obstacle", "zone", "check", "expect"];
+
+impl ScenarioFile {
+    /// Reads a file; `overrides` replace what it says.
+    ///
+    /// # Errors
+    /// Every finding, if the file is no scenario.
+    pub fn read(path: &Path, overrides: &[Override]) -> Result<Self, Vec<Diagnostic>> {
+        let source = read_text(path, MOST_BYTES).map_err(|error| vec![error])?;
+        let in_file = |findings: Vec<Diagnostic>| -> Vec<Diagnostic> {
+            findings.into_iter().map(|finding| finding.in_file(&source)).collect()
+        };
+        let mut document =
+            DeTable::parse(&source.text).map_err(|error| in_file(vec![toml_text::diagnostic(&error)]))?;
+        let places = PlaceNode::of_document(&source.text, &document);
+        let set: Result<Vec<Range<usize>>, Diagnostic> =
+            overrides.iter().map(|change| change.apply(&mut document)).collect();
+        let set = set.map_err(|error| vec![error])?;
+        let mut findings = Findings::default();
+        let scenario = read(Section::new(document), &mut findings);
+        let findings = in_file(findings.map(|finding| name_override(finding, overrides, &set)).into_vec());
+        match scenario {
+            Some(scenario) if findings.iter().all(is_unknown_key) => {
+                Ok(Self { scenario, source, places, findings })
+            }
+            _ => Err(findings),
+        }
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.source.path
+    }
+
+    /// The robot's path, relative to the folder of the file.
+    pub fn robot_path(&self) -> PathBuf {
+        self.path().parent().unwrap_or(Path::new("")).join(&self.scenario.robot)
+    }
+
+    /// Where its values stand.
+    pub fn place(&self) -> Place<'_> {
+        Place::of(Some(&self.places))
+    }
+
+    /// What is wrong with it although it could be read: unknown keys.
+    pub fn findings(&self) -> &[Diagnostic] {
+        &self.findings
+    }
+
+    /// A diagnostic about it.
+    pub fn mark(&self, diagnostic: Diagnostic) -> Diagnostic {
+        diagnostic.in_file(&self.source)
+    }
+}
+
+fn is_unknown_key(finding: &Diagnostic) -> bool {
+    finding.code == toml_text::UNKNOWN_KEY_CODE
+}
+
+/// A fault at a value that was set says so: the line of the file has another one.
+fn name_override(finding: Diagnostic, overrides: &[Override], set: &[Range<usize>]) -> Diagnostic {
+    let cause = overrides.iter().zip(set).find(|(_, place)| finding.span.as_ref() == Some(place));
+    match cause {
+        Some((change, _)) => with_more_help(finding, &format!("it was set by --set {change}")),
+        None => finding,
+    }
+}
+
+fn with_more_help(finding: Diagnostic, more: &str) -> Diagnostic {
+    let help = finding.help.clone().unwrap_or_default();
+    finding.with_help(format!("{help}; {more}").trim_start_matches("; ").to_owned())
+}
+
+/// Reads all sections, also after a fault, so that one reading names all of them.
+fn read(mut document: Section<'_>, findings: &mut Findings) -> Option<Scenario> {
+    let simulation = one(&mut document, "simulation", findings);
+    let start = one(&mut document, "start", findings);
+    let controller = take(&mut document, "controller", findings);
+    let controller = keep_all(findings, controller.and_then(read_controller));
+    let motion = all(&mut document, "motion", findings, read_motion);
+    let obstacle = all(&mut document, "obstacle", findings, |section, findings| {
+        keep_all(findings, section.require_table("cylinder").map_err(Into::into));
+        section.read_into(findings)
+    });
+    let zone = all(&mut document, "zone", findings, |section, findings| {
+        keep_all(findings, section.require_table("cylinder").map_err(Into::into));
+        section.read_into(findings)
+    });
+    let check = all(&mut document, "check", findings, read_check);
+    let expect = take(&mut document, "expect", findings).ok().flatten();
+    let expect = keep_all(findings, expect.map_or(Ok(Expectation::default()), read_expect));
+    let mut at_top = Findings::default();
+    let top: Option<Top> = document.read_into(&mut at_top);
+    findings.extend(at_top.map(name_sections).into_vec());
+    let top = top?;
+    findings.keep(check_top(&top));
+    Some(Scenario {
+        schema_version: top.schema_version.into_inner(),
+        name: top.name.into_inner(),
+        robot: top.robot,
+        seed: top.seed,
+        simulation: simulation?,
+        start: start?,
+        controller: controller?,
+        motion: motion?,
+        obstacle: obstacle?,
+        zone: zone?,
+        check: check?,
+        expect: expect?,
+    })
+}
+
+/// The value of `result`; its faults are kept in `findings`.
+fn keep_all<T>(findings: &mut Findings, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
+    result.map_err(|errors| findings.extend(errors)).ok()
+}
+
+fn take<'a>(
+    document: &mut Section<'a>,
+    key: &str,
+    findings: &mut Findings,
+) -> Result<Option<Section<'a>>, Vec<Diagnostic>> {
+    let found = document.take_table(key);
+    if let Err(error) = &found {
+        findings.push(error.clone());
+    }
+    found.map_err(|_| Vec::new())
+}
+
+/// A section that may be left out.
+fn one<T: serde::de::DeserializeOwned + Default>(
+    document: &mut Section<'_>,
+    key: &str,
+    findings: &mut Findings,
+) -> Option<T> {
+    match take(document, key, findings).ok()? {
+        Some(section) => section.read_into(findings),
+        None => Some(T::default()),
+    }
+}
+
+/// All sections of one name; `None` if one of them could not be read.
+fn all<'a, T>(
+    document: &mut Section<'a>,
+    key: &str,
+    findings: &mut Findings,
+    read: impl Fn(Section<'a>, &mut Findings) -> Option<T>,
+) -> Option<Vec<T>> {
+    let sections = findings.keep(document.take_tables(key))?;
+    // Each is read, whatever became of the one before.
+    let read: Vec<Option<T>> = sections.into_iter().map(|section| read(section, findings)).collect();
+    read.into_iter().collect()
+}
+
+fn read_motion(section: Section<'_>, findings: &mut Findings) -> Option<MotionSettings> {
+    if JOINT_KEYS.iter().any(|key| section.has(key)) {
+        section.read_into::<JointMotion>(findings).map(MotionSettings::Joints)
+    } else if section.has(TCP_KEY) {
+        section.read_into::<TcpMotion>(findings).map(MotionSettings::Tcp)
+    } else if section.has(SERVO_KEY) {
+        section.read_into::<ServoMotion>(findings).map(MotionSettings::Servo)
+    } else {
+        let known: Vec<&str> = JOINT_KEYS.into_iter().chain([TCP_KEY, SERVO_KEY]).collect();
+        findings.push(
+            Diagnostic::error("scenario::unknown_motion", "the motion does not say what moves")
+                .with_help(format!("give one of {}", known.join(", ")))
+                .at(section.span()),
+        );
+        None
+    }
+}
+
+fn read_check(mut section: Section<'_>, findings: &mut Findings) -> Option<Check> {
+    let kind = *findings.keep(section.select("kind", "check", &CheckKind::ALL, |kind| kind.word()))?;
+    let mut found = Findings::default();
+    let check = match kind {
+        CheckKind::Agreement => section.read_into::<AgreementCheck>(&mut found).map(Check::Agreement),
+        CheckKind::Clearance => section.read_into::<ClearanceCheck>(&mut found).map(Check::Clearance),
+        CheckKind::Goal => section.read_into::<GoalCheck>(&mut found).map(Check::Goal),
+        CheckKind::Limits => section.read_into::<LimitsCheck>(&mut found).map(Check::Limits),
+        CheckKind::Zone => section.read_into::<ZoneCheck>(&mut found).map(Check::Zone),
+    };
+    let name_common_keys = |finding: Diagnostic| {
+        let more = format!("of every check: {COMMON_CHECK_KEYS}");
+        if is_unknown_key(&finding) { with_more_help(finding, &more) } else { finding }
+    };
+    findings.extend(found.map(name_common_keys).into_vec());
+    check
+}
+
+fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, Vec<Diagnostic>> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Gains {
+        #[serde(default, deserialize_with = "super::number::non_negative")]
+        stiffness: f64,
+        #[serde(default, deserialize_with = "super::number::non_negative")]
+        damping: f64,
+    }
+    let known: Vec<&str> = controller_names().collect();
+    let Some(mut section) = section else {
+        return Err(Diagnostic::error("scenario::no_controller", "the scenario has no [controller]")
+            .with_help(format!("add one with kind = {}", known.join(" | ")))
+            .into());
+    };
+    let kind = (*section.select("kind", "controller", &known, |name| name)?).to_owned();
+    let Gains { stiffness, damping } = section.read()?;
+    Ok(ControllerSettings { kind, stiffness, damping })
+}
+
+fn read_expect(mut section: Section<'_>) -> Result<Expectation, Vec<Diagnostic>> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Named {
+        #[serde(default)]
+        checks: Vec<Spanned<String>>,
+    }
+    let span = section.span();
+    let verdict = *section.select("verdict", "expected verdict", &["pass", "fail"], |name| name)?;
+    let Named { checks } = section.read()?;
+    let kind = |name: Spanned<String>| check_kind(name.get_ref()).map_err(|error| error.at(name.span()));
+    let checks: Vec<CheckKind> = checks.into_iter().map(kind).collect::<Result<_, _>>()?;
+    match (verdict, checks.is_empty()) {
+        ("fail", _) => Ok(Expectation::Fail { checks }),
+        (_, true) => Ok(Expectation::Pass),
+        (_, false) => Err(Diagnostic::error("scenario::expect", "`checks` names the checks that must fail")
+            .with_help("it goes with verdict = \"fail\"")
+            .at(span)
+            .into()),
+    }
+}
+
+/// An unknown key at the top may be a misspelt section.
+fn name_sections(error: Diagnostic) -> Diagnostic {
+    if !is_unknown_key(&error) {
+        return error;
+    }
+    let sections = SECTIONS.map(|section| format!("[{section}]")).join(", ");
+    with_more_help(error, &format!("sections: {sections}"))
+}
+
+fn check_top(top: &Top) -> Result<(), Diagnostic> {
+    let version = *top.schema_version.get_ref();
+    if version != SCHEMA_VERSION {
+        let message = format!("schema_version = {version} is not known");
+        return Err(Diagnostic::error("scenario::version", message)
+            .with_help(format!("this program reads version {SCHEMA_VERSION}"))
+            .at(top.schema_version.span()));
+    }
+    if top.name.get_ref().trim().is_empty() {
+        return Err(Diagnostic::error("scenario::name", "the name is empty")
+            .with_help("results go to a folder of this name")
+            .at(top.name.span()));
+    }
+    Ok(())
+}
+
+/// A kind of check by its name, with the nearest known one if there is none.
+fn check_kind(name: &str) -> Result<CheckKind, Diagnostic> {
+    CheckKind::ALL.into_iter().find(|kind| kind.word() == name).ok_or_else(|| {
+        Diagnostic::error("scenario::unknown_kind", format!("unknown kind of check \"{name}\""))
+            .with_help(known_names(name, "kinds", CheckKind::ALL.map(CheckKind::word)))
+    })
+}

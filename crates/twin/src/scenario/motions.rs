@@ -1,0 +1,109 @@
+//! `[[motion]]`: what the arm is asked to do, one after another. A kind of motion is known by its keys.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    number::{optional_positive, positive},
+    pose::PoseSettings,
+    profile::Profile,
+};
+
+/// One motion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MotionSettings {
+    /// Named joints move to absolute positions.
+    Joints(JointMotion),
+    /// The joints go together to where the TCP is at a pose.
+    Tcp(TcpMotion),
+    /// The TCP is driven to a pose in a closed loop.
+    Servo(ServoMotion),
+}
+
+/// Named joints move to absolute positions, the others hold.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointMotion {
+    /// Angles in degrees by joint.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub move_joints_deg: BTreeMap<String, f64>,
+    /// Angles in radians by joint.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub move_joints_rad: BTreeMap<String, f64>,
+    /// Shifts in metres by joint.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub move_joints_m: BTreeMap<String, f64>,
+    /// Shifts in millimetres by joint.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub move_joints_mm: BTreeMap<String, f64>,
+    /// How long it takes.
+    #[serde(deserialize_with = "positive")]
+    pub duration_s: f64,
+    /// How it runs over its duration.
+    #[serde(default)]
+    pub profile: Profile,
+}
+
+/// The TCP goes to a pose in the world: the nearest solution of inverse kinematics is taken and the joints go
+/// there together, so the path in between is no straight line.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TcpMotion {
+    /// The pose, or the position if no rotation is given.
+    pub move_tcp: PoseSettings,
+    /// How long it takes.
+    #[serde(deserialize_with = "positive")]
+    pub duration_s: f64,
+    /// How it runs over its duration.
+    #[serde(default)]
+    pub profile: Profile,
+}
+
+/// The TCP is driven to a pose, or to a position, by differential inverse kinematics in the loop.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ServoMotion {
+    /// The pose, or the position if no rotation is given.
+    pub servo_tcp: PoseSettings,
+    /// How joint speeds follow from the error.
+    #[serde(default)]
+    pub method: ServoMethod,
+    /// How fast the error decays; 5 per second if left out.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub gain_per_s: Option<f64>,
+    /// How long it takes.
+    #[serde(deserialize_with = "positive")]
+    pub duration_s: f64,
+}
+
+/// How joint speeds follow from the error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ServoMethod {
+    /// By the pseudo-inverse of the Jacobian, damped where the arm is nearly singular.
+    #[default]
+    PseudoInverse,
+    /// By the transpose of the Jacobian.
+    Transpose,
+}
+
+impl ServoMethod {
+    /// The word of files and reports.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::PseudoInverse => "pseudo_inverse",
+            Self::Transpose => "transpose",
+        }
+    }
+}
+
+/// The keys by which a kind of motion is known.
+pub(crate) const JOINT_KEYS: [&str; 4] =
+    ["move_joints_deg", "move_joints_rad", "move_joints_m", "move_joints_mm"];
+/// Likewise.
+pub(crate) const TCP_KEY: &str = "move_tcp";
+/// Likewise.
+pub(crate) const SERVO_KEY: &str = "servo_tcp";

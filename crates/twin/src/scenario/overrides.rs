@@ -1,0 +1,149 @@
+//! `--set KEY=VALUE`: any value of a scenario, changed before the file is read.
+
+use std::ops::Range;
+
+use congruent_description::{Diagnostic, known_names};
+use toml::{
+    Spanned,
+    de::{DeTable, DeValue},
+};
+
+/// One value under another key path.
+///
+/// The path is the keys of the file joined by dots; an entry of a list has its number, from 1:
+/// `controller.stiffness`, `check.1.position_m`, `start.joints_deg.elbow_joint`. The value is TOML; a word
+/// that is no TOML is taken as a string.
+///
+/// # Examples
+/// ```
+/// use congruent_twin::scenario::Override;
+/// let stiffer: Override = "controller.stiffness=500".parse().expect("a key and a value");
+/// assert_eq!(stiffer.to_string(), "controller.stiffness=500");
+/// assert!("controller.stiffness".parse::<Override>().is_err());
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Override {
+    path: Vec<String>,
+    written: String,
+    /// `value = ...`, as TOML.
+    document: String,
+}
+
+impl std::str::FromStr for Override {
+    type Err = Diagnostic;
+
+    fn from_str(text: &str) -> Result<Self, Diagnostic> {
+        let malformed = || {
+            Diagnostic::error("cli::set", format!("--set \"{text}\" is not KEY=VALUE"))
+                .with_help("for example --set controller.stiffness=500 or --set check.1.position_m=1e-6")
+        };
+        let (path, value) = text.split_once('=').ok_or_else(malformed)?;
+        let path: Vec<String> = path.split('.').map(|key| key.trim().to_owned()).collect();
+        if path.iter().any(String::is_empty) || value.trim().is_empty() {
+            return Err(malformed());
+        }
+        let as_toml = format!("value = {}", value.trim());
+        let document = match DeTable::parse(&as_toml) {
+            Ok(table) if table.get_ref().len() == 1 => as_toml,
+            _ => format!("value = {}", toml::Value::String(value.trim().to_owned())),
+        };
+        Ok(Self { path, written: text.to_owned(), document })
+    }
+}
+
+impl std::fmt::Display for Override {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.written)
+    }
+}
+
+impl Override {
+    /// Another seed.
+    pub fn seed(seed: u64) -> Self {
+        let written = format!("seed={seed}");
+        Self { path: vec!["seed".to_owned()], written, document: format!("value = {seed}") }
+    }
+
+    /// Puts the value into a document, at the place of the value that it replaces, or of the table that gets
+    /// it; gives that place.
+    ///
+    /// # Errors
+    /// The path leads through a value that holds no others, or to an entry that a list does not have.
+    pub(super) fn apply<'a>(
+        &'a self,
+        document: &mut Spanned<DeTable<'a>>,
+    ) -> Result<Range<usize>, Diagnostic> {
+        let value = DeTable::parse(&self.document)
+            .ok()
+            .and_then(|table| table.into_inner().into_iter().next())
+            .map(|(_, value)| value.into_inner())
+            .ok_or_else(|| self.refused("the value is no TOML"))?;
+        let (last, through) = self.path.split_last().expect("a path has a key");
+        let mut table = document.get_mut();
+        let mut place = 0..0;
+        let mut keys = through.iter();
+        while let Some(key) = keys.next() {
+            let entry = table
+                .entry(Spanned::new(place.clone(), key.as_str().into()))
+                .or_insert_with(|| Spanned::new(place.clone(), DeValue::Table(DeTable::new())));
+            place = entry.span();
+            table = match entry.get_mut() {
+                DeValue::Table(table) => table,
+                DeValue::Array(items) => {
+                    let number = keys.next().unwrap_or(last);
+                    let count = items.len();
+                    let item = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+                    let Some(item) = item.and_then(|item| items.get_mut(item)) else {
+                        return Err(self.refused(&format!("\"{key}\" has entries 1 to {count}")));
+                    };
+                    place = item.span();
+                    match item.get_mut() {
+                        DeValue::Table(table) => table,
+                        _ => return Err(self.refused(&format!("\"{key}\" holds no tables"))),
+                    }
+                }
+                _ => return Err(self.refused(&format!("\"{key}\" is a value, not a table"))),
+            };
+        }
+        let replaced = table.get(last.as_str()).map(Spanned::span);
+        let place = replaced.unwrap_or(place);
+        table.remove(last.as_str());
+        let key = Spanned::new(place.clone(), last.as_str().into());
+        table.insert(key, Spanned::new(place.clone(), placed(value, &place)));
+        Ok(place)
+    }
+
+    fn refused(&self, why: &str) -> Diagnostic {
+        Diagnostic::error("cli::set", format!("--set {}: {why}", self.written)).with_help(known_names(
+            self.path.first().map_or("", String::as_str),
+            "keys",
+            [
+                "name",
+                "robot",
+                "seed",
+                "simulation",
+                "start",
+                "controller",
+                "motion",
+                "obstacle",
+                "zone",
+                "check",
+            ],
+        ))
+    }
+}
+
+/// A value with all that it holds at one place: its own text is not the file's.
+fn placed<'a>(value: DeValue<'a>, place: &Range<usize>) -> DeValue<'a> {
+    let inner = |value: Spanned<DeValue<'a>>| Spanned::new(place.clone(), placed(value.into_inner(), place));
+    match value {
+        DeValue::Array(items) => DeValue::Array(items.into_iter().map(inner).collect()),
+        DeValue::Table(table) => {
+            let entry = |(key, value): (Spanned<std::borrow::Cow<'a, str>>, _)| {
+                (Spanned::new(place.clone(), key.into_inner()), inner(value))
+            };
+            DeValue::Table(table.into_iter().map(entry).collect())
+        }
+        value => value,
+    }
+}

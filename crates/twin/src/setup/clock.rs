@@ -1,0 +1,78 @@
+//! The clock and gravity of a run.
+
+use congruent_description::Diagnostic;
+use nalgebra::Vector3;
+
+use crate::scenario::{Place, SimulationSettings};
+
+/// Longest step: beyond it no arm in `robots/` is stable.
+const LONGEST_STEP_S: f64 = 0.01;
+/// Most steps of one run: about an hour of computing.
+const MOST_STEPS: f64 = 1e8;
+
+/// The clock and the world of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunClock {
+    /// Length of a physics step.
+    pub step_s: f64,
+    /// Number of steps.
+    pub steps: u64,
+    /// Gravity, in the root link's frame, which is the world.
+    pub gravity_in_world: Vector3<f64>,
+}
+
+impl RunClock {
+    /// Simulated time of the whole run.
+    pub fn duration_s(&self) -> f64 {
+        self.time_s(self.steps)
+    }
+
+    /// Simulated time after a number of steps.
+    #[expect(clippy::cast_precision_loss, reason = "steps are bounded far below 2^52")]
+    pub fn time_s(&self, steps: u64) -> f64 {
+        steps as f64 * self.step_s
+    }
+
+    /// Without a duration the run ends with its motions.
+    pub(super) fn new(
+        settings: &SimulationSettings,
+        place: Place<'_>,
+        motions_s: f64,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Self, Diagnostic> {
+        let (step_s, duration_s) = (settings.step_s, settings.duration_s.unwrap_or(motions_s));
+        let at_step = |error: Diagnostic| match (place.has("step_s"), place.has("duration_s")) {
+            (true, _) => place.key("step_s").mark(error),
+            (_, true) => place.key("duration_s").mark(error),
+            _ => error,
+        };
+        if step_s > LONGEST_STEP_S {
+            let message = format!("step_s = {step_s} is outside (0, {LONGEST_STEP_S}]");
+            let error = Diagnostic::error("scenario::step", message);
+            return Err(at_step(error.with_help("0.001 suits every robot in robots/")));
+        }
+        if duration_s <= 0.0 {
+            return Err(Diagnostic::error("scenario::duration", "the run has no duration")
+                .with_help("give `duration_s` under [simulation], or a [[motion]]"));
+        }
+        if step_s > duration_s {
+            let message = format!("step_s = {step_s:?} is longer than the run ({duration_s:?} s)");
+            return Err(at_step(Diagnostic::error("scenario::step", message)));
+        }
+        let steps = (duration_s / step_s).round();
+        if steps > MOST_STEPS {
+            let message = format!("{duration_s:?} s in steps of {step_s:?} s are {steps:e} steps");
+            let error = Diagnostic::error("scenario::steps", message);
+            return Err(at_step(error.with_help(format!("at most {MOST_STEPS:e} steps are run at once"))));
+        }
+        if duration_s < motions_s - step_s / 2.0 {
+            let message = format!("the run ends at {duration_s} s, its motions at {motions_s} s");
+            let warning = Diagnostic::warning("scenario::cut_short", message)
+                .with_help("leave `duration_s` out to run to their end");
+            warnings.push(place.key("duration_s").mark(warning));
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 < steps <= 1e8")]
+        let steps = steps as u64;
+        Ok(Self { step_s, steps, gravity_in_world: Vector3::from(settings.gravity_m_s2) })
+    }
+}

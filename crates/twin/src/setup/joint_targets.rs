@@ -1,0 +1,143 @@
+//! Joint positions by name, in the unit that the key names, as positions of a robot's joints.
+
+use std::{collections::BTreeMap, ops::Range};
+
+use congruent_description::{
+    Diagnostic, Joint, JointIndex, JointKind, Robot, RobotQ, known_names, units::Unit,
+};
+
+use crate::scenario::{JointMotion, Place, StartSettings};
+
+/// Positions under one key, as written.
+type ByName = BTreeMap<String, f64>;
+
+/// A value of a file in the unit of the program.
+type ToSi = fn(Unit, f64) -> f64;
+
+/// The four keys under which positions may be given: angles for turning joints, lengths for sliding ones.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct JointTargets<'a> {
+    /// Of the keys, before their units.
+    prefix: &'static str,
+    deg: &'a ByName,
+    rad: &'a ByName,
+    m: &'a ByName,
+    mm: &'a ByName,
+}
+
+impl<'a> From<&'a StartSettings> for JointTargets<'a> {
+    fn from(start: &'a StartSettings) -> Self {
+        let StartSettings { joints_deg: deg, joints_rad: rad, joints_m: m, joints_mm: mm } = start;
+        Self { prefix: "joints", deg, rad, m, mm }
+    }
+}
+
+impl<'a> From<&'a JointMotion> for JointTargets<'a> {
+    fn from(motion: &'a JointMotion) -> Self {
+        let JointMotion { move_joints_deg: deg, move_joints_rad: rad, .. } = motion;
+        let JointMotion { move_joints_m: m, move_joints_mm: mm, .. } = motion;
+        Self { prefix: "move_joints", deg, rad, m, mm }
+    }
+}
+
+/// One joint position in SI units, with its place.
+#[derive(Debug, Clone)]
+pub(crate) struct JointTarget {
+    pub(crate) joint: JointIndex,
+    /// rad or m.
+    pub(crate) value: f64,
+    /// Where it is written, if it is.
+    pub(crate) span: Option<Range<usize>>,
+}
+
+impl JointTarget {
+    /// What is wrong if the position is beyond the joint's limits; `what` it is, in words.
+    pub(crate) fn beyond_limits(&self, robot: &Robot, what: &str) -> Option<String> {
+        let joint = robot.joint(self.joint);
+        let (lower, upper) = joint.position_range()?;
+        let (name, value, unit) = (&joint.name, self.value, joint.kind.unit());
+        (!(lower..=upper).contains(&value))
+            .then(|| format!("joint \"{name}\": {what} {value} {unit} is outside [{lower}, {upper}]"))
+    }
+
+    /// Puts it into a configuration.
+    pub(crate) fn put(&self, robot: &Robot, q: &mut RobotQ) {
+        q[robot.coordinate(self.joint).expect("resolved joints move")] = self.value;
+    }
+}
+
+impl JointTargets<'_> {
+    /// Resolves names and units.
+    ///
+    /// # Errors
+    /// Every unknown, repeated, fixed or mimicking joint and every value in the wrong kind of unit.
+    pub(crate) fn resolve(
+        self,
+        robot: &Robot,
+        place: Place<'_>,
+    ) -> Result<Vec<JointTarget>, Vec<Diagnostic>> {
+        let mut targets: Vec<JointTarget> = Vec::new();
+        let mut errors = Vec::new();
+        let groups: [(&ByName, &str, Unit, ToSi); 4] = [
+            (self.deg, "deg", Unit::Angle, Unit::convert),
+            (self.rad, "rad", Unit::Angle, |_, rad| rad),
+            (self.m, "m", Unit::Length, |_, m| m),
+            (self.mm, "mm", Unit::Length, Unit::convert),
+        ];
+        for (written, suffix, unit, to_si) in groups {
+            let place = place.key(&format!("{}_{suffix}", self.prefix));
+            for (name, &value) in written {
+                let at_name = |error: Diagnostic| crate::scenario::mark(error, place.key_span(name));
+                match joint_named(robot, name, unit) {
+                    Ok(_) if !value.is_finite() => {
+                        let message = format!("expected a finite number, found {value}");
+                        errors.push(place.key(name).mark(Diagnostic::error("toml::invalid", message)));
+                    }
+                    Ok(joint) if targets.iter().any(|known| known.joint == joint) => {
+                        errors.push(at_name(repeated(name)));
+                    }
+                    Ok(joint) => {
+                        let value = to_si(unit, value);
+                        targets.push(JointTarget { joint, value, span: place.entry_span(name) });
+                    }
+                    Err(error) => errors.push(at_name(error)),
+                }
+            }
+        }
+        if errors.is_empty() { Ok(targets) } else { Err(errors) }
+    }
+}
+
+fn repeated(name: &str) -> Diagnostic {
+    Diagnostic::error("scenario::joint_twice", format!("joint \"{name}\" is given twice"))
+}
+
+fn joint_named(robot: &Robot, name: &str, unit: Unit) -> Result<JointIndex, Diagnostic> {
+    let Some(index) = robot.find_joint(name).filter(|&joint| robot.coordinate(joint).is_some()) else {
+        let message = format!("robot \"{}\" has no moving joint \"{name}\"", robot.name());
+        return Err(Diagnostic::error("scenario::unknown_joint", message).with_help(known_names(
+            name,
+            "joints",
+            robot.movable_joint_names(),
+        )));
+    };
+    let joint = robot.joint(index);
+    if let Some(mimic) = joint.mimic {
+        let message = format!("joint \"{name}\" mimics \"{}\"", robot.joint(mimic.master).name);
+        return Err(Diagnostic::error("scenario::mimic_joint", message)
+            .with_help("give the position of the joint that it mimics"));
+    }
+    if joint.kind.is_angular() != matches!(unit, Unit::Angle) {
+        return Err(wrong_unit(joint));
+    }
+    Ok(index)
+}
+
+fn wrong_unit(joint: &Joint) -> Diagnostic {
+    let (moves, keys) = match joint.kind {
+        JointKind::Prismatic => ("slides", "`_m` or `_mm`"),
+        _ => ("turns", "`_deg` or `_rad`"),
+    };
+    Diagnostic::error("scenario::joint_unit", format!("joint \"{}\" {moves}", joint.name))
+        .with_help(format!("give its position under a key that ends in {keys}"))
+}

@@ -1,0 +1,13 @@
+//! A scenario checked against its robot: nothing downstream validates again.
+
+mod clock;
+mod joint_targets;
+mod numbers;
+mod run_setup;
+mod spaces;
+mod zones;
+
+pub use clock::RunClock;
+pub(crate) use joint_targets::JointTargets;
+pub use run_setup::RunSetup;
+pub use zones::Zone;

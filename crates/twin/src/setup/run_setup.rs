@@ -1,0 +1,277 @@
+//! A scenario with its robot, ready to run as often as one likes.
+
+use std::path::{Path, PathBuf};
+
+use congruent_description::{Diagnostic, Findings, JointKind, Robot, RobotDescription, RobotQ, load_robot};
+use congruent_kinematics::move_inside_limits;
+use congruent_simulation::{Gains, Obstacle, controller_names};
+
+use super::{
+    clock::RunClock,
+    joint_targets::JointTargets,
+    numbers, spaces,
+    zones::{self, Zone},
+};
+use crate::{
+    monitor::RunningCheck,
+    motion::Trajectory,
+    scenario::{
+        Check, CheckKind, Expectation, MotionSettings, Override, Place, SCHEMA_VERSION, Scenario,
+        ScenarioFile, StartSettings,
+    },
+};
+
+/// A scenario checked against its robot. It is data as well: clones of it run independently, and each run
+/// builds its own physics, controller and checks.
+#[derive(Debug, Clone)]
+pub struct RunSetup {
+    /// The scenario with every default written out; it names the robot by its whole path, so that it runs
+    /// from wherever it lies.
+    pub scenario: Scenario,
+    /// The file that it came from; `None` for one that was made in code.
+    pub path: Option<PathBuf>,
+    /// The robot with its model.
+    pub description: RobotDescription,
+    /// Clock and gravity.
+    pub clock: RunClock,
+    /// Configuration at the start.
+    pub start: RobotQ,
+    /// What the arm is asked to do.
+    pub trajectory: Trajectory,
+    /// What stands around, in the root link's frame.
+    pub obstacles: Vec<Obstacle>,
+    /// Where named links may not be, in the root link's frame.
+    pub zones: Vec<Zone>,
+    /// What is suspicious in the scenario; the robot's own warnings are in its description.
+    pub warnings: Vec<Diagnostic>,
+    check_lines: Vec<Option<usize>>,
+}
+
+impl RunSetup {
+    /// Reads a scenario file and the robot that it names; `overrides` replace what the file says.
+    ///
+    /// # Errors
+    /// Every finding, if at least one is an error.
+    pub fn load(path: &Path, overrides: &[Override]) -> Result<Self, Vec<Diagnostic>> {
+        let file = ScenarioFile::read(path, overrides)?;
+        let in_file = |findings: Vec<Diagnostic>| findings.into_iter().map(|finding| file.mark(finding));
+        let description = match load_robot(&file.robot_path()) {
+            Ok(description) => description,
+            Err(mut findings) => {
+                findings.extend(in_file(vec![robot_refused(&file)]));
+                findings.extend(file.findings().iter().cloned());
+                return Err(findings);
+            }
+        };
+        let built = Self::build(file.scenario.clone(), description, file.place());
+        let mut setup = match built {
+            Ok(setup) if file.findings().is_empty() => setup,
+            Ok(_) => return Err(file.findings().to_vec()),
+            Err(findings) => {
+                let mut all = Findings::default();
+                all.extend(file.findings().iter().cloned().chain(in_file(findings)));
+                return Err(all.into_vec());
+            }
+        };
+        setup.warnings = in_file(std::mem::take(&mut setup.warnings)).collect();
+        setup.path = Some(path.to_owned());
+        Ok(setup)
+    }
+
+    /// Checks a scenario that was made in code against a robot; the robot that the scenario names is not read.
+    ///
+    /// # Errors
+    /// Every finding, if at least one is an error.
+    pub fn new(scenario: Scenario, description: RobotDescription) -> Result<Self, Vec<Diagnostic>> {
+        let wrong = numbers::check(&scenario);
+        if !wrong.is_empty() {
+            return Err(wrong);
+        }
+        Self::build(scenario, description, Place::nowhere())
+    }
+
+    fn build(
+        mut scenario: Scenario,
+        description: RobotDescription,
+        place: Place<'_>,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let (mut found, mut warnings) = (Findings::default(), Vec::new());
+        let robot = &description.robot;
+        found.keep(check_head(&scenario, place));
+        let start = keep_all(&mut found, start(&scenario.start, place.key("start"), robot));
+        let mut start = start.unwrap_or_else(|| RobotQ::zeros(robot.dof()));
+        warnings.extend(start_warnings(&start, robot));
+        move_inside_limits(&mut start, robot);
+        let motions = (scenario.motion.as_slice(), place.key("motion"));
+        let trajectory = keep_all(&mut found, Trajectory::new(motions, &description, &start, &mut warnings));
+        let motions_s = trajectory.as_ref().map_or(0.0, Trajectory::duration_s);
+        let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
+        let clock = found.keep(clock);
+        let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);
+        let obstacles = keep_all(&mut found, obstacles);
+        let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
+        found.keep(zones::paired_with_checks(&scenario.zone, &scenario.check, place));
+        for (index, check) in scenario.check.iter().enumerate() {
+            found.keep(RunningCheck::examine(check, place.key("check").item(index)));
+        }
+        found.extend(unexpected(&scenario, place.key("expect")));
+        let (Some(trajectory), Some(clock), Some(obstacles), Some(zones)) =
+            (trajectory, clock, obstacles, zones)
+        else {
+            return Err(found.into_vec());
+        };
+        if found.has_error() {
+            return Err(found.into_vec());
+        }
+        let line = |index| place.key("check").item(index).line();
+        let check_lines = (0..scenario.check.len()).map(line).collect();
+        write_out_defaults(&mut scenario, &description, (&clock, &start));
+        let path = None;
+        Ok(Self {
+            scenario,
+            path,
+            description,
+            clock,
+            start,
+            trajectory,
+            obstacles,
+            zones,
+            warnings,
+            check_lines,
+        })
+    }
+
+    /// The checks, each of which has seen nothing yet.
+    pub fn checks(&self) -> Vec<RunningCheck> {
+        let checks = self.scenario.check.iter().zip(&self.check_lines);
+        checks.map(|(check, &line)| RunningCheck::new(check, line, &self.description)).collect()
+    }
+
+    /// The gains of the controller.
+    pub fn gains(&self) -> Gains {
+        let controller = &self.scenario.controller;
+        Gains { stiffness: controller.stiffness, damping: controller.damping }
+    }
+}
+
+/// The value of `result`; its faults are kept in `findings`.
+fn keep_all<T>(findings: &mut Findings, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
+    result.map_err(|errors| findings.extend(errors)).ok()
+}
+
+fn robot_refused(file: &ScenarioFile) -> Diagnostic {
+    let message = format!("robot \"{}\" cannot be used", file.scenario.robot);
+    let refused = Diagnostic::error("scenario::robot", message).with_help(
+        "`robot` is a folder with robot.toml, a robot file or a .urdf, relative to the scenario file",
+    );
+    file.place().key("robot").mark(refused)
+}
+
+/// What a file's reader has checked already, for a scenario that was made in code.
+fn check_head(scenario: &Scenario, place: Place<'_>) -> Result<(), Diagnostic> {
+    let Scenario { schema_version, name, seed, controller, .. } = scenario;
+    let error = if *schema_version != SCHEMA_VERSION {
+        Diagnostic::error("scenario::version", format!("schema_version = {schema_version} is not known"))
+    } else if name.trim().is_empty() {
+        Diagnostic::error("scenario::name", "the name is empty")
+    } else if i64::try_from(*seed).is_err() {
+        let message = format!("seed = {seed} is above {}, the largest integer of TOML", i64::MAX);
+        place.key("seed").mark(Diagnostic::error("scenario::seed", message))
+    } else if !controller_names().any(|known| known == controller.kind) {
+        let known: Vec<&str> = controller_names().collect();
+        Diagnostic::error("scenario::unknown_kind", format!("unknown controller \"{}\"", controller.kind))
+            .with_help(format!("give kind = {}", known.join(" | ")))
+    } else {
+        return Ok(());
+    };
+    Err(error)
+}
+
+fn start(settings: &StartSettings, place: Place<'_>, robot: &Robot) -> Result<RobotQ, Vec<Diagnostic>> {
+    let targets = JointTargets::from(settings).resolve(robot, place)?;
+    let mut q = RobotQ::zeros(robot.dof());
+    let mut errors = Vec::new();
+    for target in targets {
+        if let Some(message) = target.beyond_limits(robot, "start") {
+            let error = Diagnostic::error("scenario::start_limit", message);
+            errors.push(crate::scenario::mark(error, target.span.clone()));
+        }
+        target.put(robot, &mut q);
+    }
+    if errors.is_empty() { Ok(q) } else { Err(errors) }
+}
+
+/// A joint that is not named starts at 0, or at its limit nearest to 0, which is said.
+fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item = Diagnostic> + 'a {
+    robot.movable_joints().iter().zip(start).filter_map(|(&joint, &q)| {
+        let joint = robot.joint(joint);
+        let (lower, upper) = joint.position_range().filter(|_| joint.mimic.is_none())?;
+        (!(lower..=upper).contains(&q)).then(|| {
+            let message = format!(
+                "joint \"{}\" has no start and 0 is outside [{lower}, {upper}]: it starts at {} {}",
+                joint.name,
+                q.clamp(lower, upper),
+                joint.kind.unit()
+            );
+            Diagnostic::warning("scenario::start_default", message).with_help("name it under [start]")
+        })
+    })
+}
+
+/// Checks that are expected to fail must be the scenario's.
+fn unexpected<'a>(scenario: &'a Scenario, place: Place<'a>) -> impl Iterator<Item = Diagnostic> + 'a {
+    let named: &[CheckKind] = match &scenario.expect {
+        Expectation::Pass => &[],
+        Expectation::Fail { checks } => checks,
+    };
+    named.iter().enumerate().filter_map(move |(index, &kind)| {
+        if scenario.check.iter().any(|check| check.kind() == kind) {
+            return None;
+        }
+        let word = kind.word();
+        let message = format!("check \"{word}\" is expected to fail, but the scenario has none");
+        let error = Diagnostic::error("scenario::expect", message)
+            .with_help(format!("add a [[check]] with kind = \"{word}\""));
+        Some(place.key("checks").item(index).mark(error))
+    })
+}
+
+/// Puts in what was left out: the duration, the whole start, limits, and the robot's whole path.
+fn write_out_defaults(
+    scenario: &mut Scenario,
+    description: &RobotDescription,
+    (clock, start): (&RunClock, &RobotQ),
+) {
+    let path = &description.path;
+    let whole = path.canonicalize().or_else(|_| std::path::absolute(path));
+    scenario.robot = whole.unwrap_or_else(|_| path.clone()).display().to_string();
+    scenario.simulation.duration_s = Some(clock.duration_s());
+    scenario.start = written_start(&description.robot, start);
+    for motion in &mut scenario.motion {
+        if let MotionSettings::Servo(servo) = motion {
+            servo.gain_per_s.get_or_insert(crate::motion::DEFAULT_GAIN_PER_S);
+        }
+    }
+    for check in &mut scenario.check {
+        if let Check::Agreement(check) = check {
+            check.position_m.get_or_insert(description.tolerance.position_m);
+            check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
+        }
+    }
+}
+
+/// Positions of all joints that follow no other, by name, in radians and metres.
+fn written_start(robot: &Robot, q: &RobotQ) -> StartSettings {
+    let mut start = StartSettings::default();
+    for (&joint, &position) in robot.movable_joints().iter().zip(q) {
+        let joint = robot.joint(joint);
+        if joint.mimic.is_none() {
+            let group = match joint.kind {
+                JointKind::Prismatic => &mut start.joints_m,
+                _ => &mut start.joints_rad,
+            };
+            group.insert(joint.name.clone(), position);
+        }
+    }
+    start
+}

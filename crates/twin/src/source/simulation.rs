@@ -1,0 +1,84 @@
+//! The physics as a source of joint states: world, controller, and the reference that the motions give.
+
+use congruent_description::RobotQ;
+use congruent_simulation::{Controller, Setpoint, World, WorldSettings, controller};
+use nalgebra::Isometry3;
+
+use super::joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError};
+use crate::{
+    motion::{ReferenceGenerator, ServoResult},
+    setup::RunSetup,
+};
+
+/// A robot in a simulated world, driven by its controller along the motions of a scenario.
+pub struct SimulationSource<'a> {
+    world: World,
+    controller: Box<dyn Controller>,
+    reference: ReferenceGenerator<'a>,
+    /// What the encoders say. They are exact: faults, noise and quantisation belong here.
+    measured_q: RobotQ,
+}
+
+impl std::fmt::Debug for SimulationSource<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SimulationSource").field("steps", &self.world.step_count()).finish_non_exhaustive()
+    }
+}
+
+impl<'a> SimulationSource<'a> {
+    /// Builds the world and places the robot at the start.
+    ///
+    /// # Errors
+    /// [`SourceError`] if the robot cannot be simulated as the scenario asks.
+    pub fn new(setup: &'a RunSetup) -> Result<Self, SourceError> {
+        let robot = &setup.description.robot;
+        let settings = WorldSettings {
+            step_s: setup.clock.step_s,
+            gravity_in_world: setup.clock.gravity_in_world,
+            obstacles: setup.obstacles.clone(),
+            contacts: true,
+        };
+        let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
+        world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
+        let kind = &setup.scenario.controller.kind;
+        Ok(Self {
+            measured_q: world.q().clone(),
+            world,
+            controller: controller(kind, setup.gains()).map_err(SourceError::new)?,
+            reference: ReferenceGenerator::new(&setup.trajectory, &setup.description)
+                .map_err(SourceError::new)?,
+        })
+    }
+}
+
+impl JointStateSource for SimulationSource<'_> {
+    fn joints(&self) -> JointSample<'_> {
+        let (qd, effort) = (self.world.qd(), self.world.torque());
+        JointSample {
+            truth: JointStateView { q: self.world.q(), qd, effort },
+            measured: JointStateView { q: &self.measured_q, qd, effort },
+            setpoint: Some(SetpointView { q: self.reference.q(), qd: self.reference.qd() }),
+        }
+    }
+
+    fn step_count(&self) -> u64 {
+        self.world.step_count()
+    }
+
+    fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool {
+        self.world.root_from_links_into(root_from_links);
+        true
+    }
+
+    fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
+        self.reference.advance(time_s, &self.measured_q).map_err(SourceError::new)?;
+        let setpoint = Setpoint { q: self.reference.q(), qd: self.reference.qd() };
+        let stepped = self.world.step(&mut *self.controller, &setpoint);
+        self.measured_q.copy_from_slice(self.world.q());
+        stepped.map_err(SourceError::new)
+    }
+
+    fn finish(&mut self) -> Result<Vec<ServoResult>, SourceError> {
+        self.reference.finish(&self.measured_q).map_err(SourceError::new)
+    }
+}
