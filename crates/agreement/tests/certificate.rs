@@ -77,7 +77,7 @@ fn one_robot_written_twice_is_certified_at_rounding_level() {
     let certificate = certify(&chain(&ur5e_table()), &urdf, &[TURN; 6], Budget::default()).unwrap();
     assert!(support::within(certificate.position_m.certified, PROBED));
     assert!(support::within(certificate.orientation_rad.certified, PROBED));
-    assert_eq!((certificate.position_m.cells, certificate.orientation_rad.cells), (0, 0));
+    assert_eq!((certificate.position_m.boxes, certificate.orientation_rad.cells), (0, 0));
 }
 
 #[test]

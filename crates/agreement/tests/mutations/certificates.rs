@@ -84,13 +84,13 @@ fn certificates_close() {
         if position > 0.0 || orientation > 0.0 || seconds > 2.0 {
             open += 1;
             println!(
-                "{label}: {:.1} % of {:.4} m ({} cells), {:.1} % of {:.4} rad ({} cells), {seconds:.1} s",
+                "{label}: {:.1} % of {:.4} m ({} boxes), {:.1} % of {:.4} rad ({} boxes), {seconds:.1} s",
                 1e2 * position,
                 found.position_m.attained,
-                found.position_m.cells,
+                found.position_m.boxes,
                 1e2 * orientation,
                 found.orientation_rad.attained,
-                found.orientation_rad.cells,
+                found.orientation_rad.boxes,
             );
         }
     }
