@@ -1,18 +1,18 @@
-//! `degrees_as_radians`, `radians_as_degrees`, `millimetres_as_metres`: a unit slip in one entry, in a
-//! column, in the whole table, in a declared transform, or in the joints' own positions.
+//! `degrees_as_radians`, `radians_as_degrees`, `millimetres_as_metres`: the wrong unit of one entry, of a column,
+//! of the whole table, of a declared transform, or of joint positions.
 
 use congruent_kinematics::rotation_exp;
 use nalgebra::Vector3;
 
 use crate::diagnosis::{
-    candidate::{Candidate, Constant, DhEntry},
+    candidate::{Candidate, DeclaredTransform, DhEntry},
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
 };
 
 const ANGLES: [DhEntry; 2] = [DhEntry::Alpha, DhEntry::Theta];
 const LENGTHS: [DhEntry; 2] = [DhEntry::A, DhEntry::D];
 
-/// A slip of a unit: what it is called, what undoes it, what it touches.
+/// A wrong unit: its cause, the factor that corrects it, and the entries of that kind.
 #[derive(Clone, Copy)]
 struct UnitSlip {
     cause: Cause,
@@ -70,7 +70,7 @@ fn constant(place: Place, slip: UnitSlip) -> Hypothesis {
     })
 }
 
-/// All lengths of the model, the declared transforms' too.
+/// All lengths of the model, including the declared transforms.
 fn whole(slip: UnitSlip) -> Hypothesis {
     Hypothesis::edit(slip.cause, Place::Model, move |models: &mut ModelPair| {
         let candidate = &mut models.candidate;
@@ -83,7 +83,7 @@ fn whole(slip: UnitSlip) -> Hypothesis {
     })
 }
 
-/// The position of one joint, or of all: a joint that moves 57.3 times as far.
+/// The position of one joint, or of all joints: the joint moves 57.3 times as far.
 fn positions(rows: usize, slip: UnitSlip, list: &mut Vec<Hypothesis>) {
     let UnitSlip { cause, factor, .. } = slip;
     for row in 0..rows {
@@ -112,7 +112,7 @@ fn scale(candidate: &mut Candidate, row: usize, entry: DhEntry, factor: f64) {
     }
 }
 
-fn rescale(constant: &mut Constant, slip: UnitSlip) {
+fn rescale(constant: &mut DeclaredTransform, slip: UnitSlip) {
     if slip.entries == &LENGTHS {
         constant.pose.translation *= slip.factor;
     } else if let Some(rpy) = constant.written_rpy_rad {
