@@ -12,8 +12,9 @@ use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 use support::{RowFigures, TableFigures, panda_table, ur5e_table};
 
-/// Brackets against closed forms that need no splitting. Unit: m or rad; kind: rounding, which the certificate
-/// derives from the size of the chain, doubled for each joint of a box of full turns; worst seen 1.4e-11.
+/// Brackets against closed forms that need no splitting. Unit: m or rad; kind: rounding, which the
+/// certificate derives from the size of the chain, doubled for each joint of a box of full turns; worst
+/// seen 1.4e-11.
 const ROUNDING: f64 = 4e-11;
 /// Rounding of the forward kinematics of samples; no sample exceeds it.
 const SAMPLE_ROUNDING: f64 = 1e-13;
@@ -193,7 +194,7 @@ fn a_turned_base_of_twelve_joints_is_worst_at_full_reach() {
 
 #[test]
 fn a_joint_in_degrees_is_worst_at_its_furthest_reach_on_both_sides() {
-    // Joint 2 turns 57 times as fast, about the axis from which the elbow and the tool stand out.
+    // Joint 2 turns 57 times as fast, about the axis from which elbow and tool have a distance.
     let fast = changed(&planar(0.4), |arm| arm.rows[0].sign = 180.0 / PI);
     assert_close(&certificate(&fast, &planar(0.4)).position_m, 2.0);
 }

@@ -185,8 +185,8 @@ fn narrow(text: &mut String, certificate: &ReportedCertificate) {
     }
 }
 
-/// The first cause with its lines of the file, then the causes that cannot be distinguished from it and the next
-/// best ones.
+/// The first cause with its lines of the file, then the causes that cannot be distinguished from it and the
+/// next best ones.
 fn diagnosed(text: &mut String, diagnosis: &ReportedDiagnosis) {
     /// Alternatives shown to people; JSON has all of them.
     const SHOWN: usize = 6;

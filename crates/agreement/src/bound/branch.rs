@@ -14,7 +14,7 @@ use super::{
 /// the telescoping bound remains.
 const MAX_CORNERS_OF_BOX: u64 = 1 << 20;
 
-/// A box whose number leaves 1 after division by this is bounded by every bound; every other box only by
+/// Each box whose number has remainder 1 modulo this is bounded by every bound; every other box only by
 /// the bound that was least for the box that it is half of.
 const ALL_BOUNDS_EVERY: u64 = 8;
 

@@ -1,4 +1,5 @@
-//! The end of a search: how narrow a bracket must be, how much work it may take, and which bounds need no search.
+//! The end of a search: how narrow a bracket must be, how much work it may take, and which bounds need no
+//! search.
 
 /// A telescoping bound up to here needs no search. Unit: m and rad; kind: rounding. The chain identified
 /// from a table and the one identified from a URDF of the same robot have a telescoping bound of some 1e-14.

@@ -29,9 +29,11 @@ use super::{
 
 /// Slack for leaving out joints that hardly matter, as part of the attained disagreement.
 const ALLOWANCE: f64 = 1e-4;
-/// One part in so many of the budget is for the bound of the difference itself, before intermediate chains are tried.
+/// One part in so many of the budget is for the bound of the difference itself, before intermediate chains
+/// are tried.
 const FIRST_PHASE_PART: u64 = 16;
-/// Intermediate chains may help if the maxima of their steps add up to at most this many times the attained disagreement.
+/// Intermediate chains may help if the maxima of their steps add up to at most this many times the attained
+/// disagreement.
 const PROMISING: f64 = 1.25;
 /// Most sequences of intermediate chains that are used.
 const MAX_SEQUENCES: usize = 4;
@@ -170,7 +172,8 @@ impl Bracket {
     }
 }
 
-/// The measure that is bracketed, position or orientation: how to get its difference, and how to convert the norm.
+/// The measure that is bracketed, position or orientation: how to get its difference, and how to convert
+/// the norm.
 struct BracketedMeasure {
     simplify: fn(&Denoised, f64) -> Simplified,
     conversion: NormConversion,

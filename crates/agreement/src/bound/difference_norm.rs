@@ -290,8 +290,8 @@ impl DifferenceNorm {
         }
     }
 
-    /// Multiplies the tips by the motions of every choice of corners, from the tip to the base: the last digit
-    /// of an index is the corner of the first slot.
+    /// Multiplies the tips by the motions of every choice of corners, from the tip to the base: the last
+    /// digit of an index is the corner of the first slot.
     fn multiply_out(&self, buffers: &mut EnclosureBuffers) {
         let EnclosureBuffers { corners, pairs, next_pairs, .. } = buffers;
         pairs.clear();
@@ -320,7 +320,7 @@ impl DifferenceNorm {
         }
     }
 
-    /// The corners that an index of [`DifferenceNorm::multiply_out`] stands for.
+    /// The corners that an index of [`DifferenceNorm::multiply_out`] encodes.
     fn decode(&self, mut index: usize, buffers: &mut EnclosureBuffers) {
         buffers.best.clear();
         for (slot, corners) in self.slots.iter().zip(&buffers.corners) {

@@ -63,8 +63,8 @@ pub(super) fn through_points(a: &ScrewChain, b: &ScrewChain) -> Vec<ChainSequenc
         .collect()
 }
 
-/// The intermediate chains: some leading joints of `a`, then the remaining joints of `b`, moved so that the next
-/// joints coincide with those of `a`.
+/// The intermediate chains: some leading joints of `a`, then the remaining joints of `b`, moved so that the
+/// next joints coincide with those of `a`.
 fn between(a: &ScrewChain, b: &ScrewChain) -> Vec<ScrewChain> {
     let joints = a.twists_in_base.len();
     let apart =

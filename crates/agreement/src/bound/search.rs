@@ -7,7 +7,8 @@ use super::{corner::Interval, difference_norm::DifferenceNorm};
 const STARTS: u32 = 16;
 /// A local search starts with steps of this part of a range and ends below [`LAST_STEP`].
 const FIRST_STEP: f64 = 0.25;
-/// Smallest step, as part of a range: the difference is flat near a maximum, so its error is the square of this.
+/// Smallest step, as part of a range: the difference is flat near a maximum, so its error is the square of
+/// this.
 const LAST_STEP: f64 = 1e-8;
 /// Most rounds over all joints in one local search.
 const MAX_ROUNDS: u32 = 200;

@@ -102,8 +102,8 @@ impl Denoised {
         Simplified { difference, slack: slack + leading_slack }
     }
 
-    /// The difference between the tips' unit quaternions, `2 sin(angle / 4)`, with the signs that are nearest to
-    /// each other in the middle of the ranges; at most `allowance_rad` is left out at each end.
+    /// The difference between the tips' unit quaternions, `2 sin(angle / 4)`, with the signs that are
+    /// nearest to each other in the middle of the ranges; at most `allowance_rad` is left out at each end.
     pub(super) fn orientation(&self, allowance_rad: f64) -> Simplified {
         let telescoping = TelescopingBound::new(&self.a, &self.b, &self.ranges);
         let first = exchangeable_count(&telescoping.orientation_rad, allowance_rad);

@@ -1,7 +1,9 @@
 //! The telescoping bound: the joints are exchanged one after the other, and the differences are summed.
 //!
-//! `A_1 ... A_n M_a - B_1 ... B_n M_b = sum_i A_1 ... A_(i-1) (A_i - B_i) B_(i+1) ... B_n M_b + A_1 ... A_n (M_a - M_b)`:
-//! the factors on the left only turn the difference, and those on the right only limit the distance of the
+//! ```text
+//! A_1..A_n M_a - B_1..B_n M_b = sum_i A_1..A_(i-1) (A_i - B_i) B_(i+1)..B_n M_b + A_1..A_n (M_a - M_b)
+//! ```
+//! The factors on the left only turn the difference, and those on the right only limit the distance of the
 //! tip. Nothing is sampled or iterated, and the bound is proportional to the difference.
 
 use congruent_kinematics::{Pose, ScrewChain, Twist};

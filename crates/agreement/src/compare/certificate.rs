@@ -1,5 +1,5 @@
-//! The certificates of a robot: bounds of the difference of two of its models at link `tip` over the whole joint
-//! range. Table and URDF are known chains, the physics is the chain that was identified.
+//! The certificates of a robot: bounds of the difference of two of its models at link `tip` over the whole
+//! joint range. Table and URDF are known chains, the physics is the chain that was identified.
 
 use congruent_description::{DhTable, JointValues, Mimic, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{
@@ -19,9 +19,9 @@ use crate::{
 
 pub use crate::compare::identified::Premise;
 
-/// Largest difference of an identified chain from its source, per metre of its screws' moments and of its home pose
-/// (and as an angle). Kind: rounding; a logarithm over half a unit and three products for each joint, some
-/// 20 eps; worst seen 6 eps.
+/// Largest difference of an identified chain from its source, per metre of its screws' moments and of its
+/// home pose (and as an angle). Kind: rounding; a logarithm over half a unit and three products for each
+/// joint, some 20 eps; worst seen 6 eps.
 const IDENTIFICATION_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// Bracket of one worst disagreement.
@@ -45,8 +45,8 @@ pub struct Brackets {
 }
 
 impl Brackets {
-    /// The configurations of the robot that attain them; joints that do not move the tip are at zero, or at the
-    /// limit nearest to zero.
+    /// The configurations of the robot that attain them; joints that do not move the tip are at zero, or at
+    /// the limit nearest to zero.
     pub(crate) fn attained_at(&self, robot: &Robot) -> [RobotQ; 2] {
         [&self.position_m, &self.orientation_rad].map(|bracket| {
             let mut q = RobotQ::zeros(robot.dof());
@@ -100,8 +100,8 @@ pub(crate) fn worst(certificates: &[ReportedCertificate]) -> Option<Brackets> {
     })
 }
 
-/// Brackets the disagreements of table and URDF and of table and physics at link `tip` relative to link `base`; of
-/// a robot without table that of URDF and physics.
+/// Brackets the disagreements of table and URDF and of table and physics at link `tip` relative to link
+/// `base`; of a robot without table that of URDF and physics.
 ///
 /// # Errors
 /// [`CheckError`] if table and robot do not fit together, or if the physics rejects a configuration.
@@ -190,8 +190,8 @@ impl<'a> ComparedChain<'a> {
     }
 }
 
-/// The bracket of two models, with the residual and the rounding of their identification; `None` if a joint that
-/// moves one of them has no limits.
+/// The bracket of two models, with the residual and the rounding of their identification; `None` if a joint
+/// that moves one of them has no limits.
 fn certified(robot: &Robot, chains: [&ComparedChain<'_>; 2]) -> Result<Option<Certificate>, CheckError> {
     let [a, b] = chains.map(|side| &side.driven);
     // The range of positions that move neither chain does not matter.
@@ -221,8 +221,8 @@ fn is_rounding(certificate: &Certificate) -> bool {
     certificate.position_m.certified.max(certificate.orientation_rad.certified) <= SCREW_RESIDUAL_LIMIT
 }
 
-/// The bracket of a and c through b, which differs from c by rounding only: by the triangle inequality the bounds
-/// add up.
+/// The bracket of a and c through b, which differs from c by rounding only: by the triangle inequality the
+/// bounds add up.
 fn through_intermediate(a_b: &Certificate, b_c: &Certificate) -> Certificate {
     let sum =
         |a_b: &Bracket, b_c: &Bracket| Bracket { certified: a_b.certified + b_c.certified, ..a_b.clone() };
@@ -260,8 +260,8 @@ fn report(
 #[derive(Debug, Clone)]
 struct DrivenScrews {
     chain: ScrewChain,
-    /// For each joint the entry of the configuration vector that moves it; of a mimic joint the entry of the joint
-    /// that it mimics.
+    /// For each joint the entry of the configuration vector that moves it; of a mimic joint the entry of
+    /// the joint that it mimics.
     drivers: Vec<usize>,
 }
 
@@ -302,8 +302,8 @@ impl MimicRelation {
     }
 }
 
-/// The chain as a function of its drivers: `exp(S (m q + o)) = exp(m S q) exp(S o)` for an offset `o`, and the
-/// following screws and the home pose are moved by the second factor.
+/// The chain as a function of its drivers: `exp(S (m q + o)) = exp(m S q) exp(S o)` for an offset `o`, and
+/// the following screws and the home pose are moved by the second factor.
 fn without_offsets(relations: &[MimicRelation], chain: &ScrewChain) -> ScrewChain {
     let mut moved = Pose::identity();
     let mut twists_in_base = Vec::with_capacity(relations.len());

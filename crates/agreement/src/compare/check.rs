@@ -29,9 +29,9 @@ pub const RANDOM_CONFIGURATIONS: usize = 200;
 
 /// Compares model, URDF chain, screws and physics.
 ///
-/// The verdict on the model depends on link `tip`, whose constants are declared. Links in between are compared
-/// with a fitted constant and only shown; they follow from the tip: two chains that agree at the tip for every
-/// configuration have the same axes.
+/// The verdict on the model depends on link `tip`, whose constants are declared. Links in between are
+/// compared with a fitted constant and only shown; they follow from the tip: two chains that agree at the
+/// tip for every configuration have the same axes.
 ///
 /// # Errors
 /// [`CheckError`] if a source rejects the robot.

@@ -75,8 +75,8 @@ pub struct CheckReport {
     pub worst: WorstDifference,
     /// The largest difference that counts as agreement.
     pub tolerance: Tolerance,
-    /// Number of configurations: zero, single axes, random ones, limits, the worst one of each certificate, and
-    /// those that were requested.
+    /// Number of configurations: zero, single axes, random ones, limits, the worst one of each certificate,
+    /// and those that were requested.
     pub configurations: usize,
     /// Seed of the random ones.
     pub seed: u64,
@@ -93,8 +93,8 @@ pub struct CheckReport {
     pub certificate_bracket: Option<Brackets>,
     /// The certificates, two models of the chain each.
     pub certificates: Vec<ReportedCertificate>,
-    /// The likeliest cause of a disagreement, then the next best ones: those of the first of `diagnoses` that has
-    /// any.
+    /// The likeliest cause of a disagreement, then the next best ones: those of the first of `diagnoses`
+    /// that has any.
     pub diagnosis: Vec<ReportedCause>,
     /// Causes with a residual as small as the first one's.
     pub indistinguishable: Vec<ReportedAlternative>,

@@ -1,13 +1,13 @@
-//! The physics as a black box: the screws of the chain from base to tip, identified from its poses, and the residual
-//! of that identification.
+//! The physics as a black box: the screws of the chain from base to tip, identified from its poses, and the
+//! residual of that identification.
 
 use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, ScrewChain};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// Largest residual of screws that were identified, over a whole joint range. Unit: m or rad; kind: rounding, which
-/// certificates add; worst seen 3.8e-14.
+/// Largest residual of screws that were identified, over a whole joint range. Unit: m or rad; kind:
+/// rounding, which certificates add; worst seen 3.8e-14.
 pub(crate) const SCREW_RESIDUAL_LIMIT: f64 = 1e-10;
 
 /// The premise that each joint of the physics is a pure screw motion, verified at configurations: the worst

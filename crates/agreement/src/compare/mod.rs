@@ -1,5 +1,5 @@
-//! The comparison of sources of link poses: without motion, at given configurations, and as chains of screws over
-//! the whole joint range.
+//! The comparison of sources of link poses: without motion, at given configurations, and as chains of
+//! screws over the whole joint range.
 
 pub(crate) mod basics;
 pub(crate) mod certificate;

@@ -1,5 +1,5 @@
-//! The analytical model: the pose of every link from the table if a row moves the link, otherwise from the URDF
-//! chain, with the origin of each pose.
+//! The analytical model: the pose of every link from the table if a row moves the link, otherwise from the
+//! URDF chain, with the origin of each pose.
 
 use congruent_description::{LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree};

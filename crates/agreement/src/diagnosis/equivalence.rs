@@ -156,8 +156,8 @@ fn differ(one: &Pose, two: &Pose) -> bool {
     one.distance_m(two) > SAME_VALUE || one.angle_rad(two) > SAME_VALUE
 }
 
-/// Whether all changes are offsets `d`, and all joints between their rows turn about axes that are parallel to
-/// the offsets.
+/// Whether all changes are offsets `d`, and all joints between their rows turn about axes that are parallel
+/// to the offsets.
 fn are_offsets_along_parallels(models: &ModelPair, changes: &[ModelChange]) -> bool {
     let offset = |change: &ModelChange| match change {
         ModelChange::DhEntry(row, DhEntry::D) => Some(*row),

@@ -1,5 +1,5 @@
-//! The difference of two chains at one generic configuration: space screws and tip. Two chains with their joints
-//! in one order that are equal there are equal at every configuration.
+//! The difference of two chains at one generic configuration: space screws and tip. Two chains with their
+//! joints in one order that are equal there are equal at every configuration.
 
 use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, Twist};
@@ -53,8 +53,8 @@ impl EvaluationPoint {
 
     /// Derivative of [`EvaluationPoint::difference`] with respect to a parameter.
     ///
-    /// The chain behind the parameter moves rigidly: a screw by the bracket with the generator, the tip by the
-    /// generator itself (Lynch & Park, *Modern Robotics* (2017), section 8.3.1).
+    /// The chain behind the parameter moves rigidly: a screw by the bracket with the generator, the tip by
+    /// the generator itself (Lynch & Park, *Modern Robotics* (2017), section 8.3.1).
     pub(super) fn derivative(
         &self,
         candidate: &Candidate,

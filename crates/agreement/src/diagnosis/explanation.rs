@@ -51,8 +51,8 @@ impl Explanation {
 }
 
 impl ModelPair {
-    /// The worst difference of the tips over the criterion's configurations; not a number if a parameter is so
-    /// large that forward kinematics overflows.
+    /// The worst difference of the tips over the criterion's configurations; not a number if a parameter is
+    /// so large that forward kinematics overflows.
     pub fn residual(&self, criterion: &Criterion) -> PoseError {
         let residuals = criterion.configurations.iter().map(|q| self.residual_at(q));
         residuals.fold(PoseError::default(), PoseError::larger)

@@ -1,5 +1,5 @@
-//! A hypothesis about a fault: a change to the candidate or to the reference model, and the parameters to fit.
-//! The catalogue of hypotheses is `cause/`.
+//! A hypothesis about a fault: a change to the candidate or to the reference model, and the parameters to
+//! fit. The catalogue of hypotheses is `cause/`.
 
 use std::fmt;
 

@@ -1,5 +1,5 @@
-//! The differences of two chains in quantities that are invariant under a change of frames, the most invariant
-//! quantity first. The first one that differs shows where to look.
+//! The differences of two chains in quantities that are invariant under a change of frames, the most
+//! invariant quantity first. The first one that differs shows where to look.
 
 use std::fmt;
 

@@ -2,10 +2,11 @@
 //!
 //! The candidate (`candidate.rs`) is a table, or screws that were identified; the reference model
 //! (`reference_model.rs`) is a chain of joints. Both are compared as screws and tip at one generic
-//! configuration (`evaluation_point.rs`), which is exact, by their invariants (`invariants.rs`), and by fitting
-//! each hypothesis of a catalogue (`cause/`, `hypothesis_fit.rs`) to the difference. The explanations are ranked
-//! (`score.rs`), and those that no measurement can distinguish are listed with the reason (`equivalence.rs`).
-//! Every threshold is in `thresholds.rs`. The bound of the difference is in [`crate::bound`].
+//! configuration (`evaluation_point.rs`), which is exact, by their invariants (`invariants.rs`), and by
+//! fitting each hypothesis of a catalogue (`cause/`, `hypothesis_fit.rs`) to the difference. The
+//! explanations are ranked (`score.rs`), and those that no measurement can distinguish are listed with the
+//! reason (`equivalence.rs`). Every threshold is in `thresholds.rs`. The bound of the difference is in
+//! [`crate::bound`].
 
 mod candidate;
 mod cause;

@@ -25,7 +25,7 @@ pub(super) struct Rank {
     cost: usize,
     /// Class of the residual: 0 far below the tolerance, 1 below it, 2 near it.
     residual_class: u8,
-    /// Parameters that are named although the file gives 0, or that a unit slip makes almost 0.
+    /// Parameters that are named although the file gives 0, or that the correction of a unit makes almost 0.
     unlikely: usize,
     /// Faults of the reference model's file.
     in_reference: usize,
@@ -41,21 +41,21 @@ pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Cr
     let in_tolerances = criterion.in_tolerances(&residual);
     let mut causes: Vec<Cause> = hypotheses().map(|hypothesis| hypothesis.cause).collect();
     causes.sort_unstable();
-    let slips: usize = hypotheses()
-        .filter_map(|hypothesis| UnitSlipEvidence::of(context, fit, hypothesis))
-        .map(|slip| slip.unproven(&residual))
+    let unproven: usize = hypotheses()
+        .filter_map(|hypothesis| UnitEvidence::of(context, fit, hypothesis))
+        .map(|wrong_unit| wrong_unit.unproven(&residual))
         .sum();
     let given_as_zero =
         hypotheses().filter(|hypothesis| is_given_as_zero(&context.models.candidate, hypothesis)).count();
     let choices: usize = hypotheses().map(|hypothesis| choices(context, fit, hypothesis)).sum();
     Rank {
-        cost: choices + slips + fit.hypotheses.len() - 1,
+        cost: choices + unproven + fit.hypotheses.len() - 1,
         residual_class: if in_tolerances <= FAR_BELOW_TOLERANCE {
             0
         } else {
             u8::from(in_tolerances > BELOW_TOLERANCE) + 1
         },
-        unlikely: given_as_zero + slips,
+        unlikely: given_as_zero + unproven,
         in_reference: hypotheses().filter(|hypothesis| is_in_reference(hypothesis)).count(),
         causes,
         hypotheses: fit.hypotheses.clone(),
@@ -77,8 +77,8 @@ pub(super) fn is_refuted(
         })
     };
     let is_certain = |at: &usize| {
-        UnitSlipEvidence::of(context, fit, &context.hypotheses[*at])
-            .is_some_and(|slip| slip.is_above(CERTAIN, &own))
+        UnitEvidence::of(context, fit, &context.hypotheses[*at])
+            .is_some_and(|wrong_unit| wrong_unit.is_above(CERTAIN, &own))
     };
     rounded_up(&own) > REFUTED * rounded_up(best) && !fit.hypotheses.iter().all(is_certain)
 }
@@ -112,7 +112,7 @@ fn is_in_reference(hypothesis: &Hypothesis) -> bool {
 }
 
 /// The parameters that the correction of a wrong unit changes.
-struct UnitSlipEvidence {
+struct UnitEvidence {
     is_angle: bool,
     /// Number of parameters that are not zero; of a vector all three.
     count: usize,
@@ -121,7 +121,7 @@ struct UnitSlipEvidence {
     expected: f64,
 }
 
-impl UnitSlipEvidence {
+impl UnitEvidence {
     /// Of a hypothesis about the unit of parameters; `None` for other hypotheses, also about joint positions.
     fn of(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> Option<Self> {
         let is_angle = match hypothesis.cause {

@@ -18,10 +18,11 @@ use super::{
 /// Why two models differ: the answer of [`diagnose`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// The simplest explanation with a residual within the tolerance, or `unexplained`; then the next best ones,
-    /// with larger residuals.
+    /// The simplest explanation with a residual within the tolerance, or `unexplained`; then the next best
+    /// ones, with larger residuals.
     pub explanations: Vec<Explanation>,
-    /// Explanations that also reach the tolerance and cannot be distinguished from the first, each with the reason.
+    /// Explanations that also reach the tolerance and cannot be distinguished from the first, each with the
+    /// reason.
     pub indistinguishable: Vec<(Explanation, Equivalence)>,
     /// Quantities in which the chains differ, the most invariant first.
     pub differences: Vec<JointDifference>,
@@ -35,9 +36,9 @@ pub struct Diagnosis {
 /// | `criterion` | m, rad | tolerance, and configurations at which residuals are measured |
 /// | result | | the simplest explanation first |
 ///
-/// The correction of every hypothesis of the catalogue is applied in turn, its free parameters are fitted to the
-/// screws and the tip, and the residual is measured at the criterion's configurations. The simplest hypothesis
-/// that reaches the tolerance is named; pairs are tried only if none does.
+/// The correction of every hypothesis of the catalogue is applied in turn, its free parameters are fitted
+/// to the screws and the tip, and the residual is measured at the criterion's configurations. The simplest
+/// hypothesis that reaches the tolerance is named; pairs are tried only if none does.
 ///
 /// Source: two chains are equal for every configuration if and only if their screws and home poses
 /// are, Lynch & Park, *Modern Robotics* (2017), eq. 4.14 and its derivative.
@@ -120,8 +121,8 @@ impl ExplanationSearch<'_> {
         (0..self.context.hypotheses.len()).map(|index| self.context.single(index)).filter(changes).collect()
     }
 
-    /// The hypotheses to try in pairs: those with the smallest norms alone; of edits with the same effect only
-    /// the first.
+    /// The hypotheses to try in pairs: those with the smallest norms alone; of edits with the same effect
+    /// only the first.
     fn pair_candidates<'a>(&self, singles: &'a [HypothesisFit]) -> Vec<&'a HypothesisFit> {
         let mut effects: Vec<Vec<f64>> = Vec::new();
         let is_new = |fit: &&HypothesisFit| {
@@ -205,8 +206,8 @@ impl ExplanationSearch<'_> {
         fits
     }
 
-    /// Several parameters that are wrong together: adds the parameter with the smallest norm each time, and in the
-    /// end removes those that are not needed.
+    /// Several parameters that are wrong together: adds the parameter with the smallest norm each time, and
+    /// in the end removes those that are not needed.
     fn several_parameters(&self) -> Option<HypothesisFit> {
         let is_parameter = |hypothesis: &&usize| {
             let Hypothesis { cause, free, .. } = &self.context.hypotheses[**hypothesis];

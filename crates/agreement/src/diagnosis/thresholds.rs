@@ -18,15 +18,15 @@
 
 // Equality up to rounding.
 
-/// Parameters, invariants and models that differ by less are the same. Unit: m, rad or none; kind: rounding of
-/// a fit or of an identified chain. Fits end below 1e-11, and the smallest injected fault is 1e-4.
+/// Parameters, invariants and models that differ by less are the same. Unit: m, rad or none; kind: rounding
+/// of a fit or of an identified chain. Fits end below 1e-11, and the smallest injected fault is 1e-4.
 pub(super) const SAME_VALUE: f64 = 1e-9;
 
 /// Fits to a file that is itself rounded end within this part of their residual. No unit; kind: solver stop.
 pub(super) const SAME_PART_OF_RESIDUAL: f64 = 1e-3;
 
-/// Edits whose screws and tips differ by less have the same effect. Without unit; kind: rounding of some fifty
-/// values of up to 1.
+/// Edits whose screws and tips differ by less have the same effect. Without unit; kind: rounding of some
+/// fifty values of up to 1.
 pub(super) const SAME_EFFECT: f64 = 1e-13;
 
 /// Norms of fits that differ by less than this part are the same: parameters along one axis have the same
@@ -36,8 +36,8 @@ pub(super) const SAME_NORM: f64 = 1e-6;
 /// A smaller turn is none. Unit: rad, or 1 for an entry of a rotation matrix; kind: rounding.
 pub(super) const NO_TURN: f64 = 1e-12;
 
-/// Axes whose angle has a smaller sine are parallel. No unit; kind: rounding. The common normal of two axes has a
-/// relative error of some 1e-15 divided by this sine, so 1e-9 at this value.
+/// Axes whose angle has a smaller sine are parallel. No unit; kind: rounding. The common normal of two axes
+/// has a relative error of some 1e-15 divided by this sine, so 1e-9 at this value.
 pub(super) const PARALLEL: f64 = 1e-6;
 
 /// A residual below this is rounding. Unit: m or rad; kind: rounding of a fit, or of a file with ten digits.
@@ -45,16 +45,16 @@ pub(super) const ROUNDING_RESIDUAL: f64 = 1e-11;
 
 // Rotations as files write them.
 
-/// Largest error of a rotation by quarter turns that a file writes with four decimals (1.5708): half of the last
-/// decimal, doubled for a half turn or two turns in one joint. Unit: rad; kind: digits of a file.
+/// Largest error of a rotation by quarter turns that a file writes with four decimals (1.5708): half of the
+/// last decimal, doubled for a half turn or two turns in one joint. Unit: rad; kind: digits of a file.
 pub(super) const FOUR_DECIMALS_RAD: f64 = 1e-4;
 
-/// Entries of a rotation by quarter turns are 0 or 1 within this; kind: digits of a file, three decimals. Every
-/// rpy order of quarter turns is a quarter turn again, so a match is weak evidence for a wrong order.
+/// Entries of a rotation by quarter turns are 0 or 1 within this; kind: digits of a file, three decimals.
+/// Every rpy order of quarter turns is a quarter turn again, so a match is weak evidence for a wrong order.
 pub(super) const QUARTER_TURNS: f64 = 1e-3;
 
-/// Nearer to a pitch of a quarter turn, only the sum or difference of roll and yaw is defined. Unit: rad; kind:
-/// digits of a file, which may have as few as ten.
+/// Nearer to a pitch of a quarter turn, only the sum or difference of roll and yaw is defined. Unit: rad;
+/// kind: digits of a file, which may have as few as ten.
 pub(super) const SINGULAR_BELOW_RAD: f64 = 1e-9;
 
 // Choice between explanations.
@@ -66,18 +66,20 @@ pub(super) const REFUTED: f64 = 10.0;
 /// A value below so many times the residual could as well be zero. No unit; kind: judgement.
 pub(super) const EVIDENT: f64 = 3.0;
 
-/// A unit slip that gives a value of so many times the residual is no coincidence, even if a fitted parameter
-/// absorbs the file's rounding and has a lower residual. No unit; kind: judgement, the factor of mm to m.
+/// A corrected unit that gives a value of so many times the residual is no coincidence, even if a fitted
+/// parameter absorbs the file's rounding and has a lower residual. No unit; kind: judgement, the factor of
+/// mm to m.
 pub(super) const CERTAIN: f64 = 1e3;
 
-/// Up to this part of the tolerance a residual is far below it, the best of three classes. No unit; kind: choice.
+/// Up to this part of the tolerance a residual is far below it, the best of three classes. No unit; kind:
+/// choice.
 pub(super) const FAR_BELOW_TOLERANCE: f64 = 0.1;
 
 /// Up to this part of the tolerance a residual is below it, above is the last class. No unit; kind: choice.
 pub(super) const BELOW_TOLERANCE: f64 = 0.3;
 
-/// A fit is evaluated at all configurations only if its norm is at most so many tolerances. No unit; kind: speed;
-/// the ratio of the screws' difference to that of the tips within the joints' ranges is far below.
+/// A fit is evaluated at all configurations only if its norm is at most so many tolerances. No unit; kind:
+/// speed; the ratio of the screws' difference to that of the tips within the joints' ranges is far below.
 pub(super) const EVALUATED_BELOW: f64 = 1e4;
 
 // Extent of the search.
@@ -97,8 +99,8 @@ pub(super) const MAX_NEXT_BEST: usize = 4;
 
 // Fits.
 
-/// Starts of an angle besides its present value. Unit: rad; kind: choice. Starts a third of a turn apart miss no
-/// minimum, and at half a turn the slope is zero.
+/// Starts of an angle besides its present value. Unit: rad; kind: choice. Starts a third of a turn apart
+/// miss no minimum, and at half a turn the slope is zero.
 pub(super) const ANGLE_STARTS_RAD: [f64; 2] = [2.1, -2.1];
 
 /// Below this norm no further start is tried. Without unit; kind: rounding of a fit.
@@ -110,17 +112,17 @@ pub(super) const PERFECT_FIT: f64 = 3e-16;
 /// Most steps of a fit. Kind: loop bound; fits that reach zero take some six steps.
 pub(super) const MAX_STEPS: usize = 60;
 
-/// A fit ends at a step that reduces the norm by less than this part: it is in another minimum. No unit; kind:
-/// solver stop.
+/// A fit ends at a step that reduces the norm by less than this part: it is in another minimum. No unit;
+/// kind: solver stop.
 pub(super) const MIN_GAIN: f64 = 1e-3;
 
-/// Damping of Levenberg and Marquardt, relative to the diagonal: at the start, at least, and at most; a fit whose
-/// step fails at the last ends. No unit; kind: solver.
+/// Damping of Levenberg and Marquardt, relative to the diagonal: at the start, at least, and at most; a fit
+/// whose step fails at the last ends. No unit; kind: solver.
 pub(super) const DAMPING: Damping =
     Damping { first: 1e-6, least: 1e-12, most: 1e4, after_success: 0.1, after_failure: 100.0 };
 
-/// Added to the diagonal of the normal equations: a parameter without effect keeps its value. Without unit; kind:
-/// rounding, some eps.
+/// Added to the diagonal of the normal equations: a parameter without effect keeps its value. Without unit;
+/// kind: rounding, some eps.
 pub(super) const NO_EFFECT: f64 = 1e-15;
 
 /// The damping of a fit and its change after each step.

@@ -58,7 +58,7 @@ fn describe(
     let fault = match parts.len() {
         0 => Fault {
             cause: Cause::Unexplained,
-            suggestion: "no cause of the catalogue explains the difference: see `invariants` for the screws that differ"
+            suggestion: "no known cause explains the difference: see `invariants` for the screws that differ"
                 .into(),
             ..Fault::default()
         },

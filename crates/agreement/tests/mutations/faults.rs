@@ -1,4 +1,4 @@
-//! Faults to inject: each changes the model (or, where a file of the reference can be wrong, the
+//! Faults to inject: each changes the model (or, if a file of the reference model can be wrong, the
 //! reference) by its own code, not by the catalogue's.
 
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -1,5 +1,5 @@
 //! Robots to mutate: those of `robots/` with their URDFs, and tables of the corpus with the chain of
-//! joints that they stand for.
+//! joints that they describe.
 
 use std::{fs, path::Path};
 

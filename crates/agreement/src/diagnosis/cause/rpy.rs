@@ -1,5 +1,5 @@
-//! `rpy_order`: roll, pitch and yaw written or read in another order, in a declared transform of the candidate or
-//! in one joint of the reference model.
+//! `rpy_order`: roll, pitch and yaw written or read in another order, in a declared transform of the
+//! candidate or in one joint of the reference model.
 
 use congruent_kinematics::EulerSet;
 use nalgebra::Matrix3;
@@ -10,8 +10,9 @@ use crate::diagnosis::thresholds::{NO_TURN, SINGULAR_BELOW_RAD};
 /// A rotation after its angles are read in another order, from its roll, pitch and yaw and its matrix.
 type RpyReading = fn([f64; 3], &Matrix3<f64>) -> Matrix3<f64>;
 
-/// The other orders: the product in reverse order; its inverse (twice, since at a pitch of a quarter turn only
-/// the sum of roll and yaw is known: without roll, and without yaw); and exchanged values of roll and yaw.
+/// The other orders: the product in reverse order; its inverse (twice, since at a pitch of a quarter turn
+/// only the sum of roll and yaw is known: without roll, and without yaw); and exchanged values of roll and
+/// yaw.
 const READINGS: [RpyReading; 4] = [
     |rpy, _| EulerSet::Xyz.rotation(rpy),
     |_, rotation| {
@@ -70,8 +71,8 @@ mod tests {
     /// Rounding of two products of three turns; worst seen 5.6e-17.
     const ROUNDING: f64 = 4e-15;
 
-    /// A file in the other order is read correctly, also if the pitch is a quarter turn and roll or yaw is left
-    /// out, as files do.
+    /// A file in the other order is read correctly, also if the pitch is a quarter turn and roll or yaw is
+    /// left out, as files do.
     #[test]
     fn the_other_order_is_undone() {
         for rpy in [[0.3, -0.4, 1.2], [0.7, FRAC_PI_2, 0.0], [0.0, FRAC_PI_2, 0.7], [0.0, -FRAC_PI_2, -2.0]] {
