@@ -9,7 +9,7 @@ use crate::command::{Answer, congruent_json, text};
 
 /// A fitted figure: rounding of the fit; worst seen 2e-15.
 const FITTED: f64 = 1e-12;
-/// What a certificate of models that agree leaves: rounding of probing and proving within a few
+/// The certified bound of models that agree: rounding of identification and proof within a few
 /// metres, in m or rad; worst seen 1.8e-13.
 const ROUNDING: f64 = 1e-12;
 
@@ -106,7 +106,7 @@ fn check(table: &str, urdf: &str) -> Answer {
     congruent_json(&["check", &text(&path)])
 }
 
-/// The first cause, which leaves nothing.
+/// The first cause, whose residual is rounding.
 #[track_caller]
 fn first(answer: &Answer) -> Value {
     assert_eq!(answer.code, 1, "{}{}", answer.stdout, answer.stderr);
@@ -165,7 +165,7 @@ fn a_figure_of_a_mimic_joint_is_named() {
     stands_at(&cause, ("robot.toml", &file), "a_m = 0.41");
     // The physics, which knows no table, tells the same.
     let report = answer.json();
-    assert_eq!(report["diagnoses"][1]["diagnosis"][0]["joint"], "follower");
+    assert_eq!(report["diagnoses"][1]["causes"][0]["joint"], "follower");
     near(&report["certificates"][1]["position_m"]["attained"], 0.01);
 }
 
@@ -224,24 +224,24 @@ fn a_column_in_another_unit_is_named_with_figures_and_line() {
     assert_eq!(cause["found"], "d = [300, 0, 20, 100, 50]");
     assert_eq!(cause["expected"], "d = [0.3, 0, 0.02, 0.1, 0.05]");
     near(&cause["value"], 1e3);
-    assert_eq!(cause["suggestion"], "the figures are millimetres: write them under d_mm");
+    assert_eq!(cause["suggestion"], "the values are in millimetres: write them under d_mm");
     stands_at(&cause, ("robot.toml", &scaled(&table(), "d_m", 1e3)), "d_m = 300.0");
 
     let metres = table().replace("d_m = ", "d_mm = ").replace("a_m = ", "a_mm = ");
     let cause = first(&check(&metres, &urdf()));
     assert_eq!([&cause["cause"], &cause["parameter"]], ["millimetres_as_metres", "a, d"]);
     near(&cause["value"], 1e-3);
-    assert_eq!(cause["suggestion"], "the figures are metres: write them under a_m and d_m");
+    assert_eq!(cause["suggestion"], "the values are in metres: write them under a_m and d_m");
 
     let degrees = table().replace("alpha_deg = ", "alpha_rad = ");
     let cause = first(&check(&degrees, &urdf()));
     assert_eq!([&cause["cause"], &cause["parameter"]], ["degrees_as_radians", "alpha"]);
     near(&cause["value"], 180.0 / std::f64::consts::PI);
-    assert_eq!(cause["suggestion"], "the figures are degrees: write them under alpha_deg");
+    assert_eq!(cause["suggestion"], "the values are in degrees: write them under alpha_deg");
     stands_at(&cause, ("robot.toml", &degrees), "alpha_rad = -90.0");
 
     let radians = scaled(&table(), "alpha_deg", std::f64::consts::PI / 180.0);
     let cause = first(&check(&radians, &urdf()));
     assert_eq!([&cause["cause"], &cause["parameter"]], ["radians_as_degrees", "alpha"]);
-    assert_eq!(cause["suggestion"], "the figures are radians: write them under alpha_rad");
+    assert_eq!(cause["suggestion"], "the values are in radians: write them under alpha_rad");
 }

@@ -1,5 +1,5 @@
-//! What a certificate costs: single faults of arms with the lengths of a `UR5e` and of a Panda, over
-//! full turns of every joint, until the bound is within 5 % of what is attained.
+//! The time of a certificate: single faults of arms with the lengths of a `UR5e` and of a Panda, over
+//! full turns of every joint, until the bound is within 5 % of the attained value.
 
 #[path = "../../kinematics/tests/support/mod.rs"]
 mod support;
@@ -24,10 +24,10 @@ fn chain(figures: &TableFigures) -> ScrewChain {
     ScrewChain::from_dh(&table, robot.dof()).expect("the table fits its robot")
 }
 
-/// One fault: its name and what it changes.
-type Fault = (&'static str, fn(&mut TableFigures));
+/// One fault: its name and its change to the arm.
+type NamedFault = (&'static str, fn(&mut TableFigures));
 
-const FAULTS: [Fault; 8] = [
+const FAULTS: [NamedFault; 8] = [
     ("none", |_| ()),
     ("alpha of row 1, 1 deg", |arm| arm.rows[0].alpha_rad += 1_f64.to_radians()),
     ("a of row 2, 1 mm", |arm| arm.rows[1].a_m += 1e-3),
@@ -40,7 +40,7 @@ const FAULTS: [Fault; 8] = [
         arm.base_from_dh0 = Isometry3::translation(0.03, 0.04, 0.0);
         arm.dhn_from_tip = Isometry3::translation(0.0, 0.03, -0.04);
     }),
-    ("every figure", |arm| {
+    ("every parameter", |arm| {
         for row in &mut arm.rows {
             row.a_m += 1e-3;
             row.alpha_rad += 0.01;
@@ -52,15 +52,15 @@ const FAULTS: [Fault; 8] = [
 
 #[divan::bench(args = FAULTS.map(|fault| fault.0))]
 fn six_joints(bencher: Bencher<'_, '_>, fault: &str) {
-    context(bencher, &ur5e_table(), fault);
+    measure(bencher, &ur5e_table(), fault);
 }
 
 #[divan::bench(args = FAULTS.map(|fault| fault.0))]
 fn seven_joints(bencher: Bencher<'_, '_>, fault: &str) {
-    context(bencher, &panda_table(), fault);
+    measure(bencher, &panda_table(), fault);
 }
 
-fn context(bencher: Bencher<'_, '_>, arm: &TableFigures, fault: &str) {
+fn measure(bencher: Bencher<'_, '_>, arm: &TableFigures, fault: &str) {
     let mut other = arm.clone();
     let (_, change) = FAULTS.iter().find(|(name, _)| *name == fault).expect("one of the list");
     change(&mut other);

@@ -12,14 +12,14 @@ use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
 use support::{RowFigures, TableFigures, panda_table, ur5e_table};
 
-/// CertifiedBounds against closed forms where nothing is left to divide. Unit: m or rad; kind: rounding, which
-/// the certificate adds from the sizes of the chain, doubled for each joint of a box of full turns;
-/// worst seen 1.4e-11.
+/// Brackets against closed forms that need no splitting. Unit: m or rad; kind: rounding, which the
+/// certificate derives from the size of the chain, doubled for each joint of a box of full turns; worst
+/// seen 1.4e-11.
 const ROUNDING: f64 = 4e-11;
-/// Rounding of the forward kinematics that samples are compared with; worst seen: none beyond.
+/// Rounding of the forward kinematics of samples; no sample exceeds it.
 const SAMPLE_ROUNDING: f64 = 1e-13;
 /// Sum of six screws' rounding times the reach and half a turn, m or rad; worst seen 4.0e-14.
-const PROBED: f64 = 1e-12;
+const IDENTIFIED: f64 = 1e-12;
 const TURN: (f64, f64) = (-PI, PI);
 
 fn planar(second_m: f64) -> TableFigures {
@@ -52,12 +52,12 @@ fn assert_exact(bracket: &Bracket, expected: f64) {
     assert!(support::within((bracket.certified - expected).abs(), ROUNDING), "{bracket:?}, not {expected}");
 }
 
-/// Attained is right, and certified is not far above it.
+/// Attained is the closed form, and certified is not far above it.
 #[track_caller]
 fn assert_close(bracket: &Bracket, expected: f64) {
-    /// Climbing ends where steps of 1e-8 of a turn change nothing; relative, worst seen 3e-9.
-    const CLIMB: f64 = 1e-6;
-    assert!((bracket.attained - expected).abs() <= CLIMB * expected, "{bracket:?}, not {expected}");
+    /// The local search ends if steps of 1e-8 of a turn change nothing; relative, worst seen 3e-9.
+    const LOCAL_SEARCH: f64 = 1e-6;
+    assert!((bracket.attained - expected).abs() <= LOCAL_SEARCH * expected, "{bracket:?}, not {expected}");
     assert!(bracket.attained <= bracket.certified);
     assert!(bracket.is_within(Budget::default().relative_gap), "{bracket:?}");
 }
@@ -75,9 +75,9 @@ fn one_robot_written_twice_is_certified_at_rounding_level() {
     let (base, tip) = (robot.root(), robot.find_link("tip").unwrap());
     let urdf = ScrewChain::from_urdf(&robot, (base, tip), &[0, 1, 2, 3, 4, 5]).unwrap();
     let certificate = certify(&chain(&ur5e_table()), &urdf, &[TURN; 6], Budget::default()).unwrap();
-    assert!(support::within(certificate.position_m.certified, PROBED));
-    assert!(support::within(certificate.orientation_rad.certified, PROBED));
-    assert_eq!((certificate.position_m.cells, certificate.orientation_rad.cells), (0, 0));
+    assert!(support::within(certificate.position_m.certified, IDENTIFIED));
+    assert!(support::within(certificate.orientation_rad.certified, IDENTIFIED));
+    assert_eq!((certificate.position_m.boxes, certificate.orientation_rad.boxes), (0, 0));
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn a_flipped_joint_is_half_a_turn_off_and_no_more() {
 
 #[test]
 fn a_joint_that_moves_twice_as_far() {
-    // One joint at distance 1: the gap is the chord of q, which is 2 at half a turn.
+    // One joint at distance 1: the difference is the chord of q, which is 2 at half a turn.
     let turn = |rate: f64| ScrewChain {
         twists_in_base: vec![Twist { angular: Vector3::z() * rate, linear: Vector3::zeros() }],
         base_from_tip_at_zero: Pose { translation: Vector3::x(), ..Pose::identity() },
@@ -194,7 +194,7 @@ fn a_turned_base_of_twelve_joints_is_worst_at_full_reach() {
 
 #[test]
 fn a_joint_in_degrees_is_worst_at_its_furthest_reach_on_both_sides() {
-    // Joint 2 turns 57 times as fast, about the axis from which the elbow and the tool stand out.
+    // Joint 2 turns 57 times as fast, about the axis from which elbow and tool have a distance.
     let fast = changed(&planar(0.4), |arm| arm.rows[0].sign = 180.0 / PI);
     assert_close(&certificate(&fast, &planar(0.4)).position_m, 2.0);
 }
@@ -253,7 +253,7 @@ fn a_small_budget_leaves_a_wide_bound_that_holds() {
 }
 
 #[test]
-fn wrong_figures_are_refused() {
+fn wrong_ranges_are_rejected() {
     let (two, six) = (chain(&planar(0.4)), chain(&ur5e_table()));
     let refused = |ranges: &[(f64, f64)]| certify(&two, &two, ranges, Budget::default()).unwrap_err();
     assert_eq!(refused(&[TURN]), KinematicsError::JointCount { expected: 2, found: 1 });
@@ -265,7 +265,7 @@ fn wrong_figures_are_refused() {
     assert_eq!(unequal, KinematicsError::JointCount { expected: 2, found: 6 });
 }
 
-/// Many configurations, none further apart than certified.
+/// At many configurations, none of which exceeds the certificate.
 fn assert_holds(a: &ScrewChain, b: &ScrewChain, ranges: &[(f64, f64)]) -> Result<(), TestCaseError> {
     const SAMPLES: u32 = 1000;
     const PRIMES: [f64; 7] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0];

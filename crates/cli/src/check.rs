@@ -1,16 +1,21 @@
-//! `congruent check`: model against URDF against twin.
+//! `congruent check`: compares model, URDF and physics.
 
 use std::{fmt::Write, path::PathBuf};
 
 use congruent::{
     agreement::{
         compare::{
-            Agreement, Basics, Brackets, BySource, CheckOptions, CheckReport, Comparison, PoseSource,
-            Premise, ReportedBracket, ReportedCertificate,
+            Agreement, Basics, Brackets, BySource, CheckOptions, CheckReport, Comparison, CoordinateUnit,
+            PoseSource, Premise, ReportedBracket, ReportedCertificate,
         },
+        diagnosis::Invariant,
         report::{Fault, ReportedCause, ReportedDiagnosis},
     },
-    description::{Diagnostic, load_robot, read_configurations},
+    description::{
+        Diagnostic,
+        display::{angle, length, length_and_angle},
+        load_robot, read_configurations,
+    },
 };
 
 use crate::{
@@ -21,7 +26,7 @@ use crate::{
 /// Whether a robot's table, its URDF and its physics twin are the same robot.
 ///
 /// Compared at zero, one axis at a time, at 200 seeded random configurations within the limits,
-/// at the limits, and where the certificates find the worst. Exit code 1 where they disagree.
+/// at the limits, and at the worst configurations of the certificates. Exit code 1 if they disagree.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Folders with robot.toml, robot files, or bare .urdf files.
@@ -30,11 +35,11 @@ pub(crate) struct Arguments {
     /// Seed of the random configurations.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Compare at these as well and show the difference at each: a JSON array of
+    /// Compare at the configurations of this file as well and show the difference at each: a JSON array of
     /// {"q": {"joint": value}} in rad and m; joints that are not named are at 0.
     #[arg(long, value_name = "FILE")]
     configurations: Option<PathBuf>,
-    /// Show too where the TCP is at zero and which way each joint moves it; JSON always has it.
+    /// Also show the pose of the TCP at zero and its motion with each joint; JSON always has both.
     #[arg(long)]
     basics: bool,
 }
@@ -69,11 +74,10 @@ fn text(report: &CheckReport) -> String {
     let mut text = String::new();
     let _ = writeln!(
         text,
-        "{}: {}, worst {} and {} over {} configurations (tolerance {:e} m, {:e} rad)",
+        "{}: {}, worst {} over {} configurations (tolerance {:e} m, {:e} rad)",
         report.robot,
         word(report.verdict),
-        length(report.worst.error.position_m),
-        angle(report.worst.error.orientation_rad),
+        length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),
         report.configurations,
         report.tolerance.position_m,
         report.tolerance.orientation_rad
@@ -85,58 +89,57 @@ fn text(report: &CheckReport) -> String {
         let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, report.worst.at.listed(4));
     }
     for (at, difference) in (1..).zip(&report.at_configurations) {
-        let (position, orientation) =
-            (length(difference.error.position_m), angle(difference.error.orientation_rad));
-        let _ = writeln!(text, "  at configuration {at}: {position} and {orientation}");
+        let error = length_and_angle(difference.error.position_m, difference.error.orientation_rad);
+        let _ = writeln!(text, "  at configuration {at}: {error}");
     }
     certified(&mut text, report);
-    if let Some(ladder) = report.diagnoses.iter().find(|ladder| !ladder.diagnosis.is_empty()) {
-        diagnosed(&mut text, ladder);
+    if let Some(diagnosis) = report.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty()) {
+        diagnosed(&mut text, diagnosis);
     }
     text
 }
 
-/// What a person tries first.
+/// The first checks: the pose of the TCP at zero and its motion with each joint.
 fn basics(basics: &Basics) -> String {
     let mut text = format!("  the TCP on {}, in the axes of {}:\n", basics.tip, basics.base);
     let width = basics.joints.iter().map(|joint| joint.joint.len()).max().unwrap_or(0);
     by_source(&mut text, &format!("{:width$} {:8}", "at zero", ""), &basics.zero, |pose| {
-        let [at, quaternion] = [&pose.translation_m.map(to_mm)[..], &pose.quaternion_wxyz].map(figures);
+        let [at, quaternion] = [&pose.translation_m.map(to_mm)[..], &pose.quaternion_wxyz].map(listed);
         format!("at    {at} mm  quaternion {quaternion}")
     });
     for joint in &basics.joints {
         let by = match joint.unit {
-            "m" => format!("{:+} mm", to_mm(joint.by)),
-            _ => format!("{:+} deg", joint.by.to_degrees().round()),
+            CoordinateUnit::M => format!("{:+} mm", to_mm(joint.by)),
+            CoordinateUnit::Rad => format!("{:+} deg", joint.by.to_degrees().round()),
         };
         by_source(&mut text, &format!("{:width$} {by:>8}", joint.joint), &joint.motion, |motion| {
             let [shift, turn] = [motion.shift_m.map(to_mm), motion.turn_rad.map(f64::to_degrees)];
-            format!("shift {} mm  turn {} deg", figures(&shift), figures(&turn))
+            format!("shift {} mm  turn {} deg", listed(&shift), listed(&turn))
         });
     }
     let _ = writeln!(
         text,
-        "    at all configurations: R'R - I {:.1e}, det R - 1 {:.1e}, T T^-1 off by {:.1e} m and {:.1e} rad",
+        "    worst over all configurations: |R'R - I| {:.1e}, |det R - 1| {:.1e}, T T^-1 off by {:.1e} m and {:.1e} rad",
         basics.orthonormality_error, basics.determinant_error, basics.round_trip_m, basics.round_trip_rad
     );
     text
 }
 
-/// One line where table and URDF show the same, otherwise one for each.
+/// One line if table and URDF have the same values, otherwise one line for each.
 fn by_source<T>(text: &mut String, label: &str, by: &BySource<T>, shown: impl Fn(&T) -> String) {
-    let lines: Vec<(&str, String)> = by.named().map(|(witness, value)| (witness, shown(value))).collect();
+    let lines: Vec<(&str, String)> = by.named().map(|(source, value)| (source, shown(value))).collect();
     let lines: &[(&str, String)] = match &lines[..] {
         [(_, table), (_, urdf)] if table == urdf => &[("both", table.clone())],
         lines => lines,
     };
-    for (witness, line) in lines {
-        let _ = writeln!(text, "    {label} {witness:5}  {line}");
+    for (source, line) in lines {
+        let _ = writeln!(text, "    {label} {source:5}  {line}");
     }
 }
 
 /// Three decimals each, and no minus before a zero.
-fn figures(figures: &[f64]) -> String {
-    let rounded = figures.iter().map(|figure| format!("{:9.3}", (figure * 1e3).round() / 1e3 + 0.0));
+fn listed(values: &[f64]) -> String {
+    let rounded = values.iter().map(|value| format!("{:9.3}", (value * 1e3).round() / 1e3 + 0.0));
     rounded.collect::<Vec<_>>().join(" ")
 }
 
@@ -144,19 +147,19 @@ fn to_mm(metres: f64) -> f64 {
     metres * 1e3
 }
 
-/// What holds over the whole joint range: a proof, not a sample.
+/// The certificate: a bound over the whole joint range, not a sample.
 fn certified(text: &mut String, report: &CheckReport) {
     if report.verdict == Agreement::Agree {
         report.certificates.iter().for_each(|certificate| narrow(text, certificate));
         return;
     }
-    let mut line = |what: &str, bracket: &ReportedBracket, figure: fn(f64) -> String| {
+    let mut line = |what: &str, bracket: &ReportedBracket, shown: fn(f64) -> String| {
         let _ = writeln!(
             text,
             "  worst {what} disagreement {} at q = ({}), certified below {} over the whole joint range",
-            figure(bracket.attained),
+            shown(bracket.attained),
             bracket.at.listed(4),
-            figure(bracket.certified)
+            shown(bracket.certified)
         );
     };
     if let Some(Brackets { position_m, orientation_rad }) = &report.certificate_bracket {
@@ -165,63 +168,60 @@ fn certified(text: &mut String, report: &CheckReport) {
     }
 }
 
-/// A certificate of models that agree, with what it presumes.
+/// The certificate of models that agree, with its premise.
 fn narrow(text: &mut String, certificate: &ReportedCertificate) {
-    let ReportedCertificate { between, brackets, premise, .. } = certificate;
+    let ReportedCertificate { title, brackets, premise, .. } = certificate;
     if let Some(Brackets { position_m, orientation_rad }) = brackets {
-        let (position, orientation) = (length(position_m.certified), angle(orientation_rad.certified));
-        let _ = writeln!(
-            text,
-            "  certified: {between} at most {position} and {orientation} apart over the whole joint range"
-        );
+        let bound = length_and_angle(position_m.certified, orientation_rad.certified);
+        let _ = writeln!(text, "  certified  {title:32} at most {bound} over the whole joint range");
     }
     if let Some(Premise { configurations, residual_m, residual_rad, holds }) = premise {
-        let (kept, figures) =
-            (if *holds { "is" } else { "is not" }, [length(*residual_m), angle(*residual_rad)]);
+        let verified = if *holds { "verified as" } else { "are not" };
+        let residual = length_and_angle(*residual_m, *residual_rad);
         let _ = writeln!(
             text,
-            "    each joint of the physics {kept} one screw, as identified: to {} at {configurations} configurations",
-            figures.join(" and ")
+            "    simulated joints {verified} pure screw motions: residual {residual} at {configurations} configurations"
         );
     }
 }
 
-/// The first cause as a compiler shows it, then what cannot be told from it and what comes next.
-fn diagnosed(text: &mut String, ladder: &ReportedDiagnosis) {
-    /// Alternatives shown to people; programs get all.
+/// The first cause with its lines of the file, then the causes that cannot be distinguished from it and the
+/// next best ones.
+fn diagnosed(text: &mut String, diagnosis: &ReportedDiagnosis) {
+    /// Alternatives shown to people; JSON has all of them.
     const SHOWN: usize = 6;
-    let _ = writeln!(text, "\n  {}: {}", ladder.title, cause(&ladder.diagnosis[0]));
-    for finding in &ladder.findings {
+    let _ = writeln!(text, "\n  {}: {}", diagnosis.title, cause(&diagnosis.causes[0]));
+    for finding in &diagnosis.findings {
         text.push_str(&rendered(finding));
     }
-    if ladder.findings.is_empty() {
-        for difference in &ladder.invariants {
+    if diagnosis.findings.is_empty() {
+        for difference in &diagnosis.invariants {
             let _ = writeln!(
                 text,
                 "    {:14} {:24} found {:>12} expected {:>12}",
-                difference.invariant,
+                difference.invariant.to_string(),
                 difference.joint,
                 invariant(difference.invariant, difference.found),
                 invariant(difference.invariant, difference.expected)
             );
         }
     }
-    for alternative in ladder.indistinguishable.iter().take(SHOWN) {
-        let _ = writeln!(text, "  the same: {} ({})", cause(&alternative.cause), alternative.reason);
+    for alternative in diagnosis.indistinguishable.iter().take(SHOWN) {
+        let _ = writeln!(text, "  indistinguishable: {} ({})", cause(&alternative.cause), alternative.reason);
     }
-    if let Some(more) = ladder.indistinguishable.len().checked_sub(SHOWN + 1) {
-        let _ = writeln!(text, "  and {} more that leave as little", more + 1);
+    if let Some(more) = diagnosis.indistinguishable.len().checked_sub(SHOWN + 1) {
+        let _ = writeln!(text, "  and {} more indistinguishable causes", more + 1);
     }
-    for next in &ladder.diagnosis[1..] {
+    for next in &diagnosis.causes[1..] {
         let _ = writeln!(text, "  next best: {}", cause(next));
     }
 }
 
-/// A quantity for people: a kind by its name, and what a chain does not have as such.
-fn invariant(name: &str, value: f64) -> String {
-    match name {
+/// The value of an invariant: a kind of joint by its name, and `none` if a chain does not have the quantity.
+fn invariant(invariant: Invariant, value: f64) -> String {
+    match invariant {
         _ if value.is_nan() => "none".to_owned(),
-        "kind" => if value > 0.0 { "prismatic" } else { "revolute" }.to_owned(),
+        Invariant::Kind => if value > 0.0 { "prismatic" } else { "revolute" }.to_owned(),
         _ => format!("{value:.6}"),
     }
 }
@@ -230,7 +230,8 @@ fn invariant(name: &str, value: f64) -> String {
 fn cause(cause: &ReportedCause) -> String {
     let one = |fault: &Fault| {
         let joints = fault.joint.iter().chain(&fault.joints).cloned().collect::<Vec<_>>().join(", ");
-        let words = [fault.cause, fault.parameter.as_deref().unwrap_or_default(), &joints];
+        let cause = fault.cause.to_string();
+        let words = [&cause, fault.parameter.as_deref().unwrap_or_default(), &joints];
         words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
     };
     let what = if cause.parts.is_empty() {
@@ -238,7 +239,7 @@ fn cause(cause: &ReportedCause) -> String {
     } else {
         cause.parts.iter().map(one).collect::<Vec<_>>().join(" and ")
     };
-    format!("{what}, leaves {} and {}", length(cause.residual_m), angle(cause.residual_rad))
+    format!("{what}, residual {}", length_and_angle(cause.residual_m, cause.residual_rad))
 }
 
 fn compared(text: &mut String, comparison: &Comparison) {
@@ -274,13 +275,4 @@ fn word(agreement: Agreement) -> &'static str {
         Agreement::Agree => "agree",
         Agreement::Disagree => "disagree",
     }
-}
-
-/// Millimetres where a hand could measure them, otherwise metres with an exponent.
-fn length(metres: f64) -> String {
-    if metres >= 1e-6 { format!("{:.4} mm", metres * 1e3) } else { format!("{metres:.2e} m") }
-}
-
-fn angle(radians: f64) -> String {
-    if radians >= 1e-6 { format!("{:.5} deg", radians.to_degrees()) } else { format!("{radians:.2e} rad") }
 }

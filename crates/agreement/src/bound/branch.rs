@@ -1,212 +1,215 @@
-//! From above: the box of all configurations is divided where the bound is largest, until the bound
-//! meets what is attained.
+//! The bound from above: branch and bound over the box of all configurations. The box with the largest
+//! bound is split until that bound meets the largest difference that a configuration attains.
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
 use super::{
     budget::{Budget, ROUNDING_LEVEL},
     corner::Interval,
-    difference_norm::{DifferenceNorm, Room},
-    search::Attained,
+    difference_norm::{DifferenceNorm, EnclosureBuffers},
+    search::Incumbent,
 };
 
-/// Most corners of one box: beyond, and that is beyond ten joints that matter, the telescoping_bound sum has
-/// to do.
-const MOST_CORNERS_OF_CELL: u64 = 1 << 20;
+/// Most corners of one box. A box with more of them (more than ten joints that matter) is not bounded;
+/// the telescoping bound remains.
+const MAX_CORNERS_OF_BOX: u64 = 1 << 20;
 
-/// What came of it: `attained <= certified`, as far as rounding lets one tell.
+/// Each box whose number has remainder 1 modulo this is bounded by every bound; every other box only by
+/// the bound that was least for the box that it is half of.
+const ALL_BOUNDS_EVERY: u64 = 8;
+
+/// The bracket that was found: the incumbent attains at most `certified`, up to rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BracketOutcome {
-    pub(super) attained: Attained,
-    /// No configuration disagrees more; m or rad, infinite where no bound could be had.
+    pub(super) incumbent: Incumbent,
+    /// No configuration has a larger disagreement; m or rad, infinite if no bound is affordable.
     pub(super) certified: f64,
     /// Number of boxes that were bounded.
-    pub(super) cells: u64,
+    pub(super) boxes: u64,
 }
 
-/// How a difference is read.
+/// The conversion from the norm of a difference to a disagreement.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct NormReading {
-    /// The disagreement for a difference, m or rad.
-    pub(super) of_norm: fn(f64) -> f64,
-    /// Gaps beyond it are no larger disagreements.
-    pub(super) ceiling: f64,
+pub(super) struct NormConversion {
+    /// The disagreement for a norm, m or rad; it grows with the norm.
+    pub(super) from_norm: fn(f64) -> f64,
+    /// Larger norms are no larger disagreements.
+    pub(super) max_norm: f64,
 }
 
-/// Gaps whose disagreements together, and the price of what they leave out, bound the one in
-/// criterion.
+/// An upper bound of the disagreement: the sum of the disagreements of `differences`, and `slack` for
+/// what they leave out.
 #[derive(Debug, Clone)]
 pub(super) struct UpperBound {
-    pub(super) steps: Vec<DifferenceNorm>,
-    pub(super) price: f64,
+    pub(super) differences: Vec<DifferenceNorm>,
+    pub(super) slack: f64,
 }
 
-/// What is in criterion: the difference itself, which is attained, and bounds of it.
+/// One maximisation: the difference that a configuration attains, and upper bounds of it.
 pub(super) struct BracketTask<'a> {
     pub(super) difference: &'a DifferenceNorm,
-    /// The difference as its own bound comes first.
+    /// The first one is the difference itself.
     pub(super) bounds: Vec<UpperBound>,
     pub(super) ranges: &'a [Interval],
-    pub(super) scale: NormReading,
+    pub(super) conversion: NormConversion,
     pub(super) budget: Budget,
 }
 
-/// A box of configurations that waits.
+/// A box of configurations with its bound, an open node of the search.
 #[derive(Debug, Clone)]
-struct Cell {
+struct BoxNode {
     bound: f64,
     number: u64,
     intervals: Vec<Interval>,
-    /// The joint to divide; none of them where no bound depends on one.
-    divide: usize,
-    /// Which bound was least.
-    by: usize,
+    /// The joint whose interval is split next; past the last joint if the bound depends on none.
+    split_joint: usize,
+    /// Which of the task's bounds was least.
+    bound_index: usize,
 }
 
-/// Largest bound first; of equal ones the oldest, so that the order is fixed.
-impl Ord for Cell {
+/// Largest bound first; of equal bounds the oldest box, so that the order is fixed.
+impl Ord for BoxNode {
     fn cmp(&self, other: &Self) -> Ordering {
         self.bound.total_cmp(&other.bound).then(other.number.cmp(&self.number))
     }
 }
 
-impl PartialOrd for Cell {
+impl PartialOrd for BoxNode {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Cell {
+impl PartialEq for BoxNode {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Cell {}
+impl Eq for BoxNode {}
 
-/// A search under way.
+/// The state of a search.
 struct BranchAndBound<'a> {
     task: &'a BracketTask<'a>,
-    attained: Attained,
-    room: Room,
+    incumbent: Incumbent,
+    buffers: EnclosureBuffers,
     nearest: Vec<f64>,
-    cells: u64,
-    /// In corners.
-    spent: u64,
+    boxes: u64,
+    corners_spent: u64,
 }
-
-/// The other bounds are asked for each box with a number that this divides: between, a box is bounded
-/// by what was best for the one it is part of.
-const ASK_ALL: u64 = 8;
 
 impl BranchAndBound<'_> {
     fn attained(&self) -> f64 {
-        (self.task.scale.of_norm)(self.attained.difference)
+        (self.task.conversion.from_norm)(self.incumbent.norm)
     }
 
-    /// Where the bracket is narrow enough.
-    fn enough(&self) -> f64 {
+    /// The bound at which the bracket is narrow enough.
+    fn target(&self) -> f64 {
         (self.attained() * (1.0 + self.task.budget.relative_gap)).max(ROUNDING_LEVEL)
     }
 
-    /// CertifiedBounds a box that is part of another one, by what bounded that one.
-    fn bound(&mut self, intervals: Vec<Interval>, (above, by): (f64, usize)) -> Cell {
-        self.cells += 1;
-        let mut cell = Cell { bound: above, number: self.cells, intervals, divide: 0, by };
-        let promise = self.bound_by(by, &mut cell);
-        let others = if cell.number % ASK_ALL == 1 { self.task.bounds.len() } else { 0 };
-        let mut is_stuck = by > 0 && self.is_stuck(promise, &cell);
-        for other in (1..others).filter(|&other| other != by) {
-            let promise = self.bound_by(other, &mut cell);
-            is_stuck &= self.is_stuck(promise, &cell);
+    /// Bounds a box that is part of a larger one, starting with the bound that was least for the larger.
+    fn bound(&mut self, intervals: Vec<Interval>, (outer, bound_index): (f64, usize)) -> BoxNode {
+        self.boxes += 1;
+        let mut node = BoxNode { bound: outer, number: self.boxes, intervals, split_joint: 0, bound_index };
+        let reduction = self.bound_by(bound_index, &mut node);
+        let others = if node.number % ALL_BOUNDS_EVERY == 1 { self.task.bounds.len() } else { 0 };
+        let mut is_stuck = bound_index > 0 && self.is_stuck(reduction, &node);
+        for other in (1..others).filter(|&other| other != bound_index) {
+            let reduction = self.bound_by(other, &mut node);
+            is_stuck &= self.is_stuck(reduction, &node);
         }
-        if is_stuck && cell.bound > self.enough() {
-            cell.by = 0;
-            self.bound_by(0, &mut cell);
+        if is_stuck && node.bound > self.target() {
+            node.bound_index = 0;
+            self.bound_by(0, &mut node);
         }
-        cell
+        node
     }
 
-    /// Whether dividing further for a bound with this promise cannot close the bracket.
-    fn is_stuck(&self, promise: f64, cell: &Cell) -> bool {
-        promise < 0.5 * (cell.bound - self.enough())
+    /// Whether a bound that splitting can reduce by so much cannot reach the target.
+    fn is_stuck(&self, reduction: f64, node: &BoxNode) -> bool {
+        reduction < 0.5 * (node.bound - self.target())
     }
 
-    /// Lowers the bound of a box, where that is so, and climbs from its most promising configuration,
-    /// where that is news; how much dividing promises. What lowers the bound most, or is asked because
-    /// the cell is its own, says where to divide.
-    fn bound_by(&mut self, by: usize, cell: &mut Cell) -> f64 {
-        let UpperBound { steps, price } = &self.task.bounds[by];
-        let (mut sum, mut promises, mut best) = (*price, 0.0, (-1.0, usize::MAX));
-        self.nearest.copy_from_slice(&self.attained.at);
-        for step in steps {
-            let enclosure = step.enclose(&cell.intervals, &mut self.room, &mut self.nearest);
-            sum += (self.task.scale.of_norm)(enclosure.bound);
-            promises += enclosure.promises;
-            if !step.is_constant() && enclosure.promise > best.0 {
-                best = (enclosure.promise, enclosure.divide);
+    /// Lowers the bound of a box by one of the task's bounds if that is lower, and starts a local search
+    /// at the configuration nearest to the worst corner if it is better than the incumbent. Returns the
+    /// reduction that splitting can bring. The bound that is lowest, or that the box had before, decides
+    /// which joint is split.
+    fn bound_by(&mut self, bound_index: usize, node: &mut BoxNode) -> f64 {
+        let UpperBound { differences, slack } = &self.task.bounds[bound_index];
+        let (mut sum, mut total_reduction, mut best) = (*slack, 0.0, (-1.0, usize::MAX));
+        self.nearest.copy_from_slice(&self.incumbent.at);
+        for difference in differences {
+            let found = difference.enclose(&node.intervals, &mut self.buffers, &mut self.nearest);
+            sum += (self.task.conversion.from_norm)(found.bound);
+            total_reduction += found.total_reduction;
+            if !difference.is_constant() && found.reduction > best.0 {
+                best = (found.reduction, found.split_joint);
             }
-            self.spent += enclosure.corners;
+            self.corners_spent += found.corners;
         }
-        let mut found = Attained::new(self.task.difference, self.nearest.clone());
-        if found.difference > self.attained.difference {
+        let mut found = Incumbent::new(self.task.difference, self.nearest.clone());
+        if found.norm > self.incumbent.norm {
             found.ascend(self.task.difference, self.task.ranges);
-            self.attained = found;
+            self.incumbent = found;
         }
-        if sum < cell.bound || by == cell.by {
-            (cell.divide, cell.by) = (best.1, by);
+        if sum < node.bound || bound_index == node.bound_index {
+            (node.split_joint, node.bound_index) = (best.1, bound_index);
         }
-        cell.bound = cell.bound.min(sum);
-        promises
+        node.bound = node.bound.min(sum);
+        total_reduction
     }
 
-    fn halves(&mut self, cell: &Cell) -> [Cell; 2] {
-        let (lower, upper) = cell.intervals[cell.divide];
+    fn split(&mut self, node: &BoxNode) -> [BoxNode; 2] {
+        let (lower, upper) = node.intervals[node.split_joint];
         let middle = f64::midpoint(lower, upper);
         [(lower, middle), (middle, upper)].map(|half| {
-            let mut intervals = cell.intervals.clone();
-            intervals[cell.divide] = half;
-            self.bound(intervals, (cell.bound, cell.by))
+            let mut intervals = node.intervals.clone();
+            intervals[node.split_joint] = half;
+            self.bound(intervals, (node.bound, node.bound_index))
         })
     }
 }
 
 /// Brackets the largest disagreement over the ranges.
-pub(super) fn bracket(task: &BracketTask<'_>, attained: Attained) -> BracketOutcome {
-    let nearest = attained.at.clone();
-    let mut search = BranchAndBound { task, attained, room: Room::default(), nearest, cells: 0, spent: 0 };
+pub(super) fn bracket(task: &BracketTask<'_>, incumbent: Incumbent) -> BracketOutcome {
     if task.bounds.is_empty() {
-        return BracketOutcome { attained: search.attained, certified: f64::INFINITY, cells: 0 };
+        return BracketOutcome { incumbent, certified: f64::INFINITY, boxes: 0 };
     }
+    let nearest = incumbent.at.clone();
+    let buffers = EnclosureBuffers::default();
+    let mut search = BranchAndBound { task, incumbent, buffers, nearest, boxes: 0, corners_spent: 0 };
     let Budget { corners, .. } = task.budget;
     let mut open = BinaryHeap::from([search.bound(task.ranges.to_vec(), (f64::INFINITY, 0))]);
     let certified = loop {
-        let Some(cell) = open.pop() else { unreachable!("a box that is taken leaves two behind") };
-        if search.attained.difference >= task.scale.ceiling {
-            search.attained.descend_to(task.scale.ceiling, task.difference, task.ranges);
-            break (task.scale.of_norm)(task.scale.ceiling);
+        let Some(node) = open.pop() else {
+            unreachable!("a box that is taken is replaced by its two halves")
+        };
+        if search.incumbent.norm >= task.conversion.max_norm {
+            search.incumbent.descend_to(task.conversion.max_norm, task.difference, task.ranges);
+            break (task.conversion.from_norm)(task.conversion.max_norm);
         }
-        let (lower, upper) = cell.intervals.get(cell.divide).copied().unwrap_or_default();
+        let (lower, upper) = node.intervals.get(node.split_joint).copied().unwrap_or_default();
         let middle = f64::midpoint(lower, upper);
         let divisible = lower < middle && middle < upper;
-        if cell.bound <= search.enough() || search.spent >= corners || !divisible {
-            break cell.bound;
+        if node.bound <= search.target() || search.corners_spent >= corners || !divisible {
+            break node.bound;
         }
-        open.extend(search.halves(&cell));
+        open.extend(search.split(&node));
     };
-    let (cells, attained_here) = (search.cells, search.attained());
-    BracketOutcome { certified: certified.max(attained_here), attained: search.attained, cells }
+    let (boxes, attained) = (search.boxes, search.attained());
+    BracketOutcome { certified: certified.max(attained), incumbent: search.incumbent, boxes }
 }
 
 impl UpperBound {
-    /// Whether its boxes are few enough corners for a budget.
+    /// Whether its boxes have few enough corners for a budget.
     pub(super) fn is_affordable(&self, ranges: &[Interval], budget: Budget) -> bool {
-        self.steps.iter().all(|difference| is_affordable(difference, ranges, budget))
+        self.differences.iter().all(|difference| is_affordable(difference, ranges, budget))
     }
 }
 
 /// Whether the boxes of a difference have few enough corners for a budget.
 pub(super) fn is_affordable(difference: &DifferenceNorm, ranges: &[Interval], budget: Budget) -> bool {
-    let cost = difference.most_corners(ranges).saturating_add(difference.overhead());
-    cost <= MOST_CORNERS_OF_CELL.min(budget.corners)
+    let cost = difference.max_corners(ranges).saturating_add(difference.overhead());
+    cost <= MAX_CORNERS_OF_BOX.min(budget.corners)
 }

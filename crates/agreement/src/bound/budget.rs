@@ -1,16 +1,17 @@
-//! When to stop dividing, and which bounds are final.
+//! The end of a search: how narrow a bracket must be, how much work it may take, and which bounds need no
+//! search.
 
-/// Telescoped bounds up to here are final. Unit: m and rad; kind: rounding; a chain identified from a
-/// table and one identified from a URDF of the same robot telescoping to some 1e-14.
+/// A telescoping bound up to here needs no search. Unit: m and rad; kind: rounding. The chain identified
+/// from a table and the one identified from a URDF of the same robot have a telescoping bound of some 1e-14.
 pub(super) const ROUNDING_LEVEL: f64 = 1e-12;
 
-/// When to stop dividing.
+/// When a search ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
-    /// The bracket is narrow enough when `certified <= attained (1 + relative_gap)`.
+    /// The bracket is narrow enough if `certified <= attained (1 + relative_gap)`.
     pub relative_gap: f64,
-    /// Most corners that are evaluated for each of the two brackets, some 5 ns each; a box counts for
-    /// some hundred more than it has.
+    /// Most corners that are evaluated for each of the two brackets, some 5 ns each; a box counts some
+    /// hundred corners more than it has.
     pub corners: u64,
 }
 

@@ -1,42 +1,44 @@
 //! A bracket around the worst disagreement of two chains over the whole joint range: from below a
-//! configuration that attains it, from above a bound that holds everywhere.
+//! configuration that attains it, from above a bound that no configuration exceeds.
 //!
-//! Four steps. Chains with their joints in different orders are laid side by side (`common_common_order.rs`). The
-//! telescoping_bound sum (`telescoping.rs`) settles chains that agree, in microseconds. What is left is simplified to
-//! the joints that matter (`simplify.rs`); climbing from many starts (`search.rs`) finds a bad
-//! configuration, and branch and bound (`branch.rs`) proves that none is much worse, with bounds from
-//! corners of polygons (`difference.rs`, `corner.rs`), and where these do not do, from chains that stand
-//! between the two (`intermediate_chains.rs`).
+//! Four steps. Chains with their joints in different orders are brought to one order (`common_order.rs`).
+//! The telescoping bound (`telescoping.rs`) is enough for chains that agree, in microseconds. Other
+//! differences are simplified to the joints that matter (`simplify.rs`); a local search from many starts
+//! (`search.rs`) finds a bad configuration, and branch and bound (`branch.rs`) proves that none is much
+//! worse. Its bounds come from corners of polygons (`difference_norm.rs`, `corner.rs`), and if these are
+//! too wide, from intermediate chains (`intermediate_chains.rs`).
 //!
-//! The bound is rigorous in floating point: each file states what rounding can take from it, and
-//! adds that. It speaks of the two [`ScrewChain`]s as they are given.
+//! The bound is rigorous in floating point: each file states its rounding error and adds it. It is a bound
+//! for the two [`ScrewChain`]s as they are given. `docs/bound.md` has the derivation.
 
 use std::f64::consts::PI;
 
 use congruent_kinematics::{KinematicsError, ScrewChain};
 
 use super::{
-    branch::{BracketOutcome, BracketTask, NormReading, UpperBound, bracket, is_affordable},
+    branch::{BracketOutcome, BracketTask, NormConversion, UpperBound, bracket, is_affordable},
     budget::{Budget, ROUNDING_LEVEL},
-    common_order::SideBySide,
+    common_order::AlignedChains,
     corner::Interval,
     difference_norm::DifferenceNorm,
     intermediate_chains::{self, ChainSequence},
-    search::Attained,
+    search::Incumbent,
     simplify::{Denoised, Simplified},
     telescoping::TelescopingBound,
 };
 
-/// Part of the attained disagreement that may be spent on leaving out a joint that hardly matters.
+/// Slack for leaving out joints that hardly matter, as part of the attained disagreement.
 const ALLOWANCE: f64 = 1e-4;
-/// One part in so many of the budget goes to the difference alone, before other bounds are looked for.
-const ALONE: u64 = 16;
-/// Ways whose steps are not worse together than this many times what is attained may help.
+/// One part in so many of the budget is for the bound of the difference itself, before intermediate chains
+/// are tried.
+const FIRST_PHASE_PART: u64 = 16;
+/// Intermediate chains may help if the maxima of their steps add up to at most this many times the attained
+/// disagreement.
 const PROMISING: f64 = 1.25;
-/// Most sequences that are followed.
-const MOST_WAYS: usize = 4;
+/// Most sequences of intermediate chains that are used.
+const MAX_SEQUENCES: usize = 4;
 
-/// What the worst disagreement lies between.
+/// A lower and an upper bound of the worst disagreement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bracket {
     /// The disagreement at `at`; m or rad.
@@ -45,8 +47,8 @@ pub struct Bracket {
     pub certified: f64,
     /// The configuration that was found, in the ranges; rad or m.
     pub at: Vec<f64>,
-    /// Number of boxes that were bounded; 0 where the telescoping_bound sum was enough.
-    pub cells: u64,
+    /// Number of boxes that were bounded; 0 if the telescoping bound was enough.
+    pub boxes: u64,
 }
 
 impl Bracket {
@@ -73,13 +75,13 @@ pub struct Certificate {
 /// | `ranges` | n closed intervals | rad, m | |
 ///
 /// Source: Tuy, *Convex Analysis and Global Optimization* (2016), chapter 6, for branch and bound; the
-/// bound by corners is argued in `difference.rs`.
+/// bound by corners is derived in `docs/bound.md`.
 ///
 /// # Errors
-/// [`KinematicsError::JointCount`] where lengths differ, [`KinematicsError::JointRange`] for a range
+/// [`KinematicsError::JointCount`] if lengths differ, [`KinematicsError::JointRange`] for a range
 /// that is no closed interval.
 /// # Examples
-/// A tool that is 5 mm off is 5 mm off everywhere, also as seen by a proof:
+/// A tool that is 5 mm off is 5 mm off at every configuration:
 /// ```
 /// use congruent_agreement::bound::{Budget, certify};
 /// use congruent_kinematics::{Pose, ScrewChain, Twist};
@@ -108,14 +110,13 @@ pub fn certify(
     certify_driven((a, &each_its_own), (b, &each_its_own), ranges, budget)
 }
 
-/// The same where the joints of the chains are driven in any order: beside each chain stands, for
-/// each of its joints, the index of its position in `ranges`. So joints that mimic others are held, and
-/// chains that have their joints in different orders.
+/// As [`certify`] for joints that are driven in any order: each chain comes with the index of the position
+/// in `ranges` for each of its joints. This covers mimic joints, and chains with different orders of joints.
 ///
 /// # Errors
 /// As [`certify`]; [`KinematicsError::JointCount`] also for a driver that has no range.
 /// # Examples
-/// Two joints in a row that follow one position turn twice as far as one:
+/// Two consecutive joints that follow one position turn twice as far as one joint:
 /// ```
 /// use congruent_agreement::bound::{Budget, certify_driven};
 /// use congruent_kinematics::{Pose, ScrewChain, Twist};
@@ -135,13 +136,13 @@ pub fn certify_driven(
 ) -> Result<Certificate, KinematicsError> {
     KinematicsError::check_joint_count(a.0.joint_count(), a.1.len())?;
     KinematicsError::check_joint_count(b.0.joint_count(), b.1.len())?;
-    let SideBySide { chains: [a, b], drivers } = SideBySide::new(a, b);
+    let AlignedChains { chains: [a, b], drivers } = AlignedChains::new(a, b);
     check_ranges(&drivers, ranges)?;
-    let rest: Vec<f64> = ranges.iter().map(|&(lower, upper)| 0.0_f64.clamp(lower, upper)).collect();
+    let near_zero: Vec<f64> = ranges.iter().map(|&(lower, upper)| 0.0_f64.clamp(lower, upper)).collect();
     let ranges_of_joints: Vec<Interval> = drivers.iter().map(|&driver| ranges[driver]).collect();
     let first = TelescopingBound::new(&a, &b, &ranges_of_joints);
     let denoised = Denoised::new((&a, &b), &drivers, ranges);
-    let problem = CertificateProblem { denoised: &denoised, rest: &rest, budget };
+    let problem = CertificateProblem { denoised: &denoised, near_zero: &near_zero, budget };
     let mut position_m = problem.bracket(&POSITION, first.total_m());
     let mut orientation_rad = problem.bracket(&ORIENTATION, first.total_rad());
     let at = |chain: &ScrewChain, positions: &[f64]| {
@@ -165,67 +166,74 @@ fn check_ranges(drivers: &[usize], ranges: &[Interval]) -> Result<(), Kinematics
 }
 
 impl Bracket {
-    /// Takes the figure that the chains themselves give; what exceeds the proof is its rounding.
+    /// Takes the value that the chains themselves give; above the certified bound it is rounding.
     fn attain(&mut self, found: f64) {
         self.attained = found.min(self.certified);
     }
 }
 
-/// What is bracketed: how it is made a difference, and how a difference is read.
+/// The measure that is bracketed, position or orientation: how to get its difference, and how to convert
+/// the norm.
 struct BracketedMeasure {
     simplify: fn(&Denoised, f64) -> Simplified,
-    scale: NormReading,
-    price_of_tidying: fn(&Denoised) -> f64,
-    /// Its figure of a pair in m and in rad.
-    of_both: fn([f64; 2]) -> f64,
+    conversion: NormConversion,
+    denoising_slack: fn(&Denoised) -> f64,
+    /// Its value of a pair in m and in rad.
+    component: fn([f64; 2]) -> f64,
     sequences: fn(&ScrewChain, &ScrewChain) -> Vec<ChainSequence>,
 }
 
 const POSITION: BracketedMeasure = BracketedMeasure {
     simplify: Denoised::position,
-    scale: NormReading { of_norm: |difference_m| difference_m, ceiling: f64::INFINITY },
-    price_of_tidying: |denoised| denoised.price_m,
-    of_both: |[position_m, _]| position_m,
+    conversion: NormConversion { from_norm: |difference_m| difference_m, max_norm: f64::INFINITY },
+    denoising_slack: |denoised| denoised.slack_m,
+    component: |[position_m, _]| position_m,
     sequences: |a, b| {
-        [intermediate_chains::over_faults(a, b), intermediate_chains::over_points(a, b)].concat()
+        [intermediate_chains::through_fault_locations(a, b), intermediate_chains::through_points(a, b)]
+            .concat()
     },
 };
 
 const ORIENTATION: BracketedMeasure = BracketedMeasure {
     simplify: Denoised::orientation,
-    scale: NormReading {
-        // Half a turn is the most that two orientations differ, and their quaternions sqrt(2) then.
-        of_norm: |difference| {
+    conversion: NormConversion {
+        // Two orientations differ by half a turn at most; their quaternions differ by sqrt(2) then.
+        from_norm: |difference| {
             if difference < std::f64::consts::SQRT_2 { 4.0 * (difference / 2.0).asin() } else { PI }
         },
-        ceiling: std::f64::consts::SQRT_2,
+        max_norm: std::f64::consts::SQRT_2,
     },
-    price_of_tidying: |denoised| denoised.price_rad,
-    of_both: |[_, orientation_rad]| orientation_rad,
-    sequences: intermediate_chains::over_faults,
+    denoising_slack: |denoised| denoised.slack_rad,
+    component: |[_, orientation_rad]| orientation_rad,
+    sequences: intermediate_chains::through_fault_locations,
 };
 
 struct CertificateProblem<'a> {
     denoised: &'a Denoised,
     /// The configuration nearest to zero.
-    rest: &'a [f64],
+    near_zero: &'a [f64],
     budget: Budget,
 }
 
 impl CertificateProblem<'_> {
     fn bracket(&self, measure: &BracketedMeasure, telescoping_bound: f64) -> Bracket {
         if telescoping_bound <= ROUNDING_LEVEL {
-            return Bracket { attained: 0.0, certified: telescoping_bound, at: self.rest.to_vec(), cells: 0 };
+            return Bracket {
+                attained: 0.0,
+                certified: telescoping_bound,
+                at: self.near_zero.to_vec(),
+                boxes: 0,
+            };
         }
         let ranges: &[Interval] = &self.denoised.positions;
-        let of_norm = measure.scale.of_norm;
+        let from_norm = measure.conversion.from_norm;
         let whole = (measure.simplify)(self.denoised, ROUNDING_LEVEL);
-        let found = Attained::search(&whole.difference, ranges);
-        let allowance = (ALLOWANCE * of_norm(found.difference)).max(ROUNDING_LEVEL);
-        let Simplified { difference, price } = (measure.simplify)(self.denoised, allowance);
-        let found = Attained::new(&difference, self.at_rest_elsewhere(&difference, &found.at));
-        let price = price + (measure.price_of_tidying)(self.denoised);
-        let itself = UpperBound { steps: vec![difference.clone()], price };
+        let found = Incumbent::search(&whole.difference, ranges);
+        let allowance = (ALLOWANCE * from_norm(found.norm)).max(ROUNDING_LEVEL);
+        let Simplified { difference, slack } = (measure.simplify)(self.denoised, allowance);
+        let found = Incumbent::new(&difference, self.with_idle_joints_near_zero(&difference, &found.at));
+        let slack = slack + (measure.denoising_slack)(self.denoised);
+        let itself = UpperBound { differences: vec![difference.clone()], slack };
         let affordable = |bounds: Vec<UpperBound>| -> Vec<UpperBound> {
             bounds.into_iter().filter(|bound| bound.is_affordable(ranges, self.budget)).collect()
         };
@@ -234,76 +242,77 @@ impl CertificateProblem<'_> {
             difference: &difference,
             bounds: affordable(vec![itself.clone()]),
             ranges,
-            scale: measure.scale,
-            budget: Budget { corners: corners / ALONE, relative_gap },
+            conversion: measure.conversion,
+            budget: Budget { corners: corners / FIRST_PHASE_PART, relative_gap },
         };
         let mut outcome = bracket(&task, found);
-        let attained = of_norm(outcome.attained.difference);
+        let attained = from_norm(outcome.incumbent.norm);
         if outcome.certified > (attained * (1.0 + relative_gap)).max(ROUNDING_LEVEL) {
-            let sequences = self.sequences(measure, (&difference, &outcome.attained), allowance);
+            let sequences = self.sequences(measure, (&difference, &outcome.incumbent), allowance);
             task.bounds = affordable([vec![itself], sequences].concat());
-            task.budget = Budget { corners: corners - corners / ALONE, relative_gap };
-            let further = bracket(&task, outcome.attained);
+            task.budget = Budget { corners: corners - corners / FIRST_PHASE_PART, relative_gap };
+            let further = bracket(&task, outcome.incumbent);
             outcome = BracketOutcome {
                 certified: outcome.certified.min(further.certified),
-                cells: outcome.cells + further.cells,
+                boxes: outcome.boxes + further.boxes,
                 ..further
             };
         }
-        let BracketOutcome { attained, certified, cells } = outcome;
-        // The readings of the differences and their sum are some dozen roundings.
+        let BracketOutcome { incumbent, certified, boxes } = outcome;
+        // Outward rounding of the conversions and their sum, some dozen operations.
         let certified = certified * (1.0 + 64.0 * f64::EPSILON);
-        let certified = certified.min(telescoping_bound).min(of_norm(f64::INFINITY));
-        Bracket { attained: of_norm(attained.difference), certified, at: attained.at, cells }
+        let certified = certified.min(telescoping_bound).min(from_norm(f64::INFINITY));
+        Bracket { attained: from_norm(incumbent.norm), certified, at: incumbent.at, boxes }
     }
 
-    /// CertifiedBounds over chains between the two, those that promise most.
+    /// Bounds over intermediate chains, the most promising ones.
     fn sequences(
         &self,
         measure: &BracketedMeasure,
-        (difference, attained): (&DifferenceNorm, &Attained),
+        (difference, incumbent): (&DifferenceNorm, &Incumbent),
         allowance: f64,
     ) -> Vec<UpperBound> {
         let Denoised { a, b, drivers, positions, .. } = self.denoised;
         let ranges: Vec<Interval> = drivers.iter().map(|&driver| positions[driver]).collect();
         let step = |[from, to]: &[ScrewChain; 2]| -> (Option<DifferenceNorm>, f64) {
             let denoised = Denoised::new((from, to), drivers, positions);
-            let Simplified { difference, price } = (measure.simplify)(&denoised, allowance);
-            match intermediate_chains::of_move(from, to, &ranges) {
+            let Simplified { difference, slack } = (measure.simplify)(&denoised, allowance);
+            match intermediate_chains::bound_of_rigid_move(from, to, &ranges) {
                 Some(bounds) if !is_affordable(&difference, positions, self.budget) => {
-                    (None, (measure.of_both)(bounds))
+                    (None, (measure.component)(bounds))
                 }
-                _ => (Some(difference), price + (measure.price_of_tidying)(&denoised)),
+                _ => (Some(difference), slack + (measure.denoising_slack)(&denoised)),
             }
         };
-        let to_tidied = (measure.price_of_tidying)(self.denoised);
+        let denoising_slack = (measure.denoising_slack)(self.denoised);
         let bound = |intermediate_chains: &ChainSequence| {
-            let (steps, prices): (Vec<Option<DifferenceNorm>>, Vec<f64>) =
+            let (steps, slacks): (Vec<Option<DifferenceNorm>>, Vec<f64>) =
                 intermediate_chains.iter().map(step).unzip();
             let steps: Vec<DifferenceNorm> = steps.into_iter().flatten().collect();
-            let price = to_tidied + prices.iter().sum::<f64>();
+            let slack = denoising_slack + slacks.iter().sum::<f64>();
             let worst = |difference: &DifferenceNorm| {
-                (measure.scale.of_norm)(Attained::near(difference, positions, &attained.at).difference)
+                (measure.conversion.from_norm)(Incumbent::near(difference, positions, &incumbent.at).norm)
             };
-            (price + steps.iter().map(worst).sum::<f64>(), UpperBound { steps, price })
+            (slack + steps.iter().map(worst).sum::<f64>(), UpperBound { differences: steps, slack })
         };
         let mut sequences: Vec<(f64, UpperBound)> = (measure.sequences)(a, b).iter().map(bound).collect();
         if is_affordable(difference, positions, self.budget) {
-            let worth = PROMISING * (measure.scale.of_norm)(attained.difference);
-            sequences.retain(|(sum, _)| *sum <= worth);
+            let limit = PROMISING * (measure.conversion.from_norm)(incumbent.norm);
+            sequences.retain(|(sum, _)| *sum <= limit);
         } else {
             sequences.push(bound(&vec![[b.clone(), a.clone()]]));
         }
-        // Ways with a step that no box can be bounded for lead nowhere.
+        // A step whose boxes cannot be bounded makes its sequence useless.
         sequences.retain(|(_, bound)| bound.is_affordable(positions, self.budget));
         sequences.sort_by(|one, two| one.0.total_cmp(&two.0));
-        sequences.truncate(MOST_WAYS);
+        sequences.truncate(MAX_SEQUENCES);
         sequences.into_iter().map(|(_, bound)| bound).collect()
     }
 
-    /// Joints that the difference does not depend on go to where they rest.
-    fn at_rest_elsewhere(&self, difference: &DifferenceNorm, at: &[f64]) -> Vec<f64> {
-        let place = |joint: usize| if difference.depends_on(joint) { at[joint] } else { self.rest[joint] };
-        (0..at.len()).map(place).collect()
+    /// Joints that the difference does not depend on go to the position nearest to zero.
+    fn with_idle_joints_near_zero(&self, difference: &DifferenceNorm, at: &[f64]) -> Vec<f64> {
+        let position =
+            |joint: usize| if difference.depends_on(joint) { at[joint] } else { self.near_zero[joint] };
+        (0..at.len()).map(position).collect()
     }
 }

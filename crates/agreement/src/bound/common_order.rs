@@ -1,28 +1,28 @@
-//! Two chains side by side: joints of one position stand in one place, and what a chain lacks, or has
-//! in another place, does not move in it.
+//! Two chains brought to one order of joints. If a chain lacks a joint, or has it in another place, it gets a
+//! joint there that does not move.
 
 use congruent_kinematics::{ScrewChain, Twist};
 use nalgebra::Vector3;
 
-/// A chain, and for each of its joints the position that drives it.
+/// A chain, and for each of its joints the index of the position that drives it.
 pub(super) type DrivenChain<'a> = (&'a ScrewChain, &'a [usize]);
 
 /// Two chains with the same joints in the same order.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct SideBySide {
+pub(super) struct AlignedChains {
     pub(super) chains: [ScrewChain; 2],
-    /// For each joint the position that drives it.
+    /// For each joint the index of the position that drives it.
     pub(super) drivers: Vec<usize>,
 }
 
-/// A joint of the two, and which of them have it.
+/// A joint of the common order, and which of the two chains have it.
 #[derive(Debug, Clone, Copy)]
 struct CommonJoint {
     driver: usize,
     is_in: [bool; 2],
 }
 
-impl SideBySide {
+impl AlignedChains {
     pub(super) fn new(a: DrivenChain<'_>, b: DrivenChain<'_>) -> Self {
         let places = common_order(a.1, b.1);
         let still = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
@@ -40,8 +40,8 @@ impl SideBySide {
     }
 }
 
-/// The joints of both, base to tip: those of the second, and between them those of the first that the
-/// second lacks or has in another place.
+/// The joints of both chains, base to tip: those of the second, and between them those of the first that
+/// the second lacks or has in another place.
 fn common_order(first: &[usize], second: &[usize]) -> Vec<CommonJoint> {
     let mut places: Vec<CommonJoint> =
         second.iter().map(|&driver| CommonJoint { driver, is_in: [false, true] }).collect();

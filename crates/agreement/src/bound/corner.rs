@@ -1,14 +1,14 @@
-//! Corners of a polygon around what a joint's features run through: an arc of the unit circle for
-//! a turn, a segment for a shift.
+//! Corners of a polygon around the curve of a joint's features: an arc of the unit circle for a turn, a
+//! segment for a shift.
 
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2, TAU};
 
-/// One corner: where a joint's pair of features is taken, on the curve or outside of it.
+/// One corner: a pair of features on the curve or outside of it.
 ///
 /// | field | unit | meaning |
 /// |---|---|---|
 /// | `features` | 1, or m | `(cos, sin)` of the turn, or `(q, 0)` of the shift, on or off the curve |
-/// | `position` | rad or m | joint position whose true features are near |
+/// | `position` | rad or m | a joint position whose features are near |
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Corner {
     pub(super) features: [f64; 2],
@@ -24,17 +24,17 @@ pub(super) fn on_circle(rate: f64, position: f64, radius: f64) -> Corner {
     Corner { features: [radius * cos, radius * sin], position }
 }
 
-/// Features of a shift: a segment is its own hull.
+/// Features of a shift: a segment is its own convex hull.
 pub(super) fn on_line(position: f64) -> Corner {
     Corner { features: [position, 0.0], position }
 }
 
-/// Corners of an arc that wraps: a polygon with so many exceeds the circle by 2 %.
+/// Corners of an arc that wraps: a regular polygon with so many exceeds the circle by 2 %.
 const WRAPPED_CORNERS: u8 = 16;
 /// Most corners that one joint has.
-pub(super) const MOST_CORNERS: usize = WRAPPED_CORNERS as usize;
+pub(super) const MAX_CORNERS: usize = WRAPPED_CORNERS as usize;
 
-/// Whether an arc goes round so often that dividing it hardly helps: it has all corners then.
+/// Whether an arc goes round so often that splitting it hardly reduces the bound: it gets all corners then.
 pub(super) fn wraps(rate: f64, (lower, upper): Interval) -> bool {
     rate * (upper - lower) > 1.5 * TAU
 }
@@ -43,7 +43,7 @@ pub(super) fn wraps(rate: f64, (lower, upper): Interval) -> bool {
 pub(super) fn corner_count(rate: f64, interval: Interval) -> usize {
     let angle = rate * (interval.1 - interval.0);
     if wraps(rate, interval) {
-        MOST_CORNERS
+        MAX_CORNERS
     } else if angle > 2.0 * FRAC_PI_4 {
         4
     } else {
@@ -51,8 +51,8 @@ pub(super) fn corner_count(rate: f64, interval: Interval) -> usize {
     }
 }
 
-/// How far out the corners of [`around_arc`] lie: 1 for an arc of no length, at most the square root
-/// of 2.
+/// Largest distance of the corners of [`around_arc`] from the centre: 1 for an arc of no length, at most
+/// the square root of 2.
 pub(super) fn outermost_radius(rate: f64, (lower, upper): Interval) -> f64 {
     if wraps(rate, (lower, upper)) {
         return (PI / f64::from(WRAPPED_CORNERS)).cos().recip();
@@ -62,9 +62,9 @@ pub(super) fn outermost_radius(rate: f64, (lower, upper): Interval) -> f64 {
     if between_tangents < FRAC_PI_4 { between_tangents.cos().recip() } else { SQRT_2 }
 }
 
-/// Corners around an arc: its ends and the point where the tangents at the ends meet; beyond a
-/// quarter of a turn also the tangent in the middle; beyond half a turn the square around the circle,
-/// and where the arc wraps a polygon that hardly exceeds it.
+/// Corners around an arc. Up to a quarter of a turn: its ends and the point where the tangents at the ends
+/// meet. Up to half a turn: also the tangent in the middle. Up to one and a half turns: the square around
+/// the circle. Beyond: a polygon that hardly exceeds the circle.
 pub(super) fn around_arc(rate: f64, interval: Interval, corners: &mut Vec<Corner>) {
     let (lower, upper) = interval;
     let middle = f64::midpoint(lower, upper);
@@ -93,7 +93,7 @@ pub(super) fn around_arc(rate: f64, interval: Interval, corners: &mut Vec<Corner
     corners.push(on_circle(rate, upper, 1.0));
 }
 
-/// Both ends of a shift.
+/// Both ends of the segment of a shift.
 pub(super) fn around_segment((lower, upper): Interval) -> [Corner; 2] {
     [on_line(lower), on_line(upper)]
 }

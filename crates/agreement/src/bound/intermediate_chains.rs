@@ -1,10 +1,10 @@
-//! Ways from one chain to another over chains between them: by the triangle inequality no
-//! disagreement exceeds the sum of those along a way. Each step differs in one place only, so its difference
-//! depends on fewer joints than the whole, and what the other joints turn is not seen at all: a wrong
-//! base and a wrong tool are worst where they add up, on a set of configurations so flat that a
-//! box around each of them would have to be divided.
+//! Intermediate chains between two chains: by the triangle inequality the disagreement is at most the sum of
+//! the disagreements of consecutive chains. Each step differs in one place only, so its difference depends
+//! on fewer joints than the whole. This helps if two faults add up at the worst configurations, as of base
+//! and tool: the difference is flat around these, and branch and bound alone would have to split very many
+//! boxes.
 //!
-//! A step need not be exact for the sum to hold: any chain may stand between.
+//! Any chain can be an intermediate chain: the choice affects how tight the sum is, not whether it holds.
 
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 use nalgebra::{Matrix3, Vector3};
@@ -14,25 +14,25 @@ use super::{
     telescoping::{TelescopingBound, furthest},
 };
 
-/// Screws that differ by less than this part of what the chains differ are taken for one: it decides
-/// only what stands between.
+/// Screws that differ by less than this part of the chains' difference count as the same. It only affects
+/// the choice of intermediate chains.
 const ALIKE: f64 = 1e-4;
-/// The same where the chains are nearly equal, in rad and m.
+/// The least such difference, for chains that are nearly equal; rad and m.
 const LEAST_ALIKE: f64 = 1e-12;
-/// Axes whose angle has a smaller sine are parallel, and closer axes one.
+/// Axes whose angle has a smaller sine count as parallel, and axes that are closer as the same.
 const PARALLEL: f64 = 1e-6;
-/// Roundings of a move's figures and of a sum over axes, by far.
+/// Outward rounding, in eps, of a rigid move and of a sum over axes; far more than they have.
 const ROUNDINGS: f64 = 1024.0;
-/// Places at fault that are told apart; of more, one at a time is split off.
-const MOST_SPLIT: usize = 4;
+/// Most faulty places of which all groupings are tried; of more places only one at a time is separated.
+const MAX_GROUPED: usize = 4;
 
-/// Chains from the first to the last, each step to the next one.
+/// The steps from the first chain to the last, each from one chain to the next.
 pub(super) type ChainSequence = Vec<[ScrewChain; 2]>;
 
-/// Ways over the places where the chains differ, in all groupings.
-pub(super) fn over_faults(a: &ScrewChain, b: &ScrewChain) -> Vec<ChainSequence> {
+/// Sequences over the places at which the chains differ, in all groupings.
+pub(super) fn through_fault_locations(a: &ScrewChain, b: &ScrewChain) -> Vec<ChainSequence> {
     let between = between(a, b);
-    let groupings: Vec<Vec<usize>> = if between.len() <= MOST_SPLIT {
+    let groupings: Vec<Vec<usize>> = if between.len() <= MAX_GROUPED {
         let all = 0..between.len();
         let subset = |bits: usize| all.clone().filter(|at| bits >> at & 1 == 1).collect();
         (1..1 << between.len()).map(subset).collect()
@@ -47,21 +47,24 @@ pub(super) fn over_faults(a: &ScrewChain, b: &ScrewChain) -> Vec<ChainSequence> 
     groupings.into_iter().map(intermediate_chains).collect()
 }
 
-/// Ways over a point that rests in the base, for positions: both tips are within reach of it. Leading
-/// joints that turn about the point do not move it, so they may stand before it.
-pub(super) fn over_points(a: &ScrewChain, b: &ScrewChain) -> Vec<ChainSequence> {
-    let points: Vec<Vector3<f64>> = [a, b].into_iter().flat_map(crossings).collect();
-    let mut told: Vec<Vector3<f64>> = Vec::new();
+/// Sequences over a point that is fixed in the base, for positions: the distance of each tip from the point
+/// is bounded by the reach. Leading joints that turn about the point do not move it and are kept.
+pub(super) fn through_points(a: &ScrewChain, b: &ScrewChain) -> Vec<ChainSequence> {
+    let points: Vec<Vector3<f64>> = [a, b].into_iter().flat_map(common_normal_midpoints).collect();
+    let mut distinct: Vec<Vector3<f64>> = Vec::new();
     for point in points {
-        if told.iter().all(|other| (other - point).norm() > PARALLEL) {
-            told.push(point);
+        if distinct.iter().all(|other| (other - point).norm() > PARALLEL) {
+            distinct.push(point);
         }
     }
-    told.iter().map(|point| vec![[a.clone(), resting(a, point)], [resting(b, point), b.clone()]]).collect()
+    distinct
+        .iter()
+        .map(|point| vec![[a.clone(), with_tip_at(a, point)], [with_tip_at(b, point), b.clone()]])
+        .collect()
 }
 
-/// The chains between: as many leading joints of `a` as are right, then what `b` has, moved to where
-/// its next joints are those of `a`.
+/// The intermediate chains: some leading joints of `a`, then the remaining joints of `b`, moved so that the
+/// next joints coincide with those of `a`.
 fn between(a: &ScrewChain, b: &ScrewChain) -> Vec<ScrewChain> {
     let joints = a.twists_in_base.len();
     let apart =
@@ -72,7 +75,7 @@ fn between(a: &ScrewChain, b: &ScrewChain) -> Vec<ScrewChain> {
     };
     let candidates = placements(a, b);
     let mut list: Vec<ScrewChain> = vec![b.clone()];
-    let mut tell = |chain: ScrewChain| {
+    let mut push_distinct = |chain: ScrewChain| {
         if !list.last().is_some_and(|last| is_same(last, &chain)) {
             list.push(chain);
         }
@@ -81,13 +84,13 @@ fn between(a: &ScrewChain, b: &ScrewChain) -> Vec<ScrewChain> {
     let mut from = 0;
     while from < joints {
         let run = |pose: &Pose| (from..joints).take_while(|&joint| matches(pose, joint)).count();
-        // A joint that fits nowhere is at fault itself.
+        // A joint that coincides in no placement is faulty itself.
         a_from_b =
             candidates.iter().fold(a_from_b, |best, next| if run(next) > run(&best) { *next } else { best });
-        tell(spliced(a, b, from, &a_from_b));
+        push_distinct(spliced(a, b, from, &a_from_b));
         from += run(&a_from_b).max(1);
     }
-    tell(spliced(a, b, joints, &a_from_b));
+    push_distinct(spliced(a, b, joints, &a_from_b));
     if is_same(list.last().unwrap_or(b), a) {
         list.pop();
     }
@@ -95,7 +98,7 @@ fn between(a: &ScrewChain, b: &ScrewChain) -> Vec<ScrewChain> {
     list.split_off(list.len().min(1))
 }
 
-/// Whether nothing but rounding lies between two chains.
+/// Whether two chains differ by rounding only.
 fn is_same(one: &ScrewChain, two: &ScrewChain) -> bool {
     let (home, other_home) = (&one.base_from_tip_at_zero, &two.base_from_tip_at_zero);
     let twists = one.twists_in_base.iter().zip(&two.twists_in_base);
@@ -103,7 +106,7 @@ fn is_same(one: &ScrewChain, two: &ScrewChain) -> bool {
         && twists.into_iter().all(|(one, two)| distance(one, two) <= LEAST_ALIKE)
 }
 
-/// The first joints of `a`, then those of `b` and its tip, moved.
+/// The first joints of `a`, then the remaining joints and the tip of `b`, moved by `a_from_b`.
 fn spliced(a: &ScrewChain, b: &ScrewChain, from: usize, a_from_b: &Pose) -> ScrewChain {
     let moved = b.twists_in_base[from..].iter().map(|twist| twist.transformed_by(a_from_b));
     ScrewChain {
@@ -112,8 +115,8 @@ fn spliced(a: &ScrewChain, b: &ScrewChain, from: usize, a_from_b: &Pose) -> Scre
     }
 }
 
-/// How `b` may lie in the base of `a`: as it does, with the tips on one another, and with two axes on
-/// one another.
+/// Placements of `b` in the base of `a`: unchanged, with coinciding tips at zero, and with two coinciding
+/// axes.
 fn placements(a: &ScrewChain, b: &ScrewChain) -> Vec<Pose> {
     let tips = a.base_from_tip_at_zero * b.base_from_tip_at_zero.inverse();
     let mut list = vec![Pose::identity(), tips];
@@ -129,7 +132,7 @@ fn placements(a: &ScrewChain, b: &ScrewChain) -> Vec<Pose> {
     list
 }
 
-/// A frame that two axes which are not parallel define: z along the first, x along their common normal.
+/// The frame of two axes that are not parallel: z along the first, x along their common normal.
 fn frame(chain: &ScrewChain, first: usize, second: usize) -> Option<Pose> {
     let [one, two] = [first, second].map(|joint| ScrewAxis::of(&chain.twists_in_base[joint]));
     let (one, two) = (one?, two?);
@@ -139,8 +142,8 @@ fn frame(chain: &ScrewChain, first: usize, second: usize) -> Option<Pose> {
     Some(Pose::from_parts(rotation, one.foot(&two)))
 }
 
-/// Where consecutive axes come closest.
-fn crossings(chain: &ScrewChain) -> Vec<Vector3<f64>> {
+/// The points at which consecutive axes are closest: the middles of their common normals.
+fn common_normal_midpoints(chain: &ScrewChain) -> Vec<Vector3<f64>> {
     let axes: Vec<Option<ScrewAxis>> = chain.twists_in_base.iter().map(ScrewAxis::of).collect();
     let middle = |pair: &[Option<ScrewAxis>]| {
         let [Some(one), Some(two)] = pair else { return None };
@@ -150,25 +153,29 @@ fn crossings(chain: &ScrewChain) -> Vec<Vector3<f64>> {
     axes.windows(2).filter_map(middle).collect()
 }
 
-/// A chain whose tip rests at `point`: it has the leading joints that turn about the point.
-fn resting(chain: &ScrewChain, point: &Vector3<f64>) -> ScrewChain {
+/// A chain whose tip is fixed at `point`: it has the leading joints that turn about the point.
+fn with_tip_at(chain: &ScrewChain, point: &Vector3<f64>) -> ScrewChain {
     let turns_about = |twist: &&Twist| (twist.angular.cross(point) + twist.linear).norm() <= PARALLEL;
     let leading = chain.twists_in_base.iter().take_while(turns_about).count();
-    let still = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
-    let twist = |(joint, twist): (usize, &Twist)| if joint < leading { *twist } else { still };
+    let fixed = Twist { angular: Vector3::zeros(), linear: Vector3::zeros() };
+    let twist = |(joint, twist): (usize, &Twist)| if joint < leading { *twist } else { fixed };
     ScrewChain {
         twists_in_base: chain.twists_in_base.iter().enumerate().map(twist).collect(),
         base_from_tip_at_zero: Pose::from_parts(Matrix3::identity(), *point),
     }
 }
 
-/// A bound in closed form of a step that moves everything behind some joint as a whole, for chains of so
-/// many joints that no box can be bounded: position in m, orientation in rad. `None` for other steps.
+/// A bound in closed form of a step that moves everything behind some joint as a whole, for chains with too
+/// many joints for boxes: position in m, orientation in rad. `None` for other steps.
 ///
-/// With `D` the move, `R` its turn, and `c` a point on the first axis that is moved,
-/// `|D p - p| <= |D c - c| + |R - 1| |p - c|`, and a tip is no further from there than the axes between
-/// are apart.
-pub(super) fn of_move(from: &ScrewChain, to: &ScrewChain, ranges: &[Interval]) -> Option<[f64; 2]> {
+/// With `D` the move, `R` its rotation, and `c` a point on the first axis that is moved,
+/// `|D p - p| <= |D c - c| + |R - 1| |p - c|`, and the distance of the tip `p` from `c` is at most the sum of
+/// the distances between the axes in between.
+pub(super) fn bound_of_rigid_move(
+    from: &ScrewChain,
+    to: &ScrewChain,
+    ranges: &[Interval],
+) -> Option<[f64; 2]> {
     let pairs = from.twists_in_base.iter().zip(&to.twists_in_base);
     let first = pairs.take_while(|(from, to)| distance(from, to) <= LEAST_ALIKE).count();
     let moved = |pose: &Pose| spliced(to, from, first, pose);
@@ -199,7 +206,7 @@ pub(super) fn of_move(from: &ScrewChain, to: &ScrewChain, ranges: &[Interval]) -
     ])
 }
 
-/// How unlike two twists are, the larger of their parts.
+/// The distance of two twists: the larger one of their angular and linear parts.
 fn distance(a: &Twist, b: &Twist) -> f64 {
     (a.angular - b.angular).norm().max((a.linear - b.linear).norm())
 }

@@ -1,4 +1,7 @@
-//! How far two chains can be apart over the whole joint range: attained from below, bounded from above.
+//! How far two chains of screws can be apart over the whole joint range: the largest difference that a
+//! configuration attains, and a bound that no configuration exceeds.
+//!
+//! `docs/bound.md` derives the bound and says which file does which step.
 
 mod branch;
 mod budget;

@@ -1,34 +1,35 @@
-//! From below: configurations with a large difference, by climbing from many starts. No randomness: the
-//! starts are a lattice, so the same chains give the same configuration.
+//! The bound from below: a configuration with a large difference, by local search from many starts. Nothing
+//! is random: the starts are a lattice, so the same chains give the same configuration.
 
 use super::{corner::Interval, difference_norm::DifferenceNorm};
 
 /// Number of starts besides the middle of the ranges.
 const STARTS: u32 = 16;
-/// A climb starts with steps of this part of a range and ends below [`LAST_STEP`].
+/// A local search starts with steps of this part of a range and ends below [`LAST_STEP`].
 const FIRST_STEP: f64 = 0.25;
-/// Where a climb ends: near a maximum the difference is flat, so its error is the square of this.
+/// Smallest step, as part of a range: the difference is flat near a maximum, so its error is the square of
+/// this.
 const LAST_STEP: f64 = 1e-8;
-/// Most rounds over all joints in one climb.
-const MOST_ROUNDS: u32 = 200;
+/// Most rounds over all joints in one local search.
+const MAX_ROUNDS: u32 = 200;
+/// A step must enlarge the difference by this part of it: a smaller gain is not worth a step, or rounding.
+const MIN_GAIN: f64 = 1e-9;
 
-/// A move must widen the difference by this part of it: what is less is no news, or rounding.
-const LEAST_GAIN: f64 = 1e-9;
-
-/// A configuration and its difference.
+/// A configuration and its difference; the best one so far is the incumbent of branch and bound.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Attained {
-    pub(super) difference: f64,
+pub(super) struct Incumbent {
+    /// Norm of the difference there.
+    pub(super) norm: f64,
     pub(super) at: Vec<f64>,
 }
 
-impl Attained {
+impl Incumbent {
     /// The difference at `at`.
     pub(super) fn new(difference: &DifferenceNorm, at: Vec<f64>) -> Self {
-        Self { difference: difference.at(&at), at }
+        Self { norm: difference.at(&at), at }
     }
 
-    /// The best of climbs from all starts.
+    /// The best local maximum from all starts.
     pub(super) fn search(difference: &DifferenceNorm, ranges: &[Interval]) -> Self {
         let mut best =
             Self::new(difference, ranges.iter().map(|range| f64::midpoint(range.0, range.1)).collect());
@@ -36,27 +37,27 @@ impl Attained {
         for start in starts(ranges) {
             let mut found = Self::new(difference, start);
             found.ascend(difference, ranges);
-            if found.difference > best.difference {
+            if found.norm > best.norm {
                 best = found;
             }
         }
         best
     }
 
-    /// The better of climbs from a configuration and from the middle of the ranges.
+    /// The better local maximum of two starts: a configuration, and the middle of the ranges.
     pub(super) fn near(difference: &DifferenceNorm, ranges: &[Interval], at: &[f64]) -> Self {
         let middle = ranges.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
         let [mut one, mut two] = [Self::new(difference, at.to_vec()), Self::new(difference, middle)];
         one.ascend(difference, ranges);
         two.ascend(difference, ranges);
-        if two.difference > one.difference { two } else { one }
+        if two.norm > one.norm { two } else { one }
     }
 
-    /// Moves one joint at a time, as long as that widens the difference, in ever smaller steps.
+    /// Moves one joint at a time as long as that enlarges the difference, in ever smaller steps.
     pub(super) fn ascend(&mut self, difference: &DifferenceNorm, ranges: &[Interval]) {
         let mut step = FIRST_STEP;
-        let noise = difference.rounding(&self.at.iter().map(|&q| (q, q)).collect::<Vec<_>>());
-        for _ in 0..MOST_ROUNDS {
+        let rounding = difference.rounding(&self.at.iter().map(|&q| (q, q)).collect::<Vec<_>>());
+        for _ in 0..MAX_ROUNDS {
             if step < LAST_STEP {
                 return;
             }
@@ -64,9 +65,9 @@ impl Attained {
             for (joint, &(lower, upper)) in ranges.iter().enumerate() {
                 let reach = step * (upper - lower);
                 let before = self.at[joint];
-                improved |= [reach, -reach]
-                    .iter()
-                    .any(|by| self.moves(difference, (joint, (before + by).clamp(lower, upper)), noise));
+                improved |= [reach, -reach].iter().any(|by| {
+                    self.try_move(difference, (joint, (before + by).clamp(lower, upper)), rounding)
+                });
             }
             if !improved {
                 step /= 2.0;
@@ -74,22 +75,27 @@ impl Attained {
         }
     }
 
-    /// Moves one joint there if that widens the difference by more than noise.
-    fn moves(&mut self, difference: &DifferenceNorm, (joint, position): (usize, f64), noise: f64) -> bool {
+    /// Moves one joint to `position` if that enlarges the difference by more than rounding.
+    fn try_move(
+        &mut self,
+        difference: &DifferenceNorm,
+        (joint, position): (usize, f64),
+        rounding: f64,
+    ) -> bool {
         let before = std::mem::replace(&mut self.at[joint], position);
-        let wider = difference.at(&self.at);
-        let improves = wider > self.difference * (1.0 + LEAST_GAIN) + noise;
+        let moved = difference.at(&self.at);
+        let improves = moved > self.norm * (1.0 + MIN_GAIN) + rounding;
         if improves {
-            self.difference = wider;
+            self.norm = moved;
         } else {
             self.at[joint] = before;
         }
         improves
     }
 
-    /// Comes back towards the middle of the ranges until the difference is `ceiling`: it is continuous, so
-    /// where it is beyond here and below there, it is met between.
-    pub(super) fn descend_to(&mut self, ceiling: f64, difference: &DifferenceNorm, ranges: &[Interval]) {
+    /// Bisects towards the middle of the ranges until the difference is `max_norm`: it is continuous, larger
+    /// here and smaller there, so some configuration between has exactly that.
+    pub(super) fn descend_to(&mut self, max_norm: f64, difference: &DifferenceNorm, ranges: &[Interval]) {
         const HALVINGS: u32 = 60;
         let far = self.at.clone();
         let middle: Vec<f64> = ranges.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
@@ -99,7 +105,7 @@ impl Attained {
         for _ in 0..HALVINGS {
             let part = f64::midpoint(inside, outside);
             *self = Self::new(difference, between(part).collect());
-            if self.difference > ceiling {
+            if self.norm > max_norm {
                 outside = part;
             } else {
                 inside = part;
@@ -118,10 +124,10 @@ fn starts(ranges: &[Interval]) -> impl Iterator<Item = Vec<f64>> {
     let root = (0..ITERATIONS).fold(2.0_f64, |x, _| (1.0 + x).powf(root_power));
     (1..=STARTS).map(move |start| {
         let mut step = 1.0;
-        let place = |&(lower, upper): &Interval| {
+        let coordinate = |&(lower, upper): &Interval| {
             step /= root;
             lower + (upper - lower) * (0.5 + f64::from(start) * step).fract()
         };
-        ranges.iter().map(place).collect()
+        ranges.iter().map(coordinate).collect()
     })
 }

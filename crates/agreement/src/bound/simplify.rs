@@ -1,6 +1,6 @@
-//! From two chains to the smallest difference that says the same: what both chains share at the base or at
-//! the tip does not change how far they are apart. What is shared only almost is exchanged, and
-//! the exchange is paid for by the telescoping_bound bound.
+//! From two chains to the smallest difference with the same norm: joints that both chains share at the base
+//! or at the tip do not change the distance. Joints that are almost the same are made the same, and the
+//! telescoping bound of that change is added as slack.
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -13,41 +13,41 @@ use super::{
     telescoping::{TelescopingBound, furthest},
 };
 
-/// Turns and shifts over a whole range below which a twist's part is taken for rounding of whoever
-/// made the chain. Unit: rad and m; kind: rounding; a identified chain shows some 1e-15. It decides only
-/// what is exchanged: the price is computed from what was there.
+/// A turn or a shift over a whole range below this counts as rounding of the given chain. Unit: rad and m;
+/// kind: rounding; an identified chain shows some 1e-15. It only decides what is exchanged: the slack is
+/// computed from the given chain.
 const NOISE: f64 = 1e-12;
 
-/// Two chains without noise.
+/// Two chains without rounding noise.
 #[derive(Debug, Clone)]
 pub(super) struct Denoised {
     pub(super) a: ScrewChain,
     pub(super) b: ScrewChain,
-    /// For each joint, the position that drives it.
+    /// For each joint the index of the position that drives it.
     pub(super) drivers: Vec<usize>,
-    /// Range of each position; at most one turn where it drives one joint that only turns.
+    /// Range of each position; at most one turn if it drives a single joint that only turns.
     pub(super) positions: Vec<Interval>,
     /// The same for each joint.
     ranges: Vec<Interval>,
-    /// How far the denoised chains may be from the given ones, together.
-    pub(super) price_m: f64,
-    /// Likewise.
-    pub(super) price_rad: f64,
+    /// Bound of the distance between the denoised chains and the given ones, both together, m.
+    pub(super) slack_m: f64,
+    /// The same of the orientation, rad.
+    pub(super) slack_rad: f64,
 }
 
-/// A difference with what it leaves out.
+/// A difference, and a bound of what it leaves out.
 #[derive(Debug, Clone)]
 pub(super) struct Simplified {
     pub(super) difference: DifferenceNorm,
-    pub(super) price: f64,
+    pub(super) slack: f64,
 }
 
 impl Denoised {
     /// Removes turns, pitches and differences of rate that are noise.
     pub(super) fn new((a, b): (&ScrewChain, &ScrewChain), drivers: &[usize], positions: &[Interval]) -> Self {
-        let (mut tidy_a, mut tidy_b) = (a.clone(), b.clone());
+        let (mut denoised_a, mut denoised_b) = (a.clone(), b.clone());
         let mut one_turn = positions.to_vec();
-        let twists = tidy_a.twists_in_base.iter_mut().zip(&mut tidy_b.twists_in_base);
+        let twists = denoised_a.twists_in_base.iter_mut().zip(&mut denoised_b.twists_in_base);
         for ((a, b), &driver) in twists.zip(drivers) {
             let furthest = furthest(positions[driver]);
             *a = without_noise(a, furthest);
@@ -64,24 +64,24 @@ impl Denoised {
             }
         }
         let whole: Vec<Interval> = drivers.iter().map(|&driver| positions[driver]).collect();
-        let price_a = TelescopingBound::new(a, &tidy_a, &whole);
-        let price_b = TelescopingBound::new(b, &tidy_b, &whole);
+        let slack_a = TelescopingBound::new(a, &denoised_a, &whole);
+        let slack_b = TelescopingBound::new(b, &denoised_b, &whole);
         Self {
-            a: tidy_a,
-            b: tidy_b,
+            a: denoised_a,
+            b: denoised_b,
             drivers: drivers.to_vec(),
             ranges: drivers.iter().map(|&driver| one_turn[driver]).collect(),
             positions: one_turn,
-            price_m: price_a.total_m() + price_b.total_m(),
-            price_rad: price_a.total_rad() + price_b.total_rad(),
+            slack_m: slack_a.total_m() + slack_b.total_m(),
+            slack_rad: slack_a.total_rad() + slack_b.total_rad(),
         }
     }
 
-    /// The difference between the tips' positions, in metres; `allowance_m` may be lost on each side.
+    /// The difference between the tips' positions, in metres; at most `allowance_m` is left out at each end.
     pub(super) fn position(&self, allowance_m: f64) -> Simplified {
         let telescoping = TelescopingBound::new(&self.a, &self.b, &self.ranges);
-        let first = shared_count(&telescoping.position_m, allowance_m);
-        let mut price = self.exchanged(first).total_m();
+        let first = exchangeable_count(&telescoping.position_m, allowance_m);
+        let mut slack = self.exchange_bound(first).total_m();
         let tips = [&self.a, &self.b].map(|chain| chain.base_from_tip_at_zero.translation);
         let mut last = self.ranges.len();
         while last > first {
@@ -93,21 +93,21 @@ impl Denoised {
             if both > allowance_m {
                 break;
             }
-            price += both;
+            slack += both;
             last -= 1;
         }
         let slots = (first..last).flat_map(|joint| self.point_slots(joint)).collect();
         let difference = DifferenceNorm::new(slots, tips.map(|tip| tip.push(1.0)));
-        let (difference, of_lead) = difference.without_shared_lead(&self.positions);
-        Simplified { difference, price: price + of_lead }
+        let (difference, leading_slack) = difference.without_common_leading_slots(&self.positions);
+        Simplified { difference, slack: slack + leading_slack }
     }
 
-    /// The difference between the tips' unit quaternions, `2 sin(angle / 4)` along the way from the middle of
-    /// the ranges; `allowance_rad` may be lost on each side.
+    /// The difference between the tips' unit quaternions, `2 sin(angle / 4)`, with the signs that are
+    /// nearest to each other in the middle of the ranges; at most `allowance_rad` is left out at each end.
     pub(super) fn orientation(&self, allowance_rad: f64) -> Simplified {
         let telescoping = TelescopingBound::new(&self.a, &self.b, &self.ranges);
-        let first = shared_count(&telescoping.orientation_rad, allowance_rad);
-        let mut price = self.exchanged(first).total_rad();
+        let first = exchangeable_count(&telescoping.orientation_rad, allowance_rad);
+        let mut slack = self.exchange_bound(first).total_rad();
         let homes = [&self.a, &self.b].map(|chain| chain.base_from_tip_at_zero.rotation);
         let mut last = self.ranges.len();
         let mut allowed = allowance_rad;
@@ -120,22 +120,22 @@ impl Denoised {
                 break;
             }
             allowed -= turned;
-            price += turned;
+            slack += turned;
             last -= 1;
         }
         let slots = (first..last).flat_map(|joint| self.quaternion_slots(joint)).collect();
         let difference = DifferenceNorm::new(slots, homes.map(|home| Vector4::from(quaternion_of(&home))));
-        let (difference, of_lead) = difference.without_shared_lead(&self.positions);
-        // A chord of quaternions is about half of the angle, and at least a quarter.
-        let price = price + 4.0 * of_lead;
+        let (difference, leading_slack) = difference.without_common_leading_slots(&self.positions);
+        // The chord of two quaternions is about half of the angle, and at least a quarter of it.
+        let slack = slack + 4.0 * leading_slack;
         let middle: Vec<f64> = self.positions.iter().map(|range| f64::midpoint(range.0, range.1)).collect();
-        // A quaternion and its negative are one orientation: the nearer one.
+        // A quaternion and its negative are one orientation: take the nearer one.
         let difference = if difference.at(&middle) > SQRT_2 { difference.negated() } else { difference };
-        Simplified { difference, price }
+        Simplified { difference, slack }
     }
 
-    /// What it costs to give the first chain the second one's leading joints.
-    fn exchanged(&self, count: usize) -> TelescopingBound {
+    /// Bound of the change if the first chain gets the leading joints of the second one.
+    fn exchange_bound(&self, count: usize) -> TelescopingBound {
         let mut a = self.a.clone();
         a.twists_in_base[..count].copy_from_slice(&self.b.twists_in_base[..count]);
         TelescopingBound::new(&self.a, &a, &self.ranges)
@@ -163,14 +163,14 @@ impl Denoised {
     }
 }
 
-/// One turn with the rate that both screws have, and one for what the faster has beyond it.
+/// One turn with the rate that both screws have, and one for the rest of the faster screw.
 fn turns(
     joint: usize,
     screws: &[ScrewParts; 2],
     motion: fn(&ScrewParts) -> AffineMotion,
 ) -> Vec<FeatureSlot> {
     let [a, b] = screws;
-    // Denoised rates differ by rounding or by more than noise.
+    // Denoised rates differ by rounding or by more than rounding.
     let alike = (a.rate - b.rate).abs() <= 8.0 * f64::EPSILON * b.rate;
     let shared = if alike { b.rate } else { a.rate.min(b.rate) };
     let slot = |rate: f64, motions| FeatureSlot::new(joint, Some(rate), motions);
@@ -187,13 +187,13 @@ fn turns(
     slots
 }
 
-/// A twist taken apart: a turn about a line, then a shift along it.
+/// The parts of a twist: a turn about a line and a shift along it.
 #[derive(Debug, Clone, Copy)]
 struct ScrewParts {
     /// Turn per unit of the joint's position.
     rate: f64,
     axis: Vector3<f64>,
-    /// The line's moment: how the origin moves for a turn by one radian.
+    /// The line's moment: the velocity of the origin per radian.
     moment: Vector3<f64>,
     /// Shift per unit of the joint's position.
     shift: Vector3<f64>,
@@ -208,9 +208,9 @@ impl ScrewParts {
         let axis = twist.angular / rate;
         let shift = axis * axis.dot(&twist.linear);
         let moment = (twist.linear - shift) / rate;
-        // What is left of a removed pitch is rounding.
-        let noise = shift.norm() <= 8.0 * f64::EPSILON * twist.linear.norm();
-        Self { rate, axis, moment, shift: if noise { Vector3::zeros() } else { shift } }
+        // After a pitch was removed the remaining shift is rounding.
+        let is_rounding = shift.norm() <= 8.0 * f64::EPSILON * twist.linear.norm();
+        Self { rate, axis, moment, shift: if is_rounding { Vector3::zeros() } else { shift } }
     }
 
     /// `R = n n' + cos (I - n n') + sin [n]`, `p = sin m + (1 - cos) n x m`.
@@ -223,20 +223,25 @@ impl ScrewParts {
             constant,
             first: homogeneous(&(Matrix3::identity() - along), &-inwards),
             second: homogeneous(&hat(&self.axis), &self.moment),
-            carries: self.moment.norm(),
+            origin_displacement: self.moment.norm(),
         }
     }
 
     fn shift_of_points(&self) -> AffineMotion {
         let first = homogeneous(&Matrix3::zeros(), &self.shift);
-        AffineMotion { first, carries: self.shift.norm(), ..AffineMotion::none() }
+        AffineMotion { first, origin_displacement: self.shift.norm(), ..AffineMotion::none() }
     }
 
     /// `cos + sin n` of half the angle, as a matrix that multiplies `(w, x, y, z)` from the left.
     fn turn_of_quaternions(&self) -> AffineMotion {
         let [x, y, z] = self.axis.into();
         let second = Matrix4::new(0.0, -x, -y, -z, x, 0.0, -z, y, y, z, 0.0, -x, z, -y, x, 0.0);
-        AffineMotion { constant: Matrix4::zeros(), first: Matrix4::identity(), second, carries: 0.0 }
+        AffineMotion {
+            constant: Matrix4::zeros(),
+            first: Matrix4::identity(),
+            second,
+            origin_displacement: 0.0,
+        }
     }
 }
 
@@ -258,7 +263,7 @@ fn without_noise(twist: &Twist, furthest: f64) -> Twist {
     Twist { linear, ..*twist }
 }
 
-/// The middle turn of a range that has more than one: all others repeat it.
+/// The middle turn of a range of more than one turn: all others repeat it.
 fn within_one_turn((lower, upper): Interval, rate: f64) -> Interval {
     if (upper - lower) * rate <= TAU {
         return (lower, upper);
@@ -267,13 +272,13 @@ fn within_one_turn((lower, upper): Interval, rate: f64) -> Interval {
     (middle - half, middle + half)
 }
 
-/// How many leading joints may be exchanged for the allowance.
-fn shared_count(prices: &[f64], allowance: f64) -> usize {
+/// How many leading joints can be exchanged within the allowance.
+fn exchangeable_count(slacks: &[f64], allowance: f64) -> usize {
     let mut spent = 0.0;
-    let affordable = |price: &&f64| {
-        spent += **price;
+    let affordable = |slack: &&f64| {
+        spent += **slack;
         spent <= allowance
     };
-    // The last price is that of the home pose, no joint.
-    prices[..prices.len() - 1].iter().take_while(affordable).count()
+    // The last entry is that of the home pose, not of a joint.
+    slacks[..slacks.len() - 1].iter().take_while(affordable).count()
 }

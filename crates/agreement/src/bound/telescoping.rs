@@ -1,17 +1,19 @@
-//! The first bound: one joint exchanged after the other, the differences summed.
+//! The telescoping bound: the joints are exchanged one after the other, and the differences are summed.
 //!
-//! `A_1 ... A_n M_a - B_1 ... B_n M_b = sum_i A_1 ... A_(i-1) (A_i - B_i) B_(i+1) ... B_n M_b + A_1 ... A_n (M_a - M_b)`:
-//! what stands to the left only turns the difference, what stands to the right only says how far
-//! out the tip may be. No sampling, no iteration, and proportional to the difference.
+//! ```text
+//! A_1..A_n M_a - B_1..B_n M_b = sum_i A_1..A_(i-1) (A_i - B_i) B_(i+1)..B_n M_b + A_1..A_n (M_a - M_b)
+//! ```
+//! The factors on the left only turn the difference, and those on the right only limit the distance of the
+//! tip. Nothing is sampled or iterated, and the bound is proportional to the difference.
 
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 
 use super::corner::Interval;
 
-/// The sum is of a few dozen positive terms: what rounding can take from it.
+/// Outward rounding of a sum of a few dozen positive terms.
 const OUTWARD: f64 = 1.0 + 256.0 * f64::EPSILON;
 
-/// How much each exchange can move the tip, in position and in orientation.
+/// How far each exchange can move the tip, in position and in orientation.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TelescopingBound {
     /// For each joint, then for the home pose.
@@ -32,23 +34,23 @@ impl TelescopingBound {
         let mut radius_m = home_b.translation.norm();
         for ((a, b), range) in a.twists_in_base.iter().zip(&b.twists_in_base).zip(ranges).rev() {
             let furthest = furthest(*range);
-            radius_m += carried_m(b, furthest);
+            radius_m += radius_growth_m(b, furthest);
             let turn = (a.angular - b.angular).norm();
             position_m.push(furthest * (turn * radius_m + (a.linear - b.linear).norm()));
             orientation_rad.push(furthest * turn);
         }
-        // The home pose stood first of the reversed joints.
+        // The loop ran from tip to base, with the home pose first.
         position_m.reverse();
         orientation_rad.reverse();
         Self { position_m, orientation_rad }
     }
 
-    /// The worst disagreement in position is at most this, in metres.
+    /// A bound of the disagreement in position, in metres.
     pub(super) fn total_m(&self) -> f64 {
         self.position_m.iter().sum::<f64>() * OUTWARD
     }
 
-    /// The worst disagreement in orientation is at most this, in radians.
+    /// A bound of the disagreement in orientation, in radians.
     pub(super) fn total_rad(&self) -> f64 {
         (self.orientation_rad.iter().sum::<f64>() * OUTWARD).min(std::f64::consts::PI)
     }
@@ -59,22 +61,22 @@ pub(super) fn furthest((lower, upper): Interval) -> f64 {
     lower.abs().max(upper.abs())
 }
 
-/// How much further from the base's origin a joint can carry a point: the way that the origin
-/// itself makes, and no more than the diameter of its circle.
-fn carried_m(twist: &Twist, furthest: f64) -> f64 {
+/// How much a joint can increase the distance of a point from the base's origin: the path length of the
+/// origin itself, or the diameter of its circle if that is less.
+fn radius_growth_m(twist: &Twist, furthest: f64) -> f64 {
     let rate = twist.angular.norm();
-    let way_m = twist.linear.norm() * furthest;
+    let path_m = twist.linear.norm() * furthest;
     if rate == 0.0 {
-        return way_m;
+        return path_m;
     }
     let axis = twist.angular / rate;
     let along = axis.dot(&twist.linear);
     let across = (twist.linear - axis * along).norm();
-    way_m.min(along.abs() * furthest + 2.0 * across / rate)
+    path_m.min(along.abs() * furthest + 2.0 * across / rate)
 }
 
-/// The angle between two orientations by the chord of their matrices, whose entries' rounding it
-/// takes for a turn: `|R_a - R_b| = 2 sqrt(2) sin(angle / 2)`.
+/// An upper bound of the angle between two orientations from the chord of their matrices,
+/// `|R_a - R_b| = 2 sqrt(2) sin(angle / 2)`; rounding of the entries counts as rotation.
 fn angle_at_most_rad(a: &Pose, b: &Pose) -> f64 {
     let half_sine = (a.rotation - b.rotation).norm() / 8.0_f64.sqrt();
     if half_sine < 0.5 { 2.0 * half_sine.asin() } else { a.angle_rad(b) }

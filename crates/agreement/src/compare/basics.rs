@@ -1,66 +1,77 @@
-//! The checks before any use, on the tool center point: where it is at zero, which way each joint
-//! moves it, and whether the transforms are rigid motions at all.
+//! First checks of a robot, on the tool centre point (TCP): its pose at zero, its motion with each joint, and
+//! whether the transforms are rigid motions.
 
 use congruent_description::{LinkIndex, RobotDescription, RobotQ};
 use congruent_kinematics::{
     DhChain, KinematicsError, Pose, ReportedPose, UrdfTree, axis_steps, larger, rotation_log,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
 
-/// Below this a shift is rounding and has no direction. Kind: rounding, of arms that reach some metres.
-const NO_SHIFT_M: f64 = 1e-12;
+/// A shorter displacement has no direction. Kind: rounding, for arms with a reach of some metres.
+const NO_DISPLACEMENT_M: f64 = 1e-12;
 
-/// What a person tries first with a new robot, in the axes of link `base`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The first checks of a robot, in the axes of link `base`.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Basics {
-    /// The link in whose axes all is told.
+    /// The link whose axes are used.
     pub base: String,
-    /// The link that carries the TCP, or is it where no `[tcp]` is declared.
+    /// The link with the TCP, at its origin if no `[tcp]` is declared.
     pub tip: String,
-    /// Where the TCP is at zero.
+    /// Pose of the TCP at zero.
     pub zero: BySource<ReportedPose>,
-    /// Each joint moved alone from zero; joints that mimic it follow.
+    /// The motion of each joint alone from zero; joints that mimic it follow.
     pub joints: Vec<JointMotion>,
     /// The largest Frobenius norm of `R^T R - I` of the TCP at all configurations of the check.
     pub orthonormality_error: f64,
     /// The largest distance of `det R` from 1.
     pub determinant_error: f64,
-    /// The largest shift that `T T^-1` leaves.
+    /// The largest translation of `T T^-1`, m.
     pub round_trip_m: f64,
-    /// The largest turn that `T T^-1` leaves.
+    /// The largest rotation angle of `T T^-1`, rad.
     pub round_trip_rad: f64,
 }
 
-/// The same by the robot's table and by its URDF.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// A value by the robot's table and by its URDF.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BySource<T> {
-    /// By the table; `None` where the robot file has none.
+    /// By the table; `None` if the robot file has no table.
     pub model: Option<T>,
     /// By the URDF chain.
     pub urdf: T,
 }
 
-/// One joint moved alone.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The unit of a joint's coordinate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CoordinateUnit {
+    /// Radians, of a joint that turns.
+    Rad,
+    /// Metres, of a prismatic joint.
+    M,
+}
+
+/// The motion of the TCP by one joint alone.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointMotion {
     /// The joint.
     pub joint: String,
-    /// How far it moved, in `unit`.
+    /// The change of its coordinate, in `unit`.
     pub by: f64,
     /// `rad` or `m`.
-    pub unit: &'static str,
-    /// What the TCP did.
+    pub unit: CoordinateUnit,
+    /// The motion of the TCP.
     pub motion: BySource<TcpMotion>,
 }
 
-/// What the TCP did, in the axes of link `base`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// A motion of the TCP, in the axes of link `base`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct TcpMotion {
-    /// From where it was to where it is.
+    /// Displacement from the old position to the new one.
     pub shift_m: [f64; 3],
-    /// The shift as a direction of length 1; `None` where nothing shifted.
+    /// Direction of the displacement, of length 1; `None` if there is none.
     pub direction: Option<[f64; 3]>,
-    /// Axis times angle of the turn.
+    /// The rotation, axis times angle.
     pub turn_rad: [f64; 3],
 }
 
@@ -69,14 +80,14 @@ impl TcpMotion {
         let shift = after.translation - before.translation;
         Self {
             shift_m: shift.into(),
-            direction: shift.try_normalize(NO_SHIFT_M).map(Into::into),
+            direction: shift.try_normalize(NO_DISPLACEMENT_M).map(Into::into),
             turn_rad: rotation_log(&(after.rotation * before.rotation.transpose())).into(),
         }
     }
 }
 
-/// The TCP by both sources, for one configuration after another.
-struct Sources {
+/// Pose of the TCP by both sources at one configuration after another.
+struct TcpSources {
     table: Option<DhChain>,
     tree: UrdfTree,
     base: LinkIndex,
@@ -84,7 +95,7 @@ struct Sources {
     tip_from_tcp: Pose,
 }
 
-impl Sources {
+impl TcpSources {
     fn new(description: &RobotDescription) -> Self {
         let robot = &description.robot;
         Self {
@@ -105,22 +116,22 @@ impl Sources {
 }
 
 impl<T> BySource<T> {
-    /// `table`, where there is one, and `URDF`, each with what it says.
+    /// `table`, if there is one, and `URDF`, each with its value.
     pub fn named(&self) -> impl Iterator<Item = (&'static str, &T)> {
         self.model.iter().map(|model| ("table", model)).chain([("URDF", &self.urdf)])
     }
 }
 
-/// The checks before any use; errors of the transforms are the worst over `configurations`.
+/// The first checks; errors of the transforms are the worst over `configurations`.
 ///
 /// # Errors
-/// [`KinematicsError`] when a configuration is none of the robot.
+/// [`KinematicsError`] if a configuration has the wrong number of joints.
 pub(crate) fn basics(
     description: &RobotDescription,
     configurations: &[RobotQ],
 ) -> Result<Basics, KinematicsError> {
     let robot = &description.robot;
-    let sources = Sources::new(description);
+    let sources = TcpSources::new(description);
     let mut zero = RobotQ::zeros(robot.dof());
     robot.apply_mimic(&mut zero);
     let at_zero = sources.base_from_tcp(&zero)?;
@@ -144,7 +155,7 @@ pub(crate) fn basics(
         basics.joints.push(JointMotion {
             joint: joint.name.clone(),
             by: step.by,
-            unit: joint.kind.unit(),
+            unit: if joint.kind.is_angular() { CoordinateUnit::Rad } else { CoordinateUnit::M },
             motion: BySource {
                 model: by_table.map(|(before, after)| TcpMotion::between(before, after)),
                 urdf: TcpMotion::between(&at_zero.urdf, &moved.urdf),

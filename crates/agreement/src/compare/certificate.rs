@@ -1,10 +1,11 @@
-//! The certificates of a robot: how far two of its models can be apart at link `tip`, over the whole
-//! joint range, sampled or not. Table and URDF are known, the physics as far as it was identified.
+//! The certificates of a robot: bounds of the difference of two of its models at link `tip` over the whole
+//! joint range. Table and URDF are known chains, the physics is the chain that was identified.
 
 use congruent_description::{DhTable, JointValues, Mimic, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{
     DhChain, LinkPoses, Pose, PoseError, ScrewChain, Twist, UrdfTree, move_inside_limits, range,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
@@ -13,28 +14,29 @@ use crate::{
         error::CheckError,
         identified::{IdentifiedChain, SCREW_RESIDUAL_LIMIT, base_from_tip},
     },
+    source_pair::SourcePair,
 };
 
 pub use crate::compare::identified::Premise;
 
-/// How far a identified chain may be from what it was identified from, for each metre of its screws'
-/// moments and of its home pose (and as an angle). Kind: rounding; a logarithm over half a unit and
-/// three products for each joint, some 20 eps; worst seen 6 eps.
+/// Largest difference of an identified chain from its source, per metre of its screws' moments and of its
+/// home pose (and as an angle). Kind: rounding; a logarithm over half a unit and three products for each
+/// joint, some 20 eps; worst seen 6 eps.
 const IDENTIFICATION_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-/// One worst disagreement, bracketed.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// Bracket of one worst disagreement.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedBracket {
     /// The disagreement at `at`; m or rad.
     pub attained: f64,
-    /// The bound; m or rad.
+    /// The bound that no configuration exceeds; m or rad.
     pub certified: f64,
-    /// A configuration that attains it: the joints that move the tip, rad or m.
+    /// The configuration of `attained`: the joints that move the tip, rad or m.
     pub at: JointValues,
 }
 
-/// Both brackets of one robot.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The brackets of position and orientation.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Brackets {
     /// Of the position, m.
     pub position_m: ReportedBracket,
@@ -43,8 +45,8 @@ pub struct Brackets {
 }
 
 impl Brackets {
-    /// The configurations of the robot that attain them; joints that do not move the tip stand at
-    /// zero, or at the limit nearest to it.
+    /// The configurations of the robot that attain them; joints that do not move the tip are at zero, or at
+    /// the limit nearest to zero.
     pub(crate) fn attained_at(&self, robot: &Robot) -> [RobotQ; 2] {
         [&self.position_m, &self.orientation_rad].map(|bracket| {
             let mut q = RobotQ::zeros(robot.dof());
@@ -57,28 +59,34 @@ impl Brackets {
         })
     }
 
-    /// The bounds alone: no configuration is further apart.
+    /// The bounds alone: no configuration has a larger difference.
     pub fn bounds(&self) -> PoseError {
         PoseError { position_m: self.position_m.certified, orientation_rad: self.orientation_rad.certified }
     }
 }
 
-/// What is certified about two models of the chain.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The certificate of two models of the chain.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedCertificate {
-    /// Which two: `model_urdf`, `model_simulation` or `urdf_simulation`.
-    pub name: &'static str,
-    /// The same in words.
-    pub between: &'static str,
-    /// Both brackets; none where a joint has no end, or the premise does not hold.
+    /// The pair: `model_urdf`, `model_simulation` or `urdf_simulation`.
+    pub name: SourcePair,
+    /// The pair in words.
+    pub title: &'static str,
+    /// Both brackets; none if a joint has no limits, or if the premise does not hold.
     #[serde(flatten)]
     pub brackets: Option<Brackets>,
-    /// Of the physics: that each joint is one screw.
+    /// Of the physics: the premise that each joint is a pure screw motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub premise: Option<Premise>,
 }
 
-/// The largest bounds of several certificates, each with where it is attained.
+impl ReportedCertificate {
+    fn new(pair: SourcePair, brackets: Option<Brackets>, premise: Option<Premise>) -> Self {
+        Self { name: pair, title: pair.title(), brackets, premise }
+    }
+}
+
+/// The largest bounds of several certificates, with their configurations.
 pub(crate) fn worst(certificates: &[ReportedCertificate]) -> Option<Brackets> {
     let brackets = || certificates.iter().filter_map(|certificate| certificate.brackets.as_ref());
     let largest = |of: fn(&Brackets) -> &ReportedBracket| {
@@ -92,11 +100,11 @@ pub(crate) fn worst(certificates: &[ReportedCertificate]) -> Option<Brackets> {
     })
 }
 
-/// Brackets the disagreement of table and URDF and of table and physics at link `tip`, seen from link
+/// Brackets the disagreements of table and URDF and of table and physics at link `tip` relative to link
 /// `base`; of a robot without table that of URDF and physics.
 ///
 /// # Errors
-/// [`CheckError`] when table and robot do not fit together, or the physics refuses a configuration.
+/// [`CheckError`] if table and robot do not fit together, or if the physics rejects a configuration.
 pub(crate) fn certificates(
     description: &RobotDescription,
     identified: &IdentifiedChain,
@@ -106,19 +114,19 @@ pub(crate) fn certificates(
     if robot.chain(description.base, description.tip).is_none() {
         return Ok(Vec::new());
     }
-    let (urdf, simulated) = (Side::urdf(description)?, Side::physics(description, identified));
+    let (urdf, simulated) =
+        (ComparedChain::urdf(description)?, ComparedChain::physics(description, identified));
     let urdf_physics = if identified.premise.holds { certified(robot, [&urdf, &simulated])? } else { None };
     let premise = Some(identified.premise);
     let Some(table) = &description.dh else {
         let brackets = report(robot, [&urdf, &simulated], urdf_physics, physics)?;
-        let (name, between) = ("urdf_simulation", "URDF and physics");
-        return Ok(vec![ReportedCertificate { name, between, brackets, premise }]);
+        return Ok(vec![ReportedCertificate::new(SourcePair::UrdfSimulation, brackets, premise)]);
     };
-    let table = Side::table(robot, table)?;
+    let table = ComparedChain::table(robot, table)?;
     let table_urdf = certified(robot, [&table, &urdf])?;
     let table_physics = match (&table_urdf, urdf_physics) {
         (Some(table_urdf), Some(urdf_physics)) if is_rounding(&urdf_physics) => {
-            Some(by_way_of(table_urdf, &urdf_physics))
+            Some(through_intermediate(table_urdf, &urdf_physics))
         }
         (_, Some(_)) => certified(robot, [&table, &simulated])?,
         (_, None) => None,
@@ -126,34 +134,24 @@ pub(crate) fn certificates(
     let of_urdf = report(robot, [&table, &urdf], table_urdf, physics)?;
     let of_physics = report(robot, [&table, &simulated], table_physics, physics)?;
     Ok(vec![
-        ReportedCertificate {
-            name: "model_urdf",
-            between: "table and URDF",
-            brackets: of_urdf,
-            premise: None,
-        },
-        ReportedCertificate {
-            name: "model_simulation",
-            between: "table and physics",
-            brackets: of_physics,
-            premise,
-        },
+        ReportedCertificate::new(SourcePair::ModelUrdf, of_urdf, None),
+        ReportedCertificate::new(SourcePair::ModelSimulation, of_physics, premise),
     ])
 }
 
 /// A model of the chain from base to tip.
-struct Side<'a> {
+struct ComparedChain<'a> {
     driven: DrivenScrews,
-    /// How far the model was found from its screws.
+    /// Largest difference of the model from its screws.
     residual: PoseError,
     /// The model itself, at a configuration of the robot.
     base_from_tip: Box<TipPose<'a>>,
 }
 
-/// Pose of the tip in the base; the physics is asked in its world.
+/// Pose of the tip in the base; the physics is evaluated through its source of link poses.
 type TipPose<'a> = dyn Fn(&mut dyn LinkPoses, &RobotQ) -> Result<Pose, CheckError> + 'a;
 
-impl<'a> Side<'a> {
+impl<'a> ComparedChain<'a> {
     fn table(robot: &Robot, table: &DhTable) -> Result<Self, CheckError> {
         let by_table = DhChain::new(table, robot);
         let chain = ScrewChain::from_dh(&by_table, robot.dof())?;
@@ -192,14 +190,14 @@ impl<'a> Side<'a> {
     }
 }
 
-/// The bracket with what probing may have missed; `None` where a joint that moves one of them has no
-/// end.
-fn certified(robot: &Robot, sides: [&Side<'_>; 2]) -> Result<Option<Certificate>, CheckError> {
-    let [a, b] = sides.map(|side| &side.driven);
-    // Positions that drive nothing may have any range.
+/// The bracket of two models, with the residual and the rounding of their identification; `None` if a joint
+/// that moves one of them has no limits.
+fn certified(robot: &Robot, chains: [&ComparedChain<'_>; 2]) -> Result<Option<Certificate>, CheckError> {
+    let [a, b] = chains.map(|side| &side.driven);
+    // The range of positions that move neither chain does not matter.
     let joints = robot.movable_joints().iter().enumerate();
     let ranges: Vec<(f64, f64)> = joints
-        .map(|(index, &joint)| if drives(sides, index) { range(robot.joint(joint)) } else { (0.0, 0.0) })
+        .map(|(index, &joint)| if drives(chains, index) { range(robot.joint(joint)) } else { (0.0, 0.0) })
         .collect();
     if !ranges.iter().all(|range| range.0.is_finite() && range.1.is_finite()) {
         return Ok(None);
@@ -207,36 +205,37 @@ fn certified(robot: &Robot, sides: [&Side<'_>; 2]) -> Result<Option<Certificate>
     let mut found =
         certify_driven((&a.chain, &a.drivers), (&b.chain, &b.drivers), &ranges, Budget::default())?;
     let rounding = a.rounding() + b.rounding();
-    let residual = sides.map(|side| side.residual);
+    let residual = chains.map(|side| side.residual);
     found.position_m.certified += rounding + residual[0].position_m + residual[1].position_m;
     found.orientation_rad.certified += rounding + residual[0].orientation_rad + residual[1].orientation_rad;
     Ok(Some(found))
 }
 
 /// Whether a position moves one of the two.
-fn drives(sides: [&Side<'_>; 2], index: usize) -> bool {
-    sides.iter().any(|side| side.driven.drivers.contains(&index))
+fn drives(chains: [&ComparedChain<'_>; 2], index: usize) -> bool {
+    chains.iter().any(|side| side.driven.drivers.contains(&index))
 }
 
-/// Whether two models are the same but for rounding.
+/// Whether two models differ by rounding only.
 fn is_rounding(certificate: &Certificate) -> bool {
     certificate.position_m.certified.max(certificate.orientation_rad.certified) <= SCREW_RESIDUAL_LIMIT
 }
 
-/// From a to c by way of b, which is all but c: no further than both ways together.
-fn by_way_of(a_b: &Certificate, b_c: &Certificate) -> Certificate {
+/// The bracket of a and c through b, which differs from c by rounding only: by the triangle inequality the
+/// bounds add up.
+fn through_intermediate(a_b: &Certificate, b_c: &Certificate) -> Certificate {
     let sum =
-        |far: &Bracket, near: &Bracket| Bracket { certified: far.certified + near.certified, ..far.clone() };
+        |a_b: &Bracket, b_c: &Bracket| Bracket { certified: a_b.certified + b_c.certified, ..a_b.clone() };
     Certificate {
         position_m: sum(&a_b.position_m, &b_c.position_m),
         orientation_rad: sum(&a_b.orientation_rad, &b_c.orientation_rad),
     }
 }
 
-/// A certificate in names, with what the models themselves attain.
+/// A certificate with names of joints, and with the disagreement that the models themselves have.
 fn report(
     robot: &Robot,
-    sides: [&Side<'_>; 2],
+    chains: [&ComparedChain<'_>; 2],
     certificate: Option<Certificate>,
     physics: &mut dyn LinkPoses,
 ) -> Result<Option<Brackets>, CheckError> {
@@ -244,10 +243,10 @@ fn report(
     let mut bracket = |Bracket { at, certified, .. }: Bracket, measure: fn(PoseError) -> f64| {
         let mut at = RobotQ::from(at);
         robot.apply_mimic(&mut at);
-        let [a, b] = sides.map(|side| (side.base_from_tip)(physics, &at));
+        let [a, b] = chains.map(|side| (side.base_from_tip)(physics, &at));
         let attained = measure(PoseError::between(&a?, &b?)).min(certified);
         let name = |index: usize| robot.joint(robot.movable_joints()[index]).name.clone();
-        let driving = at.iter().enumerate().filter(|&(index, _)| drives(sides, index));
+        let driving = at.iter().enumerate().filter(|&(index, _)| drives(chains, index));
         let at = driving.map(|(index, &value)| (name(index), value)).collect();
         Ok::<_, CheckError>(ReportedBracket { attained, certified, at })
     };
@@ -257,22 +256,27 @@ fn report(
     }))
 }
 
-/// A chain in terms of the positions that drive it.
+/// A chain with the positions that drive it.
 #[derive(Debug, Clone)]
 struct DrivenScrews {
     chain: ScrewChain,
-    /// For each joint the entry of the configuration vector that moves it, a mimicked joint's own.
+    /// For each joint the entry of the configuration vector that moves it; of a mimic joint the entry of
+    /// the joint that it mimics.
     drivers: Vec<usize>,
 }
 
 impl DrivenScrews {
     /// Of a chain whose joints are these entries of the configuration vector.
     fn new(robot: &Robot, coordinates: &[usize], chain: &ScrewChain) -> Self {
-        let ties: Vec<Tie> = coordinates.iter().map(|&coordinate| Tie::of(robot, coordinate)).collect();
-        Self { chain: tied(&ties, chain), drivers: ties.iter().map(|tie| tie.driver).collect() }
+        let relations: Vec<MimicRelation> =
+            coordinates.iter().map(|&coordinate| MimicRelation::of(robot, coordinate)).collect();
+        Self {
+            chain: without_offsets(&relations, chain),
+            drivers: relations.iter().map(|relation| relation.driver).collect(),
+        }
     }
 
-    /// How far a identified chain may be from what it stands for.
+    /// Bound of the rounding of the identification.
     fn rounding(&self) -> f64 {
         let ScrewChain { twists_in_base, base_from_tip_at_zero } = &self.chain;
         let moments = twists_in_base.iter().map(|twist| 1.0 + twist.linear.norm());
@@ -280,34 +284,35 @@ impl DrivenScrews {
     }
 }
 
-/// What moves a joint: `multiplier * q[driver] + offset`.
+/// The position of a joint: `multiplier * q[driver] + offset`.
 #[derive(Debug, Clone, Copy)]
-struct Tie {
+struct MimicRelation {
     driver: usize,
     multiplier: f64,
     offset: f64,
 }
 
-impl Tie {
+impl MimicRelation {
     fn of(robot: &Robot, coordinate: usize) -> Self {
         let mimic = robot.joint(robot.movable_joints()[coordinate]).mimic;
-        let tied = |Mimic { master, multiplier, offset }| {
+        let relation = |Mimic { master, multiplier, offset }| {
             Some(Self { driver: robot.coordinate(master)?, multiplier, offset })
         };
-        mimic.and_then(tied).unwrap_or(Self { driver: coordinate, multiplier: 1.0, offset: 0.0 })
+        mimic.and_then(relation).unwrap_or(Self { driver: coordinate, multiplier: 1.0, offset: 0.0 })
     }
 }
 
-/// The chain in terms of its drivers: an offset `o` turns `exp(S (m q + o))` into
-/// `exp(m S q) exp(S o)`, and what follows is moved by the latter.
-fn tied(ties: &[Tie], chain: &ScrewChain) -> ScrewChain {
+/// The chain as a function of its drivers: `exp(S (m q + o)) = exp(m S q) exp(S o)` for an offset `o`, and
+/// the following screws and the home pose are moved by the second factor.
+fn without_offsets(relations: &[MimicRelation], chain: &ScrewChain) -> ScrewChain {
     let mut moved = Pose::identity();
-    let mut twists_in_base = Vec::with_capacity(ties.len());
-    for (tie, twist) in ties.iter().zip(&chain.twists_in_base) {
+    let mut twists_in_base = Vec::with_capacity(relations.len());
+    for (relation, twist) in relations.iter().zip(&chain.twists_in_base) {
         let twist = twist.transformed_by(&moved);
-        moved = twist.exp(tie.offset) * moved;
+        moved = twist.exp(relation.offset) * moved;
         let Twist { angular, linear } = twist;
-        twists_in_base.push(Twist { angular: angular * tie.multiplier, linear: linear * tie.multiplier });
+        twists_in_base
+            .push(Twist { angular: angular * relation.multiplier, linear: linear * relation.multiplier });
     }
     ScrewChain { twists_in_base, base_from_tip_at_zero: moved * chain.base_from_tip_at_zero }
 }
@@ -316,9 +321,9 @@ fn tied(ties: &[Tie], chain: &ScrewChain) -> ScrewChain {
 mod tests {
     use super::*;
 
-    /// The allowance for probing is kept by every robot of the workspace.
+    /// The bound of the rounding holds for every robot of the workspace.
     #[test]
-    fn probed_chains_are_what_they_were_probed_from() {
+    fn identified_chains_are_their_sources_up_to_rounding() {
         let robots = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
         let mut worst = 0.0_f64;
         for folder in std::fs::read_dir(robots).unwrap().flatten() {
@@ -341,6 +346,6 @@ mod tests {
                 }
             }
         }
-        assert!(worst <= 1.0, "{worst} of the allowance");
+        assert!(worst <= 1.0, "{worst} of the bound");
     }
 }

@@ -1,4 +1,4 @@
-//! Model against URDF against physics, without motion: are they the same robot?
+//! The comparison of model, URDF and physics without motion: are they the same robot?
 
 use congruent_description::{Finding, JointValues, RobotDescription, RobotQ};
 use congruent_kinematics::{
@@ -13,28 +13,28 @@ use super::{
     identified::IdentifiedChain,
     model::{Model, PoseSource},
 };
-use crate::report::diagnose_models;
+use crate::{report::diagnose_models, source_pair::SourcePair};
 
-/// What a check asks beside zero, single axes, and limits.
+/// Further configurations of a check, besides zero, single axes, and limits.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CheckOptions {
     /// Seed of the random configurations.
     pub seed: u64,
-    /// Further configuration vectors of the robot; the report has the difference at each.
+    /// Configurations at which the report has the difference.
     pub configurations: Vec<RobotQ>,
 }
 
-/// Random configurations of a check.
+/// Number of random configurations of a check.
 pub const RANDOM_CONFIGURATIONS: usize = 200;
 
-/// Holds model, URDF chain, screws and physics against each other.
+/// Compares model, URDF chain, screws and physics.
 ///
-/// The model is judged at link `tip`, whose constants are declared; links between are compared
-/// with a fitted constant, shown, and follow from the tip: two chains that agree at the tip for
-/// every configuration have the same axes.
+/// The verdict on the model depends on link `tip`, whose constants are declared. Links in between are
+/// compared with a fitted constant and only shown; they follow from the tip: two chains that agree at the
+/// tip for every configuration have the same axes.
 ///
 /// # Errors
-/// [`CheckError`] if a source refuses the robot.
+/// [`CheckError`] if a source rejects the robot.
 pub fn check(
     description: &RobotDescription,
     physics: &mut dyn LinkPoses,
@@ -42,37 +42,37 @@ pub fn check(
 ) -> Result<CheckReport, CheckError> {
     let robot = &description.robot;
     let mut configurations = sample_configurations(robot, options.seed, RANDOM_CONFIGURATIONS);
-    let mut sources = Sources::new(description, physics)?;
+    let mut sources = LinkPoseSources::new(description, physics)?;
     let identified = IdentifiedChain::new(description, sources.physics, &configurations)?;
     let certificates = certificates(description, &identified, sources.physics)?;
-    // What the certificates have found counts: a draw seldom meets the worst.
+    // The worst configurations of the certificates count for the verdict: random ones seldom find them.
     let brackets = certificates.iter().filter_map(|certificate| certificate.brackets.as_ref());
     configurations.extend(brackets.flat_map(|brackets| brackets.attained_at(robot)));
-    let mut tallies = Vec::new();
+    let mut running = Vec::new();
     if description.dh.is_some() {
         let decides = |source| source == PoseSource::Dh;
         let sources = sources.model.sources();
-        tallies.push(Tally::new("model_urdf", "DH table against URDF chain", model_urdf, sources, decides));
+        running.push(RunningComparison::new(SourcePair::ModelUrdf, model_urdf, sources, decides));
     }
     let urdf = vec![PoseSource::Urdf; robot.links().len()];
     let all = |_| true;
-    tallies.push(Tally::new("poe_urdf", "screws (POE) against URDF chain", poe_urdf, &urdf, all));
-    tallies.push(Tally::new("urdf_simulation", "URDF chain against physics", urdf_simulation, &urdf, all));
-    let asked_from = configurations.len();
+    running.push(RunningComparison::new(SourcePair::PoeUrdf, poe_urdf, &urdf, all));
+    running.push(RunningComparison::new(SourcePair::UrdfSimulation, urdf_simulation, &urdf, all));
+    let requested_from = configurations.len();
     configurations.extend_from_slice(&options.configurations);
-    let mut asked = Vec::with_capacity(options.configurations.len());
+    let mut requested = Vec::with_capacity(options.configurations.len());
     for (index, q) in configurations.iter().enumerate() {
-        sources.look(q)?;
-        let here = tallies.iter_mut().map(|tally| tally.observe(index, &sources));
+        sources.evaluate(q)?;
+        let here = running.iter_mut().map(|comparison| comparison.observe(index, &sources));
         let error = here.fold(PoseError::default(), PoseError::larger);
-        if index >= asked_from {
-            asked.push(DifferenceAt { q: JointValues::of_robot(robot, q), error });
+        if index >= requested_from {
+            requested.push(DifferenceAt { q: JointValues::of_robot(robot, q), error });
         }
     }
     let comparisons: Vec<Comparison> =
-        tallies.iter().map(|tally| tally.finish(description, &configurations)).collect();
+        running.iter().map(|comparison| comparison.finish(description, &configurations)).collect();
     let diagnoses = diagnose_models(description, &identified.chain, &configurations);
-    let named = diagnoses.iter().find(|ladder| !ladder.diagnosis.is_empty());
+    let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
     let agree = comparisons.iter().all(|comparison| comparison.verdict == Agreement::Agree);
     let brackets = worst(&certificates);
     Ok(CheckReport {
@@ -83,19 +83,19 @@ pub fn check(
         configurations: configurations.len(),
         seed: options.seed,
         comparisons,
-        at_configurations: asked,
+        at_configurations: requested,
         basics: basics(description, &configurations)?,
         certificate: brackets.as_ref().map(Brackets::bounds),
         certificate_bracket: brackets,
         certificates,
-        diagnosis: named.map(|ladder| ladder.diagnosis.clone()).unwrap_or_default(),
-        indistinguishable: named.map(|ladder| ladder.indistinguishable.clone()).unwrap_or_default(),
+        diagnosis: named.map(|diagnosis| diagnosis.causes.clone()).unwrap_or_default(),
+        indistinguishable: named.map(|diagnosis| diagnosis.indistinguishable.clone()).unwrap_or_default(),
         diagnoses,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     })
 }
 
-/// The largest difference of all comparisons, position and orientation each for itself.
+/// The largest difference of all comparisons, separately in position and in orientation.
 fn worst_of(comparisons: &[Comparison]) -> WorstDifference {
     let further = |a: WorstDifference, b: WorstDifference| {
         let orientation_rad = larger(a.error.orientation_rad, b.error.orientation_rad);
@@ -104,11 +104,11 @@ fn worst_of(comparisons: &[Comparison]) -> WorstDifference {
         WorstDifference { error: PoseError { orientation_rad, ..furthest.error }, ..furthest }
     };
     let worst = comparisons.iter().map(|comparison| comparison.worst.clone());
-    worst.reduce(further).expect("screws and physics are always held against the URDF")
+    worst.reduce(further).expect("screws and physics are always compared with the URDF")
 }
 
-/// All poses at one configuration, by each source.
-struct Sources<'a> {
+/// Poses of all links at one configuration, by each source.
+struct LinkPoseSources<'a> {
     model: Model,
     urdf: UrdfTree,
     screws: ScrewTree,
@@ -118,7 +118,7 @@ struct Sources<'a> {
     by_physics: Vec<Pose>,
 }
 
-impl<'a> Sources<'a> {
+impl<'a> LinkPoseSources<'a> {
     fn new(description: &RobotDescription, physics: &'a mut dyn LinkPoses) -> Result<Self, KinematicsError> {
         let robot = &description.robot;
         let links = robot.links().len();
@@ -133,7 +133,7 @@ impl<'a> Sources<'a> {
         })
     }
 
-    fn look(&mut self, q: &RobotQ) -> Result<(), CheckError> {
+    fn evaluate(&mut self, q: &RobotQ) -> Result<(), CheckError> {
         self.model.root_from_links(q)?;
         self.urdf.root_from_links_into(q, &mut self.by_urdf)?;
         self.screws.root_from_links_into(q, &mut self.by_screws)?;
@@ -142,38 +142,36 @@ impl<'a> Sources<'a> {
     }
 }
 
-/// One pair of sources: their difference at a link.
-type Difference = fn(&Sources<'_>, usize) -> PoseError;
+/// The difference of two sources at a link.
+type Difference = fn(&LinkPoseSources<'_>, usize) -> PoseError;
 
-fn model_urdf(sources: &Sources<'_>, link: usize) -> PoseError {
+fn model_urdf(sources: &LinkPoseSources<'_>, link: usize) -> PoseError {
     PoseError::between(&sources.model.latest()[link], &sources.by_urdf[link])
 }
 
-fn poe_urdf(sources: &Sources<'_>, link: usize) -> PoseError {
+fn poe_urdf(sources: &LinkPoseSources<'_>, link: usize) -> PoseError {
     PoseError::between(&sources.by_screws[link], &sources.by_urdf[link])
 }
 
-fn urdf_simulation(sources: &Sources<'_>, link: usize) -> PoseError {
+fn urdf_simulation(sources: &LinkPoseSources<'_>, link: usize) -> PoseError {
     PoseError::between(&sources.by_urdf[link], &sources.by_physics[link])
 }
 
-/// The worst of one comparison so far.
-struct Tally {
-    name: &'static str,
-    title: &'static str,
+/// One comparison with the worst differences so far.
+struct RunningComparison {
+    pair: SourcePair,
     difference: Difference,
     sources: Vec<PoseSource>,
     /// Whether a link decides the verdict.
     decides: Vec<bool>,
     worst: Vec<PoseError>,
-    /// Link and configuration furthest off in position, of those that decide.
+    /// Link and configuration of the largest distance, of the links that decide.
     furthest: (usize, usize),
 }
 
-impl Tally {
+impl RunningComparison {
     fn new(
-        name: &'static str,
-        title: &'static str,
+        pair: SourcePair,
         difference: Difference,
         sources: &[PoseSource],
         decides: impl Fn(PoseSource) -> bool,
@@ -181,8 +179,7 @@ impl Tally {
         let decides: Vec<bool> = sources.iter().map(|&source| decides(source)).collect();
         let first = decides.iter().position(|&decides| decides).expect("the tip or every link decides");
         Self {
-            name,
-            title,
+            pair,
             difference,
             sources: sources.to_vec(),
             worst: vec![PoseError::default(); sources.len()],
@@ -191,8 +188,8 @@ impl Tally {
         }
     }
 
-    /// Looks at one configuration; gives the largest difference there of the links that decide.
-    fn observe(&mut self, configuration: usize, sources: &Sources<'_>) -> PoseError {
+    /// Adds one configuration; returns the largest difference there of the links that decide.
+    fn observe(&mut self, configuration: usize, sources: &LinkPoseSources<'_>) -> PoseError {
         let mut here = PoseError::default();
         for link in 0..self.worst.len() {
             let error = (self.difference)(sources, link);
@@ -215,8 +212,8 @@ impl Tally {
         let (link, configuration) = self.furthest;
         let links = robot.links().iter().zip(&self.sources).zip(&self.worst);
         Comparison {
-            name: self.name,
-            title: self.title,
+            name: self.pair,
+            title: self.pair.title(),
             verdict: if agrees { Agreement::Agree } else { Agreement::Disagree },
             worst: WorstDifference {
                 error: worst,

@@ -2,6 +2,7 @@
 
 use congruent_description::{Finding, JointValues, Tolerance};
 use congruent_kinematics::PoseError;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
@@ -9,10 +10,13 @@ use super::{
     certificate::{Brackets, ReportedCertificate},
     model::PoseSource,
 };
-use crate::report::{ReportedAlternative, ReportedCause, ReportedDiagnosis};
+use crate::{
+    report::{ReportedAlternative, ReportedCause, ReportedDiagnosis},
+    source_pair::SourcePair,
+};
 
-/// Whether sources tell of the same robot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+/// Whether sources describe the same robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Agreement {
     /// Within tolerance at every configuration.
@@ -21,26 +25,26 @@ pub enum Agreement {
     Disagree,
 }
 
-/// The largest differences with their places; the two need not be at the same configuration.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The largest differences, in position and in orientation; the two may be at different configurations.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct WorstDifference {
     /// The largest distance and the largest angle at a link.
     #[serde(flatten)]
     pub error: PoseError,
-    /// The link that is furthest off in position.
+    /// The link with the largest distance.
     pub link: String,
-    /// The configuration at which it is: every movable joint, rad or m.
+    /// The configuration of the largest distance: every movable joint, rad or m.
     pub at: JointValues,
 }
 
-/// Two sources against each other.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The comparison of two sources.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Comparison {
-    /// Which two: `model_urdf`, `poe_urdf` or `urdf_simulation`.
-    pub name: &'static str,
-    /// The same in words.
+    /// The pair: `model_urdf`, `poe_urdf` or `urdf_simulation`.
+    pub name: SourcePair,
+    /// The pair in words.
     pub title: &'static str,
-    /// Whether the links that decide are within tolerance.
+    /// Whether the links that decide are within the tolerance.
     pub verdict: Agreement,
     /// The worst over the links that decide.
     pub worst: WorstDifference,
@@ -49,11 +53,11 @@ pub struct Comparison {
 }
 
 /// The largest difference at one link.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LinkDifference {
     /// The link.
     pub link: String,
-    /// Where the first source's pose comes from.
+    /// The origin of the first source's pose.
     pub source: PoseSource,
     /// The largest distance and the largest angle.
     #[serde(flatten)]
@@ -61,7 +65,7 @@ pub struct LinkDifference {
 }
 
 /// The answer of `congruent check` for one robot.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CheckReport {
     /// Name of the robot.
     pub robot: String,
@@ -69,38 +73,39 @@ pub struct CheckReport {
     pub verdict: Agreement,
     /// The worst of all comparisons.
     pub worst: WorstDifference,
-    /// When two poses count as the same.
+    /// The largest difference that counts as agreement.
     pub tolerance: Tolerance,
-    /// Number of configurations: zero, single axes, random ones, limits, the worst of each certificate.
+    /// Number of configurations: zero, single axes, random ones, limits, the worst one of each certificate,
+    /// and those that were requested.
     pub configurations: usize,
     /// Seed of the random ones.
     pub seed: u64,
-    /// Two sources at a time.
+    /// The comparisons, two sources each.
     pub comparisons: Vec<Comparison>,
-    /// The worst of all comparisons at each configuration that was asked for.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    /// The worst of all comparisons at each requested configuration.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub at_configurations: Vec<DifferenceAt>,
-    /// What a person tries first: zero, one axis at a time, whether the transforms are rigid.
+    /// First checks: zero, one axis at a time, whether the transforms are rigid motions.
     pub basics: Basics,
-    /// How far models are apart at most, over the whole joint range: the largest of `certificates`.
+    /// Bound of the difference of the models over the whole joint range: the largest of `certificates`.
     pub certificate: Option<PoseError>,
-    /// The same with configurations that come near.
+    /// The same with the configurations that come nearest to the bound.
     pub certificate_bracket: Option<Brackets>,
-    /// Two models of the chain at a time.
+    /// The certificates, two models of the chain each.
     pub certificates: Vec<ReportedCertificate>,
-    /// The likeliest cause of a disagreement, then what comes next and leaves more: that of the
-    /// first of `diagnoses` that has one.
+    /// The likeliest cause of a disagreement, then the next best ones: those of the first of `diagnoses`
+    /// that has any.
     pub diagnosis: Vec<ReportedCause>,
-    /// Causes that leave as little as the first.
+    /// Causes with a residual as small as the first one's.
     pub indistinguishable: Vec<ReportedAlternative>,
-    /// The diagnosis of two models of the chain at a time.
+    /// The diagnoses, two models of the chain each.
     pub diagnoses: Vec<ReportedDiagnosis>,
-    /// What was suspicious in the input.
+    /// Warnings about the input.
     pub warnings: Vec<Finding>,
 }
 
-/// How far sources are apart at one configuration that was asked for.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The difference of the sources at one requested configuration.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DifferenceAt {
     /// The configuration: every movable joint, rad or m.
     pub q: JointValues,

@@ -1,12 +1,12 @@
-//! Why sources of link poses cannot be held against each other.
+//! Why sources of link poses cannot be compared.
 
 use congruent_kinematics::{KinematicsError, LinkPosesError};
 
-/// Why two sources cannot be held against each other.
+/// Why two sources cannot be compared.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckError {
-    /// A source of link poses refuses a configuration.
+    /// A source of link poses rejects a configuration.
     #[error(transparent)]
     Source(#[from] LinkPosesError),
     /// The model does not fit the robot.

@@ -1,42 +1,43 @@
-//! The physics as a black box: the screws of the chain from base to tip that its poses show, and how
-//! well it keeps to them.
+//! The physics as a black box: the screws of the chain from base to tip, identified from its poses, and the
+//! residual of that identification.
 
 use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, ScrewChain};
+use schemars::JsonSchema;
 use serde::Serialize;
 
-/// What is left of screws that were identified, over a whole joint range. Unit: m or rad; kind: rounding,
-/// which certificates add; worst seen 3.8e-14.
+/// Largest residual of screws that were identified, over a whole joint range. Unit: m or rad; kind:
+/// rounding, which certificates add; worst seen 3.8e-14.
 pub(crate) const SCREW_RESIDUAL_LIMIT: f64 = 1e-10;
 
-/// A black box is a chain of screws only as far as one has looked: how far the physics was from the
-/// chain that was identified, at worst.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// The premise that each joint of the physics is a pure screw motion, verified at configurations: the worst
+/// difference of the physics from the chain that was identified.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Premise {
-    /// Number of configurations of the whole robot at which it was looked.
+    /// Number of configurations of the whole robot at which it was verified.
     pub configurations: usize,
-    /// Distance of the tips there, m.
+    /// Largest distance of the tips there, m.
     pub residual_m: f64,
-    /// Angle between the tips there, rad.
+    /// Largest angle between the tips there, rad.
     pub residual_rad: f64,
-    /// Whether that is rounding.
+    /// Whether the residuals are rounding, so that the premise holds.
     pub holds: bool,
 }
 
-/// What probing has found.
+/// The chain that was identified, with the premise of the identification.
 #[derive(Debug, Clone)]
 pub(crate) struct IdentifiedChain {
-    /// Joints are the moving joints from base to tip.
+    /// Its joints are the moving joints from base to tip.
     pub(crate) chain: ScrewChain,
     pub(crate) premise: Premise,
 }
 
 impl IdentifiedChain {
-    /// Asks the physics around one configuration, all joints beside the chain at zero, and then at
-    /// `configurations`, where they are not.
+    /// Identifies the chain around one configuration, with all other joints at zero, and verifies it at
+    /// `configurations`, where these joints are not at zero.
     ///
     /// # Errors
-    /// [`LinkPosesError`] when the physics refuses a configuration.
+    /// [`LinkPosesError`] if the physics rejects a configuration.
     pub(crate) fn new(
         description: &RobotDescription,
         physics: &mut dyn LinkPoses,
@@ -44,15 +45,15 @@ impl IdentifiedChain {
     ) -> Result<Self, LinkPosesError> {
         let coordinates = description.moving_coordinates();
         let mut q = RobotQ::zeros(description.robot.dof());
-        let mut refused = None;
+        let mut rejected = None;
         let chain = ScrewChain::identify(coordinates.len(), |values| {
             q.set_chain(&coordinates, values);
             base_from_tip(description, physics, &q).unwrap_or_else(|error| {
-                refused = Some(error);
+                rejected = Some(error);
                 Pose::identity()
             })
         });
-        if let Some(error) = refused {
+        if let Some(error) = rejected {
             return Err(error);
         }
         let mut worst = PoseError::default();
@@ -71,7 +72,7 @@ impl IdentifiedChain {
     }
 }
 
-/// The tip's pose in the base by a source of link poses.
+/// Pose of the tip in the base by a source of link poses.
 pub(crate) fn base_from_tip(
     description: &RobotDescription,
     source: &mut dyn LinkPoses,

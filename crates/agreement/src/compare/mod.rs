@@ -1,4 +1,4 @@
-//! Sources of link poses against each other: without motion, configuration by configuration, and as chains of
+//! The comparison of sources of link poses: without motion, at given configurations, and as chains of
 //! screws over the whole joint range.
 
 pub(crate) mod basics;
@@ -9,7 +9,7 @@ pub(crate) mod error;
 pub(crate) mod identified;
 pub(crate) mod model;
 
-pub use basics::{Basics, BySource, JointMotion, TcpMotion};
+pub use basics::{Basics, BySource, CoordinateUnit, JointMotion, TcpMotion};
 pub use certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate};
 pub use check::{CheckOptions, RANDOM_CONFIGURATIONS, check};
 pub use check_report::{Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, WorstDifference};

@@ -1,19 +1,19 @@
-//! The analytical model: a pose for every link from the declared table where it reaches, from
-//! the URDF chain elsewhere, and a note of which it was.
+//! The analytical model: the pose of every link from the table if a row moves the link, otherwise from the
+//! URDF chain, with the origin of each pose.
 
 use congruent_description::{LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree};
 
-/// Where the model's pose of a link comes from.
+/// The origin of the model's pose of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PoseSource {
-    /// The table and its declared transforms: nothing is fitted.
+    /// The table and its declared transforms; nothing is fitted.
     Dh,
     /// The table, with one constant transform from the row's frame to the link, fitted at the
     /// zero configuration. It cannot show a constant error, only one that moves.
     DhFitted,
-    /// The URDF chain: the table does not reach this link.
+    /// The URDF chain: no row of the table moves this link.
     Urdf,
 }
 
@@ -25,7 +25,7 @@ struct DhLink {
     dhk_from_link: Pose,
 }
 
-/// The table with the links that it carries.
+/// The table with the links that its rows move.
 #[derive(Debug, Clone)]
 struct DhModel {
     chain: DhChain,
@@ -34,7 +34,7 @@ struct DhModel {
     base_from_frames: Vec<Pose>,
 }
 
-/// Poses of all links by analysis, for one configuration after another without allocation.
+/// Analytical poses of all links, at one configuration after another without allocation.
 #[derive(Debug, Clone)]
 pub struct Model {
     tree: UrdfTree,
@@ -47,7 +47,7 @@ impl Model {
     /// The model that a robot file declares; a bare URDF is modelled by its own chain.
     ///
     /// # Errors
-    /// [`KinematicsError`] when table and robot do not fit together.
+    /// [`KinematicsError`] if table and robot do not fit together.
     pub fn new(description: &RobotDescription) -> Result<Self, KinematicsError> {
         let robot = &description.robot;
         let tree = UrdfTree::new(robot);
@@ -61,12 +61,12 @@ impl Model {
         Ok(Self { tree, dh, sources, root_from_links })
     }
 
-    /// Where each link's pose comes from, in the robot's order of links.
+    /// The origin of each link's pose, in the robot's order of links.
     pub fn sources(&self) -> &[PoseSource] {
         &self.sources
     }
 
-    /// The poses that [`Model::root_from_links`] gave last; identities before.
+    /// The last poses of [`Model::root_from_links`]; identities before its first call.
     pub fn latest(&self) -> &[Pose] {
         &self.root_from_links
     }
@@ -74,7 +74,7 @@ impl Model {
     /// Poses of all links at configuration `q`, in the root link's frame and the robot's order.
     ///
     /// # Errors
-    /// [`KinematicsError`] when `q` is no configuration vector of the robot.
+    /// [`KinematicsError`] if `q` has the wrong number of joints.
     pub fn root_from_links(&mut self, q: &RobotQ) -> Result<&[Pose], KinematicsError> {
         self.tree.root_from_links_into(q, &mut self.root_from_links)?;
         if let Some(dh) = &mut self.dh {
@@ -91,7 +91,7 @@ impl DhModel {
         sources: &mut [PoseSource],
     ) -> Result<Self, KinematicsError> {
         let (robot, Some(table)) = (&description.robot, &description.dh) else {
-            unreachable!("called where a table is declared")
+            unreachable!("called only if a table is declared")
         };
         let chain = DhChain::new(table, robot);
         let mut base_from_frames = vec![Pose::identity(); chain.joint_count() + 1];
@@ -99,9 +99,9 @@ impl DhModel {
         let root_from_base = root_from_links_at_zero[description.base.get()];
         let mut links = Vec::new();
         for link in robot.link_indices() {
-            let Some(frame) = frame_that_carries(robot, description, link) else { continue };
+            let Some(frame) = frame_that_moves(robot, description, link) else { continue };
             let declared = link == description.tip;
-            // The tip is declared in the last frame, whatever row its joint stands in.
+            // The tip is declared in the last frame, whatever row its joint is in.
             let frame = if declared { chain.joint_count() } else { frame };
             let dhk_from_link = if declared {
                 table.dhn_from_tip.into()
@@ -126,8 +126,8 @@ impl DhModel {
     }
 }
 
-/// The table's frame that moves rigidly with `link`; `None` for a link that no row carries.
-fn frame_that_carries(robot: &Robot, description: &RobotDescription, link: LinkIndex) -> Option<usize> {
+/// The table's frame that moves rigidly with `link`; `None` for a link that no row moves.
+fn frame_that_moves(robot: &Robot, description: &RobotDescription, link: LinkIndex) -> Option<usize> {
     let body = robot.body(link);
     let joint = robot.parent_joint(body)?;
     let row = description.dh.as_ref()?.rows.iter().position(|row| row.joint == joint)?;

@@ -1,12 +1,16 @@
-//! The model under suspicion, in numbers that hypotheses may change: a Denavit-Hartenberg table, or
-//! screws where nothing is known but what the model does.
+//! The candidate: the model whose faults are searched, as parameters that hypotheses can change. It is a
+//! Denavit-Hartenberg table, or screws if only the motion of the model is known.
+
+use std::fmt;
 
 use congruent_description::{ChainQ, DhConvention, DhRowKind};
 use congruent_kinematics::{Axes, DhRowTwists, Pose, ScrewChain, SinCos, Twist, rotation_exp};
 use nalgebra::Vector3;
+use serde::Serialize;
 
-/// An entry of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// An entry of a row, by the symbol of the literature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum DhEntry {
     /// Link length.
     A,
@@ -18,30 +22,47 @@ pub enum DhEntry {
     Theta,
 }
 
-/// One number of a candidate that can be refitted.
+impl DhEntry {
+    /// All entries, in the order of a row.
+    pub const ALL: [Self; 4] = [Self::A, Self::Alpha, Self::D, Self::Theta];
+
+    /// Whether it is an angle; the others are lengths.
+    pub fn is_angle(self) -> bool {
+        matches!(self, Self::Alpha | Self::Theta)
+    }
+}
+
+impl fmt::Display for DhEntry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
+}
+
+/// One parameter of a candidate that can be fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModelParameter {
     /// An entry of a row.
     Row(usize, DhEntry),
     /// How much the row moves for one unit of its joint.
     Rate(usize),
-    /// Of the declared transform before the rows: x, y, z, then turns about the axes behind it.
+    /// A component of the declared transform before the rows: x, y, z, then rotations about the axes of the
+    /// frame behind it.
     Base(usize),
-    /// Of the declared transform after the rows, likewise.
+    /// A component of the declared transform after the rows, likewise.
     Tool(usize),
 }
 
-/// A declared transform, with its roll-pitch-yaw where the file gives one: a unit slip of an angle
-/// beyond a turn is lost in the pose.
+/// A declared transform, with its roll, pitch and yaw if the file gives them: the pose does not show an angle
+/// beyond a turn, as a wrong unit gives it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Constant {
+pub struct DeclaredTransform {
     /// The transform.
     pub pose: Pose,
-    /// Turns about the fixed axes x, y, z as written, in radians.
+    /// Rotations about the fixed axes x, y, z as the file writes them, in radians.
     pub written_rpy_rad: Option<[f64; 3]>,
 }
 
-impl From<Pose> for Constant {
+impl From<Pose> for DeclaredTransform {
     fn from(pose: Pose) -> Self {
         Self { pose, written_rpy_rad: None }
     }
@@ -50,11 +71,11 @@ impl From<Pose> for Constant {
 /// One row: how it moves with its joint, and its constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CandidateRow {
-    /// The joint that drives it: its place in the reference chain.
+    /// The joint that drives it, by its number among the moving joints of the reference model.
     pub joint: usize,
     /// How much it moves for one unit of the joint: the sign of a table's row.
     pub rate: f64,
-    /// What stands in it.
+    /// Its constants.
     pub link: RowConstants,
 }
 
@@ -74,17 +95,17 @@ pub enum RowConstants {
         /// Joint angle at position zero.
         theta_rad: f64,
     },
-    /// A screw of which nothing more is known.
+    /// A screw, without parameters of a table.
     Screw {
         /// Space twist at position zero, behind the base.
         twist: Twist,
-        /// Position that the model takes for zero, rad or m.
+        /// Position of the joint at the model's zero, rad or m.
         offset: f64,
     },
 }
 
 impl CandidateRow {
-    /// Lengths of a screw in another unit; a table's entries are scaled one by one.
+    /// Scales the lengths of a screw; a table's entries are scaled one by one.
     pub(super) fn rescale_screw(&mut self, factor: f64) {
         if let RowConstants::Screw { twist, .. } = &mut self.link {
             twist.linear *= factor;
@@ -92,42 +113,42 @@ impl CandidateRow {
     }
 }
 
-/// A model under suspicion: base, rows, tool.
+/// The candidate: base, rows, tool.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
-    /// Which equation its table stands for; `None` for a model in screws.
+    /// The convention of its table; `None` for a model in screws.
     pub convention: Option<DhConvention>,
     /// The declared transform before the rows.
-    pub base: Constant,
+    pub base: DeclaredTransform,
     /// The rows, base to tip.
     pub rows: Vec<CandidateRow>,
     /// The declared transform after the rows.
-    pub tool: Constant,
+    pub tool: DeclaredTransform,
 }
 
-/// How a parameter moves the chain at one configuration.
+/// The effect of a parameter on the chain at one configuration.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Influence {
-    /// Motion of what lies behind, in the base frame, for one unit of the parameter.
+pub(super) struct ParameterEffect {
+    /// Twist, in the base frame, of the chain from `from_row` on, for one unit of the parameter.
     pub(super) generator: Twist,
-    /// The first row that moves.
+    /// The first row that changes.
     pub(super) from_row: usize,
-    /// The row whose own screw grows with the parameter, by its share.
-    pub(super) grows: Option<usize>,
+    /// The row whose own screw is proportional to the parameter.
+    pub(super) scales_row: Option<usize>,
 }
 
-/// The chain at one configuration: space screws of its rows there, tip, and frames of the walk.
+/// Forward kinematics at one configuration, with the space screws of the rows and what derivatives need.
 #[derive(Debug, Clone)]
 pub(super) struct ChainWalk {
     pub(super) row_twists: Vec<Twist>,
     pub(super) base_from_tip: Pose,
-    /// For each row what its entries do; a row in screws has `theta` alone.
+    /// For each row the twists of its entries; a row in screws has `theta` only.
     entries: Vec<DhRowTwists>,
     base_from_dhn: Pose,
 }
 
 impl Candidate {
-    /// A model of which only its screws are known, its joints in the order of the reference.
+    /// A candidate of which only the screws are known, its joints in the order of the reference model.
     pub fn from_screws(chain: &ScrewChain) -> Self {
         let row = |(joint, &twist): (usize, &Twist)| CandidateRow {
             joint,
@@ -142,7 +163,7 @@ impl Candidate {
         }
     }
 
-    /// An entry of a row, where the row has it.
+    /// An entry of a row, if the row has it.
     pub fn entry(&self, row: usize, entry: DhEntry) -> Option<f64> {
         match (self.rows[row].link, entry) {
             (RowConstants::Dh { a_m, .. }, DhEntry::A) => Some(a_m),
@@ -154,7 +175,7 @@ impl Candidate {
         }
     }
 
-    /// The place of an entry, where the row has it.
+    /// Mutable access to an entry of a row, if the row has it.
     pub(super) fn entry_mut(&mut self, row: usize, entry: DhEntry) -> Option<&mut f64> {
         match (&mut self.rows[row].link, entry) {
             (RowConstants::Dh { a_m, .. }, DhEntry::A) => Some(a_m),
@@ -174,12 +195,12 @@ impl Candidate {
         }
     }
 
-    /// Pose of the tip at joint positions `q`, in the order of the reference chain.
+    /// Pose of the tip at joint positions `q`, in the order of the reference model.
     pub fn base_from_tip(&self, q: &ChainQ) -> Pose {
         self.walk(q).base_from_tip
     }
 
-    /// Moves a parameter by `by`; one that the model does not have stays.
+    /// Adds `by` to a parameter; nothing happens if the candidate does not have it.
     pub(super) fn shift(&mut self, parameter: ModelParameter, by: f64) {
         match parameter {
             ModelParameter::Row(row, entry) => {
@@ -193,7 +214,7 @@ impl Candidate {
         }
     }
 
-    /// Everything about the chain at `q` that derivatives need.
+    /// Forward kinematics at `q` with what derivatives need.
     pub(super) fn walk(&self, q: &ChainQ) -> ChainWalk {
         let mut pose = self.base.pose;
         let mut row_twists = Vec::with_capacity(self.rows.len());
@@ -230,21 +251,21 @@ impl Candidate {
         ChainWalk { row_twists, base_from_tip: pose * self.tool.pose, entries, base_from_dhn: pose }
     }
 
-    /// How a parameter moves the chain at `q`, whose walk is given; `None` where the model does not
-    /// have it.
-    pub(super) fn influence(
+    /// The effect of a parameter at `q`, given the walk there; `None` if the candidate does not have the
+    /// parameter.
+    pub(super) fn effect_of(
         &self,
         parameter: ModelParameter,
         q: &ChainQ,
         walk: &ChainWalk,
-    ) -> Option<Influence> {
+    ) -> Option<ParameterEffect> {
         let rows = self.rows.len();
-        let rigid = |generator, from_row| Some(Influence { generator, from_row, grows: None });
+        let rigid = |generator, from_row| Some(ParameterEffect { generator, from_row, scales_row: None });
         match parameter {
             ModelParameter::Row(row, entry) => {
                 self.entry(row, entry)?;
                 let by = &walk.entries[row];
-                // Behind a modified row's `a` and `alpha` its own axis moves too.
+                // In a modified row `a` and `alpha` also move the row's own axis.
                 let own = usize::from(self.convention != Some(DhConvention::Modified));
                 match entry {
                     DhEntry::A => rigid(by.a, row + own),
@@ -256,7 +277,7 @@ impl Candidate {
             ModelParameter::Rate(row) => {
                 let share = q[self.rows[row].joint] / self.rows[row].rate;
                 let generator = walk.row_twists[row] * share;
-                Some(Influence { generator, from_row: row + 1, grows: Some(row) })
+                Some(ParameterEffect { generator, from_row: row + 1, scales_row: Some(row) })
             }
             ModelParameter::Base(component) if component < 3 => rigid(unit(component), 0),
             ModelParameter::Base(component) => rigid(unit(component).transformed_by(&self.base.pose), 0),
@@ -270,13 +291,13 @@ impl Candidate {
     }
 }
 
-/// The twist of one component: shifts along x, y, z, then turns about x, y, z.
+/// The twist of one component: translations along x, y, z, then rotations about x, y, z.
 fn unit(component: usize) -> Twist {
     Twist::units()[(component + 3) % 6]
 }
 
-/// A declared transform with one component changed: a shift in the frame before it, a turn about
-/// an axis of the frame behind it, so that neither changes the other's figures.
+/// A declared transform with one component changed: a translation in the frame before it, a rotation about an
+/// axis of the frame behind it, so that neither changes the values of the other.
 fn moved(pose: &Pose, component: usize, by: f64) -> Pose {
     let axis = Vector3::ith(component % 3, by);
     if component < 3 {

@@ -1,4 +1,4 @@
-//! Candidate and reference from what a description declares.
+//! Candidate and reference model from a robot description.
 
 use congruent_description::{DhTable, JointIndex, JointKind, LinkIndex, Robot};
 use congruent_kinematics::Twist;
@@ -10,8 +10,8 @@ use super::{
 };
 
 impl Candidate {
-    /// The candidate that a table declares; its rows are driven by `joints`, the moving joints of the
-    /// reference from base to tip. `None` when a row names another joint.
+    /// The candidate of a table; its rows are driven by `joints`, the moving joints of the reference model
+    /// from base to tip. `None` when a row names another joint.
     pub fn from_table(table: &DhTable, joints: &[JointIndex]) -> Option<Self> {
         let row = |row: &congruent_description::DhRow| {
             Some(CandidateRow {
@@ -36,8 +36,8 @@ impl Candidate {
 }
 
 impl ReferenceModel {
-    /// The chain of a robot from link `base` to link `tip`, with the joints that it consists of, fixed
-    /// ones included. `None` where `tip` does not hang below the body of `base`.
+    /// The chain of a robot from link `base` to link `tip`, with its joints, fixed ones included. `None` if
+    /// `tip` is not a descendant of the body of `base`.
     pub fn from_urdf(robot: &Robot, base: LinkIndex, tip: LinkIndex) -> Option<(Self, Vec<JointIndex>)> {
         let (mut up, mut down) = (path_to_root(robot, base), path_to_root(robot, tip));
         while up.last().is_some() && up.last() == down.last() {
@@ -47,15 +47,15 @@ impl ReferenceModel {
         if up.iter().any(|&joint| robot.joint(joint).kind.is_movable()) {
             return None;
         }
-        let upward = up.iter().map(|&joint| ReferenceJoint { is_upward: true, ..written(robot, joint) });
-        let downward = down.iter().rev().map(|&joint| written(robot, joint));
+        let upward = up.iter().map(|&joint| ReferenceJoint { is_upward: true, ..joint_of(robot, joint) });
+        let downward = down.iter().rev().map(|&joint| joint_of(robot, joint));
         let joints = upward.chain(downward).collect();
         down.reverse();
         Some((Self { joints }, [up, down].concat()))
     }
 }
 
-/// The joints above a link, the nearest first.
+/// The joints between a link and the root, the nearest first.
 fn path_to_root(robot: &Robot, mut link: LinkIndex) -> Vec<JointIndex> {
     let mut path = Vec::new();
     while let Some(joint) = robot.parent_joint(link) {
@@ -65,7 +65,7 @@ fn path_to_root(robot: &Robot, mut link: LinkIndex) -> Vec<JointIndex> {
     path
 }
 
-fn written(robot: &Robot, joint: JointIndex) -> ReferenceJoint {
+fn joint_of(robot: &Robot, joint: JointIndex) -> ReferenceJoint {
     let joint = robot.joint(joint);
     let axis = joint.axis_in_joint.into_inner();
     let twist_in_joint = match joint.kind {

@@ -1,40 +1,36 @@
-//! The third rung: why two explanations cannot be told apart. Nothing is guessed: what both change is
-//! read from the models that they correct, and where no freedom is known that makes the two one, only
-//! what they do is said.
+//! Why two explanations cannot be distinguished. The reason is derived from the changes that both make to the
+//! models; if no known reason applies, the answer is only that both have the same effect.
 
 use congruent_description::{ChainQ, DhConvention};
 use congruent_kinematics::{Pose, PoseError, Twist};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::Serialize;
 
+use super::thresholds::{PARALLEL, SAME_PART_OF_RESIDUAL, SAME_VALUE};
 use super::{
     candidate::{Candidate, CandidateRow, DhEntry, RowConstants},
     explanation::{Criterion, Explanation},
     hypothesis::ModelPair,
 };
 
-/// Axes whose angle has a smaller sine are parallel.
-const PARALLEL: f64 = 1e-6;
-/// Figures and models that differ by less, in m or rad, are the same: rounding of fits.
-const SAME: f64 = 1e-9;
-/// Fits to a file that is rounded itself end within this share of what they leave.
-const SAME_SHARE: f64 = 1e-3;
-
-/// A freedom by which two explanations are one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The reason why two explanations cannot be distinguished.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Equivalence {
-    /// Figures before the first joint stand in the base or in the first row.
+    /// A transform before the first joint can be in the base or in the first row.
     BaseAndFirstRow,
-    /// Figures behind the last joint stand in the tool or in the last row.
+    /// A transform behind the last joint can be in the tool or in the last row.
     ToolAndLastRow,
     /// Along parallel axes only the sum of the offsets matters.
     ParallelOffsets,
     /// A flipped axis with a flipped sign is the same joint.
     FlipAndSign,
-    /// The same figures, named under another name.
-    SameFigures,
-    /// Other figures and no known reason: the corrected models are equal.
+    /// The same values, under another cause.
+    SameValues,
+    /// Other values without a known reason: the corrected models are equal.
     SameEffect,
-    /// Two models that are not equal, both within the tolerance.
+    /// Two different models, both within the tolerance.
     WithinTolerance,
 }
 
@@ -42,18 +38,24 @@ impl Equivalence {
     /// The sentence for people.
     pub fn sentence(self) -> &'static str {
         match self {
-            Self::BaseAndFirstRow => "what stands before the first joint can stand in the base or in its row",
-            Self::ToolAndLastRow => "what stands behind the last joint can stand in its row or in the tool",
-            Self::ParallelOffsets => "along parallel axes only the sum of the offsets matters",
-            Self::FlipAndSign => "a joint that turns the other way about a flipped axis is the same joint",
-            Self::SameFigures => "the corrected figures are the same",
-            Self::SameEffect => "both make the models agree everywhere",
-            Self::WithinTolerance => "another model, also within the tolerance",
+            Self::BaseAndFirstRow => {
+                "a transform before the first joint can be in the base or in the joint's row"
+            }
+            Self::ToolAndLastRow => {
+                "a transform behind the last joint can be in the joint's row or in the tool"
+            }
+            Self::ParallelOffsets => "only the sum of the offsets along parallel axes matters",
+            Self::FlipAndSign => {
+                "a joint that turns in the opposite direction about a flipped axis is the same joint"
+            }
+            Self::SameValues => "the corrected values are the same",
+            Self::SameEffect => "both make the models agree at every configuration",
+            Self::WithinTolerance => "another model that is also within the tolerance",
         }
     }
 }
 
-/// The freedom by which `other` says the same as `named`.
+/// The reason why `other` cannot be distinguished from `named`.
 pub(super) fn equivalence(
     models: &ModelPair,
     criterion: &Criterion,
@@ -75,7 +77,7 @@ pub(super) fn equivalence(
     let flips =
         both.each_ref().map(|changes| changes.iter().any(|change| matches!(change, ModelChange::Flip(_))));
     if changes(&named.corrected, &other.corrected).is_empty() {
-        Equivalence::SameFigures
+        Equivalence::SameValues
     } else if either(ModelChange::Base, &before_first) {
         Equivalence::BaseAndFirstRow
     } else if either(ModelChange::Tool, &behind_last) {
@@ -89,31 +91,33 @@ pub(super) fn equivalence(
     }
 }
 
-/// Whether both correct to one map from joint positions to poses, or agree with what they are held
-/// against to rounding.
+/// Whether both give the same map from joint positions to poses, or both agree with the reference model up to
+/// rounding.
 fn is_same_model(criterion: &Criterion, named: &Explanation, other: &Explanation) -> bool {
-    let left = [&named.residual, &other.residual].map(|left| [left.position_m, left.orientation_rad]);
-    if left.as_flattened().iter().all(|left| *left <= SAME) {
+    let residuals =
+        [&named.residual, &other.residual].map(|residual| [residual.position_m, residual.orientation_rad]);
+    if residuals.as_flattened().iter().all(|residual| *residual <= SAME_VALUE) {
         return true;
     }
     let (one, two) = (&named.corrected, &other.corrected);
-    let apart_at =
+    let distance_at =
         |q: &ChainQ| PoseError::between(&one.candidate.base_from_tip(q), &two.candidate.base_from_tip(q));
-    let apart = criterion.configurations.iter().map(apart_at).fold(PoseError::default(), PoseError::larger);
-    let same = |left: f64| SAME.max(SAME_SHARE * left);
+    let distance =
+        criterion.configurations.iter().map(distance_at).fold(PoseError::default(), PoseError::larger);
+    let same = |residual: f64| SAME_VALUE.max(SAME_PART_OF_RESIDUAL * residual);
     one.reference == two.reference
-        && apart.position_m <= same(named.residual.position_m)
-        && apart.orientation_rad <= same(named.residual.orientation_rad)
+        && distance.position_m <= same(named.residual.position_m)
+        && distance.orientation_rad <= same(named.residual.orientation_rad)
 }
 
-/// One thing in which two states of a models differ.
+/// One difference between two states of a pair of models.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum ModelChange {
     Base,
     Tool,
-    /// A figure of a row.
+    /// An entry of a row.
     DhEntry(usize, DhEntry),
-    /// A row moves the other way.
+    /// The direction of a row.
     Flip(usize),
     /// Anything else: rates, names, kinds, the convention, the reference.
     Other,
@@ -129,7 +133,7 @@ fn changes(from: &ModelPair, to: &ModelPair) -> Vec<ModelChange> {
         list.extend(is_another(one, two).then_some(ModelChange::Other));
         for entry in [DhEntry::A, DhEntry::Alpha, DhEntry::D, DhEntry::Theta] {
             let value = |candidate: &Candidate| candidate.entry(row, entry).unwrap_or_default();
-            let is_off = (value(before) - value(after)).abs() > SAME;
+            let is_off = (value(before) - value(after)).abs() > SAME_VALUE;
             list.extend(is_off.then_some(ModelChange::DhEntry(row, entry)));
         }
     }
@@ -138,22 +142,22 @@ fn changes(from: &ModelPair, to: &ModelPair) -> Vec<ModelChange> {
     list
 }
 
-/// Whether two rows differ in more than figures and direction.
+/// Whether two rows differ in more than entries and direction.
 fn is_another(one: &CandidateRow, two: &CandidateRow) -> bool {
     let is_another_link = match (one.link, two.link) {
         (RowConstants::Dh { kind: one, .. }, RowConstants::Dh { kind: two, .. }) => one != two,
         (RowConstants::Screw { twist: one, .. }, RowConstants::Screw { twist: two, .. }) => one != two,
         _ => true,
     };
-    is_another_link || one.joint != two.joint || (one.rate.abs() - two.rate.abs()).abs() > SAME
+    is_another_link || one.joint != two.joint || (one.rate.abs() - two.rate.abs()).abs() > SAME_VALUE
 }
 
 fn differ(one: &Pose, two: &Pose) -> bool {
-    one.distance_m(two) > SAME || one.angle_rad(two) > SAME
+    one.distance_m(two) > SAME_VALUE || one.angle_rad(two) > SAME_VALUE
 }
 
-/// Whether all changes are offsets, and nothing between their rows turns but about the direction of
-/// their joints.
+/// Whether all changes are offsets `d`, and all joints between their rows turn about axes that are parallel
+/// to the offsets.
 fn are_offsets_along_parallels(models: &ModelPair, changes: &[ModelChange]) -> bool {
     let offset = |change: &ModelChange| match change {
         ModelChange::DhEntry(row, DhEntry::D) => Some(*row),
@@ -169,7 +173,7 @@ fn are_offsets_along_parallels(models: &ModelPair, changes: &[ModelChange]) -> b
         } else if rows.contains(&row) {
             linear.try_normalize(PARALLEL)
         } else {
-            None // what only shifts turns nothing
+            None // a prismatic joint does not turn
         }
     };
     let directions: Vec<Vector3<f64>> = (first..=last).filter_map(direction).collect();

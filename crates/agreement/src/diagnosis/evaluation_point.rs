@@ -1,16 +1,16 @@
-//! Two chains side by side at one generic configuration: space screws and tip. For chains with
-//! their joints in one order, equal there is equal everywhere.
+//! The difference of two chains at one generic configuration: space screws and tip. Two chains with their
+//! joints in one order that are equal there are equal at every configuration.
 
 use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, Twist};
 use nalgebra::Vector3;
 
 use super::{
-    candidate::{Candidate, ChainWalk, Influence},
+    candidate::{Candidate, ChainWalk, ParameterEffect},
     reference_model::{ChainState, ReferenceModel},
 };
 
-/// Where chains are compared, and the length that makes metres comparable to radians.
+/// The configuration at which chains are compared, and the length that makes metres comparable to radians.
 #[derive(Debug, Clone)]
 pub(super) struct EvaluationPoint {
     pub(super) q: ChainQ,
@@ -18,18 +18,18 @@ pub(super) struct EvaluationPoint {
 }
 
 impl EvaluationPoint {
-    /// A generic configuration of `reference`: at zero, a table whose rows are in another order
-    /// could have the same screws and still be another robot.
+    /// A generic configuration of `reference`: at zero, a table with its rows in another order could have the
+    /// same screws and still be another robot.
     pub(super) fn of(reference: &ReferenceModel) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "arms have few joints")]
         let q: ChainQ = (0..reference.joint_count()).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
-        let snapshot = reference.snapshot(&q);
-        let reach = snapshot.twists.iter().map(|twist| twist.linear.norm());
-        let length_m = reach.fold(snapshot.base_from_tip.translation.norm(), f64::max);
+        let state = reference.state(&q);
+        let reach = state.twists.iter().map(|twist| twist.linear.norm());
+        let length_m = reach.fold(state.base_from_tip.translation.norm(), f64::max);
         Self { q, length_m: if length_m > 0.0 { length_m } else { 1.0 } }
     }
 
-    /// Candidate less target, without unit: six numbers for each joint, then the tip.
+    /// Candidate minus target, without unit: six values for each joint, then the tip.
     pub(super) fn difference(
         &self,
         candidate: &Candidate,
@@ -53,15 +53,15 @@ impl EvaluationPoint {
 
     /// Derivative of [`EvaluationPoint::difference`] with respect to a parameter.
     ///
-    /// What lies behind the parameter moves rigidly: a screw by the bracket with the generator, the
-    /// tip by the generator itself (Lynch & Park, *Modern Robotics* (2017), section 8.3.1).
+    /// The chain behind the parameter moves rigidly: a screw by the bracket with the generator, the tip by
+    /// the generator itself (Lynch & Park, *Modern Robotics* (2017), section 8.3.1).
     pub(super) fn derivative(
         &self,
         candidate: &Candidate,
         walk: &ChainWalk,
-        influence: &Influence,
+        effect: &ParameterEffect,
     ) -> Vec<f64> {
-        let Influence { generator, from_row, grows } = influence;
+        let ParameterEffect { generator, from_row, scales_row } = effect;
         let mut numbers = vec![0.0; 6 * self.q.len()];
         let mut put = |joint: usize, twist: Twist| {
             let place = &mut numbers[6 * joint..6 * joint + 6];
@@ -71,7 +71,7 @@ impl EvaluationPoint {
         for (row, twist) in candidate.rows.iter().zip(&walk.row_twists).skip(*from_row) {
             put(row.joint, generator.bracket(twist));
         }
-        if let Some(row) = *grows {
+        if let Some(row) = *scales_row {
             put(candidate.rows[row].joint, walk.row_twists[row] * (1.0 / candidate.rows[row].rate));
         }
         let Pose { rotation, translation } = &walk.base_from_tip;

@@ -1,4 +1,4 @@
-//! Explanations of a difference, and when a difference counts as none.
+//! Explanations of a difference, and the criterion for agreement.
 
 use congruent_description::{ChainQ, Tolerance};
 use congruent_kinematics::PoseError;
@@ -8,58 +8,57 @@ use super::{
     hypothesis::{Cause, ModelPair, Place},
 };
 
-/// What is held to be the same, and where a residual is measured.
+/// The tolerance, and the configurations at which a residual is measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
-    /// Largest difference of the tips that counts as none.
+    /// Largest difference of the tips that counts as agreement.
     pub tolerance: Tolerance,
-    /// Configurations at which residuals are measured, in the order of the reference's joints.
+    /// Configurations at which residuals are measured, in the order of the reference model's joints.
     pub configurations: Vec<ChainQ>,
 }
 
 /// One fault of an explanation.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Part {
+pub struct ExplainedFault {
     /// What is wrong.
     pub cause: Cause,
-    /// Where.
+    /// The place of the fault in the models.
     pub place: Place,
-    /// The numbers that were fitted.
+    /// The parameters that were fitted.
     pub free: Vec<ModelParameter>,
 }
 
 /// Faults that together explain a difference, or part of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Explanation {
-    /// The faults: one, or several; none where nothing explains the difference.
-    pub parts: Vec<Part>,
-    /// Both models with the faults undone.
+    /// The faults: one, or several; none if no hypothesis explains the difference.
+    pub faults: Vec<ExplainedFault>,
+    /// Both models with the faults corrected.
     pub corrected: ModelPair,
-    /// What is left then.
+    /// The remaining difference of the corrected models.
     pub residual: PoseError,
 }
 
 impl Explanation {
-    /// The cause's name: that of the only part, `several`, or `unexplained`.
+    /// The cause of the only fault, `several`, or `unexplained`.
     pub fn cause(&self) -> Cause {
-        match &self.parts[..] {
+        match &self.faults[..] {
             [] => Cause::Unexplained,
-            [part] => part.cause,
+            [fault] => fault.cause,
             _ => Cause::Several,
         }
     }
 }
 
 impl ModelPair {
-    /// The worst difference of the tips over the criterion's configurations; not a number where a
-    /// figure is so large that no tip comes out.
+    /// The worst difference of the tips over the criterion's configurations; not a number if a parameter is
+    /// so large that forward kinematics overflows.
     pub fn residual(&self, criterion: &Criterion) -> PoseError {
         let residuals = criterion.configurations.iter().map(|q| self.residual_at(q));
         residuals.fold(PoseError::default(), PoseError::larger)
     }
 
-    /// Whether the residual counts as none; the first configuration where it does not is enough to
-    /// know.
+    /// Whether the residual is accepted; stops at the first configuration at which it is not.
     pub(super) fn is_accepted(&self, criterion: &Criterion) -> bool {
         criterion.configurations.iter().all(|q| criterion.accepts(&self.residual_at(q)))
     }
@@ -70,7 +69,7 @@ impl ModelPair {
 }
 
 impl Criterion {
-    /// Whether a residual counts as none.
+    /// Whether a residual is within the tolerance.
     pub fn accepts(&self, residual: &PoseError) -> bool {
         residual.is_within(&self.tolerance)
     }

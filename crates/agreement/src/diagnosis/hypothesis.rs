@@ -1,81 +1,80 @@
-//! A hypothesis about what is wrong: what to change in the candidate or in the reference, and which
-//! numbers to leave free. The catalogue of them is `cause/`.
+//! A hypothesis about a fault: a change to the candidate or to the reference model, and the parameters to
+//! fit. The catalogue of hypotheses is `cause/`.
 
 use std::fmt;
+
+use serde::Serialize;
 
 use super::{
     candidate::{Candidate, DhEntry, ModelParameter},
     reference_model::ReferenceModel,
 };
 
-/// What can be wrong, by its stable name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Cause {
-    /// A joint turns the other way.
-    AxisFlipped,
-    /// The table is read under the other convention.
-    ConventionSwapped,
-    /// Two joints' rows or names are exchanged.
-    JointsSwapped,
-    /// An angle in degrees was read as radians.
-    DegreesAsRadians,
-    /// An angle in radians was read as degrees.
-    RadiansAsDegrees,
-    /// A length is off by the factor between millimetres and metres.
-    MillimetresAsMetres,
-    /// Two entries stand in each other's place.
-    ParametersExchanged,
-    /// Roll, pitch and yaw in another order.
-    RpyOrder,
-    /// The model leaves out a fixed joint of the reference.
-    FixedJointDropped,
-    /// A joint's zero is elsewhere.
-    ZeroOffset,
-    /// The declared transform behind the table.
-    Tool,
-    /// The declared transform before the table.
-    Base,
-    /// One entry of one row, or angles that the reference writes with too few digits.
-    Parameter,
-    /// A joint moves more or less than its variable says.
-    Ratio,
-    /// Several of these together.
-    Several,
-    /// None of these.
-    Unexplained,
+/// Declares [`Cause`] with the name and the finding code of each variant beside it.
+macro_rules! causes {
+    ($($(#[$attribute:meta])* $variant:ident = $name:literal,)*) => {
+        /// The cause of a difference, in the order in which causes of equal rank are named.
+        #[derive(
+            Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, serde::Serialize, schemars::JsonSchema,
+        )]
+        pub enum Cause {
+            $($(#[$attribute])* #[serde(rename = $name)] $variant,)*
+        }
+
+        impl Cause {
+            /// The stable code of a finding with this cause.
+            pub fn code(self) -> &'static str {
+                match self {
+                    $(Self::$variant => concat!("check::", $name),)*
+                }
+            }
+        }
+    };
 }
 
-impl Cause {
-    /// The name that programs read.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::AxisFlipped => "axis_flipped",
-            Self::ConventionSwapped => "convention_swapped",
-            Self::JointsSwapped => "joints_swapped",
-            Self::DegreesAsRadians => "degrees_as_radians",
-            Self::RadiansAsDegrees => "radians_as_degrees",
-            Self::MillimetresAsMetres => "millimetres_as_metres",
-            Self::ParametersExchanged => "parameters_exchanged",
-            Self::RpyOrder => "rpy_order",
-            Self::FixedJointDropped => "fixed_joint_dropped",
-            Self::ZeroOffset => "zero_offset",
-            Self::Tool => "tool",
-            Self::Base => "base",
-            Self::Parameter => "parameter",
-            Self::Ratio => "ratio",
-            Self::Several => "several",
-            Self::Unexplained => "unexplained",
-        }
-    }
+causes! {
+    /// A joint turns the other way.
+    AxisFlipped = "axis_flipped",
+    /// The table is read under the other convention.
+    ConventionSwapped = "convention_swapped",
+    /// Two joints' rows or names are exchanged.
+    JointsSwapped = "joints_swapped",
+    /// An angle in degrees was read as radians.
+    DegreesAsRadians = "degrees_as_radians",
+    /// An angle in radians was read as degrees.
+    RadiansAsDegrees = "radians_as_degrees",
+    /// A length is off by the factor between millimetres and metres.
+    MillimetresAsMetres = "millimetres_as_metres",
+    /// Two entries are exchanged.
+    ParametersExchanged = "parameters_exchanged",
+    /// Roll, pitch and yaw are in another order.
+    RpyOrder = "rpy_order",
+    /// The model leaves out a fixed joint of the reference model.
+    FixedJointDropped = "fixed_joint_dropped",
+    /// A joint's zero is shifted.
+    ZeroOffset = "zero_offset",
+    /// The declared transform behind the table is off.
+    Tool = "tool",
+    /// The declared transform before the table is off.
+    Base = "base",
+    /// One entry of one row is off, or the reference model's file has angles with too few digits.
+    Parameter = "parameter",
+    /// A joint moves more or less than its variable says.
+    Ratio = "ratio",
+    /// Several of these together.
+    Several = "several",
+    /// None of these.
+    #[default]
+    Unexplained = "unexplained",
 }
 
 impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
+        self.serialize(f)
     }
 }
 
-/// Where in the two models a cause lies.
+/// The place of a fault in the two models.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {
     /// The table as a whole.
@@ -84,32 +83,32 @@ pub enum Place {
     Rows(Vec<usize>),
     /// One entry of some rows.
     Entries(DhEntry, Vec<usize>),
-    /// All entries of a kind: a column, lengths, angles.
+    /// Whole columns of the table.
     Column(Vec<DhEntry>),
     /// The declared transform before the rows.
     Base,
     /// The declared transform after the rows.
     Tool,
-    /// Joints of the reference, by their number in it, fixed ones included.
+    /// Joints of the reference model, by their number in it, fixed ones included.
     ReferenceJoints(Vec<usize>),
 }
 
-/// Both models, as hypotheses change them.
+/// Both models; hypotheses change them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelPair {
-    /// The model under suspicion.
+    /// The model whose faults are searched.
     pub candidate: Candidate,
-    /// What it is held against.
+    /// The model that counts as correct.
     pub reference: ReferenceModel,
 }
 
-/// One way in which the candidate may be wrong.
+/// One possible fault.
 pub(super) struct Hypothesis {
     pub(super) cause: Cause,
     pub(super) place: Place,
-    /// What is undone before anything is fitted.
+    /// The correction without free parameters, applied before the fit.
     pub(super) edit: Option<Edit>,
-    /// The numbers that are fitted.
+    /// The parameters that are fitted.
     pub(super) free: Vec<ModelParameter>,
 }
 
@@ -117,7 +116,7 @@ pub(super) struct Hypothesis {
 pub(super) type Edit = Box<dyn Fn(&mut ModelPair) + Send + Sync>;
 
 impl Hypothesis {
-    /// A change without a free number.
+    /// A correction without free parameters.
     pub(super) fn edit(
         cause: Cause,
         place: Place,
@@ -126,12 +125,12 @@ impl Hypothesis {
         Self { cause, place, edit: Some(Box::new(edit)), free: Vec::new() }
     }
 
-    /// Free numbers and no other change.
+    /// A correction that is a fit only.
     pub(super) fn fit(cause: Cause, place: Place, free: Vec<ModelParameter>) -> Self {
         Self { cause, place, edit: None, free }
     }
 
-    /// Undoes what the hypothesis says went wrong, except for its free numbers.
+    /// Applies the correction, except for the fit.
     pub(super) fn apply(&self, models: &mut ModelPair) {
         if let Some(edit) = &self.edit {
             edit(models);

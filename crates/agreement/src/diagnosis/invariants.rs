@@ -1,55 +1,43 @@
-//! The second rung: where two chains differ, in the order in which quantities survive a change of
-//! frames. The first that differs says where to look.
+//! The differences of two chains in quantities that are invariant under a change of frames, the most
+//! invariant quantity first. The first one that differs shows where to look.
+
+use std::fmt;
 
 use congruent_kinematics::{ScrewChain, Twist};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::hypothesis::ModelPair;
-
-/// Differences below this, in m, rad or without unit, are rounding of a probe.
-const ROUNDING: f64 = 1e-9;
-/// A screw whose turn is this much smaller than one shifts.
-const NO_TURN: f64 = 1e-12;
-/// Axes whose angle has a smaller sine are parallel.
-const PARALLEL: f64 = 1e-6;
+use super::thresholds::{NO_TURN, PARALLEL, SAME_VALUE};
 
 /// A quantity of a chain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Invariant {
-    /// 0 for a joint that turns, 1 for one that shifts.
+    /// 0 for a revolute joint, 1 for a prismatic joint.
     Kind,
     /// Turn or shift for one unit of the joint's variable.
     Ratio,
     /// Distance of a joint's axis and the next, m.
     AxisDistance,
-    /// Angle between a joint's axis and the next as lines, rad.
+    /// Angle between a joint's axis and the next one as undirected lines, rad.
     AxisAngle,
     /// Offset along a joint's axis between the common normals on both sides, m.
     Offset,
-    /// Direction of the axis against the one before: the cosine of their angle.
+    /// Direction of an axis relative to the next one: the sign of the cosine of their angle.
     Sign,
     /// Angle about a joint's axis between the common normals on both sides, rad.
     Zero,
     /// Pose of the first axis: distance of the screws.
     Base,
-    /// Pose of the tip behind the last axis, m and rad together.
+    /// Pose of the tip behind the last axis: distance of the poses, m and rad together.
     Tool,
 }
 
-impl Invariant {
-    /// The name that programs read.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Kind => "kind",
-            Self::Ratio => "ratio",
-            Self::AxisDistance => "axis_distance",
-            Self::AxisAngle => "axis_angle",
-            Self::Offset => "offset",
-            Self::Sign => "sign",
-            Self::Zero => "zero",
-            Self::Base => "base",
-            Self::Tool => "tool",
-        }
+impl fmt::Display for Invariant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
     }
 }
 
@@ -66,7 +54,7 @@ pub struct JointDifference {
     pub expected: f64,
 }
 
-/// Everything in which the chains differ, the most invariant quantities first.
+/// All differences of the chains, the most invariant quantities first.
 pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
     let joints = models.reference.joint_count();
     let candidate = ScrewChain::identify(joints, |q| models.candidate.base_from_tip(q));
@@ -84,8 +72,8 @@ pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
         } else {
             (found - expected).abs()
         };
-        // A joint that moves nothing on the other side has no kind there.
-        if off > ROUNDING || (expected.is_nan() && invariant == Invariant::Kind) {
+        // A joint that moves nothing in the other chain has no kind there.
+        if off > SAME_VALUE || (expected.is_nan() && invariant == Invariant::Kind) {
             differences.push(JointDifference { invariant, joint, found, expected });
         }
     }
@@ -98,7 +86,7 @@ pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
         (candidate.twists_in_base.first(), reference.twists_in_base.first())
     {
         let off = (found.angular - expected.angular).norm().hypot((found.linear - expected.linear).norm());
-        if off > ROUNDING {
+        if off > SAME_VALUE {
             differences.push(JointDifference {
                 invariant: Invariant::Base,
                 joint: 0,
@@ -109,7 +97,7 @@ pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
     }
     let (found, expected) = (candidate.base_from_tip_at_zero, reference.base_from_tip_at_zero);
     let off = found.distance_m(&expected).hypot(found.angle_rad(&expected));
-    if off > ROUNDING {
+    if off > SAME_VALUE {
         let joint = joints.saturating_sub(1);
         differences.push(JointDifference { invariant: Invariant::Tool, joint, found: off, expected: 0.0 });
     }
@@ -117,7 +105,7 @@ pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
     differences
 }
 
-/// A joint's axis as a line; `through` is `None` for a joint that shifts.
+/// A joint's axis as a line; `through` is `None` for a prismatic joint.
 struct AxisLine {
     direction: Vector3<f64>,
     through: Option<Vector3<f64>>,
@@ -137,8 +125,8 @@ impl AxisLine {
         (shift > NO_TURN).then(|| Self { direction: linear / shift, through: None, ratio: shift })
     }
 
-    /// Where along this axis, from its point, the common normal to `other` stands; `None` for
-    /// parallel axes and axes without a place.
+    /// Coordinate along this axis, from its point, of the common normal to `other`; `None` for parallel axes
+    /// and prismatic joints.
     fn foot(&self, other: &Self) -> Option<f64> {
         let across = self.direction.cross(&other.direction);
         if across.norm() < PARALLEL {
@@ -162,7 +150,7 @@ impl AxisLine {
 /// A quantity with the joint that it belongs to.
 type JointQuantity = (usize, (Invariant, f64));
 
-/// All quantities of a chain that it has.
+/// All quantities that a chain has.
 fn quantities(chain: &ScrewChain) -> Vec<JointQuantity> {
     let axes: Vec<Option<AxisLine>> = chain.twists_in_base.iter().map(AxisLine::of).collect();
     let mut list = Vec::new();

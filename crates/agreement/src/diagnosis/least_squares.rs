@@ -1,55 +1,49 @@
-//! Least squares on screws and tip: the free numbers of a hypothesis, by Levenberg and Marquardt.
+//! Least squares on screws and tip for the free parameters of a hypothesis, by Levenberg and Marquardt.
 
 use nalgebra::{DMatrix, DVector};
 
+use super::thresholds::{DAMPING, MAX_STEPS, MIN_GAIN, NO_EFFECT, PERFECT_FIT};
 use super::{
     candidate::{Candidate, ChainWalk, ModelParameter},
     evaluation_point::EvaluationPoint,
     reference_model::ChainState,
 };
 
-/// A loop bound, not a quality: fits that reach zero take some six steps.
-const MOST_STEPS: usize = 60;
-/// A step that gains less than this share of the norm has met the bottom of another valley.
-const LEAST_GAIN: f64 = 1e-3;
-/// Norm, without unit, at which rounding is all that is left of some fifty numbers.
-const ROUNDING: f64 = 3e-16;
-
-/// A candidate with its free numbers fitted.
+/// A candidate with its free parameters fitted.
 #[derive(Debug, Clone)]
 pub(super) struct FittedCandidate {
     pub(super) candidate: Candidate,
-    /// Root of the sum of squares that is left, without unit.
+    /// Norm of the remaining difference, without unit.
     pub(super) norm: f64,
 }
 
-/// What is fitted to: the reference's screws and tip, seen from a evaluation_point.
+/// The target of a fit: screws and tip of the reference model at the evaluation point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FitTarget<'a> {
     pub(super) evaluation_point: &'a EvaluationPoint,
-    pub(super) snapshot: &'a ChainState,
+    pub(super) state: &'a ChainState,
 }
 
 impl FitTarget<'_> {
-    /// How far a candidate is from the target as it stands.
+    /// Norm of the difference of a candidate from the target.
     pub(super) fn norm(&self, candidate: &Candidate) -> f64 {
         norm(&self.difference(candidate, &candidate.walk(&self.evaluation_point.q)))
     }
 
     fn difference(&self, candidate: &Candidate, walk: &ChainWalk) -> Vec<f64> {
-        self.evaluation_point.difference(candidate, walk, self.snapshot)
+        self.evaluation_point.difference(candidate, walk, self.state)
     }
 
-    /// Fits `free` from where the candidate stands.
+    /// Fits the parameters `free`, starting at their present values.
     ///
     /// Source: Marquardt (1963), the damping scaled by the diagonal, which mixes rad and m safely.
     pub(super) fn refit(&self, candidate: &Candidate, free: &[ModelParameter]) -> FittedCandidate {
         let mut walk = candidate.walk(&self.evaluation_point.q);
         let mut difference = self.difference(candidate, &walk);
         let mut best = FittedCandidate { candidate: candidate.clone(), norm: norm(&difference) };
-        let mut damping = 1e-6;
-        for _ in 0..MOST_STEPS {
-            if best.norm < ROUNDING || free.is_empty() {
+        let mut damping = DAMPING.first;
+        for _ in 0..MAX_STEPS {
+            if best.norm < PERFECT_FIT || free.is_empty() {
                 break;
             }
             let Some(step) = self.step(&best.candidate, (&walk, &difference), free, damping) else { break };
@@ -59,18 +53,18 @@ impl FitTarget<'_> {
             }
             let moved_walk = moved.walk(&self.evaluation_point.q);
             let moved_difference = self.difference(&moved, &moved_walk);
-            let left = norm(&moved_difference);
-            if left < best.norm {
-                let gain = 1.0 - left / best.norm;
-                best = FittedCandidate { candidate: moved, norm: left };
+            let moved_norm = norm(&moved_difference);
+            if moved_norm < best.norm {
+                let gain = 1.0 - moved_norm / best.norm;
+                best = FittedCandidate { candidate: moved, norm: moved_norm };
                 (walk, difference) = (moved_walk, moved_difference);
-                damping = (damping * 0.1_f64).max(1e-12);
-                if gain < LEAST_GAIN {
+                damping = (damping * DAMPING.after_success).max(DAMPING.least);
+                if gain < MIN_GAIN {
                     break;
                 }
             } else {
-                damping *= 100.0;
-                if damping > 1e4 {
+                damping *= DAMPING.after_failure;
+                if damping > DAMPING.most {
                     break;
                 }
             }
@@ -86,16 +80,16 @@ impl FitTarget<'_> {
         damping: f64,
     ) -> Option<DVector<f64>> {
         let column = |&parameter: &ModelParameter| {
-            let influence = candidate.influence(parameter, &self.evaluation_point.q, walk)?;
-            Some(self.evaluation_point.derivative(candidate, walk, &influence))
+            let effect = candidate.effect_of(parameter, &self.evaluation_point.q, walk)?;
+            Some(self.evaluation_point.derivative(candidate, walk, &effect))
         };
         let columns: Vec<Vec<f64>> = free.iter().map(column).collect::<Option<_>>()?;
         let count = columns.len();
         let mut normal = DMatrix::from_fn(count, count, |row, column| dot(&columns[row], &columns[column]));
         let right = DVector::from_fn(count, |row, _| -dot(&columns[row], difference));
         for at in 0..count {
-            // The second term keeps a number that changes nothing where it is.
-            normal[(at, at)] += damping * normal[(at, at)] + 1e-15;
+            // The second term keeps a parameter without effect at its value.
+            normal[(at, at)] += damping * normal[(at, at)] + NO_EFFECT;
         }
         Some(normal.cholesky()?.solve(&right))
     }

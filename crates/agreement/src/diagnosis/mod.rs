@@ -1,9 +1,12 @@
-//! Do two kinematic models describe the same robot, and if not, why? One rung of the answer in each
-//! file: probe, invariants, equivalence, cause, certificate.
+//! Do two kinematic models describe the same robot, and if not, why?
 //!
-//! The candidate is a table or anything that can be identified; the reference is a chain of joints. Both
-//! are compared as screws and tip at one generic configuration, which is exact, and a catalogue of
-//! hypotheses is tried on the difference. How far the two are apart at most is the certificate's.
+//! The candidate (`candidate.rs`) is a table, or screws that were identified; the reference model
+//! (`reference_model.rs`) is a chain of joints. Both are compared as screws and tip at one generic
+//! configuration (`evaluation_point.rs`), which is exact, by their invariants (`invariants.rs`), and by
+//! fitting each hypothesis of a catalogue (`cause/`, `hypothesis_fit.rs`) to the difference. The
+//! explanations are ranked (`score.rs`), and those that no measurement can distinguish are listed with the
+//! reason (`equivalence.rs`). Every threshold is in `thresholds.rs`. The bound of the difference is in
+//! [`crate::bound`].
 
 mod candidate;
 mod cause;
@@ -18,10 +21,11 @@ mod least_squares;
 mod reference_model;
 mod score;
 mod search;
+mod thresholds;
 
-pub use candidate::{Candidate, CandidateRow, Constant, DhEntry, ModelParameter, RowConstants};
+pub use candidate::{Candidate, CandidateRow, DeclaredTransform, DhEntry, ModelParameter, RowConstants};
 pub use equivalence::Equivalence;
-pub use explanation::{Criterion, Explanation, Part};
+pub use explanation::{Criterion, ExplainedFault, Explanation};
 pub use hypothesis::{Cause, ModelPair, Place};
 pub use invariants::{Invariant, JointDifference};
 pub use reference_model::{ReferenceJoint, ReferenceModel};

@@ -1,11 +1,11 @@
-//! What the candidate is held against: a chain of constant transforms and joints, of which hypotheses
-//! may leave one out or read one differently.
+//! The reference model that the candidate is compared with: a chain of constant transforms and joints.
+//! Hypotheses can leave out one of them or read its angles in another order.
 
 use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 use nalgebra::Matrix3;
 
-/// Space screws at a configuration, in the order of the reference's joints, and the tip.
+/// Space screws at a configuration, in the order of the moving joints, and the tip.
 #[derive(Debug, Clone)]
 pub(super) struct ChainState {
     pub(super) twists: Vec<Twist>,
@@ -17,11 +17,11 @@ pub(super) struct ChainState {
 pub struct ReferenceJoint {
     /// The constant transform that leads to the joint.
     pub parent_from_joint: Pose,
-    /// How it moves for one unit of its coordinate, in its own frame; `None` for a fixed joint.
+    /// Twist for one unit of its coordinate, in its own frame; `None` for a fixed joint.
     pub twist_in_joint: Option<Twist>,
-    /// Whether it is passed from child to parent: up from a base that stands aside of the chain.
+    /// Whether the chain passes it from child to parent, as it does from a base link beside the chain.
     pub is_upward: bool,
-    /// Whether a file writes it, so that its figures can be wrong; not so for a black box.
+    /// Whether it is written in a file, so that its values can be wrong; false for a black box.
     pub is_written: bool,
 }
 
@@ -32,15 +32,15 @@ impl ReferenceJoint {
     }
 }
 
-/// The chain that the candidate should be: joints from base to tip.
+/// The chain that counts as correct: joints from base to tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceModel {
-    /// All joints, fixed ones included; moving ones number the coordinates.
+    /// All joints, fixed ones included; the moving ones are numbered like the coordinates.
     pub joints: Vec<ReferenceJoint>,
 }
 
 impl ReferenceModel {
-    /// A reference of which only its screws are known: a black box that was identified.
+    /// A reference model of which only the screws are known: a black box that was identified.
     pub fn from_screws(chain: &ScrewChain) -> Self {
         let moving = |&twist: &Twist| ReferenceJoint {
             parent_from_joint: Pose::identity(),
@@ -65,16 +65,16 @@ impl ReferenceModel {
 
     /// Pose of the tip at joint positions `q`.
     pub fn base_from_tip(&self, q: &ChainQ) -> Pose {
-        self.snapshot(q).base_from_tip
+        self.state(q).base_from_tip
     }
 
     /// The space screws at position zero, and the home pose.
     pub fn screws(&self) -> ScrewChain {
-        let ChainState { twists, base_from_tip } = self.snapshot(&ChainQ::zeros(self.joint_count()));
+        let ChainState { twists, base_from_tip } = self.state(&ChainQ::zeros(self.joint_count()));
         ScrewChain { twists_in_base: twists, base_from_tip_at_zero: base_from_tip }
     }
 
-    pub(super) fn snapshot(&self, q: &ChainQ) -> ChainState {
+    pub(super) fn state(&self, q: &ChainQ) -> ChainState {
         let mut pose = Pose::identity();
         let mut twists = Vec::with_capacity(q.len());
         for joint in &self.joints {

@@ -1,20 +1,25 @@
-//! What a diagnosis says, as programs read it.
+//! The diagnosis as programs read it.
 
 use congruent_description::Diagnostic;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::values::ReportedValue;
+use crate::{
+    diagnosis::{Cause, Equivalence, Invariant},
+    source_pair::SourcePair,
+};
 
-/// One climb: two models of the chain from base to tip.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The diagnosis of one pair of models of the chain from base to tip.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedDiagnosis {
-    /// Which two: `model_urdf`, `model_simulation` or `urdf_simulation`.
-    pub name: &'static str,
-    /// The same in words.
+    /// The pair: `model_urdf`, `model_simulation` or `urdf_simulation`.
+    pub name: SourcePair,
+    /// The pair in words.
     pub title: &'static str,
-    /// The likeliest cause, then what comes next and leaves more; empty where they agree.
-    pub diagnosis: Vec<ReportedCause>,
-    /// Causes that leave as little as the first.
+    /// The likeliest cause, then the next best ones, with larger residuals; empty if the models agree.
+    pub causes: Vec<ReportedCause>,
+    /// Causes with a residual as small as the first one's.
     pub indistinguishable: Vec<ReportedAlternative>,
     /// Screws and distances that differ, the most invariant first.
     pub invariants: Vec<ReportedDifference>,
@@ -23,64 +28,66 @@ pub struct ReportedDiagnosis {
     pub findings: Vec<Diagnostic>,
 }
 
-/// A cause with what it leaves.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// A cause with the residual after it is corrected.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedCause {
     /// What is wrong.
     #[serde(flatten)]
     pub fault: Fault,
-    /// WorstDifference distance of the tips that is left.
+    /// The largest remaining distance of the tips, m.
     pub residual_m: f64,
-    /// WorstDifference angle between the tips that is left.
+    /// The largest remaining angle between the tips, rad.
     pub residual_rad: f64,
     /// The faults of `several`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub parts: Vec<Fault>,
 }
 
-/// A cause that cannot be told from the first.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// A cause that cannot be distinguished from the first.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedAlternative {
     /// The cause.
     #[serde(flatten)]
     pub cause: ReportedCause,
-    /// Why it is the same.
+    /// Why the two cannot be distinguished.
+    pub equivalence: Equivalence,
+    /// The same in words.
     pub reason: &'static str,
 }
 
-/// One fault: what, where, what stands there, what should.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+/// One fault: the cause, the place, the found and the expected value.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
 pub struct Fault {
-    /// The cause's stable name.
-    pub cause: &'static str,
-    /// The joint, where it is one.
+    /// The cause.
+    pub cause: Cause,
+    /// The joint, if it is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
-    /// The joints, where they are several.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    /// The joints, if they are several.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub joints: Vec<String>,
-    /// `a`, `alpha`, `d`, `theta`, or several of them.
+    /// `a`, `alpha`, `d`, `theta`, `kind`, `rpy`, or several of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parameter: Option<String>,
-    /// How far off: found less expected in rad or m; of a ratio or a column's unit, found by expected.
+    /// The error: found minus expected in rad or m; of a ratio or a column's unit, found divided by expected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
-    /// What stands there.
+    /// The value in the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub found: Option<ReportedValue>,
-    /// What should.
+    /// The correct value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected: Option<ReportedValue>,
-    /// Of a declared transform: found less expected.
+    /// Of a declared transform: found minus expected, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub translation_m: Option<[f64; 3]>,
-    /// Of a declared transform: the turn from expected to found, axis times angle.
+    /// Of a declared transform: the rotation from expected to found, axis times angle, rad.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_rad: Option<[f64; 3]>,
-    /// The file at fault: the robot file, or the URDF.
+    /// The file with the fault: the robot file or the URDF.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
-    /// Line in it, from 1.
+    /// Line in the file, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
     /// What to change.
@@ -88,14 +95,15 @@ pub struct Fault {
 }
 
 /// A quantity in which the chains differ.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedDifference {
-    /// `kind`, `ratio`, `axis_distance`, `axis_angle`, `offset`, `sign`, `zero`, `base` or `tool`.
-    pub invariant: &'static str,
+    /// The quantity.
+    pub invariant: Invariant,
     /// The joint; of consecutive axes the first.
     pub joint: String,
-    /// Of the model; of `base` and `tool` the distance; `null` where it has no such quantity.
+    /// Its value in the first model; of `base` and `tool` the distance of the two models; `null` if the model
+    /// does not have it.
     pub found: f64,
-    /// Of the other; `null` where it has no such quantity.
+    /// Its value in the second model; `null` if the model does not have it.
     pub expected: f64,
 }

@@ -1,26 +1,19 @@
-//! The agreement ladder for a description: the model against its URDF and against the physics, the
-//! latter identified as a black box. What is found is told in names, lines and figures of the robot file.
+//! The diagnosis of a robot description: the table against the URDF and against the physics, which is
+//! identified as a black box.
 
 use congruent_description::{JointIndex, RobotDescription, RobotFilePlaces, RobotQ, UrdfPlaces};
 use congruent_kinematics::ScrewChain;
 
-use super::{
-    content::ReportedDiagnosis,
-    names::{ModelNames, PairTitle},
-    tell::reported_diagnosis,
+use super::{content::ReportedDiagnosis, describe::reported_diagnosis, names::ModelNames};
+use crate::{
+    diagnosis::{Candidate, Criterion, DeclaredTransform, ModelPair, ReferenceModel, diagnose},
+    source_pair::SourcePair,
 };
-use crate::diagnosis::{Candidate, Constant, Criterion, ModelPair, ReferenceModel, diagnose};
 
-const MODEL_URDF: PairTitle = PairTitle { name: "model_urdf", title: "DH table against URDF chain" };
-const MODEL_SIMULATION: PairTitle =
-    PairTitle { name: "model_simulation", title: "DH table against physics, identified" };
-const URDF_SIMULATION: PairTitle =
-    PairTitle { name: "urdf_simulation", title: "URDF chain against physics, identified" };
-
-/// Climbs the ladder wherever two models of the chain from base to tip differ.
+/// The diagnosis of each pair of models of the chain from base to tip.
 ///
-/// `configurations` are those of the whole robot at which residuals are measured, `physics` the
-/// chain that the physics shows when it is identified.
+/// `configurations` are configurations of the whole robot at which residuals are measured, `physics` is the
+/// chain that was identified from the physics.
 pub fn diagnose_models(
     description: &RobotDescription,
     physics: &ScrewChain,
@@ -41,26 +34,29 @@ pub fn diagnose_models(
     };
     let names =
         ModelNames { description, moving, chain, places, urdf: UrdfPlaces::read(&description.urdf_path) };
-    let cases = if let Some(candidate) = candidate(&names) {
+    let pairs = if let Some(candidate) = candidate(&names) {
         let against_physics = ModelPair { candidate: candidate.clone(), reference: physics };
-        vec![(MODEL_URDF, ModelPair { candidate, reference: urdf }), (MODEL_SIMULATION, against_physics)]
+        vec![
+            (SourcePair::ModelUrdf, ModelPair { candidate, reference: urdf }),
+            (SourcePair::ModelSimulation, against_physics),
+        ]
     } else {
         let candidate = Candidate::from_screws(&urdf.screws());
-        vec![(URDF_SIMULATION, ModelPair { candidate, reference: physics })]
+        vec![(SourcePair::UrdfSimulation, ModelPair { candidate, reference: physics })]
     };
-    let ladder = |(title, models): &(PairTitle, ModelPair)| {
-        reported_diagnosis(*title, models, &diagnose(models, &criterion), &names)
+    let diagnosis = |(pair, models): &(SourcePair, ModelPair)| {
+        reported_diagnosis(*pair, models, &diagnose(models, &criterion), &names)
     };
-    cases.iter().map(ladder).collect()
+    pairs.iter().map(diagnosis).collect()
 }
 
-/// The table, with the roll, pitch and yaw of its declared transforms as they are written.
+/// The table with the roll, pitch and yaw of its declared transforms as the file writes them.
 fn candidate(names: &ModelNames<'_>) -> Option<Candidate> {
     use congruent_description::ConstantKey::{BaseFromDh0, DhnFromTip};
     let candidate = Candidate::from_table(names.description.dh.as_ref()?, &names.moving)?;
-    let written = |constant: Constant, key| Constant {
+    let written = |transform: DeclaredTransform, key| DeclaredTransform {
         written_rpy_rad: names.places.as_ref().and_then(|places| places.rpy_rad(key)),
-        ..constant
+        ..transform
     };
     Some(Candidate {
         base: written(candidate.base, BaseFromDh0),

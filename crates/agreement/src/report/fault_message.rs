@@ -1,10 +1,11 @@
-//! One fault in words: the line of the file, what stands there, what should.
+//! One fault in words: the line of the file, the found and the expected value, what to change.
 
 use std::{ops::Range, sync::Arc};
 
 use congruent_description::{
-    ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, SourceFile, fitted_number,
-    fitted_transform, line_column,
+    ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, SourceFile,
+    display::{angle, length},
+    fitted_number, fitted_transform, line_column,
     units::{Scale, Unit},
 };
 use congruent_kinematics::{Pose, rotation_log};
@@ -12,87 +13,59 @@ use congruent_kinematics::{Pose, rotation_log};
 use super::{
     content::Fault,
     names::ModelNames,
-    values::{ReportedValue, angle, isometry, length},
+    values::{ReportedValue, isometry},
 };
-use crate::diagnosis::{Candidate, Cause, DhEntry, ModelPair, Part, Place, RowConstants};
+use crate::diagnosis::{Candidate, Cause, DhEntry, ExplainedFault, ModelPair, Place, RowConstants};
 
-/// A fault, as programs read it and in words.
+/// A fault for programs, its message for people, and its place.
 pub(super) struct FaultMessage {
     pub(super) fault: Fault,
     pub(super) message: String,
-    pub(super) spot: Option<Spot>,
-    cause: Cause,
+    pub(super) location: Option<FileLocation>,
 }
 
 /// A place in a file.
-pub(super) struct Spot {
+pub(super) struct FileLocation {
     pub(super) source: Arc<SourceFile>,
     pub(super) span: Range<usize>,
 }
 
-impl FaultMessage {
-    /// The finding's stable code.
-    pub(super) fn code(&self) -> &'static str {
-        match self.cause {
-            Cause::AxisFlipped => "check::axis_flipped",
-            Cause::ConventionSwapped => "check::convention_swapped",
-            Cause::JointsSwapped => "check::joints_swapped",
-            Cause::DegreesAsRadians => "check::degrees_as_radians",
-            Cause::RadiansAsDegrees => "check::radians_as_degrees",
-            Cause::MillimetresAsMetres => "check::millimetres_as_metres",
-            Cause::ParametersExchanged => "check::parameters_exchanged",
-            Cause::RpyOrder => "check::rpy_order",
-            Cause::FixedJointDropped => "check::fixed_joint_dropped",
-            Cause::ZeroOffset => "check::zero_offset",
-            Cause::Tool => "check::tool",
-            Cause::Base => "check::base",
-            Cause::Parameter => "check::parameter",
-            Cause::Ratio => "check::ratio",
-            Cause::Several => "check::several",
-            Cause::Unexplained => "check::unexplained",
-        }
-    }
-}
-
-/// Both models before and after a fault is undone, with their names.
+/// A fault, and both models before and after its correction, with their names.
 pub(super) struct FaultContext<'a> {
-    pub(super) part: &'a Part,
+    pub(super) fault: &'a ExplainedFault,
     pub(super) before: &'a ModelPair,
     pub(super) after: &'a ModelPair,
     names: &'a ModelNames<'a>,
 }
 
-/// Says what a part of an explanation accuses.
+/// The message of one fault of an explanation.
 pub(super) fn fault_message_of(
-    part: &Part,
+    fault: &ExplainedFault,
     before: &ModelPair,
     after: &ModelPair,
     names: &ModelNames<'_>,
 ) -> FaultMessage {
-    let fault_context = FaultContext { part, before, after, names };
-    let (mut fault, message, spot) = match &part.place {
-        Place::Model => fault_context.model(),
-        Place::Rows(rows) => fault_context.rows(rows),
-        Place::Entries(entry, rows) => fault_context.entries(*entry, rows),
-        Place::Column(entries) => fault_context.columns(entries),
-        Place::Base => fault_context.constant(ConstantKey::BaseFromDh0),
-        Place::Tool => fault_context.constant(ConstantKey::DhnFromTip),
-        Place::ReferenceJoints(joints) => fault_context.reference_joints(joints),
+    let context = FaultContext { fault, before, after, names };
+    let mut described = match &fault.place {
+        Place::Model => context.model(),
+        Place::Rows(rows) => context.rows(rows),
+        Place::Entries(entry, rows) => context.entries(*entry, rows),
+        Place::Column(entries) => context.columns(entries),
+        Place::Base => context.declared_transform(ConstantKey::BaseFromDh0),
+        Place::Tool => context.declared_transform(ConstantKey::DhnFromTip),
+        Place::ReferenceJoints(joints) => context.reference_joints(joints),
     };
-    fault.cause = part.cause.name();
-    if let Some(Spot { source, span }) = &spot {
-        fault.file = Some(source.path.display().to_string());
-        fault.line = Some(line_column(&source.text, span.start).0);
+    described.fault.cause = fault.cause;
+    if let Some(FileLocation { source, span }) = &described.location {
+        described.fault.file = Some(source.path.display().to_string());
+        described.fault.line = Some(line_column(&source.text, span.start).0);
     }
-    FaultMessage { fault, message, spot, cause: part.cause }
+    described
 }
 
-/// What is said, and where it stands.
-pub(super) type Said = (Fault, String, Option<Spot>);
-
 impl FaultContext<'_> {
-    fn model(&self) -> Said {
-        if self.part.cause != Cause::ConventionSwapped {
+    fn model(&self) -> FaultMessage {
+        if self.fault.cause != Cause::ConventionSwapped {
             return self.columns(&[DhEntry::A, DhEntry::D]);
         }
         let span = self.names.places.as_ref().and_then(RobotFilePlaces::convention);
@@ -107,11 +80,12 @@ impl FaultContext<'_> {
             suggestion: format!("write convention = \"{expected}\""),
             ..Fault::default()
         };
-        (fault, format!("the table is read as {found}, its figures are {expected}"), self.in_robot_file(span))
+        let message = format!("the table is read as {found}, its values are {expected}");
+        FaultMessage { fault, message, location: self.in_robot_file(span) }
     }
 
-    fn rows(&self, rows: &[usize]) -> Said {
-        if self.part.cause == Cause::Parameter {
+    fn rows(&self, rows: &[usize]) -> FaultMessage {
+        if self.fault.cause == Cause::Parameter {
             return self.kind(rows[0]);
         }
         let names: Vec<String> = rows.iter().map(|&row| self.joint(row)).collect();
@@ -127,27 +101,27 @@ impl FaultContext<'_> {
         };
         let named =
             Fault { joints: if joint.is_some() { Vec::new() } else { names }, joint, ..Fault::default() };
-        let (fault, message, suggestion) = match self.part.cause {
+        let (fault, message, suggestion) = match self.fault.cause {
             Cause::AxisFlipped => (
                 ratio(named),
                 format!(
-                    "joint \"{listed}\" moves the other way: sign is {}, it should be {}",
+                    "joint \"{listed}\" moves in the opposite direction: sign is {}, expected {}",
                     fitted_number(found),
                     fitted_number(expected)
                 ),
-                format!("write sign = {}, or turn the joint's axis round", fitted_number(expected)),
+                format!("write sign = {}, or reverse the joint's axis", fitted_number(expected)),
             ),
             Cause::Ratio => (
                 ratio(named),
                 format!(
-                    "joint \"{listed}\" moves {} times as far as it should",
+                    "joint \"{listed}\" moves {} times as far as expected",
                     fitted_number(found / expected)
                 ),
                 "check the joint's gear ratio and unit".to_owned(),
             ),
             Cause::JointsSwapped => {
                 let (what, how) =
-                    if self.figures_moved(rows) { ("rows", "rows") } else { ("names", "joint names") };
+                    if self.values_moved(rows) { ("rows", "rows") } else { ("names", "joint names") };
                 (
                     named,
                     format!("the {what} of joints \"{listed}\" are exchanged"),
@@ -157,20 +131,20 @@ impl FaultContext<'_> {
             Cause::ParametersExchanged => self.lengths_exchanged(named, rows[0]),
             _ => (
                 ratio(named),
-                format!("the position of joint \"{listed}\" is taken in another unit"),
+                format!("the position of joint \"{listed}\" is read in the wrong unit"),
                 "give joint positions in rad".to_owned(),
             ),
         };
-        let key = match self.part.cause {
+        let key = match self.fault.cause {
             Cause::AxisFlipped => RowKey::Sign,
             Cause::ParametersExchanged if self.is_written(rows[0], RowKey::A) => RowKey::A,
             Cause::ParametersExchanged => RowKey::D,
             _ => RowKey::Joint,
         };
-        (Fault { suggestion, ..fault }, message, self.spot(rows[0], key))
+        FaultMessage { fault: Fault { suggestion, ..fault }, message, location: self.location(rows[0], key) }
     }
 
-    fn kind(&self, row: usize) -> Said {
+    fn kind(&self, row: usize) -> FaultMessage {
         let kind = |models: &ModelPair| match models.candidate.rows[row].link {
             RowConstants::Dh { kind: DhRowKind::Prismatic, .. } => "prismatic",
             _ => "revolute",
@@ -185,14 +159,14 @@ impl FaultContext<'_> {
             suggestion: format!("write kind = \"{expected}\""),
             ..Fault::default()
         };
-        (fault, message, self.spot(row, RowKey::Kind))
+        FaultMessage { fault, message, location: self.location(row, RowKey::Kind) }
     }
 
     fn lengths_exchanged(&self, named: Fault, row: usize) -> (Fault, String, String) {
         let pair = |models: &ModelPair| {
-            let figure =
+            let written =
                 |entry| self.written(row, entry, models.candidate.entry(row, entry).unwrap_or_default());
-            [figure(DhEntry::A), figure(DhEntry::D)]
+            [written(DhEntry::A), written(DhEntry::D)]
         };
         let (found, expected) = (pair(self.before).join(", "), pair(self.after));
         let fault = Fault {
@@ -201,36 +175,34 @@ impl FaultContext<'_> {
             expected: Some(ReportedValue::Text(expected.join(", "))),
             ..named
         };
-        let message =
-            format!("a and d of joint \"{}\" stand in each other's place: {found}", self.joint(row));
+        let message = format!("a and d of joint \"{}\" are exchanged: {found}", self.joint(row));
         (fault, message, format!("write {}", expected.join(" and ")))
     }
 
-    fn entries(&self, entry: DhEntry, rows: &[usize]) -> Said {
+    fn entries(&self, entry: DhEntry, rows: &[usize]) -> FaultMessage {
         let row = rows[0];
         let value = |models: &ModelPair, row: usize| models.candidate.entry(row, entry).unwrap_or_default();
         let (found, expected) = (value(self.before, row), value(self.after, row));
-        let parameter = Some(entry_name(entry).to_owned());
+        let parameter = Some(entry.to_string());
         if let &[first, second] = rows {
             let joints = vec![self.joint(first), self.joint(second)];
-            let message =
-                format!("alpha of joints \"{}\" stand in each other's place", joints.join("\", \""));
+            let message = format!("alpha of joints \"{}\" are exchanged", joints.join("\", \""));
             let suggestion = format!(
                 "exchange them: {} and {}",
                 self.written(first, entry, expected),
                 self.written(second, entry, value(self.after, second))
             );
             let fault = Fault { joints, parameter, suggestion, ..Fault::default() };
-            return (fault, message, self.spot(second, row_key(entry)));
+            return FaultMessage { fault, message, location: self.location(second, row_key(entry)) };
         }
         let joint = self.joint(row);
         let right = self.written(row, entry, expected);
-        let (stands, suggestion) = if self.is_written(row, row_key(entry)) {
-            (format!("{} stands there", self.written(row, entry, found)), format!("write {right}"))
+        let (given, suggestion) = if self.is_written(row, row_key(entry)) {
+            (self.written(row, entry, found), format!("write {right}"))
         } else {
-            (format!("{} is not written, so 0", entry_name(entry)), format!("add {right} to the row"))
+            (format!("{entry} is not given (0)"), format!("add {right} to the row"))
         };
-        let message = format!("joint \"{joint}\": {stands}, it should be {right}");
+        let message = format!("joint \"{joint}\": {given}, expected {right}");
         let fault = Fault {
             joint: Some(joint),
             parameter,
@@ -240,10 +212,10 @@ impl FaultContext<'_> {
             suggestion,
             ..Fault::default()
         };
-        (fault, message, self.spot(row, row_key(entry)))
+        FaultMessage { fault, message, location: self.location(row, row_key(entry)) }
     }
 
-    fn constant(&self, key: ConstantKey) -> Said {
+    fn declared_transform(&self, key: ConstantKey) -> FaultMessage {
         let pose: fn(&ModelPair) -> Pose = match key {
             ConstantKey::BaseFromDh0 => |models| models.candidate.base.pose,
             ConstantKey::DhnFromTip => |models| models.candidate.tool.pose,
@@ -252,10 +224,10 @@ impl FaultContext<'_> {
         let (found, expected) = (pose(self.before), pose(self.after));
         let shift = found.translation - expected.translation;
         let turn = rotation_log(&(expected.rotation.transpose() * found.rotation));
-        let how = match self.part.cause {
-            Cause::RpyOrder => "has its roll, pitch and yaw in another order".to_owned(),
+        let how = match self.fault.cause {
+            Cause::RpyOrder => "has its roll, pitch and yaw in the wrong order".to_owned(),
             Cause::Tool | Cause::Base => format!("is off by {}", off_by(shift.norm(), turn.norm())),
-            _ => "is in another unit than its keys say".to_owned(),
+            _ => "is not in the unit of its keys".to_owned(),
         };
         let places = self.names.places.as_ref();
         let [found, expected] = [found, expected].map(|pose| isometry(&pose));
@@ -273,10 +245,11 @@ impl FaultContext<'_> {
         };
         let part = if shift.norm() > turn.norm() { ConstantPart::Shift } else { ConstantPart::Turn };
         let span = places.map(|places| places.constant(key, part));
-        (fault, format!("the declared transform {name} {how}"), self.in_robot_file(span))
+        let message = format!("the declared transform {name} {how}");
+        FaultMessage { fault, message, location: self.in_robot_file(span) }
     }
 
-    fn reference_joints(&self, joints: &[usize]) -> Said {
+    fn reference_joints(&self, joints: &[usize]) -> FaultMessage {
         let names: Vec<String> = joints.iter().map(|&joint| self.names.chain_joint(joint)).collect();
         let listed = names.join("\", \"");
         let rotation =
@@ -286,13 +259,13 @@ impl FaultContext<'_> {
         };
         let most = joints.iter().map(|&joint| turn(joint)).fold(0.0, f64::max);
         let mut fault = Fault::default();
-        let (message, suggestion) = match self.part.cause {
+        let (message, suggestion) = match self.fault.cause {
             Cause::FixedJointDropped => (
                 format!("the model leaves out the fixed joint \"{listed}\" of the URDF"),
                 format!("put the origin of \"{listed}\" into the model"),
             ),
             Cause::RpyOrder => (
-                format!("the rpy of joint \"{listed}\" is in another order in the URDF than in the model"),
+                format!("the rpy of joint \"{listed}\" has another order in the URDF than in the model"),
                 format!("check the rpy of joint \"{listed}\": R = Rz(yaw) Ry(pitch) Rx(roll)"),
             ),
             _ => {
@@ -306,77 +279,64 @@ impl FaultContext<'_> {
                 )
             }
         };
-        let spot = self.names.urdf.as_ref().and_then(|urdf| {
-            Some(Spot { source: Arc::clone(urdf.source()), span: urdf.joint_origin(names.first()?)? })
+        let location = self.names.urdf.as_ref().and_then(|urdf| {
+            Some(FileLocation { source: Arc::clone(urdf.source()), span: urdf.joint_origin(names.first()?)? })
         });
         match <[String; 1]>::try_from(names) {
             Ok([name]) => fault.joint = Some(name),
             Err(names) => fault.joints = names,
         }
-        (Fault { suggestion, ..fault }, message, spot)
+        FaultMessage { fault: Fault { suggestion, ..fault }, message, location }
     }
 
     fn joint(&self, row: usize) -> String {
         self.names.moving_joint(self.before.candidate.rows[row].joint)
     }
 
-    fn in_robot_file(&self, span: Option<Range<usize>>) -> Option<Spot> {
-        Some(Spot { source: Arc::clone(self.names.places.as_ref()?.source()), span: span? })
+    fn in_robot_file(&self, span: Option<Range<usize>>) -> Option<FileLocation> {
+        Some(FileLocation { source: Arc::clone(self.names.places.as_ref()?.source()), span: span? })
     }
 
-    /// Whether the file writes a figure of a row; where there is no file nothing is left out.
+    /// Whether the file writes a value of a row; true if there is no file.
     fn is_written(&self, row: usize, key: RowKey) -> bool {
         let place = self.names.places.as_ref().and_then(|places| places.figure(row, key));
         place.is_none_or(|place| place.is_written)
     }
 
-    /// Where a figure of a row stands.
-    pub(super) fn spot(&self, row: usize, key: RowKey) -> Option<Spot> {
+    /// The place of a value of a row in the robot file.
+    pub(super) fn location(&self, row: usize, key: RowKey) -> Option<FileLocation> {
         self.in_robot_file(Some(self.names.places.as_ref()?.figure(row, key)?.span))
     }
 
-    /// Whether the figures have changed places with the names.
-    fn figures_moved(&self, rows: &[usize]) -> bool {
+    /// Whether the values of the rows are exchanged as well as the names.
+    fn values_moved(&self, rows: &[usize]) -> bool {
         self.before.candidate.rows[rows[0]].link != self.after.candidate.rows[rows[0]].link
     }
 
-    /// A figure of a row as the file writes it, in the unit of its key there.
+    /// A value of a row as the file writes it, with its key and in the unit of that key.
     fn written(&self, row: usize, entry: DhEntry, value: f64) -> String {
         let place = self.names.places.as_ref().and_then(|places| places.figure(row, row_key(entry)));
-        let unit = if is_angle(entry) { Unit::Angle } else { Unit::Length };
+        let unit = if entry.is_angle() { Unit::Angle } else { Unit::Length };
         match place {
             Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.scale)),
-            None => format!("{} = {}", entry_name(entry), unit.fitted(value, Scale::Plain)),
+            None => format!("{} = {}", entry, unit.fitted(value, Scale::Plain)),
         }
     }
 }
 
-/// How far a transform is off, without the part that is only rounding.
+/// The error of a transform; a part that is rounding is left out.
 fn off_by(shift_m: f64, turn_rad: f64) -> String {
-    /// Rounding of a fit, in m or rad.
-    const NOTHING: f64 = 1e-12;
-    let shift = (shift_m > NOTHING).then(|| length(shift_m));
-    let turn = (turn_rad > NOTHING).then(|| angle(turn_rad));
+    /// Rounding of a fit. Unit: m or rad.
+    const ROUNDING: f64 = 1e-12;
+    let shift = (shift_m > ROUNDING).then(|| length(shift_m));
+    let turn = (turn_rad > ROUNDING).then(|| angle(turn_rad));
     shift.into_iter().chain(turn).collect::<Vec<_>>().join(" and ")
 }
 
-/// Found less expected; of angles within half a turn.
+/// Found minus expected; of angles within half a turn.
 fn off(entry: DhEntry, found: f64, expected: f64) -> f64 {
     let off = found - expected;
-    if is_angle(entry) { off.sin().atan2(off.cos()) } else { off }
-}
-
-pub(super) fn is_angle(entry: DhEntry) -> bool {
-    matches!(entry, DhEntry::Alpha | DhEntry::Theta)
-}
-
-pub(super) fn entry_name(entry: DhEntry) -> &'static str {
-    match entry {
-        DhEntry::A => "a",
-        DhEntry::Alpha => "alpha",
-        DhEntry::D => "d",
-        DhEntry::Theta => "theta",
-    }
+    if entry.is_angle() { off.sin().atan2(off.cos()) } else { off }
 }
 
 pub(super) fn row_key(entry: DhEntry) -> RowKey {

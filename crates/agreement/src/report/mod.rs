@@ -1,10 +1,10 @@
-//! What a diagnosis says in names, lines and values of the robot file.
+//! A diagnosis in names, lines and values of the robot file.
 
 mod content;
+mod describe;
 mod diagnose_models;
 mod fault_message;
 mod names;
-mod tell;
 mod units;
 mod values;
 

@@ -1,20 +1,13 @@
-//! Which two models a diagnosis stands between, and what names and places their numbers have.
+//! Names and places in files for the numbers of a diagnosis.
 
 use congruent_description::{JointIndex, RobotDescription, RobotFilePlaces, UrdfPlaces};
 
-/// Which two models a ladder stands between.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct PairTitle {
-    pub(crate) name: &'static str,
-    pub(crate) title: &'static str,
-}
-
-/// What names and places the numbers of a models have.
+/// Names of joints, and places in the robot file and the URDF.
 pub(crate) struct ModelNames<'a> {
     pub(crate) description: &'a RobotDescription,
-    /// Moving joints of the chain, base to tip: what a models numbers.
+    /// Moving joints of the chain, base to tip, as the models number them.
     pub(crate) moving: Vec<JointIndex>,
-    /// All joints of the chain.
+    /// All joints of the chain, fixed ones included.
     pub(crate) chain: Vec<JointIndex>,
     pub(crate) places: Option<RobotFilePlaces>,
     pub(crate) urdf: Option<UrdfPlaces>,

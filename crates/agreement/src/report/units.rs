@@ -1,36 +1,36 @@
-//! A unit slip of whole columns in words.
+//! The message of a wrong unit of whole columns.
 
 use congruent_description::fitted_number;
 
 use super::{
     content::Fault,
-    fault_message::{FaultContext, Said, entry_name, is_angle, row_key},
+    fault_message::{FaultContext, FaultMessage, row_key},
     values::ReportedValue,
 };
 use crate::diagnosis::{DhEntry, ModelPair, Place};
 
 impl FaultContext<'_> {
-    /// Columns whose figures are in another unit than their keys say.
-    pub(super) fn columns(&self, entries: &[DhEntry]) -> Said {
+    /// Columns whose values are not in the unit of their keys.
+    pub(super) fn columns(&self, entries: &[DhEntry]) -> FaultMessage {
         let rows = 0..self.before.candidate.rows.len();
         let value = |models: &ModelPair, row, entry| models.candidate.entry(row, entry).unwrap_or_default();
         let differs = |&(row, entry): &(usize, DhEntry)| {
             (value(self.before, row, entry) - value(self.after, row, entry)).abs() > 0.0
         };
         let places = rows.clone().flat_map(|row| entries.iter().map(move |&entry| (row, entry)));
-        // A slip that changes no row is one of the declared transforms.
+        // If no row changes, only the declared transforms have the wrong unit.
         let (row, entry) = places.clone().find(differs).unwrap_or((0, entries[0]));
         let factor = value(self.before, row, entry) / value(self.after, row, entry);
         let column = |models: &ModelPair, entry: DhEntry| {
-            let figures: Vec<String> =
+            let values: Vec<String> =
                 rows.clone().map(|row| fitted_number(value(models, row, entry))).collect();
-            format!("{} = [{}]", entry_name(entry), figures.join(", "))
+            format!("{} = [{}]", entry, values.join(", "))
         };
         let table = |models: &ModelPair| {
             let columns: Vec<String> = entries.iter().map(|&entry| column(models, entry)).collect();
             Some(ReportedValue::Text(columns.join(", ")))
         };
-        let (unit, key) = match (is_angle(entry), factor > 1.0) {
+        let (unit, key) = match (entry.is_angle(), factor > 1.0) {
             (true, true) => ("degrees", "deg"),
             (true, false) => ("radians", "rad"),
             (false, true) => ("millimetres", "mm"),
@@ -39,9 +39,9 @@ impl FaultContext<'_> {
         let joined = |name: fn(DhEntry) -> String| {
             entries.iter().map(|&entry| name(entry)).collect::<Vec<_>>().join(" and ")
         };
-        let names = joined(|entry| entry_name(entry).to_owned());
-        let keys = joined(|entry| format!("{}_*", entry_name(entry))).replace('*', key);
-        let (also, of_constants) = if self.part.place == Place::Model {
+        let names = joined(|entry| entry.to_string());
+        let keys = joined(|entry| format!("{entry}_*")).replace('*', key);
+        let (also, of_constants) = if self.fault.place == Place::Model {
             (" and of the declared transforms", format!(", xyz under xyz_{key}"))
         } else {
             ("", String::new())
@@ -51,10 +51,11 @@ impl FaultContext<'_> {
             value: factor.is_finite().then_some(factor),
             found: table(self.before),
             expected: table(self.after),
-            suggestion: format!("the figures are {unit}: write them under {keys}{of_constants}"),
+            suggestion: format!("the values are in {unit}: write them under {keys}{of_constants}"),
             ..Fault::default()
         };
-        let message = format!("{names} of the whole table{also} are {unit}, which their keys do not say");
-        (fault, message, self.spot(row, row_key(entry)))
+        let message =
+            format!("{names} of the whole table{also} are in {unit}, not in the unit of their keys");
+        FaultMessage { fault, message, location: self.location(row, row_key(entry)) }
     }
 }

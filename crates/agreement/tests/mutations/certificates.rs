@@ -1,5 +1,5 @@
-//! The certificate on injected faults: how often the bracket closes, and what it costs.
-//! `cargo test --release -p congruent-kinematics --test mutations certificates -- --ignored --nocapture`;
+//! The certificate on injected faults: how many brackets close, and the time that they take.
+//! `cargo test --release -p congruent-agreement --test mutations certificates -- --ignored --nocapture`;
 //! `CONGRUENT_EACH` says how many faults of each robot.
 
 use congruent_agreement::{
@@ -14,11 +14,11 @@ use rand_chacha::{
 };
 
 use crate::{
-    faults::{self, Fault},
+    faults::{self, InjectedFault},
     robots::{self, Mutable},
 };
 
-/// What is asked for: within so much of the attained worst models.
+/// The relative gap that a bracket must reach.
 const WITHIN: f64 = 0.05;
 
 /// The certificate of a mutated model against its reference.
@@ -35,26 +35,27 @@ fn certificate(models: &ModelPair, ranges: &[(f64, f64)], budget: Budget) -> Cer
     certify_driven((&candidate, &rows), (&models.reference.screws(), &in_order), ranges, budget).unwrap()
 }
 
-fn pick<'a>(faults: &'a [Fault], generator: &mut ChaCha8Rng) -> &'a Fault {
+fn pick<'a>(faults: &'a [InjectedFault], generator: &mut ChaCha8Rng) -> &'a InjectedFault {
     let index = generator.next_u64() % u64::try_from(faults.len()).unwrap();
     &faults[usize::try_from(index).unwrap()]
 }
 
-/// So many single faults and as many pairs of every robot.
+/// `each` single faults and as many pairs of every robot.
 fn sample(each: usize) -> Vec<(String, Mutable)> {
     let mut generator = ChaCha8Rng::seed_from_u64(11);
     let mut list = Vec::new();
     for Mutable { name, models, ranges } in robots::all() {
         let faults = faults::all(&models);
         for number in 0..2 * each {
-            let chosen: Vec<&Fault> = (0..=number % 2).map(|_| pick(&faults, &mut generator)).collect();
+            let chosen: Vec<&InjectedFault> =
+                (0..=number % 2).map(|_| pick(&faults, &mut generator)).collect();
             let mut models = models.clone();
             for fault in &chosen {
                 fault.inject(&mut models);
             }
-            let told: Vec<String> =
+            let named: Vec<String> =
                 chosen.iter().map(|fault| format!("{} {:?}", fault.cause, fault.place)).collect();
-            let label = format!("{name}: {}", told.join(" and "));
+            let label = format!("{name}: {}", named.join(" and "));
             list.push((label, Mutable { name: name.clone(), models, ranges: ranges.clone() }));
         }
     }
@@ -66,9 +67,9 @@ fn excess(bracket: &Bracket) -> f64 {
 }
 
 #[test]
-#[ignore = "takes minutes; lists what does not close"]
-#[expect(clippy::print_stdout, reason = "the list is what one runs it for")]
-#[expect(clippy::disallowed_methods, reason = "what it costs is asked")]
+#[ignore = "takes minutes; lists brackets that do not close"]
+#[expect(clippy::print_stdout, reason = "the test is run for the list")]
+#[expect(clippy::disallowed_methods, reason = "the test measures time")]
 fn certificates_close() {
     let each = std::env::var("CONGRUENT_EACH").map_or(4, |text| text.parse().unwrap());
     let mut slowest = 0.0_f64;
@@ -85,13 +86,13 @@ fn certificates_close() {
         if position > 0.0 || orientation > 0.0 || seconds > 2.0 {
             open += 1;
             println!(
-                "{label}: {:.1} % of {:.4} m ({} cells), {:.1} % of {:.4} rad ({} cells), {seconds:.1} s",
+                "{label}: {:.1} % of {:.4} m ({} boxes), {:.1} % of {:.4} rad ({} boxes), {seconds:.1} s",
                 1e2 * position,
                 found.position_m.attained,
-                found.position_m.cells,
+                found.position_m.boxes,
                 1e2 * orientation,
                 found.orientation_rad.attained,
-                found.orientation_rad.cells,
+                found.orientation_rad.boxes,
             );
         }
     }

@@ -1,4 +1,4 @@
-//! Faults to inject: each changes the model (or, where a file of the reference can be wrong, the
+//! Faults to inject: each changes the model (or, if a file of the reference model can be wrong, the
 //! reference) by its own code, not by the catalogue's.
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -12,14 +12,14 @@ const ANGLES_RAD: [f64; 5] = [1e-4, -0.017_453_292_519_943_295, 0.3, -1.9, PI];
 const LENGTHS_M: [f64; 3] = [1e-4, -5e-3, 0.12];
 const RATIOS: [f64; 3] = [0.5, 1.02, -3.0];
 
-/// One fault: what it is called, where it is, how it is made.
-pub(crate) struct Fault {
+/// One fault: its cause, its place, and the change to the models.
+pub(crate) struct InjectedFault {
     pub(crate) cause: Cause,
     pub(crate) place: Place,
     inject: Box<dyn Fn(&mut ModelPair)>,
 }
 
-impl Fault {
+impl InjectedFault {
     fn new(cause: Cause, place: Place, inject: impl Fn(&mut ModelPair) + 'static) -> Self {
         Self { cause, place, inject: Box::new(inject) }
     }
@@ -29,8 +29,8 @@ impl Fault {
     }
 }
 
-/// Every fault that a robot can have.
-pub(crate) fn all(models: &ModelPair) -> Vec<Fault> {
+/// All faults that are injected into a robot.
+pub(crate) fn all(models: &ModelPair) -> Vec<InjectedFault> {
     let rows = models.candidate.rows.len();
     let mut list = Vec::new();
     for row in 0..rows {
@@ -55,16 +55,18 @@ fn entry(models: &mut ModelPair, row: usize, entry: DhEntry) -> &mut f64 {
     }
 }
 
-fn of_row(models: &ModelPair, row: usize, list: &mut Vec<Fault>) {
+fn of_row(models: &ModelPair, row: usize, list: &mut Vec<InjectedFault>) {
     let flip = move |models: &mut ModelPair| models.candidate.rows[row].rate *= -1.0;
-    list.push(Fault::new(Cause::AxisFlipped, Place::Rows(vec![row]), flip));
+    list.push(InjectedFault::new(Cause::AxisFlipped, Place::Rows(vec![row]), flip));
     for what in [DhEntry::A, DhEntry::Alpha, DhEntry::D, DhEntry::Theta] {
         let is_angle = matches!(what, DhEntry::Alpha | DhEntry::Theta);
         let is_zero = what == models.candidate.zero_entry(row);
         let cause = if is_zero { Cause::ZeroOffset } else { Cause::Parameter };
         let place = Place::Entries(what, vec![row]);
         for &by in if is_angle { &ANGLES_RAD[..] } else { &LENGTHS_M[..] } {
-            list.push(Fault::new(cause, place.clone(), move |models| *entry(models, row, what) += by));
+            list.push(InjectedFault::new(cause, place.clone(), move |models| {
+                *entry(models, row, what) += by
+            }));
         }
         let slips: &[(Cause, f64)] = if is_angle {
             &[(Cause::DegreesAsRadians, 180.0 / PI), (Cause::RadiansAsDegrees, PI / 180.0)]
@@ -72,10 +74,12 @@ fn of_row(models: &ModelPair, row: usize, list: &mut Vec<Fault>) {
             &[(Cause::MillimetresAsMetres, 1e3), (Cause::MillimetresAsMetres, 1e-3)]
         };
         for &(cause, factor) in slips {
-            list.push(Fault::new(cause, place.clone(), move |models| *entry(models, row, what) *= factor));
+            list.push(InjectedFault::new(cause, place.clone(), move |models| {
+                *entry(models, row, what) *= factor
+            }));
         }
     }
-    list.push(Fault::new(Cause::Parameter, Place::Rows(vec![row]), move |models| {
+    list.push(InjectedFault::new(Cause::Parameter, Place::Rows(vec![row]), move |models| {
         if let RowConstants::Dh { kind, .. } = &mut models.candidate.rows[row].link {
             *kind = match *kind {
                 DhRowKind::Revolute => DhRowKind::Prismatic,
@@ -87,25 +91,27 @@ fn of_row(models: &ModelPair, row: usize, list: &mut Vec<Fault>) {
         let (a, d) = (*entry(models, row, DhEntry::A), *entry(models, row, DhEntry::D));
         (*entry(models, row, DhEntry::A), *entry(models, row, DhEntry::D)) = (d, a);
     };
-    list.push(Fault::new(Cause::ParametersExchanged, Place::Rows(vec![row]), swap_lengths));
+    list.push(InjectedFault::new(Cause::ParametersExchanged, Place::Rows(vec![row]), swap_lengths));
     for ratio in RATIOS {
         let slower = move |models: &mut ModelPair| models.candidate.rows[row].rate *= ratio;
-        list.push(Fault::new(Cause::Ratio, Place::Rows(vec![row]), slower));
+        list.push(InjectedFault::new(Cause::Ratio, Place::Rows(vec![row]), slower));
     }
     let in_degrees = move |models: &mut ModelPair| models.candidate.rows[row].rate *= 180.0 / PI;
-    list.push(Fault::new(Cause::DegreesAsRadians, Place::Rows(vec![row]), in_degrees));
+    list.push(InjectedFault::new(Cause::DegreesAsRadians, Place::Rows(vec![row]), in_degrees));
 }
 
-fn order(row: usize, other: usize, list: &mut Vec<Fault>) {
+fn order(row: usize, other: usize, list: &mut Vec<InjectedFault>) {
     let place = Place::Rows(vec![row, other]);
-    list.push(Fault::new(Cause::JointsSwapped, place.clone(), move |models| {
+    list.push(InjectedFault::new(Cause::JointsSwapped, place.clone(), move |models| {
         let rows = &mut models.candidate.rows;
         (rows[row].joint, rows[other].joint) = (rows[other].joint, rows[row].joint);
     }));
-    list.push(Fault::new(Cause::JointsSwapped, place, move |models| models.candidate.rows.swap(row, other)));
+    list.push(InjectedFault::new(Cause::JointsSwapped, place, move |models| {
+        models.candidate.rows.swap(row, other)
+    }));
     if other == row + 1 {
         let place = Place::Entries(DhEntry::Alpha, vec![row, other]);
-        list.push(Fault::new(Cause::ParametersExchanged, place, move |models| {
+        list.push(InjectedFault::new(Cause::ParametersExchanged, place, move |models| {
             let (first, second) =
                 (*entry(models, row, DhEntry::Alpha), *entry(models, other, DhEntry::Alpha));
             (*entry(models, row, DhEntry::Alpha), *entry(models, other, DhEntry::Alpha)) = (second, first);
@@ -113,8 +119,8 @@ fn order(row: usize, other: usize, list: &mut Vec<Fault>) {
     }
 }
 
-fn table(list: &mut Vec<Fault>) {
-    list.push(Fault::new(Cause::ConventionSwapped, Place::Model, |models| {
+fn table(list: &mut Vec<InjectedFault>) {
+    list.push(InjectedFault::new(Cause::ConventionSwapped, Place::Model, |models| {
         models.candidate.convention = match models.candidate.convention {
             Some(DhConvention::Standard) => Some(DhConvention::Modified),
             _ => Some(DhConvention::Standard),
@@ -130,7 +136,7 @@ fn table(list: &mut Vec<Fault>) {
         (Cause::MillimetresAsMetres, 1e3, vec![DhEntry::A, DhEntry::D]),
         (Cause::MillimetresAsMetres, 1e-3, vec![DhEntry::A, DhEntry::D]),
     ] {
-        list.push(Fault::new(cause, Place::Column(column.clone()), move |models| {
+        list.push(InjectedFault::new(cause, Place::Column(column.clone()), move |models| {
             for row in 0..models.candidate.rows.len() {
                 for &what in &column {
                     *entry(models, row, what) *= factor;
@@ -140,7 +146,7 @@ fn table(list: &mut Vec<Fault>) {
     }
 }
 
-fn constants(list: &mut Vec<Fault>) {
+fn constants(list: &mut Vec<InjectedFault>) {
     let shifts = [Vector3::new(0.0, 0.0, 4e-4), Vector3::new(-0.02, 0.003, 0.11)];
     let turns =
         [Vector3::new(0.0, 0.0, FRAC_PI_2), Vector3::new(1e-3, 0.0, -2e-3), Vector3::new(0.0, PI, 0.0)];
@@ -148,29 +154,29 @@ fn constants(list: &mut Vec<Fault>) {
     let by = shifts.iter().map(|&shift| off(shift, Vector3::zeros()));
     let by = by.chain(turns.iter().map(|&turn| off(Vector3::zeros(), turn)));
     for by in by.chain([off(shifts[1], Vector3::new(0.4, -0.3, 0.7))]) {
-        list.push(Fault::new(Cause::Tool, Place::Tool, move |models| {
+        list.push(InjectedFault::new(Cause::Tool, Place::Tool, move |models| {
             models.candidate.tool = (models.candidate.tool.pose * by).into();
         }));
-        list.push(Fault::new(Cause::Base, Place::Base, move |models| {
+        list.push(InjectedFault::new(Cause::Base, Place::Base, move |models| {
             models.candidate.base = (by * models.candidate.base.pose).into();
         }));
     }
 }
 
-/// What a URDF's author can get wrong, or a model's author in reading it.
-fn reference(models: &ModelPair, list: &mut Vec<Fault>) {
+/// Faults of a URDF, or of a model that was derived from it.
+fn reference(models: &ModelPair, list: &mut Vec<InjectedFault>) {
     let turn = |axis: usize, angle: f64| rotation_exp(&Vector3::ith(axis, angle));
     let (roll, pitch, yaw) = (0.4, -0.7, 1.1);
     let right: Matrix3<f64> = turn(2, yaw) * turn(1, pitch) * turn(0, roll);
     let wrong =
         [turn(0, roll) * turn(1, pitch) * turn(2, yaw), turn(2, roll) * turn(1, pitch) * turn(0, yaw)];
     for wrong in wrong {
-        // A robot that stands askew, its model's base written in another order.
-        list.push(Fault::new(Cause::RpyOrder, Place::Base, move |models| {
+        // A robot with a rotated base, whose model has the base's angles in another order.
+        list.push(InjectedFault::new(Cause::RpyOrder, Place::Base, move |models| {
             let base = models.candidate.base.pose;
-            let askew = Pose::from_parts(right, base.translation) * base.inverse();
+            let rotated = Pose::from_parts(right, base.translation) * base.inverse();
             let fixed = ReferenceJoint {
-                parent_from_joint: askew,
+                parent_from_joint: rotated,
                 twist_in_joint: None,
                 is_upward: false,
                 is_written: false,
@@ -180,16 +186,20 @@ fn reference(models: &ModelPair, list: &mut Vec<Fault>) {
         }));
     }
     for joint in 0..models.reference.joints.len() {
-        list.push(Fault::new(Cause::FixedJointDropped, Place::ReferenceJoints(vec![joint]), move |models| {
-            let rotation = turn(1, 0.2) * turn(0, -0.1);
-            let parent_from_joint = Pose::from_parts(rotation, Vector3::new(0.03, -0.02, 0.05));
-            let fixed = ReferenceJoint {
-                parent_from_joint,
-                twist_in_joint: None,
-                is_upward: false,
-                is_written: true,
-            };
-            models.reference.joints.insert(joint, fixed);
-        }));
+        list.push(InjectedFault::new(
+            Cause::FixedJointDropped,
+            Place::ReferenceJoints(vec![joint]),
+            move |models| {
+                let rotation = turn(1, 0.2) * turn(0, -0.1);
+                let parent_from_joint = Pose::from_parts(rotation, Vector3::new(0.03, -0.02, 0.05));
+                let fixed = ReferenceJoint {
+                    parent_from_joint,
+                    twist_in_joint: None,
+                    is_upward: false,
+                    is_written: true,
+                };
+                models.reference.joints.insert(joint, fixed);
+            },
+        ));
     }
 }

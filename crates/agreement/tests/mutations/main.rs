@@ -1,6 +1,6 @@
 //! The mutation benchmark: every cause, several magnitudes, every robot at hand, against its own
 //! unmutated model. A reduced grid runs with the tests; the full one prints its confusion matrix:
-//! `cargo test --release -p congruent-kinematics --test mutations -- --ignored --nocapture`.
+//! `cargo test --release -p congruent-agreement --test mutations -- --ignored --nocapture`.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
 
@@ -11,7 +11,7 @@ mod robots;
 
 use congruent_agreement::diagnosis::{Criterion, ModelPair, diagnose};
 use congruent_description::Tolerance;
-use faults::Fault;
+use faults::InjectedFault;
 use matrix::{Matrix, Outcome};
 use rand_chacha::{
     ChaCha8Rng,
@@ -19,12 +19,12 @@ use rand_chacha::{
 };
 use robots::Mutable;
 
-/// The tolerance of robot files, as they are written by default.
+/// The default tolerance of robot files.
 const TOLERANCE: f64 = 1e-9;
-/// A millimetre and a milliradian: so loose that wrong explanations reach it too.
+/// A millimetre and a milliradian: so loose that wrong explanations reach it as well.
 const LOOSE_TOLERANCE: f64 = 1e-3;
-/// Of 100 pairs so many must be told.
-const PAIRS_TOLD: f64 = 0.95;
+/// Part of the pairs that must be explained.
+const PAIRS_EXPLAINED: f64 = 0.95;
 
 /// Configurations within three radians and half a metre.
 fn criterion(joints: usize, tolerance: f64) -> Criterion {
@@ -35,9 +35,8 @@ fn criterion(joints: usize, tolerance: f64) -> Criterion {
     Criterion { tolerance: Tolerance { position_m: tolerance, orientation_rad: tolerance }, configurations }
 }
 
-/// Injects faults and judges what is named; `None` where they change nothing beyond the
-/// tolerance.
-fn judge(models: &ModelPair, faults: &[&Fault], tolerance: f64) -> Option<Outcome> {
+/// Injects faults and evaluates the diagnosis; `None` if the faults change nothing beyond the tolerance.
+fn judge(models: &ModelPair, faults: &[&InjectedFault], tolerance: f64) -> Option<Outcome> {
     let criterion = criterion(models.reference.joint_count(), tolerance);
     let mut mutated = models.clone();
     for fault in faults {
@@ -62,7 +61,7 @@ fn singles(stride: usize, tolerance: f64) -> Matrix {
     matrix
 }
 
-/// Seeded pairs of faults, so many for every robot.
+/// Seeded pairs of faults, `each` for every robot.
 fn pairs(each: usize) -> Matrix {
     let mut matrix = Matrix::default();
     let mut generator = ChaCha8Rng::seed_from_u64(7);
@@ -106,12 +105,12 @@ fn every_single_fault_is_named_within_a_loose_tolerance() {
 #[test]
 fn nearly_every_pair_is_named() {
     let matrix = pairs(1);
-    assert!(matrix.told() >= PAIRS_TOLD, "{matrix}");
+    assert!(matrix.explained() >= PAIRS_EXPLAINED, "{matrix}");
 }
 
 #[test]
 #[ignore = "the full grid takes a minute"]
-#[expect(clippy::print_stdout, reason = "the matrix is what one runs it for")]
+#[expect(clippy::print_stdout, reason = "the test is run for the matrix")]
 fn the_full_grid() {
     for tolerance in [TOLERANCE, LOOSE_TOLERANCE] {
         let matrix = singles(1, tolerance);
@@ -120,5 +119,5 @@ fn the_full_grid() {
     }
     let matrix = pairs(20);
     println!("pairs\n{matrix}");
-    assert!(matrix.told() >= PAIRS_TOLD);
+    assert!(matrix.explained() >= PAIRS_EXPLAINED);
 }

@@ -1,48 +1,48 @@
-//! What was injected against what was named.
+//! The injected faults against the named causes.
 
 use std::{collections::BTreeMap, fmt};
 
-use congruent_agreement::diagnosis::{Cause, Diagnosis, Equivalence, Explanation, Part};
+use congruent_agreement::diagnosis::{Cause, Diagnosis, Equivalence, ExplainedFault, Explanation};
 
-use crate::faults::Fault;
+use crate::faults::InjectedFault;
 
-/// How a diagnosis fits the faults that were injected.
+/// The result of a diagnosis for the faults that were injected.
 pub(crate) struct Outcome {
     named: Cause,
     verdict: Verdict,
-    parts: Vec<Part>,
+    faults: Vec<ExplainedFault>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Verdict {
-    /// The first cause named is the true one, in its place.
+    /// The first cause is the true one, in its place.
     First,
     /// The true one is listed as indistinguishable from the first.
     Listed,
-    /// Two faults that one explains to the tolerance: they are that one.
+    /// Two faults that a single one explains within the tolerance.
     Simpler,
     Missed,
 }
 
 impl Outcome {
-    pub(crate) fn of(diagnosis: &Diagnosis, faults: &[&Fault]) -> Self {
+    pub(crate) fn of(diagnosis: &Diagnosis, faults: &[&InjectedFault]) -> Self {
         let first = &diagnosis.explanations[0];
         let verdict = if is_true(first, faults) {
             Verdict::First
         } else if is_listed(diagnosis, faults) {
             Verdict::Listed
-        } else if !first.parts.is_empty() && first.parts.len() < faults.len() {
+        } else if !first.faults.is_empty() && first.faults.len() < faults.len() {
             Verdict::Simpler
         } else {
             Verdict::Missed
         };
-        Self { named: first.cause(), verdict, parts: first.parts.clone() }
+        Self { named: first.cause(), verdict, faults: first.faults.clone() }
     }
 }
 
-/// Whether the true cause is listed as equal to the first; one that is only within the tolerance too
-/// does not count.
-fn is_listed(diagnosis: &Diagnosis, faults: &[&Fault]) -> bool {
+/// Whether the true cause is listed as indistinguishable from the first; a cause that is only also within the
+/// tolerance does not count.
+fn is_listed(diagnosis: &Diagnosis, faults: &[&InjectedFault]) -> bool {
     let mut equal = diagnosis
         .indistinguishable
         .iter()
@@ -50,14 +50,14 @@ fn is_listed(diagnosis: &Diagnosis, faults: &[&Fault]) -> bool {
     equal.any(|(each, _)| is_true(each, faults))
 }
 
-fn is_true(explanation: &Explanation, faults: &[&Fault]) -> bool {
-    let has = |fault: &&Fault| {
-        explanation.parts.iter().any(|part| part.cause == fault.cause && part.place == fault.place)
+fn is_true(explanation: &Explanation, faults: &[&InjectedFault]) -> bool {
+    let has = |fault: &&InjectedFault| {
+        explanation.faults.iter().any(|named| named.cause == fault.cause && named.place == fault.place)
     };
-    explanation.parts.len() == faults.len() && faults.iter().all(has)
+    explanation.faults.len() == faults.len() && faults.iter().all(has)
 }
 
-/// Counts for each injected cause.
+/// Counts of results for each injected cause.
 #[derive(Default)]
 pub(crate) struct Matrix {
     named: BTreeMap<(String, Cause), usize>,
@@ -66,12 +66,12 @@ pub(crate) struct Matrix {
 }
 
 impl Matrix {
-    pub(crate) fn count(&mut self, robot: &str, faults: &[&Fault], outcome: &Outcome) {
-        let injected: Vec<&str> = faults.iter().map(|fault| fault.cause.name()).collect();
-        let label = if faults.len() == 1 { injected[0] } else { "pair" }.to_owned();
+    pub(crate) fn count(&mut self, robot: &str, faults: &[&InjectedFault], outcome: &Outcome) {
+        let injected: Vec<String> = faults.iter().map(|fault| fault.cause.to_string()).collect();
+        let label = if faults.len() == 1 { injected[0].clone() } else { "pair".to_owned() };
         if outcome.verdict == Verdict::Missed {
             let places: Vec<_> = faults.iter().map(|fault| &fault.place).collect();
-            self.missed.push(format!("{robot}: {injected:?} at {places:?}, named {:?}", outcome.parts));
+            self.missed.push(format!("{robot}: {injected:?} at {places:?}, named {:?}", outcome.faults));
         }
         *self.named.entry((label.clone(), outcome.named)).or_default() += 1;
         *self.verdicts.entry((label, outcome.verdict)).or_default() += 1;
@@ -84,7 +84,7 @@ impl Matrix {
 
     /// Share of faults that were named first, listed, or explained by something simpler.
     #[expect(clippy::cast_precision_loss, reason = "counts are small")]
-    pub(crate) fn told(&self) -> f64 {
+    pub(crate) fn explained(&self) -> f64 {
         let all: usize = self.verdicts.values().sum();
         1.0 - self.missed.len() as f64 / all as f64
     }
@@ -115,7 +115,7 @@ impl fmt::Display for Matrix {
             )?;
         }
         let all: usize = self.verdicts.values().sum();
-        writeln!(f, "{all} faults, {:.2} % told", 100.0 * self.told())?;
+        writeln!(f, "{all} faults, {:.2} % explained", 100.0 * self.explained())?;
         self.missed.iter().take(40).try_for_each(|missed| writeln!(f, "missed {missed}"))
     }
 }

@@ -1,5 +1,5 @@
 //! Robots to mutate: those of `robots/` with their URDFs, and tables of the corpus with the chain of
-//! joints that they stand for.
+//! joints that they describe.
 
 use std::{fs, path::Path};
 
@@ -11,10 +11,10 @@ use congruent_kinematics::{Pose, Twist, rotation_exp};
 use nalgebra::{Matrix3, Vector3};
 use serde_json::Value;
 
-/// What a joint without limits is asked for.
+/// The range of a joint without limits.
 const TURN: (f64, f64) = (-std::f64::consts::PI, std::f64::consts::PI);
 
-/// A robot: its name, its model against itself, and the ranges of its joints, base to tip, in rad or m.
+/// A robot: its name, its models, which agree, and the ranges of its joints, base to tip, in rad or m.
 pub(crate) struct Mutable {
     pub(crate) name: String,
     pub(crate) models: ModelPair,
@@ -50,7 +50,7 @@ pub(crate) fn all() -> Vec<Mutable> {
     robots
 }
 
-/// A table with the chain of joints that it stands for, written as a URDF would.
+/// A table with its chain of joints, as a URDF would write it.
 fn table(table: &Value) -> Mutable {
     let convention =
         if table["convention"] == "classic" { DhConvention::Standard } else { DhConvention::Modified };
@@ -59,9 +59,9 @@ fn table(table: &Value) -> Mutable {
     let mut rows = Vec::new();
     let mut parent_from_joint = base;
     for (joint, row) in table["rows"].as_array().unwrap().iter().enumerate() {
-        let figure = |key: &str| row[key].as_f64().unwrap();
+        let value = |key: &str| row[key].as_f64().unwrap();
         let (a_m, alpha_rad, d_m, theta_rad) =
-            (figure("a"), figure("alpha"), figure("d"), figure("theta_offset"));
+            (value("a"), value("alpha"), value("d"), value("theta_offset"));
         let kind = if row["type"] == "R" { DhRowKind::Revolute } else { DhRowKind::Prismatic };
         let rate = if row["flip"] == true { -1.0 } else { 1.0 };
         rows.push(CandidateRow {

@@ -1,4 +1,4 @@
-//! `axis_flipped`: a joint moves the other way.
+//! `axis_flipped`: a joint moves in the opposite direction.
 
 use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
 

@@ -1,5 +1,5 @@
-//! `base` and `tool`: a declared transform is off, by one component, by a shift, by a turn, or by
-//! all of it. The narrow ones cost less, so that one figure is not explained by six.
+//! `base` and `tool`: a declared transform is off in one component, in its translation, in its rotation, or
+//! in all components. Fewer components cost less, so that one wrong value is not explained by six.
 
 use std::ops::Range;
 

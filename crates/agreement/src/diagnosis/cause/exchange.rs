@@ -1,5 +1,4 @@
-//! `parameters_exchanged`: `a` and `d` of a row, or `alpha` of neighbouring rows, stand in each
-//! other's place.
+//! `parameters_exchanged`: `a` and `d` of a row, or `alpha` of neighbouring rows, are exchanged.
 
 use crate::diagnosis::{
     candidate::{Candidate, DhEntry},

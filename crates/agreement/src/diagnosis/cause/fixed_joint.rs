@@ -1,4 +1,4 @@
-//! `fixed_joint_dropped`: the model leaves out one fixed joint of the reference.
+//! `fixed_joint_dropped`: the model leaves out one fixed joint of the reference model.
 
 use congruent_kinematics::Pose;
 

@@ -1,4 +1,4 @@
-//! `parameter`: a row says that its joint turns where it shifts, or the reverse.
+//! `parameter`: a row is revolute although its joint is prismatic, or the reverse.
 
 use congruent_description::DhRowKind;
 

@@ -1,5 +1,5 @@
-//! The catalogue of causes: one file for each family, and one list. A new cause is a file here and
-//! a line in [`FAMILIES`].
+//! The catalogue of hypotheses: one file for each family of causes. A new family is a file here and a line in
+//! [`FAMILIES`].
 
 mod axis;
 mod constants;
@@ -17,7 +17,7 @@ mod zero;
 
 use super::hypothesis::{Hypothesis, ModelPair};
 
-/// The hypotheses of one family about a models.
+/// The hypotheses of one family about a pair of models.
 type Family = fn(&ModelPair) -> Vec<Hypothesis>;
 
 /// All families.
@@ -37,7 +37,7 @@ const FAMILIES: [Family; 13] = [
     ratio::hypotheses,
 ];
 
-/// Everything that may be wrong with a models.
+/// All hypotheses about a pair of models.
 pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     FAMILIES.iter().flat_map(|family| family(models)).collect()
 }

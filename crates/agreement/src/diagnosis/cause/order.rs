@@ -8,7 +8,7 @@ pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     pairs.flat_map(|(first, second)| [names(first, second), whole_rows(first, second)]).collect()
 }
 
-/// The figures stand where they should, the names do not.
+/// The joint names are exchanged, the values are in the right rows.
 fn names(first: usize, second: usize) -> Hypothesis {
     Hypothesis::edit(Cause::JointsSwapped, Place::Rows(vec![first, second]), move |models: &mut ModelPair| {
         let rows = &mut models.candidate.rows;
@@ -16,7 +16,7 @@ fn names(first: usize, second: usize) -> Hypothesis {
     })
 }
 
-/// Names and figures have changed places together.
+/// Names and values are exchanged together.
 fn whole_rows(first: usize, second: usize) -> Hypothesis {
     Hypothesis::edit(Cause::JointsSwapped, Place::Rows(vec![first, second]), move |models: &mut ModelPair| {
         models.candidate.rows.swap(first, second);

@@ -1,5 +1,5 @@
-//! `parameter`: one entry of one row is off. The angle that the joint drives is `zero_offset`; the
-//! offset that a prismatic joint drives is both.
+//! `parameter`: one entry of one row is wrong. The angle that a revolute joint drives is `zero_offset`
+//! instead; the offset that a prismatic joint drives is both.
 
 use crate::diagnosis::{
     candidate::{DhEntry, ModelParameter},

@@ -1,15 +1,12 @@
-//! `parameter` in the reference: quarter turns that its file writes with too few digits.
+//! `parameter` in the reference model: quarter turns that its file writes with too few digits.
 
 use nalgebra::Matrix3;
 
+use crate::diagnosis::thresholds::{FOUR_DECIMALS_RAD, NO_TURN};
 use crate::diagnosis::{
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
     reference_model::ReferenceModel,
 };
-
-/// How far a quarter turn with four decimals (1.5708) may be off, doubled for a half turn and for
-/// two of them in one joint.
-const FOUR_DECIMALS_RAD: f64 = 1e-4;
 
 pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let rounded = rounded(&models.reference);
@@ -32,12 +29,12 @@ fn hypothesis(joints: Vec<usize>) -> Hypothesis {
     )
 }
 
-/// Joints whose rotation is nearly one by quarter turns.
+/// Joints whose rotation is nearly, but not exactly, a rotation by quarter turns.
 fn rounded(reference: &ReferenceModel) -> Vec<usize> {
     let near = |&joint: &usize| {
         let rotation = &reference.joints[joint].parent_from_joint.rotation;
         reference.joints[joint].is_written
-            && quarter_turns(rotation).is_some_and(|exact| (exact - rotation).amax() > 1e-12)
+            && quarter_turns(rotation).is_some_and(|exact| (exact - rotation).amax() > NO_TURN)
     };
     (0..reference.joints.len()).filter(near).collect()
 }

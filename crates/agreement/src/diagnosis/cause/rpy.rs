@@ -1,22 +1,18 @@
-//! `rpy_order`: roll, pitch and yaw written or read in the other order, in a declared transform of
-//! the model or in one joint of the reference.
+//! `rpy_order`: roll, pitch and yaw written or read in another order, in a declared transform of the
+//! candidate or in one joint of the reference model.
 
 use congruent_kinematics::EulerSet;
 use nalgebra::Matrix3;
 
 use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
+use crate::diagnosis::thresholds::{NO_TURN, SINGULAR_BELOW_RAD};
 
-/// Figures below this make every order the same.
-const NO_TURN_RAD: f64 = 1e-12;
-/// Nearer to a quarter turn of pitch the other two angles are one: files write as few as ten digits.
-const SINGULAR_BELOW_RAD: f64 = 1e-9;
-
-/// What another order makes of a rotation.
+/// A rotation after its angles are read in another order, from its roll, pitch and yaw and its matrix.
 type RpyReading = fn([f64; 3], &Matrix3<f64>) -> Matrix3<f64>;
 
-/// The same figures in another order, by product, by its reverse (at a quarter turn of pitch, where
-/// only the sum of the other two is known, without roll and without yaw), and by the place of the
-/// figures.
+/// The other orders: the product in reverse order; its inverse (twice, since at a pitch of a quarter turn
+/// only the sum of roll and yaw is known: without roll, and without yaw); and exchanged values of roll and
+/// yaw.
 const READINGS: [RpyReading; 4] = [
     |rpy, _| EulerSet::Xyz.rotation(rpy),
     |_, rotation| {
@@ -54,8 +50,8 @@ pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
 
 fn reread(rotation: &mut Matrix3<f64>, written_rpy_rad: Option<[f64; 3]>, reading: RpyReading) {
     let rpy = written_rpy_rad.unwrap_or_else(|| rpy_of(rotation));
-    // One turn alone has no order, but its figure has a place.
-    if rpy.iter().any(|angle| angle.abs() > NO_TURN_RAD) {
+    // A single rotation has no order, but roll and yaw can still be exchanged.
+    if rpy.iter().any(|angle| angle.abs() > NO_TURN) {
         *rotation = reading(rpy, rotation);
     }
 }
@@ -75,8 +71,8 @@ mod tests {
     /// Rounding of two products of three turns; worst seen 5.6e-17.
     const ROUNDING: f64 = 4e-15;
 
-    /// A file that was written in the other order is read back, also where the pitch is a quarter turn
-    /// and roll or yaw is left out, as files do.
+    /// A file in the other order is read correctly, also if the pitch is a quarter turn and roll or yaw is
+    /// left out, as files do.
     #[test]
     fn the_other_order_is_undone() {
         for rpy in [[0.3, -0.4, 1.2], [0.7, FRAC_PI_2, 0.0], [0.0, FRAC_PI_2, 0.7], [0.0, -FRAC_PI_2, -2.0]] {

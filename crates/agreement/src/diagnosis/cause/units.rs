@@ -1,51 +1,51 @@
-//! `degrees_as_radians`, `radians_as_degrees`, `millimetres_as_metres`: a unit slip in one entry, in a
-//! column, in the whole table, in a declared transform, or in the joints' own positions.
+//! `degrees_as_radians`, `radians_as_degrees`, `millimetres_as_metres`: the wrong unit of one entry, of a
+//! column, of the whole table, of a declared transform, or of joint positions.
 
 use congruent_kinematics::rotation_exp;
 use nalgebra::Vector3;
 
 use crate::diagnosis::{
-    candidate::{Candidate, Constant, DhEntry},
+    candidate::{Candidate, DeclaredTransform, DhEntry},
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
 };
 
 const ANGLES: [DhEntry; 2] = [DhEntry::Alpha, DhEntry::Theta];
 const LENGTHS: [DhEntry; 2] = [DhEntry::A, DhEntry::D];
 
-/// A slip of a unit: what it is called, what undoes it, what it touches.
+/// A wrong unit: its cause, the factor that corrects it, and the entries of that kind.
 #[derive(Clone, Copy)]
-struct UnitSlip {
+struct WrongUnit {
     cause: Cause,
     factor: f64,
     entries: &'static [DhEntry; 2],
 }
 
-const SLIPS: [UnitSlip; 4] = [
-    UnitSlip { cause: Cause::DegreesAsRadians, factor: std::f64::consts::PI / 180.0, entries: &ANGLES },
-    UnitSlip { cause: Cause::RadiansAsDegrees, factor: 180.0 / std::f64::consts::PI, entries: &ANGLES },
-    UnitSlip { cause: Cause::MillimetresAsMetres, factor: 1e-3, entries: &LENGTHS },
-    UnitSlip { cause: Cause::MillimetresAsMetres, factor: 1e3, entries: &LENGTHS },
+const WRONG_UNITS: [WrongUnit; 4] = [
+    WrongUnit { cause: Cause::DegreesAsRadians, factor: std::f64::consts::PI / 180.0, entries: &ANGLES },
+    WrongUnit { cause: Cause::RadiansAsDegrees, factor: 180.0 / std::f64::consts::PI, entries: &ANGLES },
+    WrongUnit { cause: Cause::MillimetresAsMetres, factor: 1e-3, entries: &LENGTHS },
+    WrongUnit { cause: Cause::MillimetresAsMetres, factor: 1e3, entries: &LENGTHS },
 ];
 
 pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let mut list = Vec::new();
-    for slip in SLIPS {
-        table(&models.candidate, slip, &mut list);
+    for wrong_unit in WRONG_UNITS {
+        table(&models.candidate, wrong_unit, &mut list);
         for place in [Place::Base, Place::Tool] {
-            list.push(constant(place, slip));
+            list.push(constant(place, wrong_unit));
         }
-        if slip.entries == &LENGTHS {
-            list.push(whole(slip));
+        if wrong_unit.entries == &LENGTHS {
+            list.push(whole(wrong_unit));
         } else {
-            positions(models.candidate.rows.len(), slip, &mut list);
+            positions(models.candidate.rows.len(), wrong_unit, &mut list);
         }
     }
     list
 }
 
 /// Entries, columns, and both columns of a table.
-fn table(candidate: &Candidate, slip: UnitSlip, list: &mut Vec<Hypothesis>) {
-    let UnitSlip { cause, factor, entries } = slip;
+fn table(candidate: &Candidate, wrong_unit: WrongUnit, list: &mut Vec<Hypothesis>) {
+    let WrongUnit { cause, factor, entries } = wrong_unit;
     for row in 0..candidate.rows.len() {
         for &entry in entries {
             if candidate.entry(row, entry).is_some_and(|value| value != 0.0) {
@@ -62,30 +62,30 @@ fn table(candidate: &Candidate, slip: UnitSlip, list: &mut Vec<Hypothesis>) {
     }
 }
 
-fn constant(place: Place, slip: UnitSlip) -> Hypothesis {
+fn constant(place: Place, wrong_unit: WrongUnit) -> Hypothesis {
     let at_base = place == Place::Base;
-    Hypothesis::edit(slip.cause, place, move |models: &mut ModelPair| {
+    Hypothesis::edit(wrong_unit.cause, place, move |models: &mut ModelPair| {
         let candidate = &mut models.candidate;
-        rescale(if at_base { &mut candidate.base } else { &mut candidate.tool }, slip);
+        rescale(if at_base { &mut candidate.base } else { &mut candidate.tool }, wrong_unit);
     })
 }
 
-/// All lengths of the model, the declared transforms' too.
-fn whole(slip: UnitSlip) -> Hypothesis {
-    Hypothesis::edit(slip.cause, Place::Model, move |models: &mut ModelPair| {
+/// All lengths of the model, including the declared transforms.
+fn whole(wrong_unit: WrongUnit) -> Hypothesis {
+    Hypothesis::edit(wrong_unit.cause, Place::Model, move |models: &mut ModelPair| {
         let candidate = &mut models.candidate;
-        scale_columns(candidate, slip.entries, slip.factor);
+        scale_columns(candidate, wrong_unit.entries, wrong_unit.factor);
         for row in &mut candidate.rows {
-            row.rescale_screw(slip.factor);
+            row.rescale_screw(wrong_unit.factor);
         }
-        rescale(&mut candidate.base, slip);
-        rescale(&mut candidate.tool, slip);
+        rescale(&mut candidate.base, wrong_unit);
+        rescale(&mut candidate.tool, wrong_unit);
     })
 }
 
-/// The position of one joint, or of all: a joint that moves 57.3 times as far.
-fn positions(rows: usize, slip: UnitSlip, list: &mut Vec<Hypothesis>) {
-    let UnitSlip { cause, factor, .. } = slip;
+/// The position of one joint, or of all joints: the joint moves 57.3 times as far.
+fn positions(rows: usize, wrong_unit: WrongUnit, list: &mut Vec<Hypothesis>) {
+    let WrongUnit { cause, factor, .. } = wrong_unit;
     for row in 0..rows {
         list.push(Hypothesis::edit(cause, Place::Rows(vec![row]), move |models: &mut ModelPair| {
             models.candidate.rows[row].rate *= factor;
@@ -112,11 +112,11 @@ fn scale(candidate: &mut Candidate, row: usize, entry: DhEntry, factor: f64) {
     }
 }
 
-fn rescale(constant: &mut Constant, slip: UnitSlip) {
-    if slip.entries == &LENGTHS {
-        constant.pose.translation *= slip.factor;
+fn rescale(constant: &mut DeclaredTransform, wrong_unit: WrongUnit) {
+    if wrong_unit.entries == &LENGTHS {
+        constant.pose.translation *= wrong_unit.factor;
     } else if let Some(rpy) = constant.written_rpy_rad {
-        let [roll, pitch, yaw] = rpy.map(|angle| angle * slip.factor);
+        let [roll, pitch, yaw] = rpy.map(|angle| angle * wrong_unit.factor);
         let turn = |axis, angle| rotation_exp(&Vector3::ith(axis, angle));
         constant.pose.rotation = turn(2, yaw) * turn(1, pitch) * turn(0, roll);
         constant.written_rpy_rad = Some([roll, pitch, yaw]);

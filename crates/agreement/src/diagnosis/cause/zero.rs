@@ -1,4 +1,4 @@
-//! `zero_offset`: a joint's zero is elsewhere than the model says.
+//! `zero_offset`: a joint's zero is shifted.
 
 use crate::diagnosis::{
     candidate::ModelParameter,

@@ -1,0 +1,135 @@
+//! Every threshold of the diagnosis, with its unit, its kind and the reason for its value.
+//!
+//! The mutation benchmark (`tests/mutations`) justifies them together. It injects faults of every cause and
+//! of several magnitudes into 39 robots and counts how often the true cause is named first, listed as
+//! indistinguishable from the first, or replaced by a simpler explanation:
+//!
+//! | injected | tolerance | faults | explained |
+//! |---|---|---|---|
+//! | none | 1e-9 m, 1e-9 rad | 39 robots | no finding |
+//! | one fault | 1e-9 m, 1e-9 rad | 8,039 | 100 % |
+//! | one fault | 1e-3 m, 1e-3 rad | 7,093 | 100 % |
+//! | two faults | 1e-9 m, 1e-9 rad | 761 | 98.42 % |
+//!
+//! A changed threshold is measured by
+//! `cargo test --release -p congruent-agreement --test mutations -- --ignored --nocapture`.
+//! "Without unit" is the norm of the difference of screws and tip, in which lengths are divided by the size
+//! of the arm ([`super::evaluation_point::EvaluationPoint`]).
+
+// Equality up to rounding.
+
+/// Parameters, invariants and models that differ by less are the same. Unit: m, rad or none; kind: rounding
+/// of a fit or of an identified chain. Fits end below 1e-11, and the smallest injected fault is 1e-4.
+pub(super) const SAME_VALUE: f64 = 1e-9;
+
+/// Fits to a file that is itself rounded end within this part of their residual. No unit; kind: solver stop.
+pub(super) const SAME_PART_OF_RESIDUAL: f64 = 1e-3;
+
+/// Edits whose screws and tips differ by less have the same effect. Without unit; kind: rounding of some
+/// fifty values of up to 1.
+pub(super) const SAME_EFFECT: f64 = 1e-13;
+
+/// Norms of fits that differ by less than this part are the same: parameters along one axis have the same
+/// effect. No unit; kind: solver stop.
+pub(super) const SAME_NORM: f64 = 1e-6;
+
+/// A smaller turn is none. Unit: rad, or 1 for an entry of a rotation matrix; kind: rounding.
+pub(super) const NO_TURN: f64 = 1e-12;
+
+/// Axes whose angle has a smaller sine are parallel. No unit; kind: rounding. The common normal of two axes
+/// has a relative error of some 1e-15 divided by this sine, so 1e-9 at this value.
+pub(super) const PARALLEL: f64 = 1e-6;
+
+/// A residual below this is rounding. Unit: m or rad; kind: rounding of a fit, or of a file with ten digits.
+pub(super) const ROUNDING_RESIDUAL: f64 = 1e-11;
+
+// Rotations as files write them.
+
+/// Largest error of a rotation by quarter turns that a file writes with four decimals (1.5708): half of the
+/// last decimal, doubled for a half turn or two turns in one joint. Unit: rad; kind: digits of a file.
+pub(super) const FOUR_DECIMALS_RAD: f64 = 1e-4;
+
+/// Entries of a rotation by quarter turns are 0 or 1 within this; kind: digits of a file, three decimals.
+/// Every rpy order of quarter turns is a quarter turn again, so a match is weak evidence for a wrong order.
+pub(super) const QUARTER_TURNS: f64 = 1e-3;
+
+/// Nearer to a pitch of a quarter turn, only the sum or difference of roll and yaw is defined. Unit: rad;
+/// kind: digits of a file, which may have as few as ten.
+pub(super) const SINGULAR_BELOW_RAD: f64 = 1e-9;
+
+// Choice between explanations.
+
+/// An explanation with a residual so many times the best one's is refuted. No unit; kind: judgement. The
+/// rounding of one file does not change a residual that much.
+pub(super) const REFUTED: f64 = 10.0;
+
+/// A value below so many times the residual could as well be zero. No unit; kind: judgement.
+pub(super) const EVIDENT: f64 = 3.0;
+
+/// A corrected unit that gives a value of so many times the residual is no coincidence, even if a fitted
+/// parameter absorbs the file's rounding and has a lower residual. No unit; kind: judgement, the factor of
+/// mm to m.
+pub(super) const CERTAIN: f64 = 1e3;
+
+/// Up to this part of the tolerance a residual is far below it, the best of three classes. No unit; kind:
+/// choice.
+pub(super) const FAR_BELOW_TOLERANCE: f64 = 0.1;
+
+/// Up to this part of the tolerance a residual is below it, above is the last class. No unit; kind: choice.
+pub(super) const BELOW_TOLERANCE: f64 = 0.3;
+
+/// A fit is evaluated at all configurations only if its norm is at most so many tolerances. No unit; kind:
+/// speed; the ratio of the screws' difference to that of the tips within the joints' ranges is far below.
+pub(super) const EVALUATED_BELOW: f64 = 1e4;
+
+// Extent of the search.
+
+/// Most hypotheses that are tried in pairs, those with the smallest norms first. Kind: speed; 34,000 pairs.
+pub(super) const MAX_IN_PAIRS: usize = 260;
+
+/// Most parameters that may be wrong together before a difference counts as unexplained. Kind: choice; more
+/// wrong parameters are a matter of calibration.
+pub(super) const MAX_PARAMETERS: usize = 8;
+
+/// A further parameter must reduce the norm to less than this part. No unit; kind: choice.
+pub(super) const PARAMETER_GAIN: f64 = 0.9;
+
+/// Explanations with a residual beyond the tolerance that are reported. Kind: choice.
+pub(super) const MAX_NEXT_BEST: usize = 4;
+
+// Fits.
+
+/// Starts of an angle besides its present value. Unit: rad; kind: choice. Starts a third of a turn apart
+/// miss no minimum, and at half a turn the slope is zero.
+pub(super) const ANGLE_STARTS_RAD: [f64; 2] = [2.1, -2.1];
+
+/// Below this norm no further start is tried. Without unit; kind: rounding of a fit.
+pub(super) const GOOD_FIT: f64 = 1e-12;
+
+/// A fit ends below this norm. Without unit; kind: rounding of some fifty values.
+pub(super) const PERFECT_FIT: f64 = 3e-16;
+
+/// Most steps of a fit. Kind: loop bound; fits that reach zero take some six steps.
+pub(super) const MAX_STEPS: usize = 60;
+
+/// A fit ends at a step that reduces the norm by less than this part: it is in another minimum. No unit;
+/// kind: solver stop.
+pub(super) const MIN_GAIN: f64 = 1e-3;
+
+/// Damping of Levenberg and Marquardt, relative to the diagonal: at the start, at least, and at most; a fit
+/// whose step fails at the last ends. No unit; kind: solver.
+pub(super) const DAMPING: Damping =
+    Damping { first: 1e-6, least: 1e-12, most: 1e4, after_success: 0.1, after_failure: 100.0 };
+
+/// Added to the diagonal of the normal equations: a parameter without effect keeps its value. Without unit;
+/// kind: rounding, some eps.
+pub(super) const NO_EFFECT: f64 = 1e-15;
+
+/// The damping of a fit and its change after each step.
+pub(super) struct Damping {
+    pub(super) first: f64,
+    pub(super) least: f64,
+    pub(super) most: f64,
+    pub(super) after_success: f64,
+    pub(super) after_failure: f64,
+}
