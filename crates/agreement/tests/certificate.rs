@@ -6,7 +6,7 @@ mod support;
 use std::f64::consts::PI;
 
 use congruent_agreement::bound::{Bracket, Budget, Certificate, certify, certify_driven};
-use congruent_description::DhConvention;
+use congruent_description::{ChainQ, DhConvention};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, ScrewChain, Twist};
 use nalgebra::{Isometry3, Vector3};
 use proptest::prelude::*;
@@ -272,7 +272,7 @@ fn assert_holds(a: &ScrewChain, b: &ScrewChain, ranges: &[(f64, f64)]) -> Result
     let budget = Budget { relative_gap: 0.05, corners: 100_000 };
     let Certificate { position_m, orientation_rad } =
         certify(a, b, ranges, budget).expect("as many ranges as joints");
-    let apart = |q: &[f64]| {
+    let apart = |q: &ChainQ| {
         let [a, b] = [a, b].map(|chain| chain.base_from_tip(q).expect("as many positions as joints"));
         (a.distance_m(&b), a.angle_rad(&b))
     };
@@ -280,7 +280,7 @@ fn assert_holds(a: &ScrewChain, b: &ScrewChain, ranges: &[(f64, f64)]) -> Result
     prop_assert!(orientation_rad.attained <= orientation_rad.certified);
     for (bracket, is_position) in [(&position_m, true), (&orientation_rad, false)] {
         prop_assert!(bracket.at.iter().zip(ranges).all(|(q, range)| (range.0..=range.1).contains(q)));
-        let (distance_m, angle_rad) = apart(&bracket.at);
+        let (distance_m, angle_rad) = apart(&bracket.at.as_slice().into());
         let there = if is_position { distance_m } else { angle_rad };
         prop_assert!((there.min(bracket.certified) - bracket.attained).abs() <= SAMPLE_ROUNDING);
     }
@@ -288,7 +288,7 @@ fn assert_holds(a: &ScrewChain, b: &ScrewChain, ranges: &[(f64, f64)]) -> Result
         let place = |(range, prime): (&(f64, f64), f64)| {
             range.0 + (range.1 - range.0) * (f64::from(sample) * prime.sqrt()).fract()
         };
-        let q: Vec<f64> = ranges.iter().zip(PRIMES).map(place).collect();
+        let q: ChainQ = ranges.iter().zip(PRIMES).map(place).collect();
         let (distance_m, angle_rad) = apart(&q);
         prop_assert!(distance_m <= position_m.certified + SAMPLE_ROUNDING);
         prop_assert!(angle_rad <= orientation_rad.certified + SAMPLE_ROUNDING);

@@ -3,7 +3,7 @@
 #[path = "../tests/support/mod.rs"]
 mod support;
 
-use congruent_description::{DhConvention, LinkIndex, Robot};
+use congruent_description::{ChainQ, DhConvention, LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{
     DhChain, DhDerivatives, JacobianKind, Pose, ScrewChain, ScrewDerivatives, ScrewTree, SerialChain, Twist,
     UrdfTree,
@@ -36,45 +36,51 @@ fn six_sine_cosine_pairs(bencher: Bencher<'_, '_>) {
 
 #[divan::bench(args = [DhConvention::Standard, DhConvention::Modified])]
 fn dh_to_tip(bencher: Bencher<'_, '_>, convention: DhConvention) {
+    let q = RobotQ::from(Q);
     let (_, chain) = arm(convention);
-    bencher.bench(|| chain.base_from_tip(black_box(&Q)));
+    bencher.bench(|| chain.base_from_tip(black_box(&q)));
 }
 
 #[divan::bench(args = [DhConvention::Standard, DhConvention::Modified])]
 fn dh_all_frames(bencher: Bencher<'_, '_>, convention: DhConvention) {
+    let q = RobotQ::from(Q);
     let (_, chain) = arm(convention);
     let mut frames = [Pose::identity(); 7];
-    bencher.bench_local(|| chain.dh_frames_into(black_box(&Q), black_box(&mut frames)));
+    bencher.bench_local(|| chain.dh_frames_into(black_box(&q), black_box(&mut frames)));
 }
 
 #[divan::bench]
 fn urdf_to_tip(bencher: Bencher<'_, '_>) {
+    let q = RobotQ::from(Q);
     let (robot, _) = arm(DhConvention::Standard);
     let (tree, tip) = (UrdfTree::new(&robot), tip(&robot));
-    bencher.bench(|| tree.root_from_link(black_box(&Q), tip));
+    bencher.bench(|| tree.root_from_link(black_box(&q), tip));
 }
 
 #[divan::bench]
 fn urdf_all_links(bencher: Bencher<'_, '_>) {
+    let q = RobotQ::from(Q);
     let (robot, _) = arm(DhConvention::Standard);
     let tree = UrdfTree::new(&robot);
     let mut links = vec![Pose::identity(); robot.links().len()];
-    bencher.bench_local(|| tree.root_from_links_into(black_box(&Q), black_box(&mut links)));
+    bencher.bench_local(|| tree.root_from_links_into(black_box(&q), black_box(&mut links)));
 }
 
 #[divan::bench]
 fn poe_to_tip(bencher: Bencher<'_, '_>) {
+    let q = RobotQ::from(Q);
     let (robot, _) = arm(DhConvention::Standard);
     let (screws, tip) = (ScrewTree::new(&robot), tip(&robot));
-    bencher.bench(|| screws.root_from_link(black_box(&Q), tip));
+    bencher.bench(|| screws.root_from_link(black_box(&q), tip));
 }
 
 #[divan::bench]
 fn poe_all_links(bencher: Bencher<'_, '_>) {
+    let q = RobotQ::from(Q);
     let (robot, _) = arm(DhConvention::Standard);
     let screws = ScrewTree::new(&robot);
     let mut links = vec![Pose::identity(); robot.links().len()];
-    bencher.bench_local(|| screws.root_from_links_into(black_box(&Q), black_box(&mut links)));
+    bencher.bench_local(|| screws.root_from_links_into(black_box(&q), black_box(&mut links)));
 }
 
 /// The chain through the description, as `urdf_to_tip` takes it.
@@ -85,8 +91,9 @@ fn serial() -> SerialChain {
 
 #[divan::bench]
 fn serial_to_tip(bencher: Bencher<'_, '_>) {
+    let q = ChainQ::from(Q);
     let chain = serial();
-    bencher.bench(|| chain.base_from_tip(black_box(&Q)));
+    bencher.bench(|| chain.base_from_tip(black_box(&q)));
 }
 
 /// A thousand configurations at once, as many as fit the second cache.
@@ -103,41 +110,45 @@ fn serial_batch_of_1000(bencher: Bencher<'_, '_>) {
 
 #[divan::bench(args = [JacobianKind::Space, JacobianKind::Geometric, JacobianKind::Body])]
 fn serial_with_jacobian(bencher: Bencher<'_, '_>, kind: JacobianKind) {
+    let q = ChainQ::from(Q);
     let chain = serial();
     let mut columns = [Twist::zero(); 6];
-    bencher.bench_local(|| chain.pose_and_jacobian_into(black_box(&Q), kind, black_box(&mut columns)));
+    bencher.bench_local(|| chain.pose_and_jacobian_into(black_box(&q), kind, black_box(&mut columns)));
 }
 
 #[divan::bench]
 fn urdf_jacobian(bencher: Bencher<'_, '_>) {
+    let q = RobotQ::from(Q);
     let (robot, _) = arm(DhConvention::Standard);
     let (tree, tip) = (UrdfTree::new(&robot), tip(&robot));
     let mut columns = [Twist::zero(); 6];
     let kind = JacobianKind::Geometric;
-    bencher.bench_local(|| tree.jacobian_into(black_box(&Q), tip, kind, black_box(&mut columns)));
+    bencher.bench_local(|| tree.jacobian_into(black_box(&q), tip, kind, black_box(&mut columns)));
 }
 
 /// The time derivative of a Jacobian that is there already.
 #[divan::bench(args = [JacobianKind::Space, JacobianKind::Geometric, JacobianKind::Body])]
 fn jacobian_rate(bencher: Bencher<'_, '_>, kind: JacobianKind) {
     let (mut columns, mut rate) = ([Twist::zero(); 6], [Twist::zero(); 6]);
-    serial().pose_and_jacobian_into(&Q, kind, &mut columns).expect("six joints");
+    serial().pose_and_jacobian_into(&ChainQ::from(Q), kind, &mut columns).expect("six joints");
     bencher.bench_local(|| kind.rate_into(black_box(&columns), black_box(&Q), black_box(&mut rate)));
 }
 
 /// All 36 derivatives by a table of six rows and its two constants.
 #[divan::bench(args = [DhConvention::Standard, DhConvention::Modified])]
 fn dh_derivatives(bencher: Bencher<'_, '_>, convention: DhConvention) {
+    let q = RobotQ::from(Q);
     let (_, chain) = arm(convention);
     let mut derivatives = DhDerivatives::default();
-    bencher.bench_local(|| chain.derivatives_into(black_box(&Q), black_box(&mut derivatives)));
+    bencher.bench_local(|| chain.derivatives_into(black_box(&q), black_box(&mut derivatives)));
 }
 
 /// All 42 derivatives by six screws and the home pose.
 #[divan::bench]
 fn screw_derivatives(bencher: Bencher<'_, '_>) {
+    let q = ChainQ::from(Q);
     let (robot, chain) = arm(DhConvention::Standard);
     let screws = ScrewChain::from_dh(&chain, robot.dof()).expect("the table's own robot");
     let mut derivatives = ScrewDerivatives::default();
-    bencher.bench_local(|| screws.derivatives_into(black_box(&Q), black_box(&mut derivatives)));
+    bencher.bench_local(|| screws.derivatives_into(black_box(&q), black_box(&mut derivatives)));
 }

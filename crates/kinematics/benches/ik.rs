@@ -14,7 +14,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use congruent_description::load_robot;
+use congruent_description::{ArmQ, load_robot};
 use congruent_kinematics::{Arm, ArmJoint, IkOptions, IkSolver, IkTarget, Pose, TargetPart};
 use rand_chacha::{
     ChaCha8Rng,
@@ -91,7 +91,7 @@ fn reachable(arm: &mut Arm) -> Vec<Pose> {
     let ranges: Vec<(f64, f64)> = arm.joints().iter().map(ArmJoint::sampled_range).collect();
     (0..POSES)
         .map(|_| {
-            let q: Vec<f64> = ranges.iter().map(|(lower, upper)| lower + (upper - lower) * share()).collect();
+            let q: ArmQ = ranges.iter().map(|(lower, upper)| lower + (upper - lower) * share()).collect();
             arm.base_from_tcp(&q).expect("the configuration fits")
         })
         .collect()

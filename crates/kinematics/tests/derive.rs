@@ -11,7 +11,7 @@ mod support;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use congruent_description::{DhConvention, DhRowKind};
+use congruent_description::{ChainQ, DhConvention, DhRowKind};
 use congruent_kinematics::{
     AxisRelation, Choice, DeriveError, DhDerivation, ModifiedDh, NotADhTransform, Pose, Proof, Screw,
     ScrewChain, SerialDh, StandardDh, Twist, derive_dh,
@@ -30,11 +30,11 @@ const FAR_NORMAL: f64 = 5e-15;
 #[track_caller]
 fn prove(dh: &SerialDh, chain: &ScrewChain) {
     let n = chain.joint_count();
-    let configurations: Vec<Vec<f64>> = [0.0, 0.7, -2.1]
+    let configurations: Vec<ChainQ> = [0.0, 0.7, -2.1]
         .into_iter()
         .map(|shift| (0..n).map(|joint| shift + 0.3 * f64::from(u8::try_from(joint).unwrap())).collect())
         .collect();
-    let found = &mut |q: &[f64]| dh.base_from_tip(q).unwrap();
+    let found = &mut |q: &ChainQ| dh.base_from_tip(q).unwrap();
     let proof = Proof::of(n, &configurations, found, &mut |q| chain.base_from_tip(q).unwrap());
     // Axes that a random draw leaves nearly parallel have their normal far away, and pay for it.
     let furthest_m = dh.rows.iter().map(|row| row.d_m.abs()).fold(0.0, f64::max);
@@ -229,7 +229,7 @@ fn a_coarser_accuracy_simplifies_and_shows_what_it_costs() {
     assert!(exact.pairs[0].normal_at_m.abs() > 1e8, "{exact:?}");
     let coarse = derive_dh(&chain, DhConvention::Standard, 1e-8).unwrap();
     assert_eq!(coarse.pairs[0].relation, AxisRelation::Parallel);
-    let found = &mut |q: &[f64]| coarse.dh.base_from_tip(q).unwrap();
+    let found = &mut |q: &ChainQ| coarse.dh.base_from_tip(q).unwrap();
     let proof = Proof::of(2, &[], found, &mut |q| chain.base_from_tip(q).unwrap());
     assert!(proof.worst() > 1e-10 && proof.worst() < 1e-8, "{proof:?}");
 }

@@ -8,7 +8,7 @@ mod support;
 
 use std::path::Path;
 
-use congruent_description::{DhConvention, DhRowKind, Robot, load_robot};
+use congruent_description::{DhConvention, DhRowKind, Robot, RobotQ, load_robot};
 use congruent_kinematics::{DhChain, Pose, ScrewTree, SerialChain, UrdfTree};
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use serde_json::Value;
@@ -105,11 +105,11 @@ fn tables_against_roboticstoolbox() {
         let robot = figures.robot();
         let chain = DhChain::new(&figures.table(&robot), &robot);
         for sample in array(&golden["fk"]) {
-            let tip = chain.base_from_tip(&numbers(&sample["q"])).unwrap();
+            let tip = chain.base_from_tip(&numbers(&sample["q"]).into()).unwrap();
             assert_table_pose(name, &tip, &sample["T"]);
         }
         let mut frames = vec![Pose::identity(); chain.joint_count() + 1];
-        chain.dh_frames_into(&numbers(&golden["frames_q"]), &mut frames).unwrap();
+        chain.dh_frames_into(&numbers(&golden["frames_q"]).into(), &mut frames).unwrap();
         assert_eq!(frames.len(), array(&golden["frames"]).len());
         for (found, golden) in frames.iter().zip(array(&golden["frames"])) {
             assert_table_pose(name, found, golden);
@@ -118,8 +118,8 @@ fn tables_against_roboticstoolbox() {
 }
 
 /// The golden's joint positions, which go by name, in the order of the robot's coordinates.
-fn positions(robot: &Robot, golden: &Value, configuration: &Value) -> Vec<f64> {
-    let mut q = vec![f64::NAN; robot.dof()];
+fn positions(robot: &Robot, golden: &Value, configuration: &Value) -> RobotQ {
+    let mut q = RobotQ::from(vec![f64::NAN; robot.dof()]);
     for (joint, position) in array(&golden["joints"]).iter().zip(array(&configuration["q"])) {
         let joint = robot.find_joint(text(&joint["name"])).expect("the robot has the golden's joint");
         q[robot.coordinate(joint).expect("the golden's joint moves")] = number(position);
@@ -161,8 +161,8 @@ fn assert_batches(name: &str, robot: &Robot, golden: &Value) {
         let q: Vec<f64> = configurations
             .iter()
             .flat_map(|configuration| {
-                let q = positions(robot, golden, configuration);
-                chain.coordinates().iter().map(move |&coordinate| q[coordinate]).collect::<Vec<_>>()
+                let q = positions(robot, golden, configuration).of_chain(chain.coordinates());
+                q.to_vec()
             })
             .collect();
         let mut root_from_tips = vec![Pose::identity(); configurations.len()];

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use congruent_description::{RobotDescription, load_robot};
+use congruent_description::{ArmQ, RobotDescription, RobotQ, load_robot};
 use congruent_kinematics::{
     Arm, ArmJoint, IkMethod, IkOptions, IkSolver, IkTarget, Pose, TargetPart, UrdfTree, rotation_exp,
 };
@@ -28,9 +28,9 @@ fn arm(description: &RobotDescription) -> Arm {
 }
 
 /// The tip by joint after joint of the description: another path than the solver's.
-fn base_from_tip(description: &RobotDescription, arm: &Arm, q: &[f64]) -> Pose {
+fn base_from_tip(description: &RobotDescription, arm: &Arm, q: &ArmQ) -> Pose {
     let tree = UrdfTree::new(&description.robot);
-    let mut q_robot = vec![0.0; description.robot.dof()];
+    let mut q_robot = RobotQ::zeros(description.robot.dof());
     arm.write_to_robot(q, &mut q_robot);
     description.robot.apply_mimic(&mut q_robot);
     let root_from = |link| tree.root_from_link(&q_robot, link).expect("it is a configuration");
@@ -41,7 +41,7 @@ fn at(xyz: [f64; 3]) -> IkTarget {
     IkTarget { base_from_tcp: Pose::from_parts(Matrix3::identity(), xyz.into()), part: TargetPart::Position }
 }
 
-fn drawn(arm: &Arm, random: &mut ChaCha8Rng) -> Vec<f64> {
+fn drawn(arm: &Arm, random: &mut ChaCha8Rng) -> ArmQ {
     let mut share = || f64::from(random.next_u32()) / f64::from(u32::MAX);
     let ranges = arm.joints().iter().map(ArmJoint::sampled_range);
     ranges.map(|(lower, upper)| lower + (upper - lower) * share()).collect()
@@ -56,14 +56,14 @@ fn case_23_by_pseudo_inverse_and_by_transpose_to_a_position() {
     const PRINTED: f64 = 1e-8;
     let rrr = load("rrr_arm");
     let mut solver = IkSolver::new(arm(&rrr));
-    let start = base_from_tip(&rrr, solver.arm(), &CASE_23_START);
+    let start = base_from_tip(&rrr, solver.arm(), &CASE_23_START.into());
     assert!((start.translation - Vector3::new(0.606_518_77, -0.217_123_93, 0.484_788_84)).amax() < PRINTED);
     for (method, most_steps) in [(IkMethod::PseudoInverse, 6), (IkMethod::Transpose, 400)] {
         let options = IkOptions { method, ..IkOptions::default() };
-        let found = solver.solve(&at(CASE_23_TARGET), &CASE_23_START, &options, || true).unwrap();
+        let found = solver.solve(&at(CASE_23_TARGET), &CASE_23_START.into(), &options, || true).unwrap();
         assert!(found.converged && found.limits_held.is_empty(), "{method:?}: {found:?}");
         assert!(found.iterations <= most_steps, "{method:?}: {found:?}");
-        let q = found.q.to_vec();
+        let q = found.q.clone();
         let reached = base_from_tip(&rrr, solver.arm(), &q).translation;
         assert!((reached - Vector3::from(CASE_23_TARGET)).norm() <= options.tolerance_m + ROUNDING);
     }
@@ -74,18 +74,18 @@ fn case_23_by_pseudo_inverse_and_by_transpose_to_a_position() {
 fn case_23_with_orientation() {
     let rrr = load("rrr_arm");
     let mut solver = IkSolver::new(arm(&rrr));
-    let base_from_tcp = base_from_tip(&rrr, solver.arm(), &[1.02, 1.1, 1.45, 1.6]);
+    let base_from_tcp = base_from_tip(&rrr, solver.arm(), &ArmQ::from([1.02, 1.1, 1.45, 1.6]));
     let target = IkTarget { base_from_tcp, part: TargetPart::Pose };
     for method in [IkMethod::PseudoInverse, IkMethod::Transpose] {
         let options = IkOptions { method, tolerance_m: 1e-7, tolerance_rad: 1e-7, ..IkOptions::default() };
-        let found = solver.solve(&target, &CASE_23_START, &options, || true).unwrap();
+        let found = solver.solve(&target, &CASE_23_START.into(), &options, || true).unwrap();
         assert!(found.converged, "{method:?}: {found:?}");
     }
     // The same position, a quarter turn away: four joints cannot, and the result says what is left.
     let turned = base_from_tcp.rotation * rotation_exp(&(Vector3::x() * std::f64::consts::FRAC_PI_2));
     let target = IkTarget { base_from_tcp: Pose::from_parts(turned, base_from_tcp.translation), ..target };
     let options = IkOptions { method: IkMethod::PseudoInverse, ..IkOptions::default() };
-    let found = solver.solve(&target, &CASE_23_START, &options, || true).unwrap();
+    let found = solver.solve(&target, &CASE_23_START.into(), &options, || true).unwrap();
     assert!(!found.converged, "{found:?}");
     assert!(found.residual_position_m + found.residual_orientation_rad > 0.1, "{found:?}");
 }
@@ -94,14 +94,14 @@ fn case_23_with_orientation() {
 fn case_24_newton_with_the_matrix_logarithm() {
     let ur5e = load("ur5e");
     let mut solver = IkSolver::new(arm(&ur5e));
-    let start = [0.3, -1.2, 1.5, -1.0, -1.4, 0.2];
-    let near = start.map(|q| q + 0.15);
+    let start = ArmQ::from([0.3, -1.2, 1.5, -1.0, -1.4, 0.2]);
+    let near: ArmQ = start.iter().map(|q| q + 0.15).collect();
     let base_from_tcp = base_from_tip(&ur5e, solver.arm(), &near);
     let target = IkTarget { base_from_tcp, part: TargetPart::Pose };
     let options = IkOptions { method: IkMethod::Newton, ..IkOptions::default() };
     let found = solver.solve(&target, &start, &options, || true).unwrap();
     assert!(found.converged && found.iterations <= 6, "quadratic convergence: {found:?}");
-    assert!(found.q.iter().zip(near).all(|(found, expected)| (found - expected).abs() < 1e-7));
+    assert!(found.q.iter().zip(&near).all(|(found, expected)| (found - expected).abs() < 1e-7));
 
     // Three metres away: no convergence, an honest residual, the whole budget spent.
     let away = Pose { translation: Vector3::new(3.0, 0.0, 0.0), ..base_from_tcp };
@@ -133,7 +133,7 @@ fn reachable_poses_are_reached_from_the_middle_of_the_ranges() {
             let target = IkTarget { base_from_tcp, part };
             let found = solver.solve(&target, &middle, &options, || true).unwrap();
             assert!(found.converged, "{name}, pose {pose}: {found:?}");
-            let (q, left_m) = (found.q.to_vec(), found.residual_position_m);
+            let (q, left_m) = (found.q.clone(), found.residual_position_m);
             let limits = solver.arm().joints().iter().map(|joint| joint.lower..=joint.upper);
             assert!(limits.zip(&q).all(|(limits, q)| limits.contains(q)), "{name}: {q:?}");
             let reached = base_from_tip(&description, solver.arm(), &q);
@@ -186,9 +186,9 @@ fn the_nearest_solution_is_hardly_further_than_the_one_that_made_the_target() {
     let mut random = ChaCha8Rng::seed_from_u64(11);
     for _ in 0..10 {
         // Away from limits and from the folded elbow, where solutions meet.
-        let start: Vec<f64> = drawn(solver.arm(), &mut random).iter().map(|q| 0.4 * q).collect();
+        let start: ArmQ = drawn(solver.arm(), &mut random).iter().map(|q| 0.4 * q).collect();
         let joints = solver.arm().joints().iter();
-        let made: Vec<f64> = joints.zip(&start).map(|(joint, q)| (q + 0.3).min(joint.upper)).collect();
+        let made: ArmQ = joints.zip(&start).map(|(joint, q)| (q + 0.3).min(joint.upper)).collect();
         let base_from_tcp = base_from_tip(&ur5e, solver.arm(), &made);
         let target = IkTarget { base_from_tcp, part: TargetPart::Pose };
         let found = solver.solve_nearest(&target, &start, &IkOptions::default(), 64).unwrap();

@@ -4,7 +4,7 @@
 #[path = "support/mod.rs"]
 mod support;
 
-use congruent_description::{LinkIndex, Robot};
+use congruent_description::{ChainQ, LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{
     Jacobian, JacobianKind, KinematicsError, Pose, ScrewChain, SerialChain, Twist, UrdfTree, Wrench,
 };
@@ -63,14 +63,14 @@ proptest! {
     #[test]
     fn a_column_is_what_its_joint_does(joints in support::tree(), q in support::positions()) {
         let robot = support::robot(joints);
-        let (tree, q) = (UrdfTree::new(&robot), &q[..robot.dof()]);
+        let (tree, q) = (UrdfTree::new(&robot), &q.of_robot(&robot));
         for link in robot.link_indices() {
             let root_from_link = tree.root_from_link(q, link).unwrap();
             for kind in KINDS {
                 let jacobian = tree.jacobian(q, link, kind).unwrap();
                 for (coordinate, column) in jacobian.columns().iter().enumerate() {
                     let expected = by_differences(|step| {
-                        let mut q = q.to_vec();
+                        let mut q = q.clone();
                         q[coordinate] += step;
                         tree.root_from_link(&q, link).unwrap()
                     });
@@ -87,7 +87,7 @@ proptest! {
         joints in support::tree(), q in support::positions(), [moment, force] in [support::vector(), support::vector()],
     ) {
         let robot = support::robot(joints);
-        let (tree, q, in_link) = (UrdfTree::new(&robot), &q[..robot.dof()], Wrench { moment, force });
+        let (tree, q, in_link) = (UrdfTree::new(&robot), &q.of_robot(&robot), Wrench { moment, force });
         for link in robot.link_indices() {
             let root_from_link = tree.root_from_link(q, link).unwrap();
             let turned = Pose { translation: nalgebra::Vector3::zeros(), ..root_from_link };
@@ -109,11 +109,11 @@ proptest! {
         joints in support::tree(), q in support::positions(), ends in any::<[prop::sample::Index; 2]>(),
     ) {
         let robot = support::robot(joints);
-        let (tree, q) = (UrdfTree::new(&robot), &q[..robot.dof()]);
+        let (tree, q) = (UrdfTree::new(&robot), &q.of_robot(&robot));
         let all = links(&robot);
         let [base, tip] = ends.map(|end| all[end.index(all.len())]);
         let chain = SerialChain::from_urdf(&robot, (base, tip));
-        let of_chain: Vec<f64> = chain.coordinates().iter().map(|&coordinate| q[coordinate]).collect();
+        let of_chain = q.of_chain(chain.coordinates());
         let base_from_root = tree.root_from_link(q, base).unwrap().inverse();
         let expected = base_from_root * tree.root_from_link(q, tip).unwrap();
         let found = chain.base_from_tip(&of_chain).unwrap();
@@ -137,7 +137,7 @@ proptest! {
     #[test]
     fn tables_and_screws_give_the_same_serial_chain(figures in support::table_figures(), q in support::positions()) {
         let robot = figures.robot();
-        let q = &q[..robot.dof()];
+        let (q, of_chain) = (&q.of_robot(&robot), &q.of_chain(robot.dof()));
         let ends = (robot.root(), robot.find_link("tip").unwrap());
         let by_urdf = SerialChain::from_urdf(&robot, ends);
         let by_table = SerialChain::from_dh(&figures.table(&robot), &robot);
@@ -146,7 +146,7 @@ proptest! {
         let tree = UrdfTree::new(&robot).jacobian(q, ends.1, JacobianKind::Geometric).unwrap();
         for chain in [by_urdf, by_table, by_screws] {
             let mut columns = vec![Twist::zero(); chain.joint_count()];
-            chain.pose_and_jacobian_into(q, JacobianKind::Geometric, &mut columns).unwrap();
+            chain.pose_and_jacobian_into(of_chain, JacobianKind::Geometric, &mut columns).unwrap();
             for (found, expected) in columns.iter().zip(tree.columns()) {
                 prop_assert!(within(apart(found, expected), ROUNDING), "{found:?} {expected:?}");
             }
@@ -159,10 +159,10 @@ fn wrong_lengths_are_refused() {
     let robot = support::robot(Vec::new());
     let tree = UrdfTree::new(&robot);
     let columns = &mut [Twist::zero()];
-    let refused = tree.jacobian_into(&[], robot.root(), JacobianKind::Body, columns);
+    let refused = tree.jacobian_into(&RobotQ::zeros(0), robot.root(), JacobianKind::Body, columns);
     assert_eq!(refused, Err(KinematicsError::ColumnCount { expected: 0, found: 1 }));
     let chain = SerialChain::from_urdf(&robot, (robot.root(), robot.root()));
-    let refused = chain.pose_and_jacobian_into(&[0.0], JacobianKind::Body, columns);
+    let refused = chain.pose_and_jacobian_into(&ChainQ::zeros(1), JacobianKind::Body, columns);
     assert_eq!(refused, Err(KinematicsError::JointCount { expected: 0, found: 1 }));
     let jacobian = Jacobian::from_columns(JacobianKind::Body, columns.to_vec());
     assert_eq!(jacobian.times(&[]), Err(KinematicsError::JointCount { expected: 1, found: 0 }));

@@ -4,7 +4,7 @@
 #[path = "support/mod.rs"]
 mod support;
 
-use congruent_description::{DhTable, Robot};
+use congruent_description::{DhTable, Robot, RobotQ};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, ScrewTree, Twist, UrdfTree};
 use nalgebra::Isometry3;
 use proptest::prelude::*;
@@ -16,13 +16,13 @@ const ROUNDING_M: f64 = 2e-13;
 /// Rounding: up to nine products of rotations, eight eps each; worst seen 8.4e-15.
 const ROUNDING_RAD: f64 = 3e-14;
 
-fn urdf_links(robot: &Robot, q: &[f64]) -> Vec<Pose> {
+fn urdf_links(robot: &Robot, q: &RobotQ) -> Vec<Pose> {
     let mut links = vec![Pose::identity(); robot.links().len()];
     UrdfTree::new(robot).root_from_links_into(q, &mut links).expect("lengths are right");
     links
 }
 
-fn screw_links(robot: &Robot, q: &[f64]) -> Vec<Pose> {
+fn screw_links(robot: &Robot, q: &RobotQ) -> Vec<Pose> {
     let mut links = vec![Pose::identity(); robot.links().len()];
     ScrewTree::new(robot).root_from_links_into(q, &mut links).expect("lengths are right");
     links
@@ -39,7 +39,7 @@ proptest! {
     #[test]
     fn dh_equals_poe_equals_urdf(figures in support::table_figures(), q in support::positions()) {
         let robot = figures.robot();
-        let q = &q[..robot.dof()];
+        let q = &q.of_robot(&robot);
         let by_table = DhChain::new(&figures.table(&robot), &robot).base_from_tip(q).unwrap();
         let tip = robot.find_link("tip").unwrap();
         prop_assert!(is_same(&ScrewTree::new(&robot).root_from_link(q, tip).unwrap(), &by_table));
@@ -49,7 +49,7 @@ proptest! {
     #[test]
     fn poe_equals_urdf_on_trees(joints in support::tree(), q in support::positions()) {
         let robot = support::robot(joints);
-        let q = &q[..robot.dof()];
+        let q = &q.of_robot(&robot);
         for (by_screws, by_joints) in screw_links(&robot, q).iter().zip(&urdf_links(&robot, q)) {
             prop_assert!(is_same(by_screws, by_joints));
         }
@@ -58,7 +58,7 @@ proptest! {
     #[test]
     fn one_link_is_that_link_of_all(joints in support::tree(), q in support::positions()) {
         let robot = support::robot(joints);
-        let q = &q[..robot.dof()];
+        let q = &q.of_robot(&robot);
         let (tree, screws) = (UrdfTree::new(&robot), ScrewTree::new(&robot));
         let (by_joints, by_screws) = (urdf_links(&robot, q), screw_links(&robot, q));
         for link in robot.link_indices() {
@@ -72,7 +72,7 @@ proptest! {
         joints in support::tree(), moved in support::isometry(), q in support::positions()
     ) {
         let robot = support::robot(joints.clone());
-        let q = &q[..robot.dof()];
+        let q = &q.of_robot(&robot);
         let lifted = support::robot(lift(joints, moved));
         for all_links in [urdf_links, screw_links] {
             let (before, after) = (all_links(&robot, q), all_links(&lifted, q));
@@ -89,7 +89,7 @@ proptest! {
         figures in support::table_figures(), moved in support::isometry(), q in support::positions()
     ) {
         let robot = figures.robot();
-        let q = &q[..robot.dof()];
+        let q = &q.of_robot(&robot);
         let mut table = figures.table(&robot);
         let frames = |table: &DhTable| {
             let chain = DhChain::new(table, &robot);
@@ -111,7 +111,7 @@ proptest! {
         q in support::positions(),
     ) {
         let robot = support::robot(joints.clone());
-        let q = &q[..robot.dof()];
+        let q = &q.of_robot(&robot);
         let split = support::robot(split(joints, which, middle));
         for all_links in [urdf_links, screw_links] {
             let (before, after) = (all_links(&robot, q), all_links(&split, q));
@@ -124,16 +124,16 @@ proptest! {
 
     #[test]
     fn each_screw_is_found_by_moving_its_joint_alone(
-        joints in support::tree(), q in support::positions(), step in 0.1..1.0
+        joints in support::tree(), step in 0.1..1.0
     ) {
         let robot = support::robot(joints);
         let (tree, screws) = (UrdfTree::new(&robot), ScrewTree::new(&robot));
         for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
             let child = robot.joint(joint).child;
-            let mut at = vec![0.0; q.len()];
-            let home = tree.root_from_link(&at[..robot.dof()], child).unwrap();
-            at[coordinate] = step;
-            let moved = tree.root_from_link(&at[..robot.dof()], child).unwrap();
+            let mut q = RobotQ::zeros(robot.dof());
+            let home = tree.root_from_link(&q, child).unwrap();
+            q[coordinate] = step;
+            let moved = tree.root_from_link(&q, child).unwrap();
             let (found, screw) = (Twist::log(&(moved * home.inverse())), screws.screw(joint).unwrap().twist());
             prop_assert!(within((found.angular / step - screw.angular).norm(), ROUNDING_RAD / step));
             prop_assert!(within((found.linear / step - screw.linear).norm(), ROUNDING_M / step));
@@ -177,7 +177,7 @@ fn wrong_lengths_are_refused() {
     let chain = DhChain::new(&figures.table(&robot), &robot);
     let joints = KinematicsError::JointCount { expected: 1, found: 2 };
     let root = robot.root();
-    let q = [0.0; 2];
+    let q = RobotQ::zeros(2);
     let poses = &mut [Pose::identity(); 3];
     assert_eq!(chain.base_from_tip(&q), Err(joints.clone()));
     assert_eq!(chain.base_from_tcp(&q, &Pose::identity()), Err(joints.clone()));
@@ -187,10 +187,10 @@ fn wrong_lengths_are_refused() {
     assert_eq!(tree.root_from_link(&q, root), Err(joints.clone()));
     assert_eq!(screws.root_from_link(&q, root), Err(joints));
     let too_many = |expected| Err(KinematicsError::PoseCount { expected, found: 4 });
-    let poses = &mut [Pose::identity(); 4];
-    assert_eq!(chain.dh_frames_into(&q[..1], poses), too_many(2));
-    assert_eq!(tree.root_from_links_into(&q[..1], poses), too_many(3));
-    assert_eq!(screws.root_from_links_into(&q[..1], poses), too_many(3));
+    let (q, poses) = (RobotQ::zeros(1), &mut [Pose::identity(); 4]);
+    assert_eq!(chain.dh_frames_into(&q, poses), too_many(2));
+    assert_eq!(tree.root_from_links_into(&q, poses), too_many(3));
+    assert_eq!(screws.root_from_links_into(&q, poses), too_many(3));
     let frames = congruent_kinematics::DhFrames { transformed_by: 0, of: 2 };
-    assert_eq!(chain.dhi_from_dhj(&q[..1], frames), Err(KinematicsError::FrameIndex { index: 2, last: 1 }));
+    assert_eq!(chain.dhi_from_dhj(&q, frames), Err(KinematicsError::FrameIndex { index: 2, last: 1 }));
 }

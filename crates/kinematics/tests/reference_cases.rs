@@ -3,7 +3,7 @@
 #[path = "support/mod.rs"]
 mod support;
 
-use congruent_description::{DhConvention, DhRowKind, JointKind, Robot};
+use congruent_description::{DhConvention, DhRowKind, JointKind, Robot, RobotQ};
 use congruent_kinematics::{
     DhChain, DhFrames, JacobianKind, ModifiedDh, Pose, Screw, ScrewTree, StandardDh, ToolAxes, ToolAxesError,
     UrdfTree, hat,
@@ -37,8 +37,8 @@ fn assert_equal(found: &Pose, expected: &Pose) {
     assert!(within(found.angle_rad(expected), ROUNDING), "{found:?} for {expected:?}");
 }
 
-fn degrees<const N: usize>(figures: [f64; N]) -> [f64; N] {
-    figures.map(f64::to_radians)
+fn degrees<const N: usize>(positions_deg: [f64; N]) -> RobotQ {
+    positions_deg.map(f64::to_radians).into()
 }
 
 fn standard(rows: &[RowFigures]) -> (Robot, DhChain) {
@@ -71,7 +71,9 @@ fn crooked_6r(convention: DhConvention) -> TableFigures {
     }
 }
 
-const CROOKED_Q: [f64; 6] = [0.3, -1.1, 0.7, 2.0, -0.4, 1.6];
+fn crooked_q() -> RobotQ {
+    RobotQ::from([0.3, -1.1, 0.7, 2.0, -0.4, 1.6])
+}
 
 #[test]
 fn case_01_planar_2r() {
@@ -84,7 +86,7 @@ fn case_01_planar_2r() {
 
 #[test]
 fn case_02_one_dh_matrix() {
-    let [alpha_rad, theta_rad] = degrees([90.0, 30.0]);
+    let [alpha_rad, theta_rad] = [90_f64, 30.0].map(f64::to_radians);
     let row = StandardDh { a_m: 0.25, alpha_rad, d_m: 0.10, theta_rad }.transform();
     assert_rotation(&row, [0.866_025_403_784, 0., 0.5, 0.5, 0., -0.866_025_403_784, 0., 1., 0.]);
     assert_position(&row, [0.216_506_350_946, 0.125, 0.1]);
@@ -111,12 +113,11 @@ fn case_03_spatial_3r() {
 
 #[test]
 fn case_08_dh_against_poe() {
-    let q_3r = degrees([20.0, -30.0, 40.0]);
     let figures_3r = TableFigures::new(DhConvention::Standard, &spatial_3r());
     for (figures, q) in [
-        (figures_3r, &q_3r[..]),
-        (crooked_6r(DhConvention::Standard), &CROOKED_Q[..]),
-        (crooked_6r(DhConvention::Modified), &CROOKED_Q[..]),
+        (figures_3r, &degrees([20.0, -30.0, 40.0])),
+        (crooked_6r(DhConvention::Standard), &crooked_q()),
+        (crooked_6r(DhConvention::Modified), &crooked_q()),
     ] {
         let robot = figures.robot();
         let by_table = DhChain::new(&figures.table(&robot), &robot).base_from_tip(q).unwrap();
@@ -138,7 +139,10 @@ fn case_09_one_table_under_both_conventions_is_two_robots() {
     };
     let (standard, modified) = (tip(DhConvention::Standard), tip(DhConvention::Modified));
     let by_rows = |row: &dyn Fn(RowFigures, f64) -> Pose| {
-        spatial_3r().into_iter().zip(q).fold(Pose::identity(), |above, (figures, q)| above * row(figures, q))
+        spatial_3r()
+            .into_iter()
+            .zip(&q)
+            .fold(Pose::identity(), |above, (figures, &q)| above * row(figures, q))
     };
     assert_equal(
         &standard,
@@ -161,7 +165,7 @@ fn case_11_the_tool_is_separate_from_the_chain() {
     let robot = figures.robot();
     let chain = DhChain::new(&figures.table(&robot), &robot);
     let tool = Pose::from(Isometry3::new(Vector3::new(0.02, -0.01, 0.15), Vector3::new(0.1, 0.7, -0.2)));
-    for q in [[0.0; 6], CROOKED_Q] {
+    for q in [RobotQ::zeros(6), crooked_q()] {
         let tip = chain.base_from_tip(&q).unwrap();
         let tcp = chain.base_from_tcp(&q, &tool).unwrap();
         assert_equal(&(tip.inverse() * tcp), &tool);
@@ -231,9 +235,9 @@ fn case_16_between_any_two_frames() {
         let robot = figures.robot();
         let chain = DhChain::new(&figures.table(&robot), &robot);
         let mut frames = [Pose::identity(); 7];
-        chain.dh_frames_into(&CROOKED_Q, &mut frames).unwrap();
+        chain.dh_frames_into(&crooked_q(), &mut frames).unwrap();
         for (transformed_by, of) in (0..7).flat_map(|i| (0..7).map(move |j| (i, j))) {
-            let between = chain.dhi_from_dhj(&CROOKED_Q, DhFrames { transformed_by, of }).unwrap();
+            let between = chain.dhi_from_dhj(&crooked_q(), DhFrames { transformed_by, of }).unwrap();
             assert_equal(&between, &(frames[transformed_by].inverse() * frames[of]));
             if transformed_by == of {
                 assert_eq!(between, Pose::identity());
@@ -281,7 +285,7 @@ fn case_19_tool_frame_by_normal_sliding_approach() {
 fn case_20_cylindrical_arm() {
     let first = RowFigures::revolute(0.0, 0.0, 0.5);
     let (_, chain) = standard(&[first, RowFigures::prismatic(-90.0), RowFigures::prismatic(0.0)]);
-    let tip = chain.base_from_tip(&[30_f64.to_radians(), 0.2, 0.3]).unwrap();
+    let tip = chain.base_from_tip(&RobotQ::from([30_f64.to_radians(), 0.2, 0.3])).unwrap();
     assert_position(&tip, [-0.15, 0.259_807_621_135, 0.7]);
 }
 
@@ -304,7 +308,7 @@ fn case_20_spherical_wrist() {
 fn a_prismatic_row_ignores_what_it_does_not_drive() {
     let prismatic = RowFigures { theta_rad: 0.3, ..RowFigures::prismatic(20.0) };
     let turned = RowFigures { kind: DhRowKind::Revolute, ..prismatic };
-    let tip = |row, q| standard(&[row]).1.base_from_tip(&[q]).unwrap();
+    let tip = |row, q: f64| standard(&[row]).1.base_from_tip(&RobotQ::from([q])).unwrap();
     assert_eq!(tip(prismatic, 0.0), tip(turned, 0.0));
 }
 
@@ -318,7 +322,7 @@ fn case_22_joints_go_by_name_not_by_order() {
     // Two libraries list the same joints in different orders.
     let robots = [support::robot(vec![left.clone(), right.clone()]), support::robot(vec![right, left])];
     let pose = |robot: &Robot, link: &str| {
-        let mut q = vec![0.0; robot.dof()];
+        let mut q = RobotQ::zeros(robot.dof());
         for (name, position) in [("left", 0.7), ("right", -1.1)] {
             q[robot.coordinate(robot.find_joint(name).unwrap()).unwrap()] = position;
         }
@@ -330,7 +334,7 @@ fn case_22_joints_go_by_name_not_by_order() {
     // By order the same vector is another configuration.
     let by_order = robots.map(|robot| {
         let left = robot.find_link("left").unwrap();
-        UrdfTree::new(&robot).root_from_link(&[0.7, -1.1], left).unwrap()
+        UrdfTree::new(&robot).root_from_link(&RobotQ::from([0.7, -1.1]), left).unwrap()
     });
     assert!(within((by_order[0].angle_rad(&by_order[1]) - 1.8).abs(), ROUNDING));
 }
@@ -348,7 +352,7 @@ fn turning_link() -> Robot {
 #[test]
 fn case_25_position_and_velocity_of_a_point() {
     let robot = turning_link();
-    let (q, qd, p) = ([30_f64.to_radians()], [1.0], robot.find_link("p").unwrap());
+    let (q, qd, p) = (degrees([30.0]), [1.0], robot.find_link("p").unwrap());
     let (tree, screws) = (UrdfTree::new(&robot), ScrewTree::new(&robot));
     for pose in [tree.root_from_link(&q, p).unwrap(), screws.root_from_link(&q, p).unwrap()] {
         assert_position(&pose, [1.346_410_161_514, 1.2, 0.0]);
@@ -363,7 +367,7 @@ fn case_25_position_and_velocity_of_a_point() {
 fn case_26_body_twist_and_space_twist() {
     let robot = turning_link();
     let link = robot.find_link("link").unwrap();
-    let (tree, q, qd) = (UrdfTree::new(&robot), [30_f64.to_radians()], [1.0]);
+    let (tree, q, qd) = (UrdfTree::new(&robot), degrees([30.0]), [1.0]);
     let twist = |kind| tree.jacobian(&q, link, kind).unwrap().times(&qd).unwrap();
     let (in_body, in_space) = (twist(JacobianKind::Body), twist(JacobianKind::Space));
     let printed = |six: [f64; 6]| Vector6::from(six);

@@ -7,7 +7,7 @@ mod support;
 use congruent_simulation::{Setpoint, World, WorldSettings};
 use divan::{Bencher, counter::ItemsCount};
 use nalgebra::Isometry3;
-use support::{ARM_Q0, arm, make};
+use support::{arm, arm_q0, make};
 
 /// Steps in one sample: enough that the clock does not count, few enough to stay near the start.
 const STEPS: usize = 500;
@@ -20,13 +20,14 @@ fn main() {
 fn step(bencher: Bencher<'_, '_>, kind: &str) {
     let mut world = World::new(&arm(), &WorldSettings::default()).expect("the arm is a robot");
     let mut controller = make(kind, 400.0, 40.0);
-    let reference = Setpoint { q: &ARM_Q0, qd: &[0.0; 6] };
-    world.set_state(&ARM_Q0, &[0.0; 6]).expect("the state fits");
+    let q0 = arm_q0();
+    let setpoint = Setpoint { q: &q0, qd: &[0.0; 6] };
+    world.set_state(&q0, &[0.0; 6]).expect("the state fits");
     let start = world.snapshot();
     bencher.counter(ItemsCount::new(STEPS)).bench_local(|| {
         world.restore(&start);
         for _ in 0..STEPS {
-            world.step(controller.as_mut(), &reference).expect("the arm steps");
+            world.step(controller.as_mut(), &setpoint).expect("the arm steps");
         }
     });
 }

@@ -30,7 +30,7 @@ const LARGEST: f64 = 1e75;
 /// # Examples
 /// A bar of 1 kg on a hinge, released level, falls:
 /// ```
-/// use congruent_description::{Inertia, Joint, JointKind, JointParts, Link, LinkIndex, Robot};
+/// use congruent_description::{Inertia, Joint, JointKind, JointParts, Link, Robot, RobotQ};
 /// use congruent_simulation::{Gains, Setpoint, World, WorldSettings, controller};
 /// use nalgebra::{Isometry3, Matrix3, Vector3};
 ///
@@ -55,7 +55,8 @@ const LARGEST: f64 = 1e75;
 ///
 /// let mut world = World::new(&robot, &WorldSettings::default())?;
 /// let mut passive = controller("passive", Gains::default())?;
-/// world.step(passive.as_mut(), &Setpoint { q: &[0.0], qd: &[0.0] })?;
+/// let level = RobotQ::zeros(1);
+/// world.step(passive.as_mut(), &Setpoint { q: &level, qd: &[0.0] })?;
 /// // Acceleration m g l / (I + m l^2) = 4.905 / 0.27 rad/s^2, for 1 ms.
 /// assert!((world.qd()[0] - 4.905 / 0.27 * 1e-3).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

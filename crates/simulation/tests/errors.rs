@@ -4,13 +4,13 @@ mod support;
 
 use std::sync::Arc;
 
-use congruent_description::{Geometry, Mesh, Robot};
+use congruent_description::{Geometry, Mesh, Robot, RobotQ};
 use congruent_simulation::{
     Commands, Controller, Gains, JointsView, Obstacle, Setpoint, SimulationError, World, WorldSettings,
     controller, controller_names,
 };
 use nalgebra::{Isometry3, Point3, Vector3};
-use support::{ARM_Q0, arm, arm_with, limited, make, massless, pendulum, run};
+use support::{arm, arm_q0, arm_with, limited, make, massless, pendulum, run};
 
 fn refused(settings: &WorldSettings) -> SimulationError {
     World::new(&pendulum(), settings).err().expect("the settings are bad")
@@ -56,10 +56,10 @@ fn a_shape_without_a_hull() {
 #[test]
 fn vectors_of_another_length() {
     let mut world = World::new(&arm(), &WorldSettings::default()).unwrap();
-    let error = world.set_state(&[0.0; 5], &[0.0; 6]).unwrap_err();
+    let error = world.set_state(&RobotQ::zeros(5), &[0.0; 6]).unwrap_err();
     assert_eq!(error.to_string(), "position: 5 entries, but the robot has 6 movable joints");
-    let reference = Setpoint { q: &[0.0; 6], qd: &[] };
-    let error = world.step(make("passive", 0.0, 0.0).as_mut(), &reference).unwrap_err();
+    let setpoint = Setpoint { q: &RobotQ::zeros(6), qd: &[] };
+    let error = world.step(make("passive", 0.0, 0.0).as_mut(), &setpoint).unwrap_err();
     assert_eq!(error, SimulationError::Length { what: "reference velocity", found: 0, expected: 6 });
     assert_eq!(world.step_count(), 0);
 }
@@ -88,21 +88,21 @@ fn a_robot_without_mass_is_placed_but_not_stepped() {
         support::joint(congruent_description::JointKind::Continuous, ("base", "arm"), [0.0; 3], [0.0; 3]);
     let robot = Robot::new("ghost", vec![massless("base"), massless("arm")], vec![parts]).unwrap();
     let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
-    let reference = Setpoint { q: &[0.5], qd: &[0.0] };
-    let error = world.step(make("passive", 0.0, 0.0).as_mut(), &reference).unwrap_err();
+    let setpoint = Setpoint { q: &RobotQ::from([0.5]), qd: &[0.0] };
+    let error = world.step(make("passive", 0.0, 0.0).as_mut(), &setpoint).unwrap_err();
     assert_eq!(
         error.to_string(),
         "link \"arm\" and all that it carries have no mass; give it an <inertial>, or use the controller kinematic"
     );
-    world.step(make("kinematic", 0.0, 0.0).as_mut(), &reference).unwrap();
-    assert_eq!(world.q(), [0.5]);
+    world.step(make("kinematic", 0.0, 0.0).as_mut(), &setpoint).unwrap();
+    assert_eq!(world.q()[..], [0.5]);
 }
 
 #[test]
 fn a_robot_without_a_joint_stands() {
     let robot = Robot::new("table", vec![massless("table")], vec![]).unwrap();
     let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
-    run(&mut world, make("pd", 1.0, 1.0).as_mut(), &[], 3);
+    run(&mut world, make("pd", 1.0, 1.0).as_mut(), &RobotQ::zeros(0), 3);
     assert_eq!(world.root_from_link(robot.root()), Isometry3::identity());
     assert_eq!((world.mass_matrix().len(), world.gravity_torque().len(), world.step_count()), (0, 0, 3));
 }
@@ -123,14 +123,14 @@ impl Controller for Push {
 #[test]
 fn numbers_that_are_none() {
     let mut world = World::new(&arm(), &WorldSettings::default()).unwrap();
-    let error = world.set_state(&[0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0], &[0.0; 6]).unwrap_err();
+    let error = world.set_state(&RobotQ::from([0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0]), &[0.0; 6]).unwrap_err();
     assert_eq!(error.to_string(), "joint \"forearm_joint\": position is not finite at 0 s");
-    let reference = Setpoint { q: &[0.0; 6], qd: &[0.0; 6] };
+    let setpoint = Setpoint { q: &RobotQ::zeros(6), qd: &[0.0; 6] };
     for torque in [f64::NAN, f64::NEG_INFINITY, 1e200] {
-        let error = world.step(&mut Push(torque), &reference).unwrap_err();
+        let error = world.step(&mut Push(torque), &setpoint).unwrap_err();
         assert_eq!(error.to_string(), "joint \"shoulder_joint\": commanded torque is not finite at 0 s");
     }
-    assert_eq!(world.q(), [0.0; 6]);
+    assert_eq!(world.q()[..], [0.0; 6]);
 }
 
 #[test]
@@ -140,20 +140,21 @@ fn physics_that_runs_away_is_an_error_and_can_be_left() {
         parts
     });
     let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
-    world.set_state(&ARM_Q0, &[0.0; 6]).unwrap();
+    world.set_state(&arm_q0(), &[0.0; 6]).unwrap();
     let before = world.snapshot();
     let mut passive = make("passive", 0.0, 0.0);
-    run(&mut world, passive.as_mut(), &[0.0; 6], 100);
-    let expected = world.q().to_vec();
-    let reference = Setpoint { q: &[0.0; 6], qd: &[0.0; 6] };
+    run(&mut world, passive.as_mut(), &RobotQ::zeros(6), 100);
+    let expected = world.q().clone();
+    let setpoint = Setpoint { q: &RobotQ::zeros(6), qd: &[0.0; 6] };
     for torque in [1e60, 1e74, 1e200, f64::MAX] {
-        for leave in [World::restore, |world: &mut World, _: &_| world.set_state(&ARM_Q0, &[0.0; 6]).unwrap()]
+        for leave in
+            [World::restore, |world: &mut World, _: &_| world.set_state(&arm_q0(), &[0.0; 6]).unwrap()]
         {
-            let error = (0..200).find_map(|_| world.step(&mut Push(torque), &reference).err());
+            let error = (0..200).find_map(|_| world.step(&mut Push(torque), &setpoint).err());
             assert!(matches!(error, Some(SimulationError::NotFinite { .. })), "{torque:e}: {error:?}");
             leave(&mut world, &before);
-            run(&mut world, passive.as_mut(), &[0.0; 6], 100);
-            assert_eq!(world.q(), expected, "{torque:e}");
+            run(&mut world, passive.as_mut(), &RobotQ::zeros(6), 100);
+            assert_eq!(world.q(), &expected, "{torque:e}");
         }
     }
 }

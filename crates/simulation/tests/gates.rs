@@ -9,7 +9,7 @@ mod support;
 
 use std::path::Path;
 
-use congruent_description::{Joint, JointParts, Robot, load_robot};
+use congruent_description::{Joint, JointParts, Robot, RobotQ, load_robot};
 use congruent_simulation::{Commands, Controller, JointsView, Setpoint, World, WorldSettings};
 use nalgebra::{DMatrix, DVector, Isometry3, Quaternion, UnitQuaternion};
 use serde_json::Value;
@@ -50,6 +50,11 @@ impl Golden {
     fn vector(&self, values: &Value) -> Vec<f64> {
         let values = numbers(values);
         self.order.iter().map(|&at| values[at]).collect()
+    }
+
+    /// The positions of a configuration.
+    fn q(&self, config: &Value) -> RobotQ {
+        self.vector(&config["q"]).into()
     }
 
     fn matrix(&self, rows: &Value) -> DMatrix<f64> {
@@ -118,9 +123,9 @@ fn a01_link_poses() {
         let links = golden.file["links"].as_array().expect("links");
         let (mut metres, mut quaternions) = (0.0_f64, 0.0_f64);
         for config in golden.configs() {
-            let q = golden.vector(&config["q"]);
+            let q = golden.q(config);
             world.set_state(&q, &vec![0.0; q.len()]).expect("a state");
-            assert_eq!(world.q(), q);
+            assert_eq!(world.q(), &q);
             world.root_from_links_into(&mut poses);
             for (link, expected) in links.iter().zip(config["poses"].as_array().expect("poses")) {
                 let link = golden.robot.find_link(link.as_str().expect("a name")).expect("a link");
@@ -151,7 +156,7 @@ fn a02_mass_matrix() {
         let mut world = World::new(&golden.robot, &WorldSettings::default()).expect("a robot");
         let mut off = 0.0_f64;
         for config in golden.random() {
-            let q = golden.vector(&config["q"]);
+            let q = golden.q(config);
             world.set_state(&q, &q).expect("velocities must not matter");
             let expected = golden.matrix(&config["mass_matrix"]);
             off = off.max((world.mass_matrix() - &expected).amax() / expected.amax());
@@ -173,7 +178,7 @@ fn a03_gravity_torque() {
         let largest = all().flatten().fold(0.0_f64, |largest, torque| largest.max(torque.abs()));
         let mut off = 0.0_f64;
         for (config, expected) in golden.random().zip(all()) {
-            let q = golden.vector(&config["q"]);
+            let q = golden.q(config);
             world.set_state(&q, &vec![0.0; q.len()]).expect("a state");
             off = off.max(worst(world.gravity_torque().as_slice(), &expected) / largest);
         }
@@ -201,7 +206,7 @@ fn a04_one_step_acceleration() {
 }
 
 fn one_step_error(golden: &Golden, config: &Value, world: &mut World) -> f64 {
-    let (q, qd) = (golden.vector(&config["q"]), golden.vector(&config["v"]));
+    let (q, qd) = (golden.q(config), golden.vector(&config["v"]));
     let step_s = world.time_s();
     world.set_state(&q, &qd).expect("a state");
     run(world, make("passive", 0.0, 0.0).as_mut(), &q, 1);
@@ -262,7 +267,7 @@ fn motion_error(robot: &Robot, case: &Value, places: &[usize], step_s: f64) -> f
         joint.damping = coordinate.map_or(0.0, |coordinate| damping[coordinate]);
     });
     let mut world = World::new(&damped, &with_step(step_s)).expect("a robot");
-    let q0 = sorted(&case["q0"]);
+    let q0 = sorted(&case["q0"]).into();
     world.set_state(&q0, &sorted(&case["v0"])).expect("a state");
     let (sample, at_s) = (30, 0.3);
     run(&mut world, &mut Torques(sorted(&case["torque"])), &q0, steps(at_s, step_s));
@@ -283,7 +288,7 @@ fn a07_gravity_compensation() {
             }
         });
         let config = golden.random().next().expect("a random configuration");
-        let q0 = golden.vector(&config["q"]);
+        let q0 = golden.q(config);
         let mut world = at(&robot, &WorldSettings::default(), &q0);
         run(&mut world, make("gravity_compensation", 0.0, 0.0).as_mut(), &q0, 10_000);
         println!("a07 {name}: {:e}", worst(world.q(), &q0));
@@ -303,16 +308,16 @@ fn a11_mimic_joints() {
             continue;
         }
         let config = golden.random().next().expect("a random configuration");
-        let mut q0 = golden.vector(&config["q"]);
+        let mut q0 = golden.q(config);
         robot.apply_mimic(&mut q0);
-        let target = vec![0.02; q0.len()];
+        let target = RobotQ::from(vec![0.02; q0.len()]);
         for (kind, stiffness, damping) in [("passive", 0.0, 0.0), ("pd", 200.0, 20.0)] {
             let mut world = at(robot, &WorldSettings::default(), &q0);
             let mut controller = make(kind, stiffness, damping);
             let mut off = 0.0_f64;
             for _ in 0..3000 {
                 run(&mut world, controller.as_mut(), &target, 1);
-                let mut expected = world.q().to_vec();
+                let mut expected = world.q().clone();
                 robot.apply_mimic(&mut expected);
                 off = off.max(worst(world.q(), &expected));
             }
@@ -326,7 +331,7 @@ fn a11_mimic_joints() {
 fn a13_repeated_and_restored_runs_are_equal_bit_by_bit() {
     for (name, golden) in goldens().into_iter().filter(|(_, golden)| has_dynamics(golden)) {
         let start = golden.random().next().expect("a random configuration");
-        let (q0, target) = (golden.vector(&start["q"]), vec![0.1; golden.order.len()]);
+        let (q0, target) = (golden.q(start), RobotQ::from(vec![0.1; golden.order.len()]));
         let begin = || at(&golden.robot, &WorldSettings::default(), &q0);
         for kind in ["passive", "pd", "gravity_compensation"] {
             let mut controller = make(kind, 100.0, 10.0);

@@ -5,13 +5,13 @@
 
 mod support;
 
-use congruent_description::Geometry;
+use congruent_description::{Geometry, RobotQ};
 use congruent_simulation::{
     Commands, Controller, Gains, JointsView, Motor, Obstacle, Setpoint, World, WorldSettings,
 };
 use nalgebra::{Isometry3, Vector3};
 use support::{
-    ARM_Q0, arm, arm_with, at, limited, make, mimic_arm, pendulum, run, steps, swinging_bar, worst,
+    arm, arm_q0, arm_with, at, limited, make, mimic_arm, pendulum, run, steps, swinging_bar, worst,
 };
 
 fn with_step(step_s: f64) -> WorldSettings {
@@ -41,8 +41,8 @@ fn pendulum_truth_rad(duration_s: f64) -> f64 {
 fn a06_pendulum_error_halves_with_the_step() {
     let truth = pendulum_truth_rad(1.3);
     let error = |step_s: f64| {
-        let mut world = at(&pendulum(), &with_step(step_s), &[0.3]);
-        run(&mut world, make("passive", 0.0, 0.0).as_mut(), &[0.0], steps(1.3, step_s));
+        let mut world = at(&pendulum(), &with_step(step_s), &RobotQ::from([0.3]));
+        run(&mut world, make("passive", 0.0, 0.0).as_mut(), &RobotQ::zeros(1), steps(1.3, step_s));
         (world.q()[0] - truth).abs()
     };
     let errors = [1e-3, 5e-4, 2.5e-4].map(error);
@@ -55,8 +55,8 @@ fn a06_pendulum_error_halves_with_the_step() {
 #[test]
 fn a05_free_swing_error_halves_with_the_step() {
     let end = |step_s: f64| {
-        let mut world = at(&arm(), &with_step(step_s), &ARM_Q0);
-        run(&mut world, make("passive", 0.0, 0.0).as_mut(), &[0.0; 6], steps(0.5, step_s));
+        let mut world = at(&arm(), &with_step(step_s), &arm_q0());
+        run(&mut world, make("passive", 0.0, 0.0).as_mut(), &RobotQ::zeros(6), steps(0.5, step_s));
         world.q().to_vec()
     };
     let ends = [1e-3, 5e-4, 2.5e-4].map(end);
@@ -71,17 +71,17 @@ const DRIFT_RAD: f64 = 1e-9;
 
 #[test]
 fn a07_gravity_compensation_holds_the_arm() {
-    let mut world = at(&arm(), &WorldSettings::default(), &ARM_Q0);
-    run(&mut world, make("gravity_compensation", 0.0, 0.0).as_mut(), &[0.0; 6], 10_000);
-    println!("a07: {:e}", worst(world.q(), &ARM_Q0));
-    assert!(worst(world.q(), &ARM_Q0) < DRIFT_RAD, "{:?}", world.q());
+    let mut world = at(&arm(), &WorldSettings::default(), &arm_q0());
+    run(&mut world, make("gravity_compensation", 0.0, 0.0).as_mut(), &RobotQ::zeros(6), 10_000);
+    println!("a07: {:e}", worst(world.q(), &arm_q0()));
+    assert!(worst(world.q(), &arm_q0()) < DRIFT_RAD, "{:?}", world.q());
     assert!(worst(world.torque(), world.gravity_torque().as_slice()) < DRIFT_RAD);
 }
 
 #[test]
 fn a07_gravity_compensation_holds_slides_and_followers() {
     let robot = mimic_arm();
-    let mut q0 = [0.4, 0.0, 0.0];
+    let mut q0 = RobotQ::from([0.4, 0.0, 0.0]);
     robot.apply_mimic(&mut q0);
     let mut world = at(&robot, &WorldSettings::default(), &q0);
     run(&mut world, make("gravity_compensation", 0.0, 0.0).as_mut(), &q0, 10_000);
@@ -95,9 +95,9 @@ const SAG_RAD: f64 = 1e-8;
 
 #[test]
 fn a08_a_servo_sags_by_gravity_torque_over_stiffness() {
-    let mut world = at(&arm(), &WorldSettings::default(), &ARM_Q0);
-    run(&mut world, make("pd", 2000.0, 200.0).as_mut(), &ARM_Q0, 5000);
-    let sag: Vec<f64> = ARM_Q0.iter().zip(world.q()).map(|(target, q)| target - q).collect();
+    let mut world = at(&arm(), &WorldSettings::default(), &arm_q0());
+    run(&mut world, make("pd", 2000.0, 200.0).as_mut(), &arm_q0(), 5000);
+    let sag: Vec<f64> = arm_q0().iter().zip(world.q()).map(|(target, q)| target - q).collect();
     let expected = world.gravity_torque() / 2000.0;
     println!("a08: {:e}", worst(&sag, expected.as_slice()));
     assert!(worst(&sag, expected.as_slice()) < SAG_RAD, "{sag:?} {expected:?}");
@@ -108,13 +108,13 @@ fn a08_a_servo_sags_by_gravity_torque_over_stiffness() {
 fn a09_a_limit_is_overshot_by_less_than_two_steps() {
     let robot = arm_with(|parts| limited(parts, (-0.5, 1.0), 0.0));
     let settings = WorldSettings { gravity_in_world: Vector3::zeros(), ..WorldSettings::default() };
-    let mut world = at(&robot, &settings, &[0.9; 6]);
+    let mut world = at(&robot, &settings, &RobotQ::from([0.9; 6]));
     let speed = 3.0;
-    world.set_state(&[0.9; 6], &[speed, 0.0, 0.0, 0.0, 0.0, 0.0]).unwrap();
+    world.set_state(&RobotQ::from([0.9; 6]), &[speed, 0.0, 0.0, 0.0, 0.0, 0.0]).unwrap();
     let mut passive = make("passive", 0.0, 0.0);
     let mut overshoot = 0.0_f64;
     for _ in 0..200 {
-        run(&mut world, passive.as_mut(), &[0.0; 6], 1);
+        run(&mut world, passive.as_mut(), &RobotQ::zeros(6), 1);
         overshoot = overshoot.max(world.q()[0] - 1.0);
     }
     println!("a09: {overshoot:e}");
@@ -129,12 +129,12 @@ const RETURN_RAD_PER_S: f64 = 1e-3;
 fn a_joint_placed_outside_its_limits_returns_at_1_rad_per_s() {
     let robot = arm_with(|parts| limited(parts, (-0.5, 0.5), 0.0));
     let settings = WorldSettings { gravity_in_world: Vector3::zeros(), ..WorldSettings::default() };
-    let mut world = at(&robot, &settings, &ARM_Q0);
+    let mut world = at(&robot, &settings, &arm_q0());
     let mut passive = make("passive", 0.0, 0.0);
     let mut off = 0.0_f64;
     for _ in 0..400 {
         let before = world.q().to_vec();
-        run(&mut world, passive.as_mut(), &[0.0; 6], 1);
+        run(&mut world, passive.as_mut(), &RobotQ::zeros(6), 1);
         let outside = before.iter().zip(world.q()).filter(|(before, _)| **before > 0.501);
         off = outside.map(|(before, after)| ((before - after) / 1e-3 - 1.0).abs()).fold(off, f64::max);
     }
@@ -152,10 +152,10 @@ fn a10_friction_above_gravity_sticks() {
         parts.joint.friction = 80.0;
         parts
     });
-    let mut world = at(&robot, &WorldSettings::default(), &ARM_Q0);
-    run(&mut world, make("passive", 0.0, 0.0).as_mut(), &[0.0; 6], 5000);
-    println!("a10: {:e}", worst(world.q(), &ARM_Q0));
-    assert!(worst(world.q(), &ARM_Q0) < CREEP_RAD, "{:?}", world.q());
+    let mut world = at(&robot, &WorldSettings::default(), &arm_q0());
+    run(&mut world, make("passive", 0.0, 0.0).as_mut(), &RobotQ::zeros(6), 5000);
+    println!("a10: {:e}", worst(world.q(), &arm_q0()));
+    assert!(worst(world.q(), &arm_q0()) < CREEP_RAD, "{:?}", world.q());
 }
 
 /// Error of `q = multiplier * master + offset`, rad or m; rounding, some eps; worst seen 1.8e-15.
@@ -164,15 +164,15 @@ const COUPLING: f64 = 1e-12;
 #[test]
 fn a11_mimic_joints_follow_their_master() {
     let robot = mimic_arm();
-    let mut q0 = [0.4, 0.0, 0.0];
+    let mut q0 = RobotQ::from([0.4, 0.0, 0.0]);
     robot.apply_mimic(&mut q0);
     for kind in ["passive", "pd"] {
         let mut world = at(&robot, &WorldSettings::default(), &q0);
         let mut controller = make(kind, 50.0, 5.0);
         let mut off = 0.0_f64;
         for _ in 0..3000 {
-            run(&mut world, controller.as_mut(), &[-0.3, 0.55, -0.11], 1);
-            let mut expected = world.q().to_vec();
+            run(&mut world, controller.as_mut(), &RobotQ::from([-0.3, 0.55, -0.11]), 1);
+            let mut expected = world.q().clone();
             robot.apply_mimic(&mut expected);
             off = off.max(worst(world.q(), &expected));
         }
@@ -188,17 +188,17 @@ const EFFORT_N_M: f64 = 1e-9;
 #[test]
 fn a12_effort_limits_clip_servos_and_torques() {
     let robot = arm_with(|parts| limited(parts, (-6.0, 6.0), 20.0));
-    let mut world = at(&robot, &WorldSettings::default(), &ARM_Q0);
-    run(&mut world, make("gravity_compensation", 1e5, 1e3).as_mut(), &[3.0; 6], 1);
+    let mut world = at(&robot, &WorldSettings::default(), &arm_q0());
+    run(&mut world, make("gravity_compensation", 1e5, 1e3).as_mut(), &RobotQ::from([3.0; 6]), 1);
     assert!(world.torque().iter().all(|torque| torque.abs() <= 20.0 + EFFORT_N_M), "{:?}", world.torque());
     assert!((world.torque()[0] - 20.0).abs() < EFFORT_N_M, "{:?}", world.torque());
 
     // Without gravity the acceleration of the clipped torques shows what really acted.
     let settings =
         WorldSettings { gravity_in_world: Vector3::zeros(), step_s: 1e-6, ..WorldSettings::default() };
-    let mut world = at(&robot, &settings, &ARM_Q0);
+    let mut world = at(&robot, &settings, &arm_q0());
     let mass_matrix = world.mass_matrix();
-    run(&mut world, make("pd", 1e5, 1e3).as_mut(), &[3.0; 6], 1);
+    run(&mut world, make("pd", 1e5, 1e3).as_mut(), &RobotQ::from([3.0; 6]), 1);
     let acceleration = nalgebra::DVector::from_row_slice(world.qd()) / 1e-6;
     let acted = mass_matrix * acceleration;
     println!("a12: {:e}", worst(acted.as_slice(), &[20.0; 6]));
@@ -213,11 +213,13 @@ fn a13_runs_and_restored_runs_are_equal_bit_by_bit() {
         geometry: Geometry::Box { size_m: Vector3::new(4.0, 4.0, 0.2) },
     };
     let settings = WorldSettings { contacts: true, obstacles: vec![obstacle], ..WorldSettings::default() };
-    for (robot, q0) in
-        [(arm(), ARM_Q0.to_vec()), (mimic_arm(), vec![0.4, -0.5, 0.03]), (swinging_bar(), vec![0.0])]
-    {
+    for (robot, q0) in [
+        (arm(), arm_q0()),
+        (mimic_arm(), RobotQ::from([0.4, -0.5, 0.03])),
+        (swinging_bar(), RobotQ::zeros(1)),
+    ] {
         for kind in ["passive", "kinematic", "pd", "gravity_compensation"] {
-            let target = vec![0.1; q0.len()];
+            let target = RobotQ::from(vec![0.1; q0.len()]);
             let mut controller = make(kind, 300.0, 20.0);
             let mut first = at(&robot, &settings, &q0);
             run(&mut first, controller.as_mut(), &target, 700);
@@ -251,8 +253,8 @@ fn an_obstacle_stops_a_servo() {
     let end = |contacts| {
         let obstacles = vec![floor.clone()];
         let settings = WorldSettings { contacts, obstacles, ..WorldSettings::default() };
-        let mut world = at(&swinging_bar(), &settings, &[0.0]);
-        run(&mut world, make("pd", 100.0, 20.0).as_mut(), &[1.2], 4000);
+        let mut world = at(&swinging_bar(), &settings, &RobotQ::zeros(1));
+        run(&mut world, make("pd", 100.0, 20.0).as_mut(), &RobotQ::from([1.2]), 4000);
         world.q()[0]
     };
     let (stopped, free) = (end(true), end(false));
@@ -272,13 +274,13 @@ fn a_robot_placed_on_an_obstacle_rests_there() {
         geometry: Geometry::Box { size_m: Vector3::new(1.0, 1.0, 0.1) },
     };
     let settings = WorldSettings { contacts: true, obstacles: vec![floor], ..WorldSettings::default() };
-    let mut world = at(&swinging_bar(), &settings, &[0.0]);
-    run(&mut world, make("pd", 100.0, 20.0).as_mut(), &[1.2], 4000);
+    let mut world = at(&swinging_bar(), &settings, &RobotQ::zeros(1));
+    run(&mut world, make("pd", 100.0, 20.0).as_mut(), &RobotQ::from([1.2]), 4000);
     let resting = world.q()[0];
     let mut kinematic = make("kinematic", 0.0, 0.0);
-    run(&mut world, kinematic.as_mut(), &[-1.0], 10);
-    run(&mut world, kinematic.as_mut(), &[resting], 1);
-    run(&mut world, make("passive", 0.0, 0.0).as_mut(), &[0.0], 500);
+    run(&mut world, kinematic.as_mut(), &RobotQ::from([-1.0]), 10);
+    run(&mut world, kinematic.as_mut(), &RobotQ::from([resting]), 1);
+    run(&mut world, make("passive", 0.0, 0.0).as_mut(), &RobotQ::zeros(1), 500);
     println!("resting: {:e}", world.q()[0] - resting);
     assert!((world.q()[0] - resting).abs() < RESTING_RAD, "{} {resting}", world.q()[0]);
 }
@@ -289,10 +291,10 @@ fn kinematic_is_exactly_where_the_reference_is() {
     let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
     let mut kinematic = make("kinematic", 0.0, 0.0);
     for step in 1..=100_u32 {
-        let q = ARM_Q0.map(|q| q * f64::from(step) * 0.1);
-        let qd = ARM_Q0.map(|q| -q);
+        let q: RobotQ = arm_q0().iter().map(|q| q * f64::from(step) * 0.1).collect();
+        let qd: Vec<f64> = arm_q0().iter().map(|q| -q).collect();
         world.step(kinematic.as_mut(), &Setpoint { q: &q, qd: &qd }).unwrap();
-        assert_eq!((world.q(), world.qd()), (&q[..], &qd[..]));
+        assert_eq!((world.q(), world.qd()), (&q, &qd[..]));
         assert_eq!(world.step_count(), u64::from(step));
         assert_eq!(world.time_s().to_bits(), (f64::from(step) * 1e-3).to_bits());
     }
@@ -305,7 +307,7 @@ const POSE: f64 = 1e-12;
 #[test]
 fn a01_poses_are_those_of_the_coordinates() {
     let robot = arm();
-    let mut world = at(&robot, &WorldSettings::default(), &[7.0, -8.0, 0.1, 2.0, -1.0, 20.0]);
+    let mut world = at(&robot, &WorldSettings::default(), &RobotQ::from([7.0, -8.0, 0.1, 2.0, -1.0, 20.0]));
     let mut passive = make("passive", 0.0, 0.0);
     for _ in 0..3 {
         let mut poses = vec![Isometry3::identity(); robot.links().len()];
@@ -320,7 +322,7 @@ fn a01_poses_are_those_of_the_coordinates() {
             let error = expected.to_homogeneous() - poses[link.get()].to_homogeneous();
             assert!(error.amax() < POSE, "{}: {error}", joint.name);
         }
-        run(&mut world, passive.as_mut(), &[0.0; 6], 40);
+        run(&mut world, passive.as_mut(), &RobotQ::zeros(6), 40);
     }
 }
 
@@ -341,8 +343,8 @@ impl Controller for OneServo {
 
 #[test]
 fn controllers_can_come_from_outside() {
-    let mut world = at(&arm(), &WorldSettings::default(), &ARM_Q0);
-    run(&mut world, &mut OneServo, &[0.0; 6], 4000);
+    let mut world = at(&arm(), &WorldSettings::default(), &arm_q0());
+    run(&mut world, &mut OneServo, &RobotQ::zeros(6), 4000);
     assert!(world.q()[5].abs() < 1e-3, "{:?}", world.q());
 }
 

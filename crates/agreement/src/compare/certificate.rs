@@ -335,7 +335,7 @@ mod tests {
                 let root_from = |link| tree.root_from_link(&q, link).unwrap();
                 let by_tree = root_from(description.base).inverse() * root_from(description.tip);
                 for (side, pose) in [(&table, by_table.base_from_tip(&q).unwrap()), (&urdf, by_tree)] {
-                    let driven: Vec<f64> = side.drivers.iter().map(|&driver| q[driver]).collect();
+                    let driven = q.of_chain(&side.drivers);
                     let error = PoseError::between(&side.chain.base_from_tip(&driven).unwrap(), &pose);
                     worst = worst.max(error.position_m.max(error.orientation_rad) / side.rounding());
                 }

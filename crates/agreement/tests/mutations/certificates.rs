@@ -6,6 +6,7 @@ use congruent_agreement::{
     bound::{Bracket, Budget, Certificate, certify_driven},
     diagnosis::{ModelPair, ReferenceModel},
 };
+use congruent_description::ChainQ;
 use congruent_kinematics::ScrewChain;
 use rand_chacha::{
     ChaCha8Rng,
@@ -26,7 +27,7 @@ fn certificate(models: &ModelPair, ranges: &[(f64, f64)], budget: Budget) -> Cer
     let joints = joints.iter().filter(|joint| joint.twist_in_joint.is_some()).count();
     let rows: Vec<usize> = models.candidate.rows.iter().map(|row| row.joint).collect();
     let candidate = ScrewChain::identify(joints, |values| {
-        let mut q = vec![0.0; joints];
+        let mut q = ChainQ::zeros(joints);
         rows.iter().zip(values).for_each(|(&joint, &value)| q[joint] = value);
         models.candidate.base_from_tip(&q)
     });

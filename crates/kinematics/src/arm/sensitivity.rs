@@ -35,8 +35,9 @@ const CLIMBS: usize = 4;
 /// # Examples
 /// A turning arm of 0.5 m, off by one degree: 2 sin(0.5 deg) times its length, everywhere.
 /// ```
-/// # use congruent_description::{ArmQ, Joint, JointKind, JointParts, Link, Robot};
+/// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
+/// use congruent_description::ArmQ;
 /// use congruent_kinematics::{Arm, Pose, Sampling, displacement};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
 /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
@@ -53,7 +54,7 @@ const CLIMBS: usize = 4;
 /// let degree = 1_f64.to_radians();
 /// let found = displacement(
 ///     arm.joints(),
-///     |q| (meant.base_from_tcp(q).unwrap(), built.base_from_tcp(&[q[0] + degree]).unwrap()),
+///     |q| (meant.base_from_tcp(q).unwrap(), built.base_from_tcp(&ArmQ::from([q[0] + degree])).unwrap()),
 ///     Sampling { samples: 100, seed: 0 },
 /// );
 /// assert!((found.worst_m - (degree / 2.0).sin()).abs() < 1e-15);

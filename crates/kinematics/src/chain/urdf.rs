@@ -22,6 +22,7 @@ use crate::{
 /// ```
 /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
+/// use congruent_description::RobotQ;
 /// use congruent_kinematics::{Pose, UrdfTree};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
 /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
@@ -38,7 +39,7 @@ use crate::{
 /// #     parts("turn", JointKind::Continuous, "lift", "arm", 0.),
 /// #     parts("flange", JointKind::Fixed, "arm", "tool", 0.5)]).unwrap();
 /// let tree = UrdfTree::new(&robot);
-/// let q = [0.2, std::f64::consts::FRAC_PI_2];
+/// let q = RobotQ::from([0.2, std::f64::consts::FRAC_PI_2]);
 /// let mut root_from_links = [Pose::identity(); 4];
 /// tree.root_from_links_into(&q, &mut root_from_links)?;
 /// let tool = robot.find_link("tool").unwrap();
@@ -196,6 +197,7 @@ impl UrdfTree {
     /// ```
     /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
     /// # use nalgebra::{Isometry3, Vector3};
+    /// use congruent_description::RobotQ;
     /// use congruent_kinematics::{JacobianKind, UrdfTree};
     /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
     /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
@@ -211,7 +213,7 @@ impl UrdfTree {
     /// #     parts("turn", JointKind::Continuous, "base", "arm", 0.),
     /// #     parts("flange", JointKind::Fixed, "arm", "tool", 0.5)]).unwrap();
     /// let (tree, tool) = (UrdfTree::new(&robot), robot.find_link("tool").unwrap());
-    /// let jacobian = tree.jacobian(&[0.0], tool, JacobianKind::Geometric)?;
+    /// let jacobian = tree.jacobian(&RobotQ::zeros(1), tool, JacobianKind::Geometric)?;
     /// assert_eq!(jacobian.times(&[2.0])?.linear, Vector3::new(0., 1., 0.));
     /// # Ok::<(), congruent_kinematics::KinematicsError>(())
     /// ```

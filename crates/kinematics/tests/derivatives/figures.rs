@@ -1,6 +1,6 @@
 //! What every figure of a table and every number of a chain of screws does to the tip.
 
-use congruent_description::{DhConvention, DhTable, Robot};
+use congruent_description::{ChainQ, DhConvention, DhTable, Robot, RobotQ};
 use congruent_kinematics::{
     DhChain, DhDerivatives, DhRowTwists, KinematicsError, Pose, ScrewChain, ScrewDerivatives, SerialChain,
     Twist,
@@ -51,9 +51,9 @@ fn four(by: &DhRowTwists) -> [Twist; 4] {
 
 /// Holds all derivatives of a table against dual numbers; `q` is the robot's.
 #[track_caller]
-fn hold_table(table: &DhTable, robot: &Robot, q: &[f64]) {
+fn hold_table(table: &DhTable, robot: &Robot, q: &RobotQ) {
     let chain = DhChain::new(table, robot);
-    let of_rows: Vec<f64> = chain.coordinates().iter().map(|&coordinate| q[coordinate]).collect();
+    let of_rows = q.of_chain(chain.coordinates());
     let mut found = DhDerivatives::default();
     chain.derivatives_into(q, &mut found).unwrap();
     assert_eq!(found.base_from_tip, chain.base_from_tip(q).unwrap());
@@ -82,7 +82,7 @@ fn hold_table(table: &DhTable, robot: &Robot, q: &[f64]) {
 
 /// Holds all derivatives of a chain of screws against dual numbers.
 #[track_caller]
-fn hold_screws(chain: &ScrewChain, q: &[f64]) {
+fn hold_screws(chain: &ScrewChain, q: &ChainQ) {
     let mut found = ScrewDerivatives::default();
     chain.derivatives_into(q, &mut found).unwrap();
     assert_eq!(found.base_from_tip, chain.base_from_tip(q).unwrap());
@@ -121,8 +121,8 @@ fn case_12_derivatives_by_the_tables_of_real_robots() {
     let mut tables = 0;
     for (seed, description) in (0..).zip(robots()) {
         let Some(table) = &description.dh else { continue };
-        let zero = vec![0.0; description.robot.dof()];
-        for q in [zero, numbers(description.robot.dof(), seed)] {
+        let n = description.robot.dof();
+        for q in [RobotQ::zeros(n), numbers(n, seed).into()] {
             hold_table(table, &description.robot, &q);
         }
         tables += 1;
@@ -136,7 +136,8 @@ fn case_12_derivatives_by_the_screws_of_real_robots() {
         let (robot, ends) = (&description.robot, (description.base, description.tip));
         let coordinates = SerialChain::from_urdf(robot, ends).coordinates().to_vec();
         let chain = ScrewChain::from_urdf(robot, ends, &coordinates).unwrap();
-        for q in [vec![0.0; coordinates.len()], numbers(coordinates.len(), seed)] {
+        let n = coordinates.len();
+        for q in [ChainQ::zeros(n), numbers(n, seed).into()] {
             hold_screws(&chain, &q);
         }
     }
@@ -154,7 +155,7 @@ fn case_12_derivatives_of_the_reference_arm_by_its_dh_figures() {
     let figures = TableFigures::new(DhConvention::Standard, &rows);
     let robot = figures.robot();
     let table = figures.table(&robot);
-    let q = [20_f64, -30.0, 40.0].map(f64::to_radians);
+    let q = RobotQ::from([20_f64, -30.0, 40.0].map(f64::to_radians));
     hold_table(&table, &robot, &q);
     let mut derivatives = DhDerivatives::default();
     DhChain::new(&table, &robot).derivatives_into(&q, &mut derivatives).unwrap();
@@ -180,7 +181,7 @@ fn case_12_derivatives_of_the_reference_arm_by_its_dh_figures() {
 }
 
 /// Screws of any pitch and length, a tenth of them too short to see, joints at zero among them.
-fn screws() -> impl Strategy<Value = (ScrewChain, Vec<f64>)> {
+fn screws() -> impl Strategy<Value = (ScrewChain, ChainQ)> {
     let length = prop_oneof![9 => 0.0..1.5, 1 => Just(0.0), 1 => (-30.0..-1.0).prop_map(|exponent| 10_f64.powf(exponent))];
     let position = prop_oneof![5 => -2.0..2.0, 1 => Just(0.0)];
     let joint = (support::unit_vector(), length, support::vector(), position);
@@ -203,7 +204,7 @@ proptest! {
     #[test]
     fn derivatives_by_random_tables(figures in support::table_figures(), q in support::positions()) {
         let robot = figures.robot();
-        hold_table(&figures.table(&robot), &robot, &q[..robot.dof()]);
+        hold_table(&figures.table(&robot), &robot, &q.of_robot(&robot));
     }
 
     #[test]
@@ -216,12 +217,12 @@ proptest! {
 fn wrong_lengths_are_refused() {
     let refused = Err(KinematicsError::JointCount { expected: 0, found: 1 });
     let chain = ScrewChain { twists_in_base: Vec::new(), base_from_tip_at_zero: Pose::identity() };
-    assert_eq!(chain.derivatives_into(&[0.0], &mut ScrewDerivatives::default()), refused);
+    assert_eq!(chain.derivatives_into(&ChainQ::zeros(1), &mut ScrewDerivatives::default()), refused);
     let figures = TableFigures {
         base_from_dh0: Isometry3::identity(),
         ..TableFigures::new(DhConvention::Modified, &[])
     };
     let robot = figures.robot();
     let chain = DhChain::new(&figures.table(&robot), &robot);
-    assert_eq!(chain.derivatives_into(&[0.0], &mut DhDerivatives::default()), refused);
+    assert_eq!(chain.derivatives_into(&RobotQ::zeros(1), &mut DhDerivatives::default()), refused);
 }

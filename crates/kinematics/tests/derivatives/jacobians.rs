@@ -1,6 +1,8 @@
 //! Jacobians, their derivatives by each coordinate and in time, and the acceleration.
 
-use congruent_description::{LinkIndex, Robot};
+use std::ops::Deref;
+
+use congruent_description::{LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{Jacobian, JacobianKind, KinematicsError, SerialChain, Twist, UrdfTree};
 use num_dual::{Dual, Dual64};
 use proptest::prelude::*;
@@ -28,13 +30,13 @@ fn unit(at: usize, coordinate: usize) -> f64 {
 }
 
 /// A motion of a chain: positions, speeds, accelerations.
-struct State<'a> {
-    q: &'a [f64],
+struct State<'a, Q> {
+    q: &'a Q,
     qd: &'a [f64],
     qdd: &'a [f64],
 }
 
-impl State<'_> {
+impl<Q: Deref<Target = [f64]>> State<'_, Q> {
     /// The pose along one coordinate, changing along a direction.
     fn column(&self, coordinate: usize, direction: impl Fn(usize) -> f64) -> Vec<Second> {
         let number = |(at, &q): (usize, &f64)| moving(q, unit(at, coordinate), (direction(at), 0.0));
@@ -73,7 +75,7 @@ impl State<'_> {
 }
 
 /// Every link of a tree, by every kind.
-fn hold_tree(robot: &Robot, links: impl Iterator<Item = LinkIndex>, state: &State<'_>) {
+fn hold_tree(robot: &Robot, links: impl Iterator<Item = LinkIndex>, state: &State<'_, RobotQ>) {
     let tree = UrdfTree::new(robot);
     for link in links {
         for kind in KINDS {
@@ -91,7 +93,7 @@ fn case_12_jacobians_of_real_robots_and_their_derivatives() {
         // One link of each moving body: the others only stand elsewhere in it.
         let moved = robot.movable_joints().iter().map(|&joint| robot.joint(joint).child);
         let links = moved.chain([description.tip]);
-        hold_tree(robot, links, &State { q: &q, qd: &qd, qdd: &qdd });
+        hold_tree(robot, links, &State { q: &q.into(), qd: &qd, qdd: &qdd });
     }
 }
 
@@ -105,7 +107,8 @@ proptest! {
     ) {
         let robot = support::robot(joints);
         let n = robot.dof();
-        hold_tree(&robot, robot.link_indices(), &State { q: &q[..n], qd: &qd[..n], qdd: &qdd[..n] });
+        let state = State { q: &q.of_robot(&robot), qd: qd.of_joints(n), qdd: qdd.of_joints(n) };
+        hold_tree(&robot, robot.link_indices(), &state);
     }
 
     #[test]
@@ -118,7 +121,7 @@ proptest! {
         let [base, tip] = ends.map(|end| links[end.index(links.len())]);
         let chain = SerialChain::from_urdf(&robot, (base, tip));
         let n = chain.joint_count();
-        let state = State { q: &q[..n], qd: &qd[..n], qdd: &qdd[..n] };
+        let state = State { q: &q.of_chain(n), qd: qd.of_joints(n), qdd: qdd.of_joints(n) };
         for kind in KINDS {
             let mut columns = vec![Twist::zero(); n];
             chain.pose_and_jacobian_into(state.q, kind, &mut columns).unwrap();

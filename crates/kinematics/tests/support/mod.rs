@@ -7,7 +7,8 @@
 use std::f64::consts::PI;
 
 use congruent_description::{
-    DhConvention, DhRow, DhRowKind, DhTable, Joint, JointKind, JointParts, Link, LinkIndex, Robot,
+    ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Joint, JointKind, JointParts, Link, LinkIndex, Robot,
+    RobotQ,
 };
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 use proptest::{prelude::*, test_runner::FileFailurePersistence};
@@ -280,7 +281,26 @@ pub fn tree() -> impl Strategy<Value = Vec<Carried>> {
     })
 }
 
-/// Positions for any robot of [`tree`] or [`table_figures`]: its first `dof` entries.
-pub fn positions() -> impl Strategy<Value = [f64; 8]> {
-    proptest::array::uniform8(-PI..PI)
+/// One number for each joint of any robot of [`tree`] or [`table_figures`].
+#[derive(Debug, Clone)]
+pub struct Positions([f64; 8]);
+
+impl Positions {
+    pub fn of_robot(&self, robot: &Robot) -> RobotQ {
+        self.of_joints(robot.dof()).into()
+    }
+
+    pub fn of_chain(&self, joints: usize) -> ChainQ {
+        self.of_joints(joints).into()
+    }
+
+    /// The first `joints` numbers: positions, speeds, accelerations.
+    pub fn of_joints(&self, joints: usize) -> &[f64] {
+        &self.0[..joints]
+    }
+}
+
+/// Random positions of up to eight joints, between -pi and pi.
+pub fn positions() -> impl Strategy<Value = Positions> {
+    proptest::array::uniform8(-PI..PI).prop_map(Positions)
 }

@@ -5,7 +5,7 @@
 #![allow(missing_docs, unreachable_pub, reason = "helpers of tests")]
 
 use congruent_description::{
-    Geometry, Inertia, Joint, JointKind, JointLimit, JointParts, Link, LinkIndex, Robot, Shape,
+    Geometry, Inertia, Joint, JointKind, JointLimit, JointParts, Link, LinkIndex, Robot, RobotQ, Shape,
 };
 use congruent_simulation::{Controller, Gains, Setpoint, World, WorldSettings, controller};
 use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
@@ -103,7 +103,9 @@ pub fn arm_with(change: impl Fn(JointParts) -> JointParts) -> Robot {
 }
 
 /// Start of the arm's tests, away from every symmetry: 0.3 + 0.1 i rad.
-pub const ARM_Q0: [f64; 6] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8];
+pub fn arm_q0() -> RobotQ {
+    RobotQ::from([0.3, 0.4, 0.5, 0.6, 0.7, 0.8])
+}
 
 /// Two hinges and a slide: the second hinge follows the first by -1.5, the slide by 0.2 m/rad.
 pub fn mimic_arm() -> Robot {
@@ -140,7 +142,7 @@ pub fn make(kind: &str, stiffness: f64, damping: f64) -> Box<dyn Controller> {
 }
 
 /// A world with the robot at `q`, at rest.
-pub fn at(robot: &Robot, settings: &WorldSettings, q: &[f64]) -> World {
+pub fn at(robot: &Robot, settings: &WorldSettings, q: &RobotQ) -> World {
     let mut world = World::new(robot, settings).unwrap();
     world.set_state(q, &vec![0.0; q.len()]).unwrap();
     world
@@ -151,8 +153,8 @@ pub fn steps(duration_s: f64, step_s: f64) -> usize {
     (duration_s / step_s).round() as usize
 }
 
-/// Steps towards a reference that stands still.
-pub fn run(world: &mut World, controller: &mut dyn Controller, q: &[f64], steps: usize) {
+/// Steps towards a setpoint that stands still.
+pub fn run(world: &mut World, controller: &mut dyn Controller, q: &RobotQ, steps: usize) {
     let qd = vec![0.0; q.len()];
     for _ in 0..steps {
         world.step(controller, &Setpoint { q, qd: &qd }).unwrap();

@@ -71,8 +71,9 @@ impl IkSolver {
     /// # Examples
     /// An arm of two links of 0.6 m and 0.4 m reaches (0.6, 0.4), and says what is left of (2, 0):
     /// ```
-    /// # use congruent_description::{ArmQ, Joint, JointKind, JointParts, Link, Robot};
+    /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
     /// # use nalgebra::{Isometry3, Matrix3, Vector3};
+    /// use congruent_description::ArmQ;
     /// use congruent_kinematics::{Arm, IkOptions, IkSolver, IkTarget, Pose, TargetPart};
     /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
     /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
@@ -95,9 +96,10 @@ impl IkSolver {
     ///     part: TargetPart::Position,
     /// };
     /// let options = IkOptions::default();
-    /// let reached = solver.solve(&to(0.6, 0.4), &[0.1, 1.0], &options, || true)?;
+    /// let start = ArmQ::from([0.1, 1.0]);
+    /// let reached = solver.solve(&to(0.6, 0.4), &start, &options, || true)?;
     /// assert!(reached.converged && (reached.q[1] - std::f64::consts::FRAC_PI_2).abs() < 1e-8);
-    /// let beyond = solver.solve(&to(2.0, 0.0), &[0.1, 1.0], &options, || true)?;
+    /// let beyond = solver.solve(&to(2.0, 0.0), &start, &options, || true)?;
     /// assert!(!beyond.converged && (beyond.residual_position_m - 1.0).abs() < 1e-6);
     /// # Ok::<(), congruent_kinematics::KinematicsError>(())
     /// ```
@@ -149,6 +151,7 @@ impl IkSolver {
     /// ```
     /// # use congruent_description::{Joint, JointKind, JointLimit, JointParts, Link, Robot};
     /// # use nalgebra::{Isometry3, Matrix3, Vector3};
+    /// use congruent_description::ArmQ;
     /// use congruent_kinematics::{Arm, DifferentialMethod, IkSolver, IkTarget, Pose, TargetPart};
     /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
     /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
@@ -166,10 +169,11 @@ impl IkSolver {
     ///     base_from_tcp: Pose::from_parts(Matrix3::identity(), Vector3::new(0.7, 0., 0.)),
     ///     part: TargetPart::Position,
     /// };
+    /// let (inside, at_limit) = (ArmQ::from([0.4]), ArmQ::from([0.5]));
     /// for method in [DifferentialMethod::PseudoInverse, DifferentialMethod::Transpose] {
-    ///     let step = solver.change_towards(&target, (&[0.4], &[0.4]), method)?;
+    ///     let step = solver.change_towards(&target, (&inside, &inside), method)?;
     ///     assert!((step.change[0] - 0.3).abs() < 1e-15 && step.limits_held.is_empty());
-    ///     let step = solver.change_towards(&target, (&[0.4], &[0.5]), method)?;
+    ///     let step = solver.change_towards(&target, (&inside, &at_limit), method)?;
     ///     assert_eq!((step.change, step.limits_held), ([0.0].as_slice(), [0].as_slice()));
     /// }
     /// # Ok::<(), congruent_kinematics::KinematicsError>(())

@@ -20,6 +20,7 @@ use crate::{
 /// ```
 /// # use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Joint, JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
+/// use congruent_description::RobotQ;
 /// use congruent_kinematics::{DhChain, DhFrames, Pose};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
 /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
@@ -45,7 +46,7 @@ use crate::{
 ///     rows: vec![row("shoulder", 0.6), row("elbow", 0.4)],
 /// };
 /// let chain = DhChain::new(&table, &robot);
-/// let q = [0.0, std::f64::consts::FRAC_PI_2];
+/// let q = RobotQ::from([0.0, std::f64::consts::FRAC_PI_2]);
 /// assert!((chain.base_from_tip(&q)?.translation - Vector3::new(0.6, 0.4, 0.)).norm() < 4.0 * f64::EPSILON);
 /// let mut frames = [Pose::identity(); 3];
 /// chain.dh_frames_into(&q, &mut frames)?;

@@ -61,6 +61,7 @@ impl DhRowTwists {
 /// ```
 /// # use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Joint, JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
+/// use congruent_description::RobotQ;
 /// use congruent_kinematics::{DhChain, DhDerivatives};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
 /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
@@ -85,7 +86,7 @@ impl DhRowTwists {
 /// # };
 /// let chain = DhChain::new(&table, &robot);
 /// let mut derivatives = DhDerivatives::default();
-/// chain.derivatives_into(&[0.0, 0.0], &mut derivatives)?;
+/// chain.derivatives_into(&RobotQ::zeros(2), &mut derivatives)?;
 /// let tip = derivatives.base_from_tip.translation;
 /// let by = derivatives.by_rows[0];
 /// assert_eq!(by.alpha.linear + by.alpha.angular.cross(&tip), Vector3::zeros());

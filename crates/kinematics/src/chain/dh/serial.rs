@@ -37,7 +37,7 @@ pub struct SerialDhRow {
 /// The convention is a matter of grouping: a row `Rz Tz Tx Rx` of one is cut in the middle and its
 /// second half leads the next row of the other.
 /// ```
-/// use congruent_description::{DhConvention, DhRowKind};
+/// use congruent_description::{ChainQ, DhConvention, DhRowKind};
 /// use congruent_kinematics::{Pose, SerialDh, SerialDhRow};
 /// let row = SerialDhRow {
 ///     kind: DhRowKind::Revolute, a_m: 0.3, alpha_rad: 0.5, d_m: 0.1, theta_rad: 0.2, sign: -1.0,
@@ -50,7 +50,7 @@ pub struct SerialDhRow {
 /// };
 /// let modified = standard.to_convention(DhConvention::Modified);
 /// assert_eq!((modified.rows[0].a_m, modified.rows[1].a_m), (0.0, 0.3));
-/// let q = [0.7, -0.4];
+/// let q = ChainQ::from([0.7, -0.4]);
 /// let (a, b) = (standard.base_from_tip(&q)?, modified.base_from_tip(&q)?);
 /// assert!(a.distance_m(&b) < 4.0 * f64::EPSILON && a.angle_rad(&b) < 4.0 * f64::EPSILON);
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())

@@ -26,6 +26,7 @@ use crate::{
 /// An arm of 1 m along x that turns about z. At zero its screw moves nothing, whatever it is; at a
 /// quarter turn, a shift along x in the screw has been turned on the way: `(sin q, 1 - cos q)`.
 /// ```
+/// use congruent_description::ChainQ;
 /// use congruent_kinematics::{Pose, Screw, ScrewChain, ScrewDerivatives, Twist};
 /// use nalgebra::{Matrix3, Point3, Vector3};
 /// let chain = ScrewChain {
@@ -33,9 +34,9 @@ use crate::{
 ///     base_from_tip_at_zero: Pose::from_parts(Matrix3::identity(), Vector3::x()),
 /// };
 /// let mut derivatives = ScrewDerivatives::default();
-/// chain.derivatives_into(&[0.0], &mut derivatives)?;
+/// chain.derivatives_into(&ChainQ::zeros(1), &mut derivatives)?;
 /// assert_eq!(derivatives.by_screws[0], [Twist::zero(); 6]);
-/// chain.derivatives_into(&[std::f64::consts::FRAC_PI_2], &mut derivatives)?;
+/// chain.derivatives_into(&ChainQ::from([std::f64::consts::FRAC_PI_2]), &mut derivatives)?;
 /// let by_shift_along_x = derivatives.by_screws[0][3];
 /// assert!((by_shift_along_x.linear - Vector3::new(1., 1., 0.)).norm() < 4.0 * f64::EPSILON);
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())

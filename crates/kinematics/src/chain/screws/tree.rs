@@ -24,6 +24,7 @@ use crate::{
 /// ```
 /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
+/// use congruent_description::RobotQ;
 /// use congruent_kinematics::ScrewTree;
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
 /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
@@ -42,7 +43,8 @@ use crate::{
 /// let turn = screws.screw(robot.find_joint("turn").unwrap()).unwrap();
 /// assert_eq!(turn.twist().linear, Vector3::new(0., -0.6, 0.));
 /// let tool = robot.find_link("tool").unwrap();
-/// let root_from_tool = screws.root_from_link(&[std::f64::consts::FRAC_PI_2], tool)?;
+/// let quarter_turn = RobotQ::from([std::f64::consts::FRAC_PI_2]);
+/// let root_from_tool = screws.root_from_link(&quarter_turn, tool)?;
 /// assert!((root_from_tool.translation - Vector3::new(0.6, 0.4, 0.)).norm() < 4.0 * f64::EPSILON);
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())
 /// ```

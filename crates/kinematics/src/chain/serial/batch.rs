@@ -152,14 +152,14 @@ mod tests {
             let robot = figures.robot();
             let chain = SerialChain::from_dh(&figures.table(&robot), &robot);
             let mut configurations: Vec<f64> =
-                q.iter().flat_map(|q| &q[..chain.joint_count()]).copied().collect();
+                q.iter().flat_map(|q| q.of_joints(chain.joint_count())).copied().collect();
             if !configurations.is_empty() {
                 configurations[far.index(q.len())] = 1e9;
             }
             let mut base_from_tips = vec![Pose::identity(); q.len()];
             chain.base_from_tips_into(&configurations, &mut base_from_tips).unwrap();
             for (found, q) in base_from_tips.iter().zip(configurations.chunks(chain.joint_count())) {
-                prop_assert_eq!(found, &chain.base_from_tip(q).unwrap());
+                prop_assert_eq!(found, &chain.base_from_tip(&q.into()).unwrap());
             }
         }
     }

@@ -28,6 +28,7 @@ use crate::{
 /// ```
 /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
 /// # use nalgebra::{Isometry3, Vector3};
+/// use congruent_description::ChainQ;
 /// use congruent_kinematics::{JacobianKind, SerialChain, Twist};
 /// # let link = |name: &str| Link { name: name.into(), ..Link::default() };
 /// # let single = Robot::new("r", vec![link("base")], vec![]).unwrap();
@@ -45,7 +46,8 @@ use crate::{
 /// #     parts("flange", JointKind::Fixed, "lower", "tip", 0.4)]).unwrap();
 /// let chain = SerialChain::from_urdf(&robot, (robot.root(), robot.find_link("tip").unwrap()));
 /// let mut columns = vec![Twist::zero(); chain.joint_count()];
-/// let base_from_tip = chain.pose_and_jacobian_into(&[0., 0.], JacobianKind::Geometric, &mut columns)?;
+/// let q = ChainQ::zeros(2);
+/// let base_from_tip = chain.pose_and_jacobian_into(&q, JacobianKind::Geometric, &mut columns)?;
 /// assert_eq!(base_from_tip.translation, Vector3::new(1., 0., 0.));
 /// assert_eq!(columns[1], Twist { angular: Vector3::z(), linear: Vector3::new(0., 0.4, 0.) });
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())
