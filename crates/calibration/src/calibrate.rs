@@ -1,4 +1,4 @@
-//! `congruent calibrate`: corrections from measurements, with what cannot be known from them.
+//! `congruent calibrate`: corrections from measurements, and which of them cannot be identified.
 
 use congruent_description::{ChainQ, Diagnostic, RobotDescription};
 use congruent_kinematics::random_configurations;
@@ -8,7 +8,7 @@ use crate::{
     computed::{Computed, measurement},
     estimation::{
         CorrectedChain, Measurement, Noise, Problem, fit, fit_robustly, fit_with_estimated_noise, held_out,
-        identify, most_telling,
+        identify, most_informative,
     },
     free,
     measurements::MeasuredRow,
@@ -16,11 +16,11 @@ use crate::{
     report::{CalibrationReport, assemble},
 };
 
-/// Configurations among which the most telling are chosen.
+/// Configurations among which the most informative are chosen.
 const CANDIDATES: usize = 400;
 
-/// Noise of an ordinary measurement, as a share of the reach and in rad. Kind: judgement; it only weighs
-/// suggestions against what is known.
+/// Noise of an ordinary measurement, as a share of the reach and in rad. Kind: judgement; it is used only to
+/// suggest configurations.
 const ORDINARY_NOISE: f64 = 1e-3;
 
 /// The coordinates of the configuration vector that every measurement must give.
@@ -34,7 +34,7 @@ pub fn needed_coordinates(description: &RobotDescription) -> Result<Vec<usize>, 
 /// Estimates the free corrections of a robot from measurements.
 ///
 /// # Errors
-/// No chain, an unknown or empty choice of corrections.
+/// The robot has no chain, or the choice of corrections is unknown or empty.
 pub fn calibrate(
     description: &RobotDescription,
     rows: &[MeasuredRow],
@@ -67,7 +67,7 @@ pub fn calibrate(
     let best = if use_robust { &robust.fit } else { &least_squares };
     let is_noise_known = redundancy > 0 || options.noise.is_some();
     let noise = if is_noise_known { best.noise } else { ordinary_noise(&problem) };
-    let next = most_telling(&problem, (&best.corrections, &noise), &in_chain, options.suggestions);
+    let next = most_informative(&problem, (&best.corrections, &noise), &in_chain, options.suggestions);
     let computed = Computed {
         description,
         options,
@@ -87,7 +87,7 @@ pub fn calibrate(
     Ok(assemble::report(&computed))
 }
 
-/// What is taken for the noise where the measurements leave nothing to estimate it from.
+/// The noise that is assumed if the measurements have no redundancy to estimate it from.
 fn ordinary_noise(problem: &Problem<'_>) -> Noise {
     Noise { position_m: ORDINARY_NOISE * problem.reach_m(), orientation_rad: ORDINARY_NOISE }
 }

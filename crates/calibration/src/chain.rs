@@ -1,20 +1,22 @@
-//! The chain that is calibrated: the table where there is one, the URDF otherwise, up to the tool.
+//! The chain that is calibrated: of the table if there is one, otherwise of the URDF, up to the tool.
 
 use congruent_description::{ChainQ, DhTable, Diagnostic, LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, ScrewChain};
 
 /// How a joint moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Motion {
-    Turning,
-    Sliding,
+pub(super) enum JointMotionKind {
+    /// It rotates; continuous joints as well.
+    Revolute,
+    /// It slides.
+    Prismatic,
 }
 
 /// A robot's chain from `base` to the measured frame, in the form that is corrected.
 #[derive(Debug, Clone)]
 pub(super) struct NominalChain<'a> {
     pub(super) robot: &'a Robot,
-    /// Where the model is a table: that table.
+    /// The declared table, if there is one.
     pub(super) table: Option<(&'a DhTable, DhChain)>,
     pub(super) chain: ScrewChain,
     /// For each joint of the chain its entry of the configuration vector.
@@ -43,11 +45,15 @@ impl<'a> NominalChain<'a> {
         Ok(Self { robot, table, chain, coordinates })
     }
 
-    /// The coordinates of its turning joints, or of its sliding ones.
-    pub(super) fn coordinates_of(&self, motion: Motion) -> Vec<usize> {
-        let turns =
+    /// The coordinates of its joints that move so.
+    pub(super) fn coordinates_of(&self, motion: JointMotionKind) -> Vec<usize> {
+        let is_revolute =
             |&coordinate: &usize| self.robot.joint(self.robot.movable_joints()[coordinate]).kind.is_angular();
-        self.coordinates.iter().copied().filter(|each| turns(each) == (motion == Motion::Turning)).collect()
+        self.coordinates
+            .iter()
+            .copied()
+            .filter(|each| is_revolute(each) == (motion == JointMotionKind::Revolute))
+            .collect()
     }
 
     /// Names of the chain's joints, base to tip.

@@ -1,4 +1,4 @@
-//! Everything that a calibration has computed, before it is put into words.
+//! Everything that a calibration has computed: the input of the report.
 
 use congruent_description::{RobotDescription, RobotQ};
 
@@ -7,10 +7,9 @@ use crate::{
     estimation::{CorrectedChain, Fit, HeldOut, Identification, Measurement, RobustFit, Suggestion},
     measurements::MeasuredRow,
     options::CalibrationOptions,
-    report::Recommendation,
 };
 
-/// Everything that was computed, before it is put into words.
+/// Everything that a calibration has computed.
 #[derive(Debug, Clone)]
 pub(crate) struct Computed<'a> {
     pub(crate) description: &'a RobotDescription,
@@ -20,18 +19,18 @@ pub(crate) struct Computed<'a> {
     pub(crate) rows: &'a [MeasuredRow],
     pub(crate) measurements: Vec<Measurement>,
     pub(crate) identification: Identification,
-    /// Measured components beyond those that the estimated corrections need.
+    /// Degrees of freedom to verify the estimated corrections by.
     pub(crate) redundancy: usize,
     pub(crate) least_squares: Fit,
     pub(crate) robust: RobustFit,
-    /// Rows that stand apart from the others; none where they would be more than half.
+    /// Outliers of the robust estimate; none if they would be more than half of the rows.
     pub(crate) outlier_rows: Vec<usize>,
     pub(crate) held_out: Option<HeldOut>,
     pub(crate) candidates: Vec<RobotQ>,
     pub(crate) next: Vec<Suggestion>,
 }
 
-/// A row as the chain sees it.
+/// A row as a measurement of the chain.
 pub(crate) fn measurement(nominal: &NominalChain<'_>, row: &MeasuredRow) -> Measurement {
     Measurement {
         q: nominal.of_configuration(&row.q),
@@ -41,12 +40,13 @@ pub(crate) fn measurement(nominal: &NominalChain<'_>, row: &MeasuredRow) -> Meas
 }
 
 impl Computed<'_> {
-    /// The estimate that the words are about: the robust one as soon as a row stands apart.
-    pub(crate) fn best(&self) -> (&Fit, Recommendation) {
-        if self.outlier_rows.is_empty() {
-            (&self.least_squares, Recommendation::LeastSquares)
-        } else {
-            (&self.robust.fit, Recommendation::Robust)
-        }
+    /// Whether the robust estimate is the better one: if there is an outlier.
+    pub(crate) fn is_robust_best(&self) -> bool {
+        !self.outlier_rows.is_empty()
+    }
+
+    /// The better estimate.
+    pub(crate) fn best(&self) -> &Fit {
+        if self.is_robust_best() { &self.robust.fit } else { &self.least_squares }
     }
 }

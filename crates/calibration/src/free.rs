@@ -1,10 +1,10 @@
-//! Which corrections are free: groups and names, as the command line gives them.
+//! Which corrections are free, by groups and names.
 
 use congruent_description::{Diagnostic, known_names};
 
 use crate::{
     chain::NominalChain,
-    estimation::{Parameter, base_pose, dh_entries, joint_axes, tool_pose, zero_offsets},
+    estimation::{CorrectionParameter, base_pose, dh_entries, joint_axes, tool_pose, zero_offsets},
 };
 
 /// Groups of corrections that can be freed by one word.
@@ -13,17 +13,17 @@ pub const GROUPS: [&str; 6] = ["zero-offsets", "dh", "axes", "base", "tool", "al
 /// The corrections that `free` asks for and `hold` does not forbid, each once.
 ///
 /// # Errors
-/// A name is no group and no correction, or `dh` is asked of a robot without a table.
+/// A name is no group and no correction, `dh` is free for a robot without a table, or nothing is free.
 pub(super) fn parameters(
     nominal: &NominalChain<'_>,
     free: &[String],
     hold: &[String],
-) -> Result<Vec<Parameter>, Diagnostic> {
+) -> Result<Vec<CorrectionParameter>, Diagnostic> {
     let names = nominal.joint_names();
     let entries = dh(nominal, &names)?;
     let has_table = !entries.is_empty();
     // In the order in which the corrections of one slot compose: base, table and joints, tool.
-    let groups: [(&str, Vec<Parameter>); 5] = [
+    let groups: [(&str, Vec<CorrectionParameter>); 5] = [
         ("base", base_pose()),
         ("zero-offsets", zero_offsets(&nominal.chain, &names)),
         ("dh", entries),
@@ -47,7 +47,7 @@ pub(super) fn parameters(
             .any(|word| word == group || word == name || (word == "all" && everything.contains(&group)))
     };
     let chosen = groups.iter().flat_map(|(group, members)| members.iter().map(move |each| (*group, each)));
-    let chosen: Vec<Parameter> = chosen
+    let chosen: Vec<CorrectionParameter> = chosen
         .filter(|(group, each)| asked(group, &each.name, free) && !asked(group, &each.name, hold))
         .map(|(_, each)| each.clone())
         .collect();
@@ -58,13 +58,13 @@ pub(super) fn parameters(
     Ok(chosen)
 }
 
-fn dh(nominal: &NominalChain<'_>, names: &[&str]) -> Result<Vec<Parameter>, Diagnostic> {
+fn dh(nominal: &NominalChain<'_>, names: &[&str]) -> Result<Vec<CorrectionParameter>, Diagnostic> {
     let Some((table, chain)) = &nominal.table else { return Ok(Vec::new()) };
     dh_entries(table, chain, names, nominal.robot.dof())
         .map_err(|error| Diagnostic::error("calibrate::robot", error.to_string()))
 }
 
-fn known(word: &str, groups: &[(&str, Vec<Parameter>)]) -> Result<(), Diagnostic> {
+fn known(word: &str, groups: &[(&str, Vec<CorrectionParameter>)]) -> Result<(), Diagnostic> {
     let members = groups.iter().flat_map(|(_, members)| members).map(|each| each.name.as_str());
     let mut all = GROUPS.into_iter().chain(members);
     if all.clone().any(|known| known == word) {

@@ -1,7 +1,7 @@
-//! Calibration: corrections of a robot's chain from measured poses or points of its tip, with what cannot be
-//! known from them.
+//! Calibration: corrections of a robot's chain from measured poses or points of its tip, and which of them the
+//! measurements do not identify.
 //!
-//! [`measurements`] reads what was measured, [`estimation`] fits, [`report`] says what it means.
+//! [`measurements`] reads files, [`estimation`] fits, [`report`] judges the estimates and states them in words.
 
 mod calibrate;
 mod chain;

@@ -4,23 +4,21 @@
 
 use std::{fmt::Write, path::PathBuf};
 
-use clap::ValueEnum;
 use congruent::{
     calibration::{
         CalibrationOptions, Loss, Noise, calibrate,
+        estimation::ParameterUnit,
         measurements::{MeasuredRow, read_measurements},
         needed_coordinates,
-        report::{
-            CalibrationReport, CalibrationVerdict, Estimate, Estimation, Recommendation, Remainder, plot,
-        },
+        report::{CalibrationReport, CalibrationVerdict, FitSummary, Recommendation, ResidualSummary, plot},
     },
-    description::Diagnostic,
+    description::{Diagnostic, display::length_and_angle, units::Unit},
     twin::report::write_whole,
 };
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},
-    input::RobotArgument,
+    input::{RobotArgument, named},
     print::Printer,
 };
 
@@ -31,25 +29,26 @@ use crate::{
 /// "quaternion_wxyz": [w, x, y, z]}]. Coordinates that were not measured are left out. Measurements count
 /// from 1, in the order of the file.
 ///
-/// Exit code 1 where the corrections do not explain the measurements (what is left is no noise, or more than
-/// the stated noise allows, or the file is likely read in the wrong units, order or frame), 4 where nothing can be identified or nothing is left to judge it by.
+/// Exit code 1 if the corrections do not explain the measurements (the residual is too large for noise, or for
+/// the stated noise, or the file is likely meant in other units, another order or frame), 4 if no correction
+/// can be identified or the corrections cannot be verified.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     /// CSV or JSON file of joint positions and measured poses or points.
     measurements: PathBuf,
-    /// What is estimated: zero-offsets, dh, axes, base, tool, all, or single corrections such as
+    /// Corrections that are estimated: zero-offsets, dh, axes, base, tool, all, or single corrections such as
     /// elbow_joint.zero, elbow_joint.a, base.yaw; may be given several times.
     #[arg(long, value_delimiter = ',', default_value = "zero-offsets")]
     free: Vec<String>,
-    /// What is held at nominal although --free names its group.
+    /// Corrections that are held at nominal although --free names their group.
     #[arg(long, value_delimiter = ',')]
     hold: Vec<String>,
-    /// Loss of the robust estimate that stands beside least squares.
-    #[arg(long, value_enum, default_value_t = LossArgument::Tukey)]
-    loss: LossArgument,
-    /// Smallest ratio of singular values at which corrections still count as told apart.
+    /// Loss of the robust estimate that is given beside least squares.
+    #[arg(long, default_value = "tukey", value_parser = named::<Loss>())]
+    loss: Loss,
+    /// Smallest ratio of singular values at which corrections count as identified.
     #[arg(long, default_value_t = CalibrationOptions::default().threshold)]
     threshold: f64,
     /// Known noise of one measured coordinate; otherwise it is estimated.
@@ -61,32 +60,12 @@ pub(crate) struct Arguments {
     /// Number of configurations that are suggested for the next measurements.
     #[arg(long, default_value_t = 5)]
     next: usize,
-    /// Draws the cost over the most significant correction and the residual of each row, as SVG.
+    /// Plots the cost over the most significant correction and the residual of each row, as SVG.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
     /// Seed of the configurations among which those are chosen.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum LossArgument {
-    /// Quadratic near, linear far.
-    Huber,
-    /// Logarithmic.
-    Cauchy,
-    /// Bounded: a far row has no pull at all.
-    Tukey,
-}
-
-impl From<LossArgument> for Loss {
-    fn from(loss: LossArgument) -> Self {
-        match loss {
-            LossArgument::Huber => Self::Huber,
-            LossArgument::Cauchy => Self::Cauchy,
-            LossArgument::Tukey => Self::Tukey,
-        }
-    }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
@@ -96,18 +75,18 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let options = arguments.options(&rows)?;
     let report = calibrate(&description, &rows, &options)?;
     if let Some(path) = &arguments.plot {
-        let figure = plot::svg(&report).map_err(|error| Failure::Machine(error.to_string()))?;
-        write_whole(path, figure.as_bytes()).map_err(|error| Failure::Machine(error.to_string()))?;
+        let svg = plot::svg(&report).map_err(|error| Failure::Machine(error.to_string()))?;
+        write_whole(path, svg.as_bytes()).map_err(|error| Failure::Machine(error.to_string()))?;
     }
     printer.result(&report, text)?;
     Ok(match report.verdict {
         CalibrationVerdict::Explained
         | CalibrationVerdict::UnexplainedRows
         | CalibrationVerdict::NoImprovement => 0,
-        CalibrationVerdict::Unexplained | CalibrationVerdict::Misread | CalibrationVerdict::NoiseExceeded => {
-            FAILED
-        }
-        CalibrationVerdict::NothingToJudgeBy | CalibrationVerdict::NothingIdentified => NOTHING,
+        CalibrationVerdict::Unexplained
+        | CalibrationVerdict::Misinterpreted
+        | CalibrationVerdict::NoiseExceeded => FAILED,
+        CalibrationVerdict::Unverifiable | CalibrationVerdict::NothingIdentified => NOTHING,
     })
 }
 
@@ -123,21 +102,20 @@ impl Arguments {
         let noise = match (self.noise_mm, self.noise_deg) {
             (None, None) => None,
             (Some(millimetres), degrees) if degrees.is_some() || !has_orientation => {
-                let position_m =
-                    congruent::description::units::Unit::Length.convert(positive("noise-mm", millimetres)?);
+                let position_m = Unit::Length.convert(positive("noise-mm", millimetres)?);
                 let degrees = positive("noise-deg", degrees.unwrap_or(1.0))?;
-                let orientation_rad = congruent::description::units::Unit::Angle.convert(degrees);
+                let orientation_rad = Unit::Angle.convert(degrees);
                 Some(Noise { position_m, orientation_rad })
             }
             _ => {
-                return Err(Diagnostic::error("cli::noise", "the noise is given by half")
+                return Err(Diagnostic::error("cli::noise", "only one of the two noises is given")
                     .with_help("give both --noise-mm and --noise-deg, or neither"));
             }
         };
         Ok(CalibrationOptions {
             free: self.free.clone(),
             hold: self.hold.clone(),
-            loss: self.loss.into(),
+            loss: self.loss,
             threshold: positive("threshold", self.threshold)?,
             noise,
             suggestions: self.next,
@@ -169,51 +147,41 @@ fn estimates(text: &mut String, report: &CalibrationReport) {
         return;
     }
     let width = report.parameters.iter().map(|each| each.name.len()).max().unwrap_or(0).max(10);
-    let _ = writeln!(text, "\n  {:width$}  {:>23}  {:>23}", "correction", "least squares", report.loss);
+    let _ = writeln!(
+        text,
+        "\n  {:width$}  {:>23}  {:>23}",
+        "correction",
+        "least squares",
+        report.loss.to_string()
+    );
     for each in &report.parameters {
-        let plain = corrected(each, each.correction, each.standard_deviation);
-        let robust = corrected(each, each.robust_correction, each.robust_standard_deviation);
+        let unit = each.unit;
+        let plain = estimated(unit, each.correction, each.standard_deviation);
+        let robust = estimated(unit, each.robust_correction, each.robust_standard_deviation);
         let mark = if each.significant { "significant" } else { "-" };
         let is_recommended = report.recommended != Recommendation::Nominal;
-        let table = each.in_table.as_ref().filter(|_| is_recommended).map_or_else(String::new, |entry| {
-            let found = figure(each.unit, entry.found);
-            format!(
-                "  line {}: {} {} -> {}",
-                entry.line,
-                key(each.unit, entry.entry),
-                found,
-                figure(each.unit, entry.corrected)
-            )
+        let table = each.in_table.as_ref().filter(|_| is_recommended).map_or_else(String::new, |table| {
+            let (nominal, corrected) = (unit.for_people(table.nominal), unit.for_people(table.corrected));
+            let key = format!("{}_{}", table.entry, unit.name_for_people());
+            format!("  line {}: {key} {nominal:.4} -> {corrected:.4}", table.line)
         });
         let _ = writeln!(text, "  {:width$}  {plain:>23}  {robust:>23}  {mark:11}{table}", each.name);
     }
-    let word = match report.recommended {
+    let recommended = match report.recommended {
         Recommendation::Nominal => "none: keep the nominal model",
         Recommendation::LeastSquares => "least squares",
         Recommendation::Robust => "the robust estimate",
     };
-    let _ = writeln!(text, "  recommended: {word}");
+    let _ = writeln!(text, "  recommended: {recommended}");
 }
 
-fn corrected(of: &Estimate, value: f64, deviation: f64) -> String {
-    let (scale, unit) = handy(of.unit);
+/// A correction with its standard deviation, in degrees or millimetres as a robot file may have it.
+fn estimated(unit: ParameterUnit, correction: f64, deviation: f64) -> String {
+    let (correction, name) = (unit.for_people(correction), unit.name_for_people());
     if deviation.is_nan() {
-        return format!("{:+.4} ± unknown {unit}", value * scale);
+        return format!("{correction:+.4} ± unknown {name}");
     }
-    format!("{:+.4} ± {:.4} {unit}", value * scale, deviation * scale)
-}
-
-/// Degrees and millimetres, as a robot file may have them.
-fn handy(unit: &str) -> (f64, &'static str) {
-    if unit == "rad" { (1f64.to_degrees(), "deg") } else { (1e3, "mm") }
-}
-
-fn key(unit: &str, entry: &str) -> String {
-    format!("{entry}_{}", handy(unit).1)
-}
-
-fn figure(unit: &str, value: f64) -> String {
-    format!("{:.4}", value * handy(unit).0)
+    format!("{correction:+.4} ± {:.4} {name}", unit.for_people(deviation))
 }
 
 fn fixed(text: &mut String, report: &CalibrationReport) {
@@ -222,7 +190,7 @@ fn fixed(text: &mut String, report: &CalibrationReport) {
     }
     let _ = writeln!(
         text,
-        "\n  fixed at nominal (below {:e} of the largest singular value)",
+        "\n  fixed at nominal (singular value below {:e} of the largest)",
         report.identifiability.threshold
     );
     let width = report.fixed.iter().map(|each| each.name.len()).max().unwrap_or(0);
@@ -232,28 +200,28 @@ fn fixed(text: &mut String, report: &CalibrationReport) {
 }
 
 fn fits(text: &mut String, report: &CalibrationReport) {
-    let _ = writeln!(text, "\n  {:16}  {:>20}  {:>20}  cost in m2", "fit", "root mean square", "worst");
-    let mut line = |word: &str, left: &Remainder, noise: Option<&Estimation>| {
-        let rms = size(left.rms_m, left.rms_rad);
-        let worst = size(left.worst_m, left.worst_rad);
+    let _ = writeln!(text, "\n  {:16}  {:>26}  {:>26}  cost in m2", "residual", "root mean square", "worst");
+    let mut line = |name: &str, residuals: &ResidualSummary, noise: Option<&FitSummary>| {
+        let rms = length_and_angle(residuals.rms_m, residuals.rms_rad);
+        let worst = length_and_angle(residuals.worst_m, residuals.worst_rad);
         let noise = noise.filter(|of| of.noise_m.is_finite()).map_or_else(String::new, |of| {
             format!(
                 "  noise of a component {}",
-                size(of.noise_m, if left.worst_rad > 0.0 { of.noise_rad } else { 0.0 })
+                length_and_angle(of.noise_m, if residuals.worst_rad > 0.0 { of.noise_rad } else { 0.0 })
             )
         });
-        let _ = writeln!(text, "  {word:16}  {rms:>20}  {worst:>20}  {:.6e}{noise}", left.cost_m2);
+        let _ = writeln!(text, "  {name:16}  {rms:>26}  {worst:>26}  {:.6e}{noise}", residuals.cost_m2);
     };
     line("nominal", &report.nominal, None);
-    line("least squares", &report.least_squares.left, Some(&report.least_squares));
-    line(report.loss, &report.robust.left, Some(&report.robust));
+    line("least squares", &report.least_squares.residuals, Some(&report.least_squares));
+    line(&report.loss.to_string(), &report.robust.residuals, Some(&report.robust));
     if let Some(error) = &report.held_out {
         let _ = writeln!(
             text,
-            "  held out          {:>20}  ({} parts; nominal on the same rows {})",
-            size(error.rms_m, error.rms_rad),
+            "  held out          {:>26}  ({} folds; nominal model on the same rows {})",
+            length_and_angle(error.rms_m, error.rms_rad),
             error.folds,
-            size(error.nominal_rms_m, error.nominal_rms_rad)
+            length_and_angle(error.nominal_rms_m, error.nominal_rms_rad)
         );
     }
 }
@@ -262,16 +230,16 @@ fn outliers(text: &mut String, report: &CalibrationReport) {
     if report.outliers.is_empty() {
         return;
     }
-    let _ = writeln!(text, "\n  rows that do not fit: nominal, least squares, {}, weight", report.loss);
+    let _ = writeln!(text, "\n  outliers: residual with nominal, least squares, {}; weight", report.loss);
     for each in &report.outliers {
         let _ = writeln!(
             text,
-            "  row {:4} (line {})  {:>20}  {:>20}  {:>20}  {:.2}",
+            "  measurement {:4} (line {})  {:>26}  {:>26}  {:>26}  {:.2}",
             each.row,
             each.line,
-            size(each.nominal_m, each.nominal_rad),
-            size(each.least_squares_m, each.least_squares_rad),
-            size(each.robust_m, each.robust_rad),
+            length_and_angle(each.nominal_m, each.nominal_rad),
+            length_and_angle(each.least_squares_m, each.least_squares_rad),
+            length_and_angle(each.robust_m, each.robust_rad),
             each.weight
         );
     }
@@ -281,14 +249,11 @@ fn next(text: &mut String, report: &CalibrationReport) {
     if report.next.is_empty() {
         return;
     }
-    let _ = writeln!(text, "\n  most telling next (within the joint limits; not checked for collisions)");
+    let _ = writeln!(
+        text,
+        "\n  most informative to measure next (within the joint limits; not checked for collisions)"
+    );
     for pose in &report.next {
         let _ = writeln!(text, "  {:5.2} bit  {}", pose.gain_bits, pose.q.listed(3));
     }
-}
-
-/// A distance, with the angle where orientations were measured.
-fn size(metres: f64, radians: f64) -> String {
-    let length = if metres >= 1e-6 { format!("{:.4} mm", metres * 1e3) } else { format!("{metres:.1e} m") };
-    if radians > 0.0 { format!("{length} {:.5} deg", radians.to_degrees()) } else { length }
 }

@@ -2,6 +2,10 @@
 
 use std::{collections::BTreeMap, path::PathBuf};
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use schemars::JsonSchema;
+use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
+
 use congruent::description::{
     Diagnostic, JointState, Robot, RobotDescription, RobotQ, configuration, load_robot, read_configurations,
     read_states,
@@ -25,7 +29,7 @@ impl RobotArgument {
     }
 }
 
-/// A chain of the robot, where it is not the declared one.
+/// A chain of the robot, if it is not the declared one.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ChainArguments {
     /// The link that the chain starts from.
@@ -46,7 +50,7 @@ impl ChainArguments {
 /// Configurations on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConfigurationArguments {
-    /// A JSON array of {"q": {"joint": value}} in rad and m, with speeds "v" where they are asked for;
+    /// A JSON array of {"q": {"joint": value}} in rad and m, with velocities "v" for --derivative;
     /// joints that are not named are at 0.
     #[arg(long, value_name = "FILE", conflicts_with = "at")]
     configurations: Option<PathBuf>,
@@ -65,18 +69,18 @@ impl ConfigurationArguments {
         for assignment in &self.at {
             let (joint, value) = parse(assignment)?;
             if let Some(before) = values.insert(joint, value) {
-                let message = format!("--at {assignment}: the joint is given as {before} already");
+                let message = format!("--at {assignment}: the joint is already given as {before}");
                 return Err(Diagnostic::error("cli::at", message).into());
             }
         }
         Ok(vec![configuration(&values, robot)?])
     }
 
-    /// The same with the speeds of the file.
+    /// The same with the velocities of the file.
     pub(crate) fn read_states(&self, robot: &Robot) -> Result<Vec<JointState>, Failure> {
         let Some(path) = &self.configurations else {
-            let message = "speeds are read from a file of configurations, and none is given";
-            return Err(Diagnostic::error("cli::speeds", message)
+            let message = "joint velocities are read from a file of configurations, and none is given";
+            return Err(Diagnostic::error("cli::velocities", message)
                 .with_help(r#"--configurations FILE with [{"q": {"joint": 0.1}, "v": {"joint": 0.2}}]"#)
                 .into());
         };
@@ -93,4 +97,21 @@ fn parse(assignment: &str) -> Result<(String, f64), Diagnostic> {
         Diagnostic::error("cli::at", format!("--at \"{assignment}\" is not JOINT=VALUE"))
             .with_help("for example --at elbow_joint=1.57, in rad or m")
     })
+}
+
+/// Parses an enum of the library by the names that it has in JSON, with its documentation as help.
+pub(crate) fn named<T>() -> impl TypedValueParser<Value = T>
+where
+    T: DeserializeOwned + JsonSchema + Clone + Send + Sync + 'static,
+{
+    let schema = schemars::schema_for!(T);
+    let variants = schema.get("oneOf").and_then(|variants| variants.as_array());
+    let values = variants.into_iter().flatten().filter_map(|variant| {
+        let name = variant.get("const")?.as_str()?.to_owned();
+        let description = variant.get("description").and_then(|text| text.as_str()).unwrap_or_default();
+        let first = description.split("\n\n").next().unwrap_or_default().replace('\n', " ");
+        Some(PossibleValue::new(name).help(first.trim_end_matches('.').to_owned()))
+    });
+    PossibleValuesParser::new(values.collect::<Vec<_>>())
+        .try_map(|name: String| T::deserialize(IntoDeserializer::<Error>::into_deserializer(name)))
 }

@@ -1,16 +1,13 @@
-//! Least squares by Levenberg-Marquardt, its covariance, and the noise that the residuals show.
+//! Least squares by Levenberg-Marquardt, its covariance, and the noise estimated from the residuals.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{
-    noise::Noise,
-    residuals::{Measurement, NormalEquations, Problem, Residual, Weighting},
-};
+use super::problem::{Measurement, Noise, NormalEquations, PoseResidual, Problem, Weighting};
 
 /// Most iterations: near the solution each gains several digits, so this is far more than needed.
 const MOST_ITERATIONS: usize = 200;
-/// A step below this, in rad and m, ends the iteration. Kind: solver stop, a hundredth of what
-/// rounding leaves of an angle.
+/// A step below this, in rad and m, ends the iteration. Kind: solver stop, a hundredth of the rounding of
+/// an angle.
 const STEP: f64 = 1e-15;
 /// Below this a step that has stopped shrinking is rounding. Kind: solver stop.
 const ROUNDING_STEP: f64 = 1e-9;
@@ -20,7 +17,7 @@ const COST_ROUNDING: f64 = 1e-12;
 const FIRST_DAMPING: f64 = 1e-6;
 /// Damping beyond which no step can lower the cost.
 const MOST_DAMPING: f64 = 1e12;
-/// Rounds in which noise and estimate are made to fit each other; three suffice.
+/// Alternations of estimating the noise and the corrections; three suffice.
 const NOISE_ROUNDS: usize = 8;
 
 /// An estimate.
@@ -29,12 +26,12 @@ pub struct Fit {
     /// One entry for each correction of the chain, rad or m; 0 for those that were not estimated.
     pub corrections: Vec<f64>,
     /// Standard deviations of the same, from the noise; 0 for those that were not estimated, not a number
-    /// where the noise is not known and nothing is left to estimate it from.
+    /// if the noise is not known and there is no redundancy to estimate it from.
     pub standard_deviations: Vec<f64>,
     /// Covariance of those that were, in their order.
     pub covariance: DMatrix<f64>,
     /// Residual of each measurement.
-    pub residuals: Vec<Residual>,
+    pub residuals: Vec<PoseResidual>,
     /// The noise that weighted the residuals.
     pub noise: Noise,
     /// Whether the last step was below rounding; otherwise the best that was found.
@@ -46,13 +43,13 @@ pub struct Fit {
 /// Least squares over the corrections `kept`, all rows alike, with a known noise.
 ///
 /// # Panics
-/// When a measurement's `q` has another length than the chain has joints.
+/// If a measurement's `q` has another length than the chain has joints.
 pub fn fit(problem: &Problem<'_>, kept: &[usize], noise: Noise) -> Fit {
     let start = vec![0.0; problem.chain.parameters().len()];
     weighted_fit(problem, kept, start, &Weighting { noise: noise.floored(), rows: &[] })
 }
 
-/// Least squares with the noise that the residuals themselves show, positions and orientations apart.
+/// Least squares with the noise estimated from the residuals, of positions and of orientations separately.
 ///
 /// Source: Koch, *Parameter Estimation and Hypothesis Testing in Linear Models* (1999), section 3.6:
 /// variance components, each block's squares over its own redundancy.
@@ -71,7 +68,7 @@ pub fn fit_with_estimated_noise(problem: &Problem<'_>, kept: &[usize]) -> Fit {
 }
 
 impl Fit {
-    /// Without redundancy the residuals vanish whatever the noise was, so it leaves no deviations.
+    /// Without redundancy the residuals vanish whatever the noise was, so the deviations are not known.
     #[must_use]
     pub(super) fn with_redundancy(mut self, redundancy: usize) -> Self {
         if redundancy == 0 {
@@ -83,30 +80,30 @@ impl Fit {
     }
 }
 
-/// The noise of positions and orientations that the residuals of a fit show.
+/// The noise of positions and orientations, estimated from the residuals of a fit.
 fn estimated_noise(problem: &Problem<'_>, kept: &[usize], fit: &Fit) -> Noise {
     let weighting = Weighting { noise: fit.noise, rows: &[] };
     let equations = problem.normal_equations(&fit.corrections, &weighting).only(kept);
-    // How many corrections the positions pay for, the rest being paid for by orientations.
+    // The share of the corrections that positions determine; orientations determine the rest.
     let by_position =
         inverse(&equations.information).map_or(0.0, |inverse| (inverse * &equations.by_position).trace());
     let count = |of: fn(&Measurement) -> usize| -> usize { problem.measurements.iter().map(of).sum() };
     let positions: f64 = fit.residuals.iter().map(|each| each.position_m.norm_squared()).sum();
-    let turns: f64 = fit.residuals.iter().map(|each| each.orientation_rad.norm_squared()).sum();
+    let rotations: f64 = fit.residuals.iter().map(|each| each.orientation_rad.norm_squared()).sum();
     let by_orientation = as_f64(kept.len()) - by_position;
     Noise {
         position_m: deviation(positions, count(Measurement::position_count), by_position),
-        orientation_rad: deviation(turns, count(Measurement::orientation_count), by_orientation),
+        orientation_rad: deviation(rotations, count(Measurement::orientation_count), by_orientation),
     }
 }
 
-/// Root of a sum of squares over its redundancy; a block without redundancy keeps its root mean
-/// square, which is then too small, and no better figure exists.
-fn deviation(squares: f64, count: usize, paid_for: f64) -> f64 {
+/// Root of a sum of squares over its redundancy; for a block without redundancy its root mean
+/// square, which is then too small, and no better value exists.
+fn deviation(squares: f64, count: usize, determined: f64) -> f64 {
     if count == 0 {
         return 0.0;
     }
-    let redundancy = as_f64(count) - paid_for;
+    let redundancy = as_f64(count) - determined;
     (squares / if redundancy >= 0.5 { redundancy } else { as_f64(count) }).sqrt()
 }
 
@@ -143,7 +140,7 @@ pub(super) fn weighted_fit(
             converged = size <= STEP || (size < ROUNDING_STEP && size >= last_step);
             last_step = size;
         } else if size < ROUNDING_STEP {
-            // The cost cannot resolve such a step: the solution is where it stands.
+            // The cost cannot resolve such a step: the solution is the current value.
             converged = true;
         } else {
             damping = (damping * 10.0).max(FIRST_DAMPING);

@@ -1,18 +1,17 @@
-//! Which corrections the measurements can tell apart, and what the others hide behind.
+//! Which corrections the measurements identify, and what the others are correlated with.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::{
-    noise::Noise,
-    parameter::{Parameter, ParameterUnit},
-    residuals::{NormalEquations, Problem, Weighting},
+    model::{CorrectionParameter, ParameterUnit},
+    problem::{Noise, NormalEquations, Problem, Weighting},
 };
 
 /// A relation leaves out corrections that take part with less than this share of the largest.
 /// Kind: display.
 const NEGLIGIBLE_SHARE: f64 = 0.01;
 
-/// What the measurements can tell.
+/// Which corrections the measurements identify.
 ///
 /// Singular values are those of the Jacobian at nominal in scaled units, angles and orientations
 /// times the reach, divided by the root of the number of components: metres at the tip for a metre
@@ -21,7 +20,7 @@ const NEGLIGIBLE_SHARE: f64 = 0.01;
 pub struct Identification {
     /// Indices of the corrections that are estimated, ascending.
     pub kept: Vec<usize>,
-    /// The others, held at nominal, with what they look like.
+    /// The others, fixed (held at nominal), with what they are correlated with.
     pub fixed: Vec<FixedParameter>,
     /// Of all corrections together, the largest first.
     pub singular_values: Vec<f64>,
@@ -29,25 +28,25 @@ pub struct Identification {
     pub kept_ratio: f64,
 }
 
-/// A correction that is held at nominal.
+/// A correction that is fixed (held at nominal).
 #[derive(Debug, Clone, PartialEq)]
 pub struct FixedParameter {
     /// Index of the correction.
     pub parameter: usize,
-    /// What one unit of it looks like in units of the estimated corrections; empty where it
-    /// has no effect on the measurements at all. Their estimates hold that much of it.
+    /// The estimated corrections that together have nearly the effect of one unit of it, with their values;
+    /// empty if it has no effect on the measurements at all. Their estimates contain that much of it.
     pub correlated_with: Vec<(usize, f64)>,
-    /// The share of its effect (root mean square) that does not look like that.
+    /// The share of its effect (root mean square) that these do not reproduce.
     pub unexplained_share: f64,
 }
 
-/// Admits the corrections one after another, the most physical first ([`Entry`]'s order, then base to
-/// tip), and freezes each one that would make the smallest singular value smaller than
+/// Admits the corrections one after another, the most physical first ([`CorrectionEntry`]'s order, then base to
+/// tip), and fixes each one that would make the smallest singular value smaller than
 /// `threshold` times the largest of all.
 ///
-/// It is decided at nominal, so that it depends on where was measured and not on what.
+/// It is decided at nominal, so that it depends on the measured configurations and not on the measured poses.
 ///
-/// [`Entry`]: crate::estimation::Entry
+/// [`CorrectionEntry`]: crate::estimation::CorrectionEntry
 pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
     let parameters = problem.chain.parameters();
     let (information, reach_m) = scaled_information(problem);
@@ -80,8 +79,8 @@ pub fn identify(problem: &Problem<'_>, threshold: f64) -> Identification {
     Identification { kept, fixed, singular_values, kept_ratio }
 }
 
-/// What a correction of one scaled unit is in its own: an angle that moves the reach by a metre.
-fn scale(parameter: &Parameter, reach_m: f64) -> f64 {
+/// Scaled units in one unit of a correction: an angle of 1 rad moves the tip by the reach.
+fn scale(parameter: &CorrectionParameter, reach_m: f64) -> f64 {
     match parameter.unit() {
         ParameterUnit::Angle => reach_m,
         ParameterUnit::Length => 1.0,

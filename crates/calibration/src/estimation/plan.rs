@@ -1,20 +1,19 @@
-//! Where to measure next: the configurations that would tell most about the corrections.
+//! Where to measure next: the configurations that would be most informative about the corrections.
 
 use congruent_description::ChainQ;
 use congruent_kinematics::Pose;
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
 use super::{
-    noise::Noise,
-    parameter::ParameterUnit,
-    residuals::{Linearisation, Measurement, NormalEquations, Problem, Weighting},
+    model::ParameterUnit,
+    problem::{Linearisation, Measurement, Noise, NormalEquations, Problem, Weighting},
 };
 
-/// What a correction may be before anything is measured, as a share of the reach: one standard
-/// deviation. It keeps the gain finite for what has not been identified yet.
+/// Standard deviation of a correction before anything is measured, as a share of the reach. It keeps the
+/// gain finite for corrections that have not been identified yet.
 const PRIOR_SHARE_OF_REACH: f64 = 0.01;
 
-/// A candidate is as good as one that was picked before where no joint differs by more than this
+/// A candidate is alike to one that was picked before if no joint differs by more than this
 /// share of the range that the candidates cover.
 const ALIKE_SHARE: f64 = 0.2;
 
@@ -23,8 +22,8 @@ const ALIKE_SHARE: f64 = 0.2;
 pub struct Suggestion {
     /// Index among the candidates.
     pub candidate: usize,
-    /// What it adds to the measurements and to the suggestions before it, in bits: with each bit the
-    /// volume of the uncertainty is halved.
+    /// Information that it adds to the measurements and to the suggestions before it, in bits: each bit
+    /// halves the volume of the uncertainty.
     pub gain_bits: f64,
 }
 
@@ -36,8 +35,8 @@ pub struct Suggestion {
 /// Source: Fedorov, *Theory of Optimal Experiments* (1972), chapter 3, with a normal prior.
 ///
 /// # Panics
-/// When a candidate has another length than the chain has joints.
-pub fn most_telling(
+/// If a candidate has another length than the chain has joints.
+pub fn most_informative(
     problem: &Problem<'_>,
     (corrections, noise): (&[f64], &Noise),
     candidates: &[ChainQ],
@@ -88,7 +87,7 @@ pub fn most_telling(
     suggestions
 }
 
-/// How far the candidates spread, for each joint.
+/// Range of the candidates, for each joint.
 fn ranges(candidates: &[ChainQ]) -> Vec<f64> {
     let joints = candidates.first().map_or(0, |q| q.len());
     let of = |joint: usize| {
@@ -102,7 +101,7 @@ fn are_alike(ranges: &[f64], a: &[f64], b: &[f64]) -> bool {
     ranges.iter().zip(a).zip(b).all(|((range, a), b)| (a - b).abs() <= ALIKE_SHARE * range)
 }
 
-/// The same kind of measurement elsewhere, showing what is expected there.
+/// The same kind of measurement at another configuration, with the expected pose.
 fn like_at(like: &Measurement, q: &ChainQ, expected: Pose) -> Measurement {
     let mut tip_in_base_m = like.tip_in_base_m;
     for (coordinate, expected) in tip_in_base_m.iter_mut().zip(&expected.translation) {

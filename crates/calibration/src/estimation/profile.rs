@@ -1,9 +1,8 @@
-//! How the cost depends on one correction: what a figure of a calibration is drawn from.
+//! The cost over the values of one correction, for the plot of a calibration.
 
 use super::{
     estimate::Fit,
-    noise::median_norm,
-    residuals::Problem,
+    problem::{Problem, median_norm},
     robust::{Loss, RobustFit, distance},
 };
 
@@ -13,21 +12,21 @@ use super::{
 /// |---|---|---|
 /// | `value` | rad, m | of the correction |
 /// | `least_squares_m2` | m2 | squared residuals; those of orientations weighted by the noise |
-/// | `robust_m2` | m2 | the same through the robust loss, equal to it where residuals are small |
+/// | `robust_m2` | m2 | the same through the robust loss, equal to it if residuals are small |
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CostPoint {
     /// Value of the correction.
     pub value: f64,
-    /// Cost by least squares, others as least squares has them.
+    /// Cost by least squares, the other corrections as estimated by least squares.
     pub least_squares_m2: f64,
-    /// Cost by the robust loss, others as the robust estimate has them.
+    /// Cost by the robust loss, the other corrections as estimated robustly.
     pub robust_m2: f64,
 }
 
 /// The cost over the values of one correction.
 ///
 /// # Panics
-/// When the chain has no correction of this index.
+/// If the chain has no correction of this index.
 pub fn cost_curve(
     problem: &Problem<'_>,
     (plain, robust, loss): (&Fit, &RobustFit, Loss),
@@ -44,8 +43,7 @@ pub fn cost_curve(
         let residuals = problem.residuals(&robust_p);
         let rows = problem.measurements.iter().zip(&residuals);
         let costs = rows.map(|(measurement, residual)| {
-            let components = measurement.position_count() + measurement.orientation_count();
-            let stretch = median_norm(components) / median_norm(1);
+            let stretch = median_norm(measurement.component_count()) / median_norm(1);
             stretch * stretch * loss.cost(distance(measurement, residual, &noise))
         });
         CostPoint {

@@ -1,31 +1,30 @@
-//! What an estimate is worth on measurements that it has not seen.
+//! Cross-validation: the residuals of an estimate on measurements that it has not used.
 
 use super::{
-    configurations::configurations,
     identify::identify,
     model::CorrectedChain,
-    residuals::{Measurement, Problem, Residual},
+    problem::{Measurement, PoseResidual, Problem, configurations},
 };
 
-/// Most parts that the measurements are divided into; fewer configurations are left out one at a time.
+/// Most folds; fewer configurations are left out one at a time.
 const MOST_FOLDS: usize = 10;
 
-/// Error on rows that the estimate had not seen.
+/// Residuals of held-out rows, which the estimate had not used.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeldOut {
-    /// Number of parts, each left out once.
+    /// Number of folds, each left out once.
     pub folds: usize,
     /// Root mean square of the distances.
     pub position_m: f64,
     /// Root mean square of the angles.
     pub orientation_rad: f64,
     /// Residual of each row in the round that left it out.
-    pub residuals: Vec<Residual>,
+    pub residuals: Vec<PoseResidual>,
 }
 
-/// Leaves out each part once, estimates on the rest and measures on the part; configuration i is in
-/// part i modulo the number of parts, so the result is always the same. Rows that repeat a
-/// configuration are left out with it: its twin in the rest would vouch for it.
+/// Leaves out each fold once, estimates on the rest and takes the residuals of the fold; configuration i is in
+/// fold i modulo the number of folds, so the result is always the same. Rows that repeat a
+/// configuration are left out with it: otherwise the estimate would have used that configuration.
 ///
 /// `estimate` gives the corrections from a problem and the corrections that it may estimate, which
 /// are identified anew for each round with `threshold`. `None` for fewer than two
@@ -43,16 +42,16 @@ pub fn held_out(
     }
     let folds = count.min(MOST_FOLDS);
     let nothing =
-        Residual { position_m: nalgebra::Vector3::zeros(), orientation_rad: nalgebra::Vector3::zeros() };
+        PoseResidual { position_m: nalgebra::Vector3::zeros(), orientation_rad: nalgebra::Vector3::zeros() };
     let mut residuals = vec![nothing; measurements.len()];
     for fold in 0..folds {
         let rows = measurements.iter().zip(&configuration_of);
-        let (unseen, seen): (Vec<_>, Vec<_>) =
+        let (held_out, used): (Vec<_>, Vec<_>) =
             rows.enumerate().partition(|(_, (_, configuration))| *configuration % folds == fold);
-        let seen: Vec<Measurement> = seen.into_iter().map(|(_, (each, _))| each.clone()).collect();
-        let problem = Problem { chain, measurements: &seen };
+        let used: Vec<Measurement> = used.into_iter().map(|(_, (each, _))| each.clone()).collect();
+        let problem = Problem { chain, measurements: &used };
         let corrections = estimate(&problem, &identify(&problem, threshold).kept);
-        for (row, (measurement, _)) in unseen {
+        for (row, (measurement, _)) in held_out {
             residuals[row] = measurement.residual(&chain.base_from_tip(&measurement.q, &corrections));
         }
     }
@@ -61,7 +60,7 @@ pub fn held_out(
 }
 
 /// Root mean squares over the rows, of the distances and of the angles.
-pub(super) fn root_mean_squares(measurements: &[Measurement], residuals: &[Residual]) -> (f64, f64) {
+pub(super) fn root_mean_squares(measurements: &[Measurement], residuals: &[PoseResidual]) -> (f64, f64) {
     let rows = || measurements.iter().zip(residuals);
     let positions = rows().filter(|(each, _)| each.position_count() > 0);
     let orientations = rows().filter(|(each, _)| each.orientation_count() > 0);

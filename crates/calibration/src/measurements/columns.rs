@@ -1,10 +1,10 @@
-//! What a column of a table of measurements means, by its name.
+//! Columns of a table of measurements, by their names.
 
 use congruent_description::{Diagnostic, JointKind, Robot, known_names, units::Unit};
 
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Quantity {
+pub(super) enum MeasuredQuantity {
     /// A joint's position: a coordinate of the configuration vector.
     Joint(usize),
     /// x, y or z of the tip.
@@ -15,18 +15,18 @@ pub(super) enum Quantity {
     Rpy(usize),
 }
 
-/// A column and how its figures become SI.
+/// A column and how its values become SI.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
-    pub(super) quantity: Quantity,
-    /// The unit to convert from; `None` for a figure in the unit of the program.
+    pub(super) quantity: MeasuredQuantity,
+    /// The quantity if its values are in degrees or millimetres; `None` for SI.
     handy: Option<Unit>,
 }
 
 impl Column {
-    /// A figure of the column in rad or m.
-    pub(super) fn to_si(self, figure: f64) -> f64 {
-        self.handy.map_or(figure, |unit| unit.convert(figure))
+    /// A value of the column in rad or m.
+    pub(super) fn to_si(self, value: f64) -> f64 {
+        self.handy.map_or(value, |unit| unit.convert(value))
     }
 
     /// The column of a name.
@@ -35,7 +35,7 @@ impl Column {
     /// The name is no joint or measured quantity with a fitting unit.
     pub(super) fn parse(name: &str, robot: &Robot) -> Result<Self, Diagnostic> {
         if let Some(at) = ["qw", "qx", "qy", "qz"].iter().position(|known| *known == name) {
-            return Ok(Self { quantity: Quantity::Quaternion(at), handy: None });
+            return Ok(Self { quantity: MeasuredQuantity::Quaternion(at), handy: None });
         }
         let split = [
             ("_rad", Unit::Angle, false),
@@ -48,9 +48,11 @@ impl Column {
         let Some((stem, unit, is_handy)) = split else { return Err(without_unit(name, robot)) };
         let handy = is_handy.then_some(unit);
         let measured = match unit {
-            Unit::Length => ["x", "y", "z"].iter().position(|known| *known == stem).map(Quantity::Position),
+            Unit::Length => {
+                ["x", "y", "z"].iter().position(|known| *known == stem).map(MeasuredQuantity::Position)
+            }
             Unit::Angle => {
-                ["roll", "pitch", "yaw"].iter().position(|known| *known == stem).map(Quantity::Rpy)
+                ["roll", "pitch", "yaw"].iter().position(|known| *known == stem).map(MeasuredQuantity::Rpy)
             }
         };
         if let Some(quantity) = measured {
@@ -67,7 +69,7 @@ impl Column {
             return Err(Diagnostic::error("measurements::unit", message)
                 .with_help(format!("write {plain} or {handy}")));
         }
-        Ok(Self { quantity: Quantity::Joint(coordinate), handy })
+        Ok(Self { quantity: MeasuredQuantity::Joint(coordinate), handy })
     }
 }
 

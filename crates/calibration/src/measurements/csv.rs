@@ -7,12 +7,12 @@ use congruent_description::{Diagnostic, Robot, RobotQ, line_column};
 use csv::{ByteRecord, ReaderBuilder};
 
 use super::{
-    MeasuredRow, WrittenOrientation,
-    columns::{Column, Quantity},
-    missing_joints, plausible,
+    checks::{missing_joints, no_rows, plausible},
+    columns::{Column, MeasuredQuantity},
+    measured_row::{MeasuredRow, WrittenOrientation},
 };
 
-/// Faults after this many are not listed: one wrong column spoils every row.
+/// Faults after this many are not listed: one wrong column is a fault of every row.
 const MOST_FAULTS: usize = 20;
 
 /// A record with the places of its cells in the text.
@@ -29,7 +29,7 @@ pub(super) fn parse(
     needed: &[usize],
 ) -> Result<Vec<MeasuredRow>, Vec<Diagnostic>> {
     let mut records = records(text)?.into_iter();
-    let header = records.next().ok_or_else(|| vec![super::no_rows()])?;
+    let header = records.next().ok_or_else(|| vec![no_rows()])?;
     let columns = columns(&header, robot, needed)?;
     let (mut rows, mut faults) = (Vec::new(), Vec::new());
     for record in records {
@@ -94,7 +94,7 @@ fn cells<'a>(text: &'a str, record: &ByteRecord, end: usize) -> Record<'a> {
 
 fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<Column>, Vec<Diagnostic>> {
     let (mut columns, mut faults) = (Vec::new(), Vec::new());
-    let mut places: BTreeMap<Quantity, usize> = BTreeMap::new();
+    let mut places: BTreeMap<MeasuredQuantity, usize> = BTreeMap::new();
     for (at, (name, span)) in header.cells.iter().enumerate() {
         match Column::parse(name, robot) {
             Ok(column) => {
@@ -111,22 +111,25 @@ fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<C
         return Err(faults);
     }
     let has = |quantity| places.contains_key(&quantity);
-    if let Some(missing) = missing_joints(robot, needed, |coordinate| has(Quantity::Joint(coordinate))) {
+    if let Some(missing) =
+        missing_joints(robot, needed, |coordinate| has(MeasuredQuantity::Joint(coordinate)))
+    {
         let message = format!("no column for {missing}");
         faults
             .push(Diagnostic::error("measurements::missing_joint", message).with_help(
                 "every joint of the chain needs a column, <joint>_rad or <joint>_deg (_m or _mm)",
             ));
     }
-    let positions = (0..3).filter(|&at| has(Quantity::Position(at))).count();
-    let quaternion = (0..4).filter(|&at| has(Quantity::Quaternion(at))).count();
-    let rpy = (0..3).filter(|&at| has(Quantity::Rpy(at))).count();
+    let positions = (0..3).filter(|&at| has(MeasuredQuantity::Position(at))).count();
+    let quaternion = (0..4).filter(|&at| has(MeasuredQuantity::Quaternion(at))).count();
+    let rpy = (0..3).filter(|&at| has(MeasuredQuantity::Rpy(at))).count();
     if positions == 0 && quaternion == 0 && rpy == 0 {
         faults.push(
-            Diagnostic::error("measurements::nothing_measured", "no column says where the tip was seen")
-                .with_help(
-                    "add x_m, y_m, z_m (or _mm), and qw, qx, qy, qz where the orientation was measured",
-                ),
+            Diagnostic::error(
+                "measurements::nothing_measured",
+                "no column gives the measured position or orientation of the tip",
+            )
+            .with_help("add x_m, y_m, z_m (or _mm), and qw, qx, qy, qz if the orientation was measured"),
         );
     }
     if ![0, 4].contains(&quaternion) || ![0, 3].contains(&rpy) || (quaternion > 0 && rpy > 0) {
@@ -162,19 +165,19 @@ fn row(
             let message = format!("line {}, column \"{name}\": \"{cell}\" {what}", record.line);
             Diagnostic::error("measurements::number", message).at(span.clone())
         };
-        let figure = figure(cell, span, (name, record.line))?
-            .map(|figure| plausible(column.to_si(figure)).map_err(beyond))
+        let value = finite(cell, span, (name, record.line))?
+            .map(|value| plausible(column.to_si(value)).map_err(beyond))
             .transpose()?;
         match column.quantity {
-            Quantity::Joint(coordinate) => {
-                row.q[coordinate] = figure.ok_or_else(|| {
+            MeasuredQuantity::Joint(coordinate) => {
+                row.q[coordinate] = value.ok_or_else(|| {
                     let message = format!("line {}, column \"{name}\": no position", record.line);
                     Diagnostic::error("measurements::empty_cell", message).at(record.span.clone())
                 })?;
             }
-            Quantity::Position(at) => row.tip_in_base_m[at] = figure,
-            Quantity::Quaternion(at) => quaternion[at] = figure,
-            Quantity::Rpy(at) => rpy[at] = figure,
+            MeasuredQuantity::Position(at) => row.tip_in_base_m[at] = value,
+            MeasuredQuantity::Quaternion(at) => quaternion[at] = value,
+            MeasuredQuantity::Rpy(at) => rpy[at] = value,
         }
     }
     robot.apply_mimic(&mut row.q);
@@ -195,21 +198,21 @@ fn row(
     Ok(row)
 }
 
-/// All figures, nothing, or a fault where some are missing.
-fn complete<const N: usize>(figures: [Option<f64>; N]) -> Option<Result<[f64; N], ()>> {
-    match figures.iter().flatten().count() {
+/// All values, nothing, or a fault if some are missing.
+fn complete<const N: usize>(values: [Option<f64>; N]) -> Option<Result<[f64; N], ()>> {
+    match values.iter().flatten().count() {
         0 => None,
-        count if count == N => Some(Ok(figures.map(Option::unwrap_or_default))),
+        count if count == N => Some(Ok(values.map(Option::unwrap_or_default))),
         _ => Some(Err(())),
     }
 }
 
-fn figure(cell: &str, span: &Range<usize>, (name, line): (&str, usize)) -> Result<Option<f64>, Diagnostic> {
+fn finite(cell: &str, span: &Range<usize>, (name, line): (&str, usize)) -> Result<Option<f64>, Diagnostic> {
     if cell.is_empty() {
         return Ok(None);
     }
     match cell.parse::<f64>() {
-        Ok(figure) if figure.is_finite() => Ok(Some(figure)),
+        Ok(value) if value.is_finite() => Ok(Some(value)),
         _ => {
             let message = format!("line {line}, column \"{name}\": \"{cell}\" is no finite number");
             Err(Diagnostic::error("measurements::number", message).at(span.clone()))

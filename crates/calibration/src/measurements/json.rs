@@ -1,13 +1,16 @@
-//! Measurements as JSON: an array of objects in the shape in which `congruent fk` answers.
+//! Measurements as JSON: an array of objects with the keys of the poses of `congruent fk`.
 
 use std::collections::BTreeMap;
 
 use congruent_description::{Diagnostic, JsonList, Robot, configuration, line_column, units::Unit};
 use serde::Deserialize;
 
-use super::{MeasuredRow, WrittenOrientation, missing_joints, plausible};
+use super::{
+    checks::{missing_joints, plausible},
+    measured_row::{MeasuredRow, WrittenOrientation},
+};
 
-/// What a file of measurements is.
+/// A file of measurements as a list.
 const LIST: JsonList = JsonList {
     entry: "measurement",
     code: "measurements::json",
@@ -17,7 +20,7 @@ const LIST: JsonList = JsonList {
 /// One measurement as written.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Written {
+struct WrittenMeasurement {
     q: BTreeMap<String, f64>,
     translation_m: Option<Vec<f64>>,
     translation_mm: Option<Vec<f64>>,
@@ -32,12 +35,12 @@ pub(super) fn parse(
     robot: &Robot,
     needed: &[usize],
 ) -> Result<Vec<MeasuredRow>, Vec<Diagnostic>> {
-    LIST.read(text, |written: Written, place| {
+    LIST.read(text, |written: WrittenMeasurement, place| {
         Ok(MeasuredRow { line: line_column(text, place.start).0, ..row(&written, robot, needed)? })
     })
 }
 
-fn row(written: &Written, robot: &Robot, needed: &[usize]) -> Result<MeasuredRow, Diagnostic> {
+fn row(written: &WrittenMeasurement, robot: &Robot, needed: &[usize]) -> Result<MeasuredRow, Diagnostic> {
     let q = configuration(&written.q, robot)?;
     let given =
         |coordinate: usize| written.q.contains_key(&robot.joint(robot.movable_joints()[coordinate]).name);
@@ -53,21 +56,21 @@ fn row(written: &Written, robot: &Robot, needed: &[usize]) -> Result<MeasuredRow
             ));
         }
         (Some(metres), None) => metres.clone(),
-        (None, Some(millimetres)) => millimetres.iter().map(|&figure| Unit::Length.convert(figure)).collect(),
+        (None, Some(millimetres)) => millimetres.iter().map(|&value| Unit::Length.convert(value)).collect(),
         (None, None) => Vec::new(),
     };
     if ![0, 2, 3].contains(&translation.len()) {
-        let message = format!("a translation of {} figures", translation.len());
+        let message = format!("a translation of {} coordinates", translation.len());
         return Err(Diagnostic::error("measurements::translation", message)
             .with_help("give x, y, z, or x, y for a planar measurement"));
     }
-    for &figure in q.iter().chain(&translation) {
-        let refused = |what| Diagnostic::error("measurements::number", format!("{figure} {what}"));
-        plausible(figure).map_err(refused)?;
+    for &value in q.iter().chain(&translation) {
+        let refused = |what| Diagnostic::error("measurements::number", format!("{value} {what}"));
+        plausible(value).map_err(refused)?;
     }
     let mut tip_in_base_m = [None; 3];
-    for (coordinate, figure) in tip_in_base_m.iter_mut().zip(&translation) {
-        *coordinate = Some(*figure);
+    for (coordinate, value) in tip_in_base_m.iter_mut().zip(&translation) {
+        *coordinate = Some(*value);
     }
     let orientation = match (written.quaternion_wxyz, written.rpy_deg, written.rpy_rad) {
         (None, None, None) => None,
@@ -76,14 +79,16 @@ fn row(written: &Written, robot: &Robot, needed: &[usize]) -> Result<MeasuredRow
             Some(WrittenOrientation::from_quaternion_wxyz(wxyz).map_err(refused)?)
         }
         (None, Some(degrees), None) => {
-            Some(WrittenOrientation::RpyRad(degrees.map(|figure| Unit::Angle.convert(figure))))
+            Some(WrittenOrientation::RpyRad(degrees.map(|value| Unit::Angle.convert(value))))
         }
         (None, None, Some(radians)) => Some(WrittenOrientation::RpyRad(radians)),
         _ => return Err(Diagnostic::error("measurements::orientation", "the orientation is given twice")),
     };
     if translation.is_empty() && orientation.is_none() {
         return Err(Diagnostic::error("measurements::nothing_measured", "nothing was measured here")
-            .with_help("add \"translation_m\": [x, y, z], and \"quaternion_wxyz\" where the orientation was measured"));
+            .with_help(
+                "add \"translation_m\": [x, y, z], and \"quaternion_wxyz\" if the orientation was measured",
+            ));
     }
     Ok(MeasuredRow { line: 0, q, tip_in_base_m, orientation })
 }

@@ -1,20 +1,24 @@
-//! From figures to the report.
+//! From computed values to the report.
 
-use congruent_description::{DhRow, JointValues};
+use congruent_description::{DhRowKind, JointValues};
 
 use super::{
-    CalibrationReport, CalibrationVerdict, CostCurve, Estimate, Estimation, HeldOutError, Identifiability,
-    LikelyReason, NextPose, Recommendation, Remainder, ReportedFixedParameter, RowResidual, TableEntry,
-    reach_scale::{LARGE_CORRECTION, Left, ReachScale},
-    reading::{self, Doubt},
+    calibration_report::{
+        CalibratedModel, CalibrationReport, CalibrationVerdict, CorrectedTableEntry, CostCurve,
+        EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, LikelyReason, Recommendation,
+        ReportedFixedParameter, ResidualSummary, RowEntry, RowResidual, SuggestedConfiguration,
+    },
+    interpretation::{self, Misfit},
+    residual_size::{LARGE_CORRECTION, ReachScale, ResidualSize},
     statements,
 };
 use crate::{
     computed::Computed,
     estimation::{
-        Entry, Fit, FixedParameter, Loss, Measurement, Noise, ParameterUnit, Problem, Residual, Suggestion,
-        cost_curve,
+        CorrectionEntry, CorrectionParameter, Fit, FixedParameter, Measurement, Noise, ParameterUnit,
+        PoseResidual, Problem, Suggestion, cost_curve,
     },
+    measurements::MeasuredRow,
 };
 
 /// A correction of fewer standard deviations is not significant: 95 % of normal noise.
@@ -30,26 +34,28 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     let nothing = vec![0.0; computed.chain.parameters().len()];
     let nominal = residuals(computed, &nothing);
     let held_out = held_out(computed, &nominal);
-    let (left, before) = left(computed, &nominal);
-    let verdict = explanation(computed, held_out.as_ref(), (&left, &before));
-    let (verdict, likely_reason) = read_again(computed, verdict, &left);
+    let (corrected_size, nominal_size) = residual_sizes(computed, &nominal);
+    let verdict = explanation(computed, held_out.as_ref(), (&corrected_size, &nominal_size));
+    let (verdict, likely_reason) = reinterpreted(computed, verdict, &corrected_size);
     let recommended = match verdict {
         CalibrationVerdict::Explained
         | CalibrationVerdict::UnexplainedRows
-        | CalibrationVerdict::NoiseExceeded => computed.best().1,
+        | CalibrationVerdict::NoiseExceeded => {
+            if computed.is_robust_best() {
+                Recommendation::Robust
+            } else {
+                Recommendation::LeastSquares
+            }
+        }
         _ => Recommendation::Nominal,
     };
     let row_residuals = rows(computed, &nominal);
     let mut report = CalibrationReport {
         robot: robot.name().to_owned(),
-        model: if computed.nominal.table.is_some() { "dh" } else { "urdf" },
+        model: if computed.nominal.table.is_some() { CalibratedModel::Dh } else { CalibratedModel::Urdf },
         measured_frame: measured_frame.to_owned(),
         rows: computed.rows.len(),
-        components: computed
-            .measurements
-            .iter()
-            .map(|each| each.position_count() + each.orientation_count())
-            .sum(),
+        components: computed.measurements.iter().map(Measurement::component_count).sum(),
         redundancy: computed.redundancy,
         verdict,
         likely_reason,
@@ -62,14 +68,10 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
             singular_values: computed.identification.singular_values.clone(),
             kept_ratio: computed.identification.kept_ratio,
         },
-        nominal: remainder(&nominal),
-        least_squares: estimation(computed, &computed.least_squares),
-        robust: estimation(computed, &computed.robust.fit),
-        loss: match computed.options.loss {
-            Loss::Huber => "huber",
-            Loss::Cauchy => "cauchy",
-            Loss::Tukey => "tukey",
-        },
+        nominal: summary(&nominal),
+        least_squares: fit_summary(computed, &computed.least_squares),
+        robust: fit_summary(computed, &computed.robust.fit),
+        loss: computed.options.loss,
         held_out,
         outliers: computed.outlier_rows.iter().map(|&row| row_residuals[row]).collect(),
         row_residuals,
@@ -86,18 +88,18 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     report
 }
 
-fn residuals(computed: &Computed<'_>, corrections: &[f64]) -> Vec<Residual> {
+fn residuals(computed: &Computed<'_>, corrections: &[f64]) -> Vec<PoseResidual> {
     let residual = |each: &Measurement| each.residual(&computed.chain.base_from_tip(&each.q, corrections));
     computed.measurements.iter().map(residual).collect()
 }
 
-fn remainder(residuals: &[Residual]) -> Remainder {
-    let sum = |of: fn(&Residual) -> f64| residuals.iter().map(|each| of(each).powi(2)).sum::<f64>();
-    let worst = |of: fn(&Residual) -> f64| residuals.iter().map(of).fold(0.0, f64::max);
+fn summary(residuals: &[PoseResidual]) -> ResidualSummary {
+    let sum = |of: fn(&PoseResidual) -> f64| residuals.iter().map(|each| of(each).powi(2)).sum::<f64>();
+    let worst = |of: fn(&PoseResidual) -> f64| residuals.iter().map(of).fold(0.0, f64::max);
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 rows")]
     let count = residuals.len().max(1) as f64;
     let (cost_m2, cost_rad2) = (sum(distance), sum(angle));
-    Remainder {
+    ResidualSummary {
         cost_m2,
         cost_rad2,
         rms_m: (cost_m2 / count).sqrt(),
@@ -107,20 +109,20 @@ fn remainder(residuals: &[Residual]) -> Remainder {
     }
 }
 
-fn distance(residual: &Residual) -> f64 {
+fn distance(residual: &PoseResidual) -> f64 {
     residual.position_m.norm()
 }
 
-fn angle(residual: &Residual) -> f64 {
+fn angle(residual: &PoseResidual) -> f64 {
     residual.orientation_rad.norm()
 }
 
-fn estimation(computed: &Computed<'_>, fit: &Fit) -> Estimation {
+fn fit_summary(computed: &Computed<'_>, fit: &Fit) -> FitSummary {
     let Noise { position_m, orientation_rad } = fit.noise;
     let is_known = computed.redundancy > 0 || computed.options.noise.is_some();
     let known = |noise: f64| if is_known { noise } else { f64::NAN };
-    Estimation {
-        left: remainder(&fit.residuals),
+    FitSummary {
+        residuals: summary(&fit.residuals),
         noise_m: known(position_m),
         noise_rad: known(orientation_rad),
         converged: fit.converged,
@@ -128,51 +130,51 @@ fn estimation(computed: &Computed<'_>, fit: &Fit) -> Estimation {
     }
 }
 
-fn held_out(computed: &Computed<'_>, nominal: &[Residual]) -> Option<HeldOutError> {
+fn held_out(computed: &Computed<'_>, nominal: &[PoseResidual]) -> Option<HeldOutSummary> {
     let held_out = computed.held_out.as_ref()?;
-    let fits = |residuals: &[Residual]| -> Vec<Residual> {
+    let inliers = |residuals: &[PoseResidual]| -> Vec<PoseResidual> {
         let rows = residuals.iter().enumerate();
         rows.filter(|(row, _)| !computed.outlier_rows.contains(row)).map(|(_, each)| *each).collect()
     };
-    let (left, before) = (remainder(&fits(&held_out.residuals)), remainder(&fits(nominal)));
-    Some(HeldOutError {
+    let (corrected, nominal) = (summary(&inliers(&held_out.residuals)), summary(&inliers(nominal)));
+    Some(HeldOutSummary {
         folds: held_out.folds,
-        rms_m: left.rms_m,
-        rms_rad: left.rms_rad,
-        nominal_rms_m: before.rms_m,
-        nominal_rms_rad: before.rms_rad,
+        rms_m: corrected.rms_m,
+        rms_rad: corrected.rms_rad,
+        nominal_rms_m: nominal.rms_m,
+        nominal_rms_rad: nominal.rms_rad,
     })
 }
 
-/// What is left of the rows that fit, on rows that were left out where some could be; and before.
-fn left(computed: &Computed<'_>, nominal: &[Residual]) -> (Left, Left) {
+/// Residual of the inliers with the corrections, held out if some could be; and with the nominal model.
+fn residual_sizes(computed: &Computed<'_>, nominal: &[PoseResidual]) -> (ResidualSize, ResidualSize) {
     let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
     let reach_scale = ReachScale::of(&problem);
-    let unseen = computed.held_out.as_ref().map(|held_out| &held_out.residuals);
-    let residuals = unseen.unwrap_or(&computed.best().0.residuals);
-    let left = |residuals: &[Residual]| reach_scale.left(residuals, &computed.outlier_rows);
-    (left(residuals), left(nominal))
+    let held_out = computed.held_out.as_ref().map(|held_out| &held_out.residuals);
+    let residuals = held_out.unwrap_or(&computed.best().residuals);
+    let size = |residuals: &[PoseResidual]| reach_scale.residual_size(residuals, &computed.outlier_rows);
+    (size(residuals), size(nominal))
 }
 
-/// Tries other readings of the file where the corrections explain nothing, and where they do so only by
+/// Tries other interpretations of the file if the corrections explain nothing, or if they do so only by
 /// being large: `dh` turns metres into millimetres by lengths a thousand times as short.
-fn read_again(
+fn reinterpreted(
     computed: &Computed<'_>,
     verdict: CalibrationVerdict,
-    left: &Left,
+    residual: &ResidualSize,
 ) -> (CalibrationVerdict, Option<LikelyReason>) {
     let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
-    let size = ReachScale::of(&problem).size_of(&computed.chain, &computed.best().0.corrections);
-    let doubt = match verdict {
-        CalibrationVerdict::Unexplained => Doubt::Left(left.share()),
+    let size = ReachScale::of(&problem).correction_size(&computed.chain, &computed.best().corrections);
+    let misfit = match verdict {
+        CalibrationVerdict::Unexplained => Misfit::Residual(residual.share()),
         CalibrationVerdict::Explained | CalibrationVerdict::UnexplainedRows if size > LARGE_CORRECTION => {
-            Doubt::Size(size)
+            Misfit::Correction(size)
         }
         _ => return (verdict, None),
     };
-    match reading::likely_reason(&computed.nominal, computed.rows, computed.options, doubt) {
+    match interpretation::likely_reason(&computed.nominal, computed.rows, computed.options, misfit) {
         Some(reason) if verdict != CalibrationVerdict::Unexplained => {
-            (CalibrationVerdict::Misread, Some(reason))
+            (CalibrationVerdict::Misinterpreted, Some(reason))
         }
         reason => (verdict, reason),
     }
@@ -180,19 +182,19 @@ fn read_again(
 
 fn explanation(
     computed: &Computed<'_>,
-    held_out: Option<&HeldOutError>,
-    (left, before): (&Left, &Left),
+    held_out: Option<&HeldOutSummary>,
+    (corrected, nominal): (&ResidualSize, &ResidualSize),
 ) -> CalibrationVerdict {
     if computed.identification.kept.is_empty() {
         return CalibrationVerdict::NothingIdentified;
     }
-    // Where the noise is stated, that is the reach_scale.
+    // A stated noise is a better scale than the reach.
     let is_noise = computed.options.noise.is_some() && !exceeds_noise(computed);
-    if left.explains_nothing(before) && !is_noise {
+    if corrected.explains_nothing(nominal) && !is_noise {
         return CalibrationVerdict::Unexplained;
     }
     if computed.redundancy == 0 || held_out.is_none() {
-        return CalibrationVerdict::NothingToJudgeBy;
+        return CalibrationVerdict::Unverifiable;
     }
     if !computed.outlier_rows.is_empty() {
         return CalibrationVerdict::UnexplainedRows;
@@ -215,78 +217,73 @@ fn explanation(
 /// Chi-squared of least squares against its degrees of freedom.
 fn exceeds_noise(computed: &Computed<'_>) -> bool {
     let Noise { position_m, orientation_rad } = computed.least_squares.noise;
-    let left = remainder(&computed.least_squares.residuals);
-    let chi_squared = left.cost_m2 / position_m.powi(2) + left.cost_rad2 / orientation_rad.powi(2);
-    let components: usize =
-        computed.measurements.iter().map(|each| each.position_count() + each.orientation_count()).sum();
+    let residuals = summary(&computed.least_squares.residuals);
+    let chi_squared = residuals.cost_m2 / position_m.powi(2) + residuals.cost_rad2 / orientation_rad.powi(2);
+    let components: usize = computed.measurements.iter().map(Measurement::component_count).sum();
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 components")]
     let freedom = components.saturating_sub(computed.identification.kept.len()) as f64;
     chi_squared > freedom + NOISE_EXCESS_SIGMAS * (2.0 * freedom).sqrt()
 }
 
-fn estimates(computed: &Computed<'_>) -> Vec<Estimate> {
-    let (best, _) = computed.best();
+fn estimates(computed: &Computed<'_>) -> Vec<EstimatedCorrection> {
+    let best = computed.best();
     let (plain, robust) = (&computed.least_squares, &computed.robust.fit);
     let estimate = |&at: &usize| {
         let parameter = &computed.chain.parameters()[at];
         let significant = best.corrections[at].abs() > SIGNIFICANT_SIGMAS * best.standard_deviations[at];
-        Estimate {
+        EstimatedCorrection {
             name: parameter.name.clone(),
-            unit: unit(parameter.unit()),
+            unit: parameter.unit(),
             correction: plain.corrections[at],
             standard_deviation: plain.standard_deviations[at],
             robust_correction: robust.corrections[at],
             robust_standard_deviation: robust.standard_deviations[at],
             significant,
-            in_table: in_table(computed, &parameter.name, (parameter.entry, best.corrections[at])),
+            in_table: in_table(computed, parameter, best.corrections[at]),
         }
     };
     computed.identification.kept.iter().map(estimate).collect()
 }
 
-pub(super) fn unit(unit: ParameterUnit) -> &'static str {
-    match unit {
-        ParameterUnit::Angle => "rad",
-        ParameterUnit::Length => "m",
-    }
-}
-
 /// The entry of the table that a correction changes, if it changes one alone: table entries do, and
 /// zeros, by the row's sign.
-fn in_table(computed: &Computed<'_>, name: &str, (entry, correction): (Entry, f64)) -> Option<TableEntry> {
-    let (joint, word) = name.rsplit_once('.')?;
+fn in_table(
+    computed: &Computed<'_>,
+    parameter: &CorrectionParameter,
+    correction: f64,
+) -> Option<CorrectedTableEntry> {
     let (table, _) = computed.nominal.table.as_ref()?;
-    let row: &DhRow = table.rows.iter().find(|row| computed.nominal.robot.joint(row.joint).name == joint)?;
-    let revolute = computed.nominal.robot.joint(row.joint).kind.is_angular();
-    let (entry, found, correction) = match (entry, word) {
-        (Entry::Zero, _) if revolute => ("theta", row.theta_rad, row.sign * correction),
-        (Entry::Zero, _) => ("d", row.d_m, row.sign * correction),
-        (_, "theta") => ("theta", row.theta_rad, correction),
-        (_, "d") => ("d", row.d_m, correction),
-        (_, "a") => ("a", row.a_m, correction),
-        (_, "alpha") => ("alpha", row.alpha_rad, correction),
+    let row = &table.rows[parameter.joint?];
+    let sign = if parameter.entry == CorrectionEntry::Zero { row.sign } else { 1.0 };
+    let (entry, nominal) = match (parameter.entry, row.kind) {
+        (CorrectionEntry::Zero | CorrectionEntry::JointEntry, DhRowKind::Revolute)
+        | (CorrectionEntry::ConstantEntry, DhRowKind::Prismatic) => (RowEntry::Theta, row.theta_rad),
+        (CorrectionEntry::Zero | CorrectionEntry::JointEntry, DhRowKind::Prismatic)
+        | (CorrectionEntry::ConstantEntry, DhRowKind::Revolute) => (RowEntry::D, row.d_m),
+        (CorrectionEntry::A, _) => (RowEntry::A, row.a_m),
+        (CorrectionEntry::Alpha, _) => (RowEntry::Alpha, row.alpha_rad),
         _ => return None,
     };
-    Some(TableEntry { entry, found, corrected: found + correction, line: row.line })
+    Some(CorrectedTableEntry { entry, nominal, corrected: nominal + sign * correction, line: row.line })
 }
 
 fn fixed(computed: &Computed<'_>, fixed: &FixedParameter) -> ReportedFixedParameter {
     let parameters = computed.chain.parameters();
-    let terms: Vec<(&str, f64, &'static str)> = fixed
+    let terms: Vec<(&str, f64, ParameterUnit)> = fixed
         .correlated_with
         .iter()
-        .map(|&(at, factor)| (parameters[at].name.as_str(), factor, unit(parameters[at].unit())))
+        .map(|&(at, factor)| (parameters[at].name.as_str(), factor, parameters[at].unit()))
         .collect();
     let own = &parameters[fixed.parameter];
     ReportedFixedParameter {
         name: own.name.clone(),
         correlated_with: terms.iter().map(|(name, factor, _)| ((*name).to_owned(), *factor)).collect(),
-        reason: statements::why_fixed(unit(own.unit()), &terms),
+        reason: statements::why_fixed(own.unit(), &terms),
     }
 }
 
-fn rows(computed: &Computed<'_>, nominal: &[Residual]) -> Vec<RowResidual> {
-    let row = |(at, measured): (usize, &crate::measurements::MeasuredRow)| {
+fn rows(computed: &Computed<'_>, nominal: &[PoseResidual]) -> Vec<RowResidual> {
+    let row = |(at, measured): (usize, &MeasuredRow)| {
         let (plain, robust) = (&computed.least_squares.residuals[at], &computed.robust.fit.residuals[at]);
         RowResidual {
             row: at + 1,
@@ -308,7 +305,7 @@ fn rows(computed: &Computed<'_>, nominal: &[Residual]) -> Vec<RowResidual> {
 fn curve(computed: &Computed<'_>) -> Option<CostCurve> {
     const MARGIN_SIGMAS: f64 = 2.5;
     const STEPS: u32 = 160;
-    let (best, _) = computed.best();
+    let best = computed.best();
     let significance = |at: usize| best.corrections[at].abs() / best.standard_deviations[at];
     let kept = computed.identification.kept.iter().enumerate();
     let (index, &parameter) =
@@ -330,11 +327,11 @@ fn curve(computed: &Computed<'_>) -> Option<CostCurve> {
     })
 }
 
-fn next(computed: &Computed<'_>) -> Vec<NextPose> {
+fn next(computed: &Computed<'_>) -> Vec<SuggestedConfiguration> {
     let names: Vec<String> = computed.nominal.joint_names().into_iter().map(str::to_owned).collect();
     let pose = |suggestion: &Suggestion| {
         let q = computed.nominal.of_configuration(&computed.candidates[suggestion.candidate]);
-        NextPose { q: JointValues::new(&names, &q), gain_bits: suggestion.gain_bits }
+        SuggestedConfiguration { q: JointValues::new(&names, &q), gain_bits: suggestion.gain_bits }
     };
     computed.next.iter().map(pose).collect()
 }

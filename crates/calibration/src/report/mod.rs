@@ -1,13 +1,14 @@
-//! What a calibration says: estimates, what is fixed, what does not fit, where to measure next.
+//! The report of a calibration: estimates, what is fixed, residuals, suggested measurements, sentences, plot.
 
 pub(crate) mod assemble;
-pub(crate) mod content;
+mod calibration_report;
+mod interpretation;
 pub mod plot;
-mod reach_scale;
-mod reading;
+mod residual_size;
 mod statements;
 
-pub use content::{
-    CalibrationReport, CalibrationVerdict, CostCurve, Estimate, Estimation, HeldOutError, Identifiability,
-    LikelyReason, NextPose, Recommendation, Remainder, ReportedFixedParameter, RowResidual, TableEntry,
+pub use calibration_report::{
+    CalibratedModel, CalibrationReport, CalibrationVerdict, CorrectedTableEntry, CostCurve,
+    EstimatedCorrection, FitSummary, HeldOutSummary, Identifiability, LikelyReason, Recommendation,
+    ReportedFixedParameter, ResidualSummary, RowEntry, RowResidual, SuggestedConfiguration,
 };

@@ -1,5 +1,5 @@
-//! Figure of a calibration as SVG: the cost over the most significant correction, and what is left
-//! of each measurement.
+//! Plot of a calibration as SVG: the cost over the most significant correction, and the residual of each
+//! measurement.
 
 use plotters::{
     chart::{ChartContext, LabelAreaPosition, SeriesAnno, SeriesLabelPosition},
@@ -7,9 +7,9 @@ use plotters::{
     prelude::*,
 };
 
-use super::{CalibrationReport, CostCurve};
+use super::calibration_report::{CalibrationReport, CostCurve, RowResidual};
 
-/// Okabe and Ito's colours, which readers who see few colours can tell apart.
+/// Okabe and Ito's colours, which colour-blind readers can distinguish.
 const NOMINAL: RGBColor = RGBColor(110, 110, 110);
 const LEAST_SQUARES: RGBColor = RGBColor(213, 94, 0);
 const ROBUST: RGBColor = RGBColor(0, 114, 178);
@@ -27,27 +27,26 @@ const CAPTION: u32 = 19 * FINE;
 const DESCRIPTION: u32 = 15 * FINE;
 const LABEL: u32 = 14 * FINE;
 
-/// Why a figure was not drawn.
+/// Why a plot was not drawn.
 #[derive(Debug, thiserror::Error)]
-#[error("the figure cannot be drawn: {message}")]
-pub struct PlotError {
+#[error("the plot cannot be drawn: {message}")]
+pub struct CalibrationPlotError {
     message: String,
 }
 
-impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for PlotError {
+impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for CalibrationPlotError {
     fn from(error: DrawingAreaErrorKind<E>) -> Self {
         Self { message: error.to_string() }
     }
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// The figure as an SVG document.
+/// The plot as an SVG document.
 ///
 /// # Errors
-/// [`PlotError`] when a figure is not finite, which no finished calibration holds.
-pub fn svg(report: &CalibrationReport) -> Result<String, PlotError> {
+/// [`CalibrationPlotError`] if a value is not finite, which no finished calibration contains.
+pub fn svg(report: &CalibrationReport) -> Result<String, CalibrationPlotError> {
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, (SIZE.0 * FINE, SIZE.1 * FINE)).into_drawing_area();
@@ -68,10 +67,14 @@ pub fn svg(report: &CalibrationReport) -> Result<String, PlotError> {
     Ok(text.replacen(&fine, &format!("width=\"{}\" height=\"{}\"", SIZE.0, SIZE.1), 1))
 }
 
-/// The cost over one correction, with where nominal and the estimates stand.
-fn cost(area: &Area<'_>, report: &CalibrationReport, curve: &CostCurve) -> Result<(), PlotError> {
+/// The cost over one correction, with marks at nominal and at the estimates.
+fn cost(
+    area: &DrawingArea<SVGBackend<'_>, Shift>,
+    report: &CalibrationReport,
+    curve: &CostCurve,
+) -> Result<(), CalibrationPlotError> {
     let parameter = &report.parameters[curve.parameter];
-    let (scale, unit) = if parameter.unit == "rad" { (1_f64.to_degrees(), "deg") } else { (1e3, "mm") };
+    let (scale, unit) = (parameter.unit.for_people(1.0), parameter.unit.name_for_people());
     let (lower, upper) = (first(&curve.values) * scale, last(&curve.values) * scale);
     let highest = curve.least_squares_m2.iter().chain(&curve.robust_m2).copied().fold(0.0, f64::max);
     // Square millimetres unless the residuals are beyond a decimetre or so.
@@ -85,9 +88,10 @@ fn cost(area: &Area<'_>, report: &CalibrationReport, curve: &CostCurve) -> Resul
         .build_cartesian_2d(wide(lower, upper), 0.0..top)?;
     let (x, y) = (format!("{} in {unit}", parameter.name), format!("cost in {cost_unit}"));
     mesh(&mut chart, &x, &y)?;
+    let loss = report.loss.to_string();
     let series = [
         ("least squares", LEAST_SQUARES, &curve.least_squares_m2, parameter.correction),
-        (report.loss, ROBUST, &curve.robust_m2, parameter.robust_correction),
+        (loss.as_str(), ROBUST, &curve.robust_m2, parameter.robust_correction),
     ];
     for (name, colour, costs, estimate) in series {
         let points = curve.values.iter().zip(costs).map(|(value, cost)| (value * scale, cost * cost_scale));
@@ -102,8 +106,11 @@ fn cost(area: &Area<'_>, report: &CalibrationReport, curve: &CostCurve) -> Resul
     legend(&mut chart, SeriesLabelPosition::UpperMiddle)
 }
 
-/// Distance that is left of each row, with the nominal model and after each estimate.
-fn rows(area: &Area<'_>, report: &CalibrationReport) -> Result<(), PlotError> {
+/// Residual of each row, with the nominal model and after each estimate.
+fn rows(
+    area: &DrawingArea<SVGBackend<'_>, Shift>,
+    report: &CalibrationReport,
+) -> Result<(), CalibrationPlotError> {
     let rows = &report.row_residuals;
     let positions =
         rows.iter().map(|row| row.nominal_m.max(row.least_squares_m).max(row.robust_m)).fold(0.0, f64::max);
@@ -122,7 +129,7 @@ fn rows(area: &Area<'_>, report: &CalibrationReport) -> Result<(), PlotError> {
     let top = positive(highest) * 1.18;
     let mut chart = ChartBuilder::on(area)
         .margin(14 * FINE)
-        .caption("what is left of each measurement", (FONT, CAPTION))
+        .caption("residual of each measurement", (FONT, CAPTION))
         .set_label_area_size(LabelAreaPosition::Left, 78 * FINE)
         .set_label_area_size(LabelAreaPosition::Bottom, 46 * FINE)
         .build_cartesian_2d(0.4..count + 0.6, 0.0..top)?;
@@ -143,6 +150,7 @@ fn rows(area: &Area<'_>, report: &CalibrationReport) -> Result<(), PlotError> {
         .axis_desc_style((FONT, DESCRIPTION))
         .draw()?;
     // Three bars side by side for each row.
+    let loss = report.loss.to_string();
     let bars: [(&str, RGBColor, Vec<f64>); 3] = [
         ("nominal", NOMINAL, rows.iter().map(|row| pick(row.nominal_m, row.nominal_rad)).collect()),
         (
@@ -150,10 +158,10 @@ fn rows(area: &Area<'_>, report: &CalibrationReport) -> Result<(), PlotError> {
             LEAST_SQUARES,
             rows.iter().map(|row| pick(row.least_squares_m, row.least_squares_rad)).collect(),
         ),
-        (report.loss, ROBUST, rows.iter().map(|row| pick(row.robust_m, row.robust_rad)).collect()),
+        (loss.as_str(), ROBUST, rows.iter().map(|row| pick(row.robust_m, row.robust_rad)).collect()),
     ];
     for ((name, colour, heights), left) in bars.into_iter().zip([-0.36, -0.12, 0.12]) {
-        let bar = |(row, height): (&super::content::RowResidual, f64)| {
+        let bar = |(row, height): (&RowResidual, f64)| {
             let middle = f64::from(u32::try_from(row.row).unwrap_or(u32::MAX));
             Rectangle::new([(middle + left, 0.0), (middle + left + 0.22, height)], colour.filled())
         };
@@ -162,7 +170,7 @@ fn rows(area: &Area<'_>, report: &CalibrationReport) -> Result<(), PlotError> {
     legend(&mut chart, SeriesLabelPosition::UpperLeft)
 }
 
-fn mesh(chart: &mut Chart<'_, '_>, x: &str, y: &str) -> Result<(), PlotError> {
+fn mesh(chart: &mut Chart<'_, '_>, x: &str, y: &str) -> Result<(), CalibrationPlotError> {
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
@@ -177,7 +185,10 @@ fn mesh(chart: &mut Chart<'_, '_>, x: &str, y: &str) -> Result<(), PlotError> {
     Ok(())
 }
 
-fn legend<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>, position: SeriesLabelPosition) -> Result<(), PlotError> {
+fn legend<'a, 'b: 'a>(
+    chart: &mut Chart<'a, 'b>,
+    position: SeriesLabelPosition,
+) -> Result<(), CalibrationPlotError> {
     chart
         .configure_series_labels()
         .position(position)
@@ -196,7 +207,7 @@ fn upright<'c, 'a, 'b>(
     value: f64,
     top: f64,
     colour: RGBColor,
-) -> Result<&'c mut SeriesAnno<'a, SVGBackend<'b>>, PlotError> {
+) -> Result<&'c mut SeriesAnno<'a, SVGBackend<'b>>, CalibrationPlotError> {
     let points = [(value, 0.0), (value, top)];
     Ok(chart.draw_series(DashedLineSeries::new(points, 5 * FINE, 4 * FINE, colour.stroke_width(FINE)))?)
 }

@@ -1,35 +1,39 @@
 //! The report in sentences.
 
-use std::fmt::Write;
+use congruent_description::display::length_and_angle;
 
-use super::{CalibrationReport, CalibrationVerdict, Recommendation, RowResidual};
+use super::calibration_report::{CalibrationReport, CalibrationVerdict, Recommendation, RowResidual};
+use crate::estimation::ParameterUnit;
 
 /// Most terms of a relation that are written out.
 const MOST_TERMS: usize = 4;
+/// Most rows that are listed.
+const MOST_ROWS: usize = 8;
 /// A factor this near to 1 is written as none. Kind: display.
 const UNIT_FACTOR: f64 = 1e-3;
 
-/// Why a correction is held at nominal: what it is correlated with, in units of the estimated ones.
-pub(super) fn why_fixed(unit: &str, terms: &[(&str, f64, &'static str)]) -> String {
+/// Why a correction is fixed at nominal: the estimated corrections that it is correlated with, each with its
+/// name, value and unit.
+pub(super) fn why_fixed(unit: ParameterUnit, terms: &[(&str, f64, ParameterUnit)]) -> String {
     if let [(name, factor, of)] = terms
         && *of == unit
         && (factor.abs() - 1.0).abs() < UNIT_FACTOR
     {
         let what = if *factor > 0.0 { "sum" } else { "difference" };
-        return format!("cannot be told from {name}: only their {what} can be identified");
+        return format!("cannot be distinguished from {name}: only their {what} can be identified");
     }
     if terms.is_empty() {
         return "has no effect on these measurements".to_owned();
     }
     let mut largest = terms.to_vec();
     largest.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-    let term = |(name, factor, of): &(&str, f64, &'static str)| format!("{factor:.3} {of} of {name}");
+    let term = |(name, factor, of): &(&str, f64, ParameterUnit)| format!("{factor:.3} {of} of {name}");
     let shown: Vec<String> = largest.iter().take(MOST_TERMS).map(term).collect();
     let more = match terms.len().saturating_sub(MOST_TERMS) {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
-    format!("1 {unit} of it looks like {}{more}", shown.join(", "))
+    format!("is correlated: 1 {unit} of it has nearly the effect of {}{more}", shown.join(", "))
 }
 
 /// What one should know before using a correction, the most important first.
@@ -47,15 +51,14 @@ pub(super) fn statements(report: &CalibrationReport) -> Vec<String> {
     if !report.fixed.is_empty() {
         let names: Vec<&str> = report.fixed.iter().map(|each| each.name.as_str()).collect();
         statements.push(format!(
-            "held at nominal, since these measurements do not tell them: {}",
+            "fixed at nominal, since these measurements do not identify them: {}",
             names.join(", ")
         ));
     }
-    for (word, estimation) in
-        [("least squares", &report.least_squares), ("the robust estimate", &report.robust)]
+    for (estimate, fit) in [("least squares", &report.least_squares), ("the robust estimate", &report.robust)]
     {
-        if !estimation.converged {
-            statements.push(format!("{word} did not converge in {} steps", estimation.iterations));
+        if !fit.converged {
+            statements.push(format!("{estimate} did not converge in {} steps", fit.iterations));
         }
     }
     statements
@@ -64,136 +67,110 @@ pub(super) fn statements(report: &CalibrationReport) -> Vec<String> {
 fn verdict(report: &CalibrationReport) -> String {
     match report.verdict {
         CalibrationVerdict::NothingIdentified => {
-            "nothing can be identified from these measurements".to_owned()
+            "none of the free corrections can be identified from these measurements".to_owned()
         }
-        CalibrationVerdict::Unexplained => nothing_explained(report),
-        CalibrationVerdict::Misread => misread(report),
-        CalibrationVerdict::NothingToJudgeBy => nothing_to_judge_by(report),
-        CalibrationVerdict::UnexplainedRows => unexplained(report),
+        CalibrationVerdict::Unexplained => unexplained(report),
+        CalibrationVerdict::Misinterpreted => misinterpreted(report),
+        CalibrationVerdict::Unverifiable => unverifiable(report),
+        CalibrationVerdict::UnexplainedRows => unexplained_rows(report),
         CalibrationVerdict::NoiseExceeded => format!(
-            "what is left ({} root mean square) is larger than the stated noise allows: the free corrections \
+            "the residual ({} root mean square) is larger than the stated noise allows: the free corrections \
              do not explain the measurements",
-            size(report.least_squares.left.rms_m, report.least_squares.left.rms_rad)
+            length_and_angle(report.least_squares.residuals.rms_m, report.least_squares.residuals.rms_rad)
         ),
         CalibrationVerdict::NoImprovement => {
-            "on measurements that were left out the corrections are no better than the nominal model: keep it"
+            "on held-out rows the residual with the corrections is no smaller than with the nominal model: keep \
+             the nominal model"
                 .to_owned()
         }
         CalibrationVerdict::Explained => {
-            let held_out = report.held_out.as_ref();
-            held_out.map_or_else(String::new, |error| {
-                format!(
-                    "the corrections explain the measurements: {} on rows that were left out, {} before",
-                    size(error.rms_m, error.rms_rad),
-                    size(error.nominal_rms_m, error.nominal_rms_rad)
-                )
-            })
+            let (corrected, nominal) = sizes(report);
+            format!("the corrections explain the measurements: residual {corrected}, {nominal}")
         }
     }
 }
 
-fn nothing_explained(report: &CalibrationReport) -> String {
-    let (left, before) = match &report.held_out {
+/// The residual with the corrections, on held-out rows if there are any, and with the nominal model.
+fn sizes(report: &CalibrationReport) -> (String, String) {
+    let (corrected, nominal) = match &report.held_out {
         Some(error) => (
-            format!("{} on rows that were left out", size(error.rms_m, error.rms_rad)),
-            size(error.nominal_rms_m, error.nominal_rms_rad),
+            format!("{} on held-out rows", length_and_angle(error.rms_m, error.rms_rad)),
+            length_and_angle(error.nominal_rms_m, error.nominal_rms_rad),
         ),
         None => (
-            size(report.least_squares.left.rms_m, report.least_squares.left.rms_rad),
-            size(report.nominal.rms_m, report.nominal.rms_rad),
+            length_and_angle(report.least_squares.residuals.rms_m, report.least_squares.residuals.rms_rad),
+            length_and_angle(report.nominal.rms_m, report.nominal.rms_rad),
         ),
     };
-    let mut text =
-        format!("the free corrections do NOT explain the measurements: they leave {left}, {before} before");
-    let _ = match &report.likely_reason {
-        Some(reason) => {
-            write!(text, "; if {}, {} would be left", reason.what, size(reason.rms_m, reason.rms_rad))
-        }
-        None => write!(text, "; no common slip of units, order, sign or frame explains them either"),
-    };
-    text
+    (corrected, format!("{nominal} with the nominal model"))
 }
 
-fn misread(report: &CalibrationReport) -> String {
+fn unexplained(report: &CalibrationReport) -> String {
+    let (corrected, nominal) = sizes(report);
+    let interpretation = match &report.likely_reason {
+        Some(reason) => format!(
+            "if {}, the residual is {}",
+            reason.condition,
+            length_and_angle(reason.rms_m, reason.rms_rad)
+        ),
+        None => "no common error of units, order, sign or frame explains them either".to_owned(),
+    };
+    format!(
+        "the free corrections do NOT explain the measurements: residual {corrected}, {nominal}; {interpretation}"
+    )
+}
+
+fn misinterpreted(report: &CalibrationReport) -> String {
     report.likely_reason.as_ref().map_or_else(String::new, |reason| {
         format!(
-            "the measurements are explained only by corrections as large as parts of the arm; if {}, small ones \
-             would do and leave {}",
-            reason.what,
-            size(reason.rms_m, reason.rms_rad)
+            "the measurements are explained only by corrections as large as parts of the arm; if {}, small \
+             corrections explain them with a residual of {}",
+            reason.condition,
+            length_and_angle(reason.rms_m, reason.rms_rad)
         )
     })
 }
 
-fn nothing_to_judge_by(report: &CalibrationReport) -> String {
+fn unverifiable(report: &CalibrationReport) -> String {
     if report.redundancy > 0 {
-        return "all measurements are at one configuration: whether the corrections hold elsewhere is not known"
+        return "all measurements are at one configuration: the corrections cannot be verified at others"
             .to_owned();
     }
     format!(
-        "the measurements say no more than the {} corrections take (repetitions at one configuration count \
-         once): nothing is left to judge them by",
+        "the measurements have no redundancy for {} corrections (repetitions at one configuration count once): \
+         the corrections cannot be verified",
         report.parameters.len()
     )
 }
 
-fn unexplained(report: &CalibrationReport) -> String {
-    let rows: Vec<String> = report.outliers.iter().map(|each| each.row.to_string()).collect();
-    let left: Vec<String> = report
-        .outliers
-        .iter()
-        .map(|each: &RowResidual| size(each.least_squares_m, each.least_squares_rad))
-        .collect();
-    let several = rows.len() > 1;
-    let (plural, keep, them) = if several { ("s", "keep", "them") } else { ("", "keeps", "it") };
+fn unexplained_rows(report: &CalibrationReport) -> String {
+    let row = |each: &RowResidual| {
+        format!("{} ({})", each.row, length_and_angle(each.least_squares_m, each.least_squares_rad))
+    };
+    let rows: Vec<String> = report.outliers.iter().map(row).collect();
+    let plural = if rows.len() > 1 { "s" } else { "" };
     let corrections = match &report.parameters[..] {
         [only] => only.name.as_str(),
         _ => "the free corrections",
     };
     let mut text = format!(
-        "measurement{plural} {} {keep} {} after least squares: no value of {corrections} explains {them}",
-        listed(&rows),
-        listed(&left),
+        "no value of {corrections} explains measurement{plural} {} (residual after least squares)",
+        listed(&rows)
     );
-    if report.recommended == Recommendation::Robust {
-        let _ = write!(
-            text,
-            "; the robust estimate leaves {} out and has {} on the others",
-            them,
-            report
-                .held_out
-                .as_ref()
-                .map_or_else(String::new, |error| format!("{} held out", size(error.rms_m, error.rms_rad)))
-        );
+    if let (Recommendation::Robust, Some(error)) = (report.recommended, &report.held_out) {
+        text += "; residual of the robust estimate on the other rows, held out: ";
+        text += &length_and_angle(error.rms_m, error.rms_rad);
     }
     text
 }
 
-fn listed(words: &[String]) -> String {
-    const MOST: usize = 8;
-    match words {
+fn listed(rows: &[String]) -> String {
+    match rows {
         [] => String::new(),
         [one] => one.clone(),
-        words if words.len() > MOST => {
-            format!("{} and {} more", words[..MOST].join(", "), words.len() - MOST)
+        rows if rows.len() > MOST_ROWS => {
+            format!("{} and {} more", rows[..MOST_ROWS].join(", "), rows.len() - MOST_ROWS)
         }
         [before @ .., last] => format!("{} and {last}", before.join(", ")),
-    }
-}
-
-/// A distance, with the angle where orientations were measured.
-fn size(metres: f64, radians: f64) -> String {
-    let length = length(metres);
-    if radians > 0.0 { format!("{length} / {:.4} deg", radians.to_degrees()) } else { length }
-}
-
-fn length(metres: f64) -> String {
-    let millimetres = metres * 1e3;
-    if millimetres >= 10.0 {
-        format!("{millimetres:.1} mm")
-    } else if millimetres >= 1e-3 {
-        format!("{millimetres:.3} mm")
-    } else {
-        format!("{metres:.1e} m")
     }
 }

@@ -1,73 +1,20 @@
-//! Measured against modelled: residuals, and the normal equations that they sum up to.
+//! The normal equations of a corrected chain on its measurements.
 
-use congruent_description::ChainQ;
-use congruent_kinematics::{Pose, Twist, hat, log_ratio, rotation_log};
+use congruent_kinematics::{Twist, hat, log_ratio};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-use super::{configurations::configurations, model::CorrectedChain, noise::Noise};
+use super::{
+    configurations::configurations,
+    measurement::{Measurement, PoseResidual},
+    noise::Noise,
+};
+use crate::estimation::model::CorrectedChain;
 
-/// A correction that moves a measured component by less, per unit of both, does not show in it. Kind:
-/// rounding; what a correction leaves alone moves by 1e-15.
-const SHOWS: f64 = 1e-9;
+/// A correction has an effect on a measured component if it moves it by more than this, per unit of both.
+/// Kind: rounding; a component that a correction does not change moves by 1e-15.
+const HAS_EFFECT: f64 = 1e-9;
 
-/// What was measured at one configuration.
-///
-/// | field | shape | unit | frame |
-/// |---|---|---|---|
-/// | `q` | n | rad, m | joints of the chain |
-/// | `tip_in_base_m` | 3 | m | base; `None` for a coordinate that was not measured |
-/// | `base_from_tip` | 3 x 3 | 1 | orientation, where it was measured |
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measurement {
-    /// Joint positions as the robot reported them.
-    pub q: ChainQ,
-    /// Measured position of the tip.
-    pub tip_in_base_m: [Option<f64>; 3],
-    /// Measured orientation of the tip.
-    pub base_from_tip: Option<Matrix3<f64>>,
-}
-
-impl Measurement {
-    /// Number of measured coordinates of the position.
-    pub fn position_count(&self) -> usize {
-        self.tip_in_base_m.iter().flatten().count()
-    }
-
-    /// Number of measured components of the orientation.
-    pub fn orientation_count(&self) -> usize {
-        if self.base_from_tip.is_some() { 3 } else { 0 }
-    }
-
-    /// Measured minus modelled.
-    pub fn residual(&self, base_from_tip: &Pose) -> Residual {
-        let along = |at: usize| {
-            self.tip_in_base_m[at].map_or(0.0, |measured| measured - base_from_tip.translation[at])
-        };
-        let orientation_rad = self.base_from_tip.map_or(Vector3::zeros(), |measured| {
-            rotation_log(&(measured * base_from_tip.rotation.transpose()))
-        });
-        Residual { position_m: Vector3::new(along(0), along(1), along(2)), orientation_rad }
-    }
-}
-
-/// Measured minus modelled, in the base; 0 where nothing was measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Residual {
-    /// Difference of the positions.
-    pub position_m: Vector3<f64>,
-    /// The turn from the modelled to the measured orientation, axis times angle.
-    pub orientation_rad: Vector3<f64>,
-}
-
-impl Residual {
-    /// Squared norm in units of the noise.
-    pub(super) fn whitened_squared(&self, noise: &Noise) -> f64 {
-        self.position_m.norm_squared() / noise.position_m.powi(2)
-            + self.orientation_rad.norm_squared() / noise.orientation_rad.powi(2)
-    }
-}
-
-/// A chain and what was measured of it.
+/// A corrected chain with its measurements.
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
     /// The chain with its free corrections.
@@ -80,37 +27,37 @@ impl Problem<'_> {
     /// Residual of each measurement with corrections `p`.
     ///
     /// # Panics
-    /// When `p` or a measurement's `q` has another length than the chain asks for.
-    pub fn residuals(&self, p: &[f64]) -> Vec<Residual> {
+    /// If `p` or a measurement's `q` has another length than the chain has parameters or joints.
+    pub fn residuals(&self, p: &[f64]) -> Vec<PoseResidual> {
         let residual = |each: &Measurement| each.residual(&self.chain.base_from_tip(&each.q, p));
         self.measurements.iter().map(residual).collect()
     }
 
     /// Number of measured components.
     pub fn component_count(&self) -> usize {
-        self.measurements.iter().map(|each| each.position_count() + each.orientation_count()).sum()
+        self.measurements.iter().map(Measurement::component_count).sum()
     }
 
-    /// Measured components in which one of the corrections `kept` shows at nominal, less the number of these
-    /// corrections: what is left to judge them by. Repetitions at one configuration count once.
+    /// Degrees of freedom to verify the corrections `kept` by: measured components on which one of them has an
+    /// effect at nominal, less their number. Repetitions at one configuration count once.
     ///
     /// # Examples
     /// ```
     /// use congruent_kinematics::{Pose, ScrewChain, Twist};
-    /// use crate::estimation::{CorrectedChain, Measurement, Problem, zero_offsets};
+    /// use congruent_calibration::estimation::{CorrectedChain, Measurement, Problem, zero_offsets};
     /// use nalgebra::{Matrix3, Vector3};
-    /// let turn = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
+    /// let axis = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
     /// let at_zero = Pose::from_parts(Matrix3::identity(), Vector3::x());
-    /// let nominal = ScrewChain { twists_in_base: vec![turn], base_from_tip_at_zero: at_zero };
+    /// let nominal = ScrewChain { twists_in_base: vec![axis], base_from_tip_at_zero: at_zero };
     /// let chain = CorrectedChain::new(nominal.clone(), zero_offsets(&nominal, &["joint"]));
-    /// let at = |q: f64| Measurement { q: vec![q], tip_in_base_m: [Some(0.0); 3], base_from_tip: None };
-    /// // The zero shows in x and y but not in z, and the repetition says nothing new.
+    /// let at = |q: f64| Measurement { q: [q].into(), tip_in_base_m: [Some(0.0); 3], base_from_tip: None };
+    /// // The zero has an effect on x and y but not on z, and the repetition adds nothing.
     /// let measurements = [at(0.3), at(0.9), at(0.3)];
     /// assert_eq!(Problem { chain: &chain, measurements: &measurements }.redundancy(&[0]), 3);
     /// ```
     ///
     /// # Panics
-    /// When a measurement's `q` has another length than the chain has joints.
+    /// If a measurement's `q` has another length than the chain has joints.
     pub fn redundancy(&self, kept: &[usize]) -> usize {
         let none = vec![0.0; self.chain.parameters().len()];
         let mut twists = vec![Twist::zero(); none.len()];
@@ -122,17 +69,17 @@ impl Problem<'_> {
                 let velocity = twist.linear + twist.angular.cross(&pose.translation);
                 for at in 0..3 {
                     let is_measured = measurement.tip_in_base_m[at].is_some();
-                    seen[configuration][at] |= is_measured && velocity[at].abs() > SHOWS;
+                    seen[configuration][at] |= is_measured && velocity[at].abs() > HAS_EFFECT;
                     let is_measured = measurement.base_from_tip.is_some();
-                    seen[configuration][3 + at] |= is_measured && twist.angular[at].abs() > SHOWS;
+                    seen[configuration][3 + at] |= is_measured && twist.angular[at].abs() > HAS_EFFECT;
                 }
             }
         }
         seen.as_flattened().iter().filter(|&&seen| seen).count().saturating_sub(kept.len())
     }
 
-    /// Largest distance of the nominal tip from the base over the measurements: what turns an angle
-    /// into a length where the two are to be compared.
+    /// Largest distance of the nominal tip from the base over the measurements: the length of an angle of
+    /// 1 rad if the two are to be compared.
     pub fn reach_m(&self) -> f64 {
         let none = vec![0.0; self.chain.parameters().len()];
         let distance = |each: &Measurement| self.chain.base_from_tip(&each.q, &none).translation.norm();
@@ -141,7 +88,7 @@ impl Problem<'_> {
     }
 
     /// Sum of the squared residuals in units of the noise, each row with its weight.
-    pub(super) fn cost(&self, p: &[f64], weighting: &Weighting) -> f64 {
+    pub(in crate::estimation) fn cost(&self, p: &[f64], weighting: &Weighting) -> f64 {
         let term = |(at, each): (usize, &Measurement)| {
             let residual = each.residual(&self.chain.base_from_tip(&each.q, p));
             weighting.of_row(at) * residual.whitened_squared(&weighting.noise)
@@ -150,7 +97,11 @@ impl Problem<'_> {
     }
 
     /// Normal equations for all corrections at `p`.
-    pub(super) fn normal_equations(&self, p: &[f64], weighting: &Weighting) -> NormalEquations {
+    pub(in crate::estimation) fn normal_equations(
+        &self,
+        p: &[f64],
+        weighting: &Weighting,
+    ) -> NormalEquations {
         let mut sum = NormalEquations::zeros(p.len());
         let mut at_p = Linearisation::new(self.chain, p);
         for (at, measurement) in self.measurements.iter().enumerate() {
@@ -160,12 +111,12 @@ impl Problem<'_> {
     }
 }
 
-/// What a residual counts: noise of the components, and a weight for each row.
+/// Weights of the residuals: noise of the components, and a weight for each row.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Weighting<'a> {
-    pub(super) noise: Noise,
-    /// Empty where all rows count 1.
-    pub(super) rows: &'a [f64],
+pub(in crate::estimation) struct Weighting<'a> {
+    pub(in crate::estimation) noise: Noise,
+    /// Empty if all rows count 1.
+    pub(in crate::estimation) rows: &'a [f64],
 }
 
 impl Weighting<'_> {
@@ -176,17 +127,17 @@ impl Weighting<'_> {
 
 /// `J^T W J` and `J^T W r`, by position and by orientation, and `r^T W r`.
 #[derive(Debug, Clone)]
-pub(super) struct NormalEquations {
-    pub(super) information: DMatrix<f64>,
+pub(in crate::estimation) struct NormalEquations {
+    pub(in crate::estimation) information: DMatrix<f64>,
     /// The part of the information that positions give.
-    pub(super) by_position: DMatrix<f64>,
-    pub(super) gradient: DVector<f64>,
-    pub(super) cost: f64,
+    pub(in crate::estimation) by_position: DMatrix<f64>,
+    pub(in crate::estimation) gradient: DVector<f64>,
+    pub(in crate::estimation) cost: f64,
 }
 
-/// A chain at some corrections, with room for one row of the Jacobian there.
+/// A chain at some corrections, with space for one row of the Jacobian there.
 #[derive(Debug)]
-pub(super) struct Linearisation<'a> {
+pub(in crate::estimation) struct Linearisation<'a> {
     chain: &'a CorrectedChain,
     p: &'a [f64],
     twists: Vec<Twist>,
@@ -194,13 +145,13 @@ pub(super) struct Linearisation<'a> {
 }
 
 impl<'a> Linearisation<'a> {
-    pub(super) fn new(chain: &'a CorrectedChain, p: &'a [f64]) -> Self {
+    pub(in crate::estimation) fn new(chain: &'a CorrectedChain, p: &'a [f64]) -> Self {
         Self { chain, p, twists: vec![Twist::zero(); p.len()], row: DVector::zeros(p.len()) }
     }
 }
 
 impl NormalEquations {
-    pub(super) fn zeros(parameters: usize) -> Self {
+    pub(in crate::estimation) fn zeros(parameters: usize) -> Self {
         Self {
             information: DMatrix::zeros(parameters, parameters),
             by_position: DMatrix::zeros(parameters, parameters),
@@ -210,7 +161,7 @@ impl NormalEquations {
     }
 
     /// Adds one measurement with its weight and noise.
-    pub(super) fn add(
+    pub(in crate::estimation) fn add(
         &mut self,
         at_p: &mut Linearisation<'_>,
         measurement: &Measurement,
@@ -231,8 +182,8 @@ impl NormalEquations {
             self.information.ger(factor, row, row, 1.0);
         }
         if measurement.base_from_tip.is_some() {
-            // The residual is a logarithm: its rate is not the turn's where it is large.
-            let rate = log_rate_from_turn(&residual.orientation_rad);
+            // The residual is a logarithm: its rate is not the angular velocity's if it is large.
+            let rate = log_rate_by_rotation(&residual.orientation_rad);
             for component in 0..3 {
                 for (entry, twist) in row.iter_mut().zip(twists.iter()) {
                     *entry = rate.row(component).transpose().dot(&twist.angular);
@@ -244,8 +195,8 @@ impl NormalEquations {
         }
     }
 
-    /// The equations of some corrections alone, the others held where they are.
-    pub(super) fn only(&self, kept: &[usize]) -> Self {
+    /// The equations of some corrections alone, the others held at their current values.
+    pub(in crate::estimation) fn only(&self, kept: &[usize]) -> Self {
         Self {
             information: self.information.select_rows(kept).select_columns(kept),
             by_position: self.by_position.select_rows(kept).select_columns(kept),
@@ -255,11 +206,11 @@ impl NormalEquations {
     }
 }
 
-/// How fast the logarithm `e` of an orientation residual falls per turn of the model: the inverse of
+/// Rate of the logarithm `e` of an orientation residual by a rotation of the model: the inverse of
 /// the right Jacobian, `I + [e]/2 + (1/t^2 - cot(t/2)/(2 t)) [e]^2`.
 ///
 /// Source: Chirikjian, *Stochastic Models, Information Theory, and Lie Groups*, vol. 2 (2012), eq. 10.86.
-fn log_rate_from_turn(e: &Vector3<f64>) -> Matrix3<f64> {
+fn log_rate_by_rotation(e: &Vector3<f64>) -> Matrix3<f64> {
     let skew = hat(e);
     Matrix3::identity() + skew / 2.0 + skew * skew * log_ratio(e.norm())
 }

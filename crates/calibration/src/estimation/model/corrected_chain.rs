@@ -3,7 +3,7 @@
 use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 
-use super::parameter::Parameter;
+use super::correction_parameter::CorrectionParameter;
 
 /// A serial chain with corrections `p`: with `E_k` the product of `exp(G_j p_j)` over the corrections
 /// of slot k,
@@ -15,29 +15,29 @@ use super::parameter::Parameter;
 /// # Examples
 /// ```
 /// use congruent_kinematics::{Pose, ScrewChain, Twist};
-/// use crate::estimation::{CorrectedChain, zero_offsets};
+/// use congruent_calibration::estimation::{CorrectedChain, zero_offsets};
 /// use nalgebra::{Matrix3, Vector3};
-/// let turn = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
+/// let axis = Twist { angular: Vector3::z(), linear: Vector3::zeros() };
 /// let at_zero = Pose::from_parts(Matrix3::identity(), Vector3::x());
-/// let chain = ScrewChain { twists_in_base: vec![turn], base_from_tip_at_zero: at_zero };
+/// let chain = ScrewChain { twists_in_base: vec![axis], base_from_tip_at_zero: at_zero };
 /// let corrected = CorrectedChain::new(chain.clone(), zero_offsets(&chain, &["joint"]));
-/// let moved = corrected.base_from_tip(&[0.3], &[0.2]);
-/// assert!(moved.distance_m(&chain.base_from_tip(&[0.5])?) < 4.0 * f64::EPSILON);
+/// let moved = corrected.base_from_tip(&[0.3].into(), &[0.2]);
+/// assert!(moved.distance_m(&chain.base_from_tip(&[0.5].into())?) < 4.0 * f64::EPSILON);
 /// # Ok::<(), congruent_kinematics::KinematicsError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct CorrectedChain {
     chain: ScrewChain,
     /// By slot.
-    parameters: Vec<Parameter>,
+    parameters: Vec<CorrectionParameter>,
 }
 
 impl CorrectedChain {
     /// Sorts the corrections by slot; those of one slot keep their order, in which they compose.
     ///
     /// # Panics
-    /// When a slot lies behind the chain's last joint.
-    pub fn new(chain: ScrewChain, mut parameters: Vec<Parameter>) -> Self {
+    /// If a slot lies behind the chain's last joint.
+    pub fn new(chain: ScrewChain, mut parameters: Vec<CorrectionParameter>) -> Self {
         let slots = chain.joint_count();
         assert!(
             parameters.iter().all(|parameter| parameter.slot <= slots),
@@ -48,7 +48,7 @@ impl CorrectedChain {
     }
 
     /// The corrections, in the order of the vector `p`.
-    pub fn parameters(&self) -> &[Parameter] {
+    pub fn parameters(&self) -> &[CorrectionParameter] {
         &self.parameters
     }
 
@@ -66,14 +66,14 @@ impl CorrectedChain {
     /// | result | SE(3) | m | `base_from_tip` |
     ///
     /// # Panics
-    /// When `q` or `p` has another length.
+    /// If `q` or `p` has another length.
     pub fn base_from_tip(&self, q: &ChainQ, p: &[f64]) -> Pose {
         self.walk(q, p, |_, _| {})
     }
 
     /// The pose, and for each correction the twist `(dT/dp_j) T^-1` of the tip, in the base.
     ///
-    /// A correction's generator is carried along by everything before it:
+    /// A correction's generator is transformed by everything before it:
     /// `Ad(E_0 exp(S_1 q_1) ... ) G_j`; it commutes with its own exponential.
     ///
     /// | value | shape | unit | frame |
@@ -83,7 +83,7 @@ impl CorrectedChain {
     /// Source: Lynch & Park, *Modern Robotics* (2017), eq. 5.11, for corrections instead of joints.
     ///
     /// # Panics
-    /// When `q`, `p` or `twists_in_base` has another length.
+    /// If `q`, `p` or `twists_in_base` has another length.
     pub fn linearise(&self, q: &ChainQ, p: &[f64], twists_in_base: &mut [Twist]) -> Pose {
         assert_eq!(twists_in_base.len(), self.parameters.len(), "one twist for each correction");
         self.walk(q, p, |at, before| {

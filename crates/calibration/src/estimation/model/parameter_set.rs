@@ -1,26 +1,27 @@
-//! The corrections that one would free: zeros, table entries, axes, base, tool.
+//! The sets of corrections that can be free: zeros, table entries, axes, base, tool.
 
 use congruent_description::{DhConvention, DhRowKind, DhTable, RobotQ};
 use congruent_kinematics::{Axes, DhChain, DhRowTwists, KinematicsError, Pose, ScrewChain, Twist};
 use nalgebra::Vector3;
 
-use super::parameter::{Entry, Parameter, turns};
+use super::correction_parameter::{CorrectionEntry, CorrectionParameter, rotates};
 
 /// Neighbouring axes whose angle has a smaller sine count as nearly parallel: there `theta`, `d` and
-/// `a` are ill suited, and `beta` is offered. 0.05 is 3 degrees, as usual in the literature.
+/// `a` are ill-conditioned, and `beta` is added. 0.05 is 3 degrees, as usual in the literature.
 const NEARLY_PARALLEL_SINE: f64 = 0.05;
 
-/// The names of a rigid correction's entries: shifts, then the turns in the order in which they
+/// The names of a rigid correction's entries: translations, then the rotations in the order in which they
 /// compose, so that the six together are `xyz` and fixed-axis roll, pitch, yaw.
 const RIGID: [&str; 6] = ["x", "y", "z", "yaw", "pitch", "roll"];
 
 /// The zero of each joint: `<joint>.zero`, in the joint's own unit and direction.
 ///
 /// `joints` are the names in the chain's order.
-pub fn zero_offsets(chain: &ScrewChain, joints: &[&str]) -> Vec<Parameter> {
-    let zero = |(at, (twist, joint)): (usize, (&Twist, &&str))| Parameter {
+pub fn zero_offsets(chain: &ScrewChain, joints: &[&str]) -> Vec<CorrectionParameter> {
+    let zero = |(at, (twist, joint)): (usize, (&Twist, &&str))| CorrectionParameter {
         name: format!("{joint}.zero"),
-        entry: Entry::Zero,
+        entry: CorrectionEntry::Zero,
+        joint: Some(at),
         slot: at + 1,
         generator_in_base: *twist,
     };
@@ -28,39 +29,42 @@ pub fn zero_offsets(chain: &ScrewChain, joints: &[&str]) -> Vec<Parameter> {
 }
 
 /// The position and orientation of the base: `base.x` to `base.roll`, about the base's own axes.
-pub fn base_pose() -> Vec<Parameter> {
-    rigid(&Pose::identity(), "base", Entry::Base, 0)
+pub fn base_pose() -> Vec<CorrectionParameter> {
+    rigid(&Pose::identity(), "base", CorrectionEntry::Base, 0)
 }
 
 /// The position and orientation of the measured frame in the last link: `tool.x` to `tool.roll`.
-pub fn tool_pose(chain: &ScrewChain) -> Vec<Parameter> {
-    rigid(&chain.base_from_tip_at_zero, "tool", Entry::Tool, chain.joint_count())
+pub fn tool_pose(chain: &ScrewChain) -> Vec<CorrectionParameter> {
+    rigid(&chain.base_from_tip_at_zero, "tool", CorrectionEntry::Tool, chain.joint_count())
 }
 
 /// The axis of each joint, with everything behind it: two tilts about the point of the axis that is
-/// nearest to the base, and for a turning joint two shifts, across the axis.
+/// nearest to the base, and for a revolute joint two shifts, across the axis.
 ///
 /// The directions are the two axes of the base that are most nearly across the joint's, made
-/// exactly so: `<joint>.tilt_x` turns about what was the base's x.
-pub fn joint_axes(chain: &ScrewChain, joints: &[&str]) -> Vec<Parameter> {
+/// exactly so: `<joint>.tilt_x` is a rotation about nearly the base's x.
+pub fn joint_axes(chain: &ScrewChain, joints: &[&str]) -> Vec<CorrectionParameter> {
     let mut parameters = Vec::with_capacity(4 * joints.len());
     for (slot, (twist, joint)) in chain.twists_in_base.iter().zip(joints).enumerate() {
-        let turns = turns(twist);
-        let axis = if turns { twist.angular } else { twist.linear }.normalize();
-        // Of a sliding joint only the direction counts; it is tilted about the base's origin.
-        let point = if turns { axis.cross(&twist.linear) / twist.angular.norm() } else { Vector3::zeros() };
+        let is_revolute = rotates(twist);
+        let axis = if is_revolute { twist.angular } else { twist.linear }.normalize();
+        // Of a prismatic joint only the direction counts; it is tilted about the base's origin.
+        let point =
+            if is_revolute { axis.cross(&twist.linear) / twist.angular.norm() } else { Vector3::zeros() };
         for (letter, across) in across(&axis) {
-            if turns {
-                parameters.push(Parameter {
+            if is_revolute {
+                parameters.push(CorrectionParameter {
                     name: format!("{joint}.shift_{letter}"),
-                    entry: Entry::AxisShift,
+                    entry: CorrectionEntry::AxisShift,
+                    joint: Some(slot),
                     slot,
                     generator_in_base: Twist::shift(across),
                 });
             }
-            parameters.push(Parameter {
+            parameters.push(CorrectionParameter {
                 name: format!("{joint}.tilt_{letter}"),
-                entry: Entry::AxisTilt,
+                entry: CorrectionEntry::AxisTilt,
+                joint: Some(slot),
                 slot,
                 generator_in_base: Twist::turn(across, &point),
             });
@@ -69,8 +73,8 @@ pub fn joint_axes(chain: &ScrewChain, joints: &[&str]) -> Vec<Parameter> {
     parameters
 }
 
-/// The entries of a table: `<joint>.theta`, `.d`, `.a`, `.alpha`, and `.beta` where neighbouring axes
-/// are nearly parallel. A correction is what is to be added to the table's entry, exactly.
+/// The entries of a table: `<joint>.theta`, `.d`, `.a`, `.alpha`, and `.beta` if neighbouring axes
+/// are nearly parallel. A correction is added to the table's entry, exactly.
 ///
 /// `joints` are the names of the rows' joints, `dof` the robot's.
 ///
@@ -81,7 +85,7 @@ pub fn dh_entries(
     chain: &DhChain,
     joints: &[&str],
     dof: usize,
-) -> Result<Vec<Parameter>, KinematicsError> {
+) -> Result<Vec<CorrectionParameter>, KinematicsError> {
     let rows = table.rows.len();
     let mut base_from_dh = vec![Pose::identity(); rows + 1];
     chain.dh_frames_into(&RobotQ::zeros(dof), &mut base_from_dh)?;
@@ -94,31 +98,33 @@ pub fn dh_entries(
         let (before, behind) = (Axes::of(&base_from_dh[at]), Axes::of(&base_from_dh[at + 1]));
         let by = DhRowTwists::between(table.convention, &before, &behind);
         let mut push = |entry, word: &str, slot, generator_in_base| {
-            parameters.push(Parameter { name: format!("{joint}.{word}"), entry, slot, generator_in_base });
+            let name = format!("{joint}.{word}");
+            parameters.push(CorrectionParameter { name, entry, joint: Some(at), slot, generator_in_base });
         };
         let (theta, d) = match row.kind {
-            DhRowKind::Revolute => (Entry::Theta, Entry::D),
-            DhRowKind::Prismatic => (Entry::D, Entry::Theta),
+            DhRowKind::Revolute => (CorrectionEntry::JointEntry, CorrectionEntry::ConstantEntry),
+            DhRowKind::Prismatic => (CorrectionEntry::ConstantEntry, CorrectionEntry::JointEntry),
         };
         push(theta, "theta", at + 1, by.theta);
         push(d, "d", at + 1, by.d);
-        push(Entry::A, "a", x_slot, by.a);
-        push(Entry::Alpha, "alpha", x_slot, by.alpha);
+        push(CorrectionEntry::A, "a", x_slot, by.a);
+        push(CorrectionEntry::Alpha, "alpha", x_slot, by.alpha);
         if has_neighbour && row.alpha_rad.sin().abs() < NEARLY_PARALLEL_SINE {
             let frame = &base_from_dh[x_slot];
             let y = frame.rotation.column(1).into_owned();
-            push(Entry::Beta, "beta", x_slot, Twist::turn(y, &frame.translation));
+            push(CorrectionEntry::Beta, "beta", x_slot, Twist::turn(y, &frame.translation));
         }
     }
     Ok(parameters)
 }
 
-fn rigid(base_from_frame: &Pose, of: &str, entry: Entry, slot: usize) -> Vec<Parameter> {
+fn rigid(base_from_frame: &Pose, of: &str, entry: CorrectionEntry, slot: usize) -> Vec<CorrectionParameter> {
     let [roll, pitch, yaw, x, y, z] = Twist::units().map(|unit| unit.transformed_by(base_from_frame));
     let generators = [x, y, z, yaw, pitch, roll];
-    let named = |(word, generator_in_base)| Parameter {
+    let named = |(word, generator_in_base)| CorrectionParameter {
         name: format!("{of}.{word}"),
         entry,
+        joint: None,
         slot,
         generator_in_base,
     };

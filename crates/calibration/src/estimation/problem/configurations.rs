@@ -1,18 +1,18 @@
-//! Rows that were measured at one configuration: repetitions, which say how well was measured but not
-//! whether the corrections hold elsewhere.
+//! Rows that were measured at one configuration: repetitions, which show the noise of the measurement but
+//! not whether the corrections hold at other configurations.
 
-use super::residuals::Measurement;
+use super::measurement::Measurement;
 
 /// Configurations that differ by no more in any joint, in rad or m, are one. Kind: judgement; ten
-/// times what arms repeat, and a tenth of what would tell corrections apart.
+/// times the repeatability of arms, and a tenth of the spread that would distinguish corrections.
 const ALIKE: f64 = 1e-3;
 
 /// For each row the number of its configuration, from 0 in the order in which they first appear.
 ///
 /// # Examples
 /// ```
-/// use crate::estimation::{Measurement, configurations};
-/// let at = |q: f64| Measurement { q: vec![q], tip_in_base_m: [Some(0.0); 3], base_from_tip: None };
+/// use congruent_calibration::estimation::{Measurement, configurations};
+/// let at = |q: f64| Measurement { q: [q].into(), tip_in_base_m: [Some(0.0); 3], base_from_tip: None };
 /// assert_eq!(configurations(&[at(0.5), at(0.1), at(0.5001), at(0.1)]), [0, 1, 0, 1]);
 /// ```
 pub fn configurations(measurements: &[Measurement]) -> Vec<usize> {

@@ -1,0 +1,69 @@
+//! One measured pose or point of the tip, and its residual against a model.
+
+use congruent_description::ChainQ;
+use congruent_kinematics::{Pose, rotation_log};
+use nalgebra::{Matrix3, Vector3};
+
+use super::noise::Noise;
+
+/// What was measured at one configuration.
+///
+/// | field | shape | unit | frame |
+/// |---|---|---|---|
+/// | `q` | n | rad, m | joints of the chain |
+/// | `tip_in_base_m` | 3 | m | base; `None` for a coordinate that was not measured |
+/// | `base_from_tip` | 3 x 3 | 1 | orientation, if it was measured |
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// Joint positions as the robot reported them.
+    pub q: ChainQ,
+    /// Measured position of the tip.
+    pub tip_in_base_m: [Option<f64>; 3],
+    /// Measured orientation of the tip.
+    pub base_from_tip: Option<Matrix3<f64>>,
+}
+
+impl Measurement {
+    /// Number of measured coordinates of the position.
+    pub fn position_count(&self) -> usize {
+        self.tip_in_base_m.iter().flatten().count()
+    }
+
+    /// Number of measured components of the orientation.
+    pub fn orientation_count(&self) -> usize {
+        if self.base_from_tip.is_some() { 3 } else { 0 }
+    }
+
+    /// Number of measured components, of position and orientation.
+    pub fn component_count(&self) -> usize {
+        self.position_count() + self.orientation_count()
+    }
+
+    /// Measured minus modelled.
+    pub fn residual(&self, base_from_tip: &Pose) -> PoseResidual {
+        let along = |at: usize| {
+            self.tip_in_base_m[at].map_or(0.0, |measured| measured - base_from_tip.translation[at])
+        };
+        let orientation_rad = self.base_from_tip.map_or(Vector3::zeros(), |measured| {
+            rotation_log(&(measured * base_from_tip.rotation.transpose()))
+        });
+        PoseResidual { position_m: Vector3::new(along(0), along(1), along(2)), orientation_rad }
+    }
+}
+
+/// Measured minus modelled, in the base; 0 in components that were not measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoseResidual {
+    /// Difference of the positions.
+    pub position_m: Vector3<f64>,
+    /// The rotation from the modelled to the measured orientation, axis times angle.
+    pub orientation_rad: Vector3<f64>,
+}
+
+impl PoseResidual {
+    /// Squared norm in units of the noise.
+    pub(in crate::estimation) fn whitened_squared(&self, noise: &Noise) -> f64 {
+        self.position_m.norm_squared() / noise.position_m.powi(2)
+            + self.orientation_rad.norm_squared() / noise.orientation_rad.powi(2)
+    }
+}

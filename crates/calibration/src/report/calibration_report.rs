@@ -1,0 +1,301 @@
+//! The answer of `congruent calibrate`: estimates, what is fixed, residuals, suggested measurements.
+
+use std::collections::BTreeMap;
+
+use congruent_description::JointValues;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::estimation::{Loss, ParameterUnit};
+
+/// The answer of `congruent calibrate`. Metres and radians throughout.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct CalibrationReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// The model that is corrected.
+    pub model: CalibratedModel,
+    /// The frame whose pose was measured: a link's name, or `tcp`.
+    pub measured_frame: String,
+    /// Number of measured rows.
+    pub rows: usize,
+    /// Number of measured components.
+    pub components: usize,
+    /// Degrees of freedom to verify the corrections by: measured components on which an estimated correction
+    /// has an effect, each configuration once, less the number of these corrections.
+    pub redundancy: usize,
+    /// Whether the measurements are explained, in one word.
+    pub verdict: CalibrationVerdict,
+    /// Another interpretation of the file that would explain the measurements, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub likely_reason: Option<LikelyReason>,
+    /// Which estimate to use.
+    pub recommended: Recommendation,
+    /// The same in sentences.
+    pub statements: Vec<String>,
+    /// The estimated corrections.
+    pub parameters: Vec<EstimatedCorrection>,
+    /// The corrections that are fixed (held at nominal) since the measurements do not identify them.
+    pub fixed: Vec<ReportedFixedParameter>,
+    /// The singular values by which that was decided.
+    pub identifiability: Identifiability,
+    /// Residuals of the nominal model.
+    pub nominal: ResidualSummary,
+    /// Residuals of least squares.
+    pub least_squares: FitSummary,
+    /// Residuals of the robust estimate.
+    pub robust: FitSummary,
+    /// The loss of the robust estimate.
+    pub loss: Loss,
+    /// Residuals of held-out rows with the recommended estimate; `null` for a single configuration.
+    pub held_out: Option<HeldOutSummary>,
+    /// Outliers: rows that the recommended estimate does not fit.
+    pub outliers: Vec<RowResidual>,
+    /// Every row.
+    pub row_residuals: Vec<RowResidual>,
+    /// Covariance of the estimated corrections by least squares, in their order; `null` if it is not known.
+    #[schemars(with = "Vec<Vec<Option<f64>>>")]
+    pub covariance: Vec<Vec<f64>>,
+    /// The cost over the most significant correction; `null` if none is estimated.
+    pub cost_curve: Option<CostCurve>,
+    /// The most informative configurations to measure next, the best first.
+    pub next: Vec<SuggestedConfiguration>,
+}
+
+/// Which model of the robot is corrected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CalibratedModel {
+    /// The declared table.
+    Dh,
+    /// The chain of the URDF.
+    Urdf,
+}
+
+/// The cost over one correction, the others as estimated.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct CostCurve {
+    /// Index of the correction among `parameters`.
+    pub parameter: usize,
+    /// Values of it, rad or m.
+    pub values: Vec<f64>,
+    /// Squared residuals; those of orientations weighted by the noise.
+    pub least_squares_m2: Vec<f64>,
+    /// The same through the robust loss.
+    pub robust_m2: Vec<f64>,
+}
+
+/// Whether the corrected model explains the measurements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CalibrationVerdict {
+    /// The corrections reduce the residuals of held-out rows, and there is no outlier.
+    Explained,
+    /// Some rows are not explained by any value of the free corrections.
+    UnexplainedRows,
+    /// The residuals are larger than the stated noise of the measurement.
+    NoiseExceeded,
+    /// On held-out rows the corrections are no better than the nominal model.
+    NoImprovement,
+    /// The residuals are too large for measurement noise, or large and hardly less than without corrections.
+    Unexplained,
+    /// The corrections explain the measurements only by being as large as the arm, and another interpretation
+    /// of the file does so with small ones.
+    Misinterpreted,
+    /// There is no redundancy, or all rows are at one configuration: the estimate cannot be verified.
+    Unverifiable,
+    /// No free correction can be identified.
+    NothingIdentified,
+}
+
+/// Another interpretation of the measurements under which the same corrections explain them.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct LikelyReason {
+    /// A clause that follows "if".
+    pub condition: String,
+    /// Root mean square distance under it.
+    pub rms_m: f64,
+    /// Root mean square angle under it.
+    pub rms_rad: f64,
+}
+
+/// Which estimate to use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Recommendation {
+    /// The nominal model.
+    Nominal,
+    /// Least squares.
+    LeastSquares,
+    /// The robust estimate.
+    Robust,
+}
+
+/// One estimated correction.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct EstimatedCorrection {
+    /// `<joint>.<entry>`, `base.<axis>` or `tool.<axis>`.
+    pub name: String,
+    /// Unit of the values.
+    pub unit: ParameterUnit,
+    /// By least squares.
+    pub correction: f64,
+    /// Its standard deviation; `null` if the noise is not known and cannot be estimated.
+    #[schemars(with = "Option<f64>")]
+    pub standard_deviation: f64,
+    /// By the robust loss.
+    pub robust_correction: f64,
+    /// Its standard deviation; likewise.
+    #[schemars(with = "Option<f64>")]
+    pub robust_standard_deviation: f64,
+    /// Whether the recommended correction is more than two of its standard deviations from zero.
+    pub significant: bool,
+    /// The entry of the table that it corrects, with the recommended correction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub in_table: Option<CorrectedTableEntry>,
+}
+
+/// A corrected entry of the table.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct CorrectedTableEntry {
+    /// Which entry of the row.
+    pub entry: RowEntry,
+    /// Its value in the robot file.
+    pub nominal: f64,
+    /// Its corrected value.
+    pub corrected: f64,
+    /// Line of the row in the robot file.
+    pub line: usize,
+}
+
+/// An entry of a table's row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RowEntry {
+    /// Joint angle.
+    Theta,
+    /// Link offset.
+    D,
+    /// Link length.
+    A,
+    /// Link twist.
+    Alpha,
+}
+
+/// A correction that is fixed (held at nominal).
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ReportedFixedParameter {
+    /// Its name.
+    pub name: String,
+    /// The estimated corrections that together have nearly the effect of one unit of it, with their values;
+    /// empty if it has no effect.
+    pub correlated_with: BTreeMap<String, f64>,
+    /// In words.
+    pub reason: String,
+}
+
+/// The singular values that decide which corrections are identified.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Identifiability {
+    /// Smallest admitted ratio of singular values.
+    pub threshold: f64,
+    /// Of all free corrections, scaled to metres, the largest first.
+    pub singular_values: Vec<f64>,
+    /// Smallest of the estimated corrections over the largest of all.
+    pub kept_ratio: f64,
+}
+
+/// Residuals of all measurements with one model.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct ResidualSummary {
+    /// Sum of squared position residuals.
+    pub cost_m2: f64,
+    /// Sum of squared orientation residuals.
+    pub cost_rad2: f64,
+    /// Root mean square distance.
+    pub rms_m: f64,
+    /// Root mean square angle.
+    pub rms_rad: f64,
+    /// Largest distance.
+    pub worst_m: f64,
+    /// Largest angle.
+    pub worst_rad: f64,
+}
+
+/// An estimate as a whole.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct FitSummary {
+    /// Its residuals.
+    #[serde(flatten)]
+    pub residuals: ResidualSummary,
+    /// Noise of one coordinate of a position, estimated from the residuals or as stated; `null` if it is not
+    /// known.
+    #[schemars(with = "Option<f64>")]
+    pub noise_m: f64,
+    /// Noise of one component of an orientation; likewise.
+    #[schemars(with = "Option<f64>")]
+    pub noise_rad: f64,
+    /// Whether the iteration ended below rounding.
+    pub converged: bool,
+    /// Steps of the last iteration.
+    pub iterations: usize,
+}
+
+/// Residuals of held-out rows.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct HeldOutSummary {
+    /// Number of folds, each left out once.
+    pub folds: usize,
+    /// Root mean square distance, outliers of a robust estimate not counted.
+    pub rms_m: f64,
+    /// Root mean square angle, likewise.
+    pub rms_rad: f64,
+    /// Root mean square distance with the nominal model on the same rows.
+    pub nominal_rms_m: f64,
+    /// Root mean square angle with the nominal model on the same rows.
+    pub nominal_rms_rad: f64,
+}
+
+/// Residual of one row with each model.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct RowResidual {
+    /// Number of the measurement, from 1.
+    pub row: usize,
+    /// Line in the file.
+    pub line: usize,
+    /// Distance with the nominal model.
+    pub nominal_m: f64,
+    /// Angle with the nominal model.
+    pub nominal_rad: f64,
+    /// Distance after least squares.
+    pub least_squares_m: f64,
+    /// Angle after least squares.
+    pub least_squares_rad: f64,
+    /// Distance after the robust estimate.
+    pub robust_m: f64,
+    /// Angle after the robust estimate.
+    pub robust_rad: f64,
+    /// Weight of the row in the robust estimate, 0 to 1.
+    pub weight: f64,
+}
+
+/// A configuration to measure next.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct SuggestedConfiguration {
+    /// Joint positions, rad or m.
+    pub q: JointValues,
+    /// Information gained, in bits: each bit halves the volume of the uncertainty.
+    pub gain_bits: f64,
+}
+
+impl std::fmt::Display for CalibratedModel {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.serialize(formatter)
+    }
+}
+
+impl std::fmt::Display for RowEntry {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.serialize(formatter)
+    }
+}

@@ -1,0 +1,247 @@
+//! Other interpretations of a file of measurements: common errors of units, order and frame, each tried
+//! if the free corrections explain nothing.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+use super::{
+    calibration_report::LikelyReason,
+    residual_size::{LARGE_CORRECTION, ReachScale, ResidualSize},
+};
+use crate::{
+    chain::{JointMotionKind, NominalChain},
+    computed::measurement,
+    estimation::{
+        CorrectedChain, Loss, Noise, Problem, fit, fit_robustly, fit_with_estimated_noise, identify,
+    },
+    free,
+    measurements::{MeasuredRow, WrittenOrientation},
+    options::CalibrationOptions,
+};
+
+/// Millimetres in a metre.
+const KILO: f64 = 1e3;
+/// Degrees in a radian.
+const DEGREES: f64 = 180.0 / PI;
+/// An interpretation is likely if its residual, or correction, is less than this share of that without it.
+const MUCH_BETTER: f64 = 0.1;
+/// The residual of a later interpretation of the list must be less than this share of that of an earlier one:
+/// more free corrections always reduce it a little.
+const BETTER: f64 = 0.5;
+
+/// Number of rows on which an interpretation is tried before all rows are used.
+const SOME_ROWS: usize = 60;
+
+/// A row interpreted differently; `None` if the interpretation does not apply to it.
+type Reinterpret<'a> = Box<dyn Fn(&MeasuredRow) -> Option<MeasuredRow> + 'a>;
+
+/// One way in which the file may be meant.
+struct Interpretation<'a> {
+    /// A clause that follows "if".
+    condition: String,
+    reinterpret: Reinterpret<'a>,
+    /// Groups of corrections that are free besides those of the options.
+    free: &'static [&'static str],
+}
+
+/// Why the file is probably meant differently.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Misfit {
+    /// The residual is this large, as a share of the reach or as an angle.
+    Residual(f64),
+    /// The corrections are this large, as a share of the reach or as an angle.
+    Correction(f64),
+}
+
+/// An estimate under another interpretation.
+#[derive(Debug, Clone, Copy)]
+struct InterpretedFit {
+    residual: ResidualSize,
+    correction_size: f64,
+    /// Whether a frame is free besides: a joint's zero may be a rotation as large as that of the frame.
+    is_of_a_frame: bool,
+}
+
+impl Misfit {
+    /// Whether both residual and corrections are small: an arm that shrinks to nothing has small residuals on
+    /// positions in millimetres.
+    fn is_resolved_by(self, fit: &InterpretedFit) -> bool {
+        let is_small = fit.correction_size < LARGE_CORRECTION;
+        let is_resolved = match self {
+            Self::Residual(share) => {
+                fit.residual.share() < MUCH_BETTER * share && (is_small || fit.is_of_a_frame)
+            }
+            Self::Correction(size) => fit.correction_size < MUCH_BETTER * size && is_small,
+        };
+        is_resolved && !fit.residual.is_large()
+    }
+}
+
+/// The interpretation that resolves the misfit, if there is one: of several the one with the smallest
+/// residual, and of nearly equal ones the first of the list.
+pub(super) fn likely_reason(
+    nominal: &NominalChain<'_>,
+    rows: &[MeasuredRow],
+    options: &CalibrationOptions,
+    misfit: Misfit,
+) -> Option<LikelyReason> {
+    let mut best: Option<(String, ResidualSize)> = None;
+    for interpretation in interpretations(nominal) {
+        let fit = interpreted_fit(nominal, rows, options, &interpretation);
+        let Some(fit) = fit.filter(|fit| misfit.is_resolved_by(fit)) else { continue };
+        if best.as_ref().is_none_or(|(_, best)| fit.residual.share() < BETTER * best.share()) {
+            best = Some((interpretation.condition, fit.residual));
+        }
+    }
+    best.map(|(condition, ResidualSize { rms_m, rms_rad, .. })| LikelyReason { condition, rms_m, rms_rad })
+}
+
+/// A robust estimate under another interpretation; `None` if the interpretation does not apply, or the
+/// residuals of half of the rows are large.
+fn interpreted_fit(
+    nominal: &NominalChain<'_>,
+    rows: &[MeasuredRow],
+    options: &CalibrationOptions,
+    interpretation: &Interpretation<'_>,
+) -> Option<InterpretedFit> {
+    let rows: Vec<MeasuredRow> =
+        rows.iter().map(|row| (interpretation.reinterpret)(row)).collect::<Option<_>>()?;
+    let more = interpretation.free.iter().map(|&group| group.to_owned());
+    let free: Vec<String> = options.free.iter().cloned().chain(more).collect();
+    let parameters = free::parameters(nominal, &free, &options.hold).ok()?;
+    let measurements: Vec<_> = rows.iter().map(|row| measurement(nominal, row)).collect();
+    let chain = CorrectedChain::new(nominal.chain.clone(), parameters);
+    let problem = Problem { chain: &chain, measurements: &measurements };
+    let kept = identify(&problem, options.threshold).kept;
+    if problem.redundancy(&kept) == 0 {
+        return None;
+    }
+    let reach_scale = ReachScale::of(&problem);
+    // Estimates that explain nothing converge slowly, so the median of some rows decides first.
+    let step = measurements.len().div_ceil(SOME_ROWS);
+    let some: Vec<_> = measurements.iter().step_by(step).cloned().collect();
+    let alike = Noise { position_m: 1.0, orientation_rad: 1.0 / problem.reach_m() };
+    let first = fit(&Problem { chain: &chain, measurements: &some }, &kept, alike);
+    if reach_scale.median_residual_size(&first.residuals).is_large() {
+        return None;
+    }
+    let plain = fit_with_estimated_noise(&problem, &kept);
+    let robust = fit_robustly(&problem, &kept, Loss::Tukey, (&plain, None));
+    Some(InterpretedFit {
+        residual: reach_scale.residual_size(&robust.fit.residuals, &robust.outliers),
+        correction_size: reach_scale.correction_size(&chain, &robust.fit.corrections),
+        is_of_a_frame: !interpretation.free.is_empty(),
+    })
+}
+
+fn interpretations<'a>(nominal: &NominalChain<'a>) -> Vec<Interpretation<'a>> {
+    let plain = |condition: &str, reinterpret: Reinterpret<'a>| Interpretation {
+        condition: condition.to_owned(),
+        reinterpret,
+        free: &[],
+    };
+    let [revolute, prismatic] =
+        [JointMotionKind::Revolute, JointMotionKind::Prismatic].map(|motion| nominal.coordinates_of(motion));
+    let mut all = vec![
+        plain("the positions given as mm are in metres", positions(KILO)),
+        plain("the positions given as m are in millimetres", positions(1.0 / KILO)),
+        plain("the joint angles given as deg are in radians", joints(revolute.clone(), DEGREES)),
+        plain("the joint angles given as rad are in degrees", joints(revolute, 1.0 / DEGREES)),
+        plain("the prismatic joints given as mm are in metres", joints(prismatic.clone(), KILO)),
+        plain("the prismatic joints given as m are in millimetres", joints(prismatic, 1.0 / KILO)),
+        plain("the quaternions' qw, qx, qy, qz hold x, y, z, w", quaternions(|[x, y, z, w]| [w, x, y, z])),
+        plain("the quaternions' qx, qy, qz, qw hold w, x, y, z", quaternions(|[z, w, x, y]| [w, x, y, z])),
+        plain("roll, pitch and yaw given as deg are in radians", rpy(|rpy| rpy.map(|angle| angle * DEGREES))),
+        plain("roll, pitch and yaw given as rad are in degrees", rpy(|rpy| rpy.map(|angle| angle / DEGREES))),
+        plain("roll, pitch and yaw are about the moving axes, in that order", moving_axes()),
+        plain("the orientations are those of the base in the tip", inverse_orientation()),
+        plain("the poses are those of the base in the tip", inverse_pose()),
+    ];
+    for (name, &coordinate) in nominal.joint_names().into_iter().zip(&nominal.coordinates) {
+        let condition = format!("{name} is positive in the opposite direction");
+        all.push(Interpretation { condition, reinterpret: joints(vec![coordinate], -1.0), free: &[] });
+    }
+    let as_it_is = || -> Reinterpret<'a> { Box::new(|row| Some(row.clone())) };
+    let frames: [(&str, &'static [&'static str]); 3] = [
+        ("the pose of the base is free too (--free base)", &["base"]),
+        ("the pose of the tool is free too (--free tool)", &["tool"]),
+        ("the poses of base and tool are free too (--free base,tool)", &["base", "tool"]),
+    ];
+    all.extend(frames.map(|(condition, free)| Interpretation {
+        condition: condition.to_owned(),
+        reinterpret: as_it_is(),
+        free,
+    }));
+    all
+}
+
+fn positions<'a>(factor: f64) -> Reinterpret<'a> {
+    Box::new(move |row| {
+        let tip_in_base_m = row.tip_in_base_m.map(|coordinate| coordinate.map(|value| value * factor));
+        row.tip_in_base_m.iter().any(Option::is_some).then(|| MeasuredRow { tip_in_base_m, ..row.clone() })
+    })
+}
+
+fn joints<'a>(coordinates: Vec<usize>, factor: f64) -> Reinterpret<'a> {
+    Box::new(move |row| {
+        let mut row = row.clone();
+        for &coordinate in &coordinates {
+            row.q[coordinate] *= factor;
+        }
+        (!coordinates.is_empty()).then_some(row)
+    })
+}
+
+fn quaternions<'a>(reorder: fn([f64; 4]) -> [f64; 4]) -> Reinterpret<'a> {
+    Box::new(move |row| match row.orientation {
+        Some(WrittenOrientation::QuaternionWxyz(values)) => {
+            let orientation = Some(WrittenOrientation::QuaternionWxyz(reorder(values)));
+            Some(MeasuredRow { orientation, ..row.clone() })
+        }
+        _ => None,
+    })
+}
+
+fn rpy<'a>(change: fn([f64; 3]) -> [f64; 3]) -> Reinterpret<'a> {
+    Box::new(move |row| match row.orientation {
+        Some(WrittenOrientation::RpyRad(values)) => {
+            let orientation = Some(WrittenOrientation::RpyRad(change(values)));
+            Some(MeasuredRow { orientation, ..row.clone() })
+        }
+        _ => None,
+    })
+}
+
+/// `Rx(roll) Ry(pitch) Rz(yaw)`.
+fn moving_axes<'a>() -> Reinterpret<'a> {
+    Box::new(|row| match row.orientation {
+        Some(WrittenOrientation::RpyRad([roll, pitch, yaw])) => {
+            let about = |axis, angle| Rotation3::from_axis_angle(&axis, angle);
+            let rotation = about(Vector3::x_axis(), roll)
+                * about(Vector3::y_axis(), pitch)
+                * about(Vector3::z_axis(), yaw);
+            Some(with_rotation(row, rotation.into_inner()))
+        }
+        _ => None,
+    })
+}
+
+fn inverse_orientation<'a>() -> Reinterpret<'a> {
+    Box::new(|row| Some(with_rotation(row, row.orientation?.base_from_tip().transpose())))
+}
+
+fn inverse_pose<'a>() -> Reinterpret<'a> {
+    Box::new(|row| {
+        let [Some(x), Some(y), Some(z)] = row.tip_in_base_m else { return None };
+        let base_from_tip = row.orientation?.base_from_tip().transpose();
+        let tip_in_base_m = base_from_tip * -Vector3::new(x, y, z);
+        let tip_in_base_m = <[f64; 3]>::from(tip_in_base_m).map(Some);
+        Some(MeasuredRow { tip_in_base_m, ..with_rotation(row, base_from_tip) })
+    })
+}
+
+fn with_rotation(row: &MeasuredRow, base_from_tip: Matrix3<f64>) -> MeasuredRow {
+    let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(base_from_tip).euler_angles();
+    MeasuredRow { orientation: Some(WrittenOrientation::RpyRad([roll, pitch, yaw])), ..row.clone() }
+}
