@@ -17,7 +17,7 @@ use crate::{
     mesh::MeshStore,
     model::link::LinkIndex,
     packages::Packages,
-    robot_file::{self, Declared, ROBOT_FILE, ROBOT_FILE_BYTES, WrittenRobot, default_chain},
+    robot_file::{self, Declared, ROBOT_FILE, ROBOT_FILE_BYTES, WrittenRobot},
     srdf::{self, SRDF_BYTES},
     toml_text::parse_toml,
     urdf::{self, URDF_BYTES},
@@ -58,7 +58,8 @@ fn open(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Vec<Diagnostic>
 
 fn load_bare_urdf(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
     let (robot, warnings) = load_urdf(path, BTreeMap::new())?;
-    let (base, tip) = default_chain(&robot);
+    let base = robot.root();
+    let tip = robot.tip_of_longest_chain(base);
     Ok(RobotDescription {
         path: path.to_owned(),
         name: robot.name().to_owned(),

@@ -5,10 +5,7 @@ use std::{collections::BTreeSet, path::PathBuf};
 use nalgebra::Isometry3;
 
 use super::{dh_table::DhTable, joint::JointIndex, link::LinkIndex, robot::Robot};
-use crate::{
-    diagnostic::{Diagnostic, known_names},
-    robot_file::tip_of_longest_chain,
-};
+use crate::diagnostic::{Diagnostic, known_names};
 
 /// How far two poses may be apart and still count as the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,7 +60,7 @@ impl RobotDescription {
         let before = (self.base, self.tip);
         if let Some(base) = base {
             self.base = self.link("base", base)?;
-            self.tip = tip_of_longest_chain(&self.robot, self.base);
+            self.tip = self.robot.tip_of_longest_chain(self.base);
         }
         if let Some(tip) = tip {
             self.tip = self.link("tip", tip)?;

@@ -108,3 +108,16 @@ impl Joint {
         Some((limit.lower, limit.upper))
     }
 }
+
+/// A joint before its robot exists: links and mimicked joint by name, the rest as in [`Joint`].
+#[derive(Debug, Clone)]
+pub struct JointParts {
+    /// All that needs no other joint or link; its `parent`, `child` and `mimic` are overwritten.
+    pub joint: Joint,
+    /// Name of the parent link.
+    pub parent: String,
+    /// Name of the child link.
+    pub child: String,
+    /// Name of the mimicked joint, multiplier, offset.
+    pub mimic: Option<(String, f64, f64)>,
+}

@@ -2,19 +2,21 @@
 
 pub(crate) mod description;
 pub(crate) mod dh_table;
+mod error;
 pub(crate) mod geometry;
 pub(crate) mod inertia;
 pub(crate) mod joint;
 pub(crate) mod joint_values;
 pub(crate) mod link;
 pub(crate) mod robot;
-pub(crate) mod tree;
+mod tree;
 
 pub use description::{RobotDescription, Tolerance};
 pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};
+pub use error::RobotError;
 pub use geometry::{Geometry, Mesh, Shape};
 pub use inertia::Inertia;
-pub use joint::{Joint, JointIndex, JointKind, JointLimit, Mimic};
+pub use joint::{Joint, JointIndex, JointKind, JointLimit, JointParts, Mimic};
 pub use joint_values::{ByJoint, NamedValue, as_map};
 pub use link::{Link, LinkIndex};
-pub use robot::{JointParts, Robot, RobotError};
+pub use robot::Robot;

@@ -54,28 +54,6 @@ struct Context<'a> {
     text: &'a str,
 }
 
-/// Root, and the leaf of the longest chain of moving joints; of several the first in file order.
-pub(crate) fn default_chain(robot: &Robot) -> (LinkIndex, LinkIndex) {
-    (robot.root(), tip_of_longest_chain(robot, robot.root()))
-}
-
-/// The deepest link below `base`, counted in moving joints, then in joints: the flange's last frame.
-pub(crate) fn tip_of_longest_chain(robot: &Robot, base: LinkIndex) -> LinkIndex {
-    let mut depths: Vec<Option<(usize, usize)>> = vec![None; robot.links().len()];
-    depths[base.get()] = Some((0, 0));
-    let mut best = (base, (0, 0));
-    // Parents come first, so a link's depth is known when its children are reached.
-    for joint in robot.joints() {
-        let Some((moving, all)) = depths[joint.parent.get()] else { continue };
-        let depth = (moving + usize::from(joint.kind.is_movable()), all + 1);
-        depths[joint.child.get()] = Some(depth);
-        if depth > best.1 {
-            best = (joint.child, depth);
-        }
-    }
-    best.0
-}
-
 fn chain(
     written: &WrittenRobot,
     robot: &Robot,
@@ -96,7 +74,7 @@ fn chain(
     let base = written.base.as_ref().map_or(Some(robot.root()), |name| link("base", name));
     let tip = written.tip.as_ref().map(|name| link("tip", name));
     let base = base?;
-    let tip = tip.unwrap_or_else(|| Some(tip_of_longest_chain(robot, base)))?;
+    let tip = tip.unwrap_or_else(|| Some(robot.tip_of_longest_chain(base)))?;
     let Some(joints) = robot.chain(base, tip) else {
         let (base, tip) = (&robot.link(base).name, &robot.link(tip).name);
         let message = format!("tip \"{tip}\" does not hang below base \"{base}\"");

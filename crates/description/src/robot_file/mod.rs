@@ -5,7 +5,7 @@ mod places;
 mod write;
 mod written;
 
-pub(crate) use check::{Declared, check, default_chain, tip_of_longest_chain};
+pub(crate) use check::{Declared, check};
 pub use places::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey};
 pub use write::dh_section;
 pub(crate) use written::WrittenRobot;
