@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use nalgebra::Point3;
 
-use super::{MeshError, MeshFile};
+use super::mesh_file::{MeshError, MeshFile};
 
 /// Free text and the number of triangles.
 const HEADER_BYTES: usize = 84;

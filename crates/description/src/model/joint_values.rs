@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 ///
 /// # Examples
 /// ```
-/// use crate::model::joint_values::ByJoint;
+/// use congruent_description::ByJoint;
 /// let names = ["shoulder".to_owned(), "elbow".to_owned()];
 /// let q = ByJoint::new(&names, &[0.25, 1.5]);
 /// assert_eq!(q.listed(2), "shoulder 0.25, elbow 1.50");

@@ -1,11 +1,12 @@
 //! A robot file against its robot: names, chain, table, figures.
 
-use std::ops::Range;
-
 use nalgebra::Isometry3;
 use toml::Spanned;
 
-use super::written::{WrittenDh, WrittenRobot, WrittenTolerance};
+use super::{
+    rows::{self, ChainContext, first_line},
+    written::{WrittenDh, WrittenRobot, WrittenTolerance},
+};
 use crate::{
     Robot,
     diagnostic::{Diagnostic, known_names},
@@ -14,8 +15,6 @@ use crate::{
     units::Unit,
     written_transform::WrittenTransform,
 };
-
-mod rows;
 
 /// What a robot file declares about a robot.
 #[derive(Debug)]
@@ -38,20 +37,12 @@ pub(crate) fn check(
     let tcp = written.tcp.as_ref().map(Spanned::get_ref);
     let tip_from_tcp = tcp.and_then(|tcp| findings.keep(tcp.isometry()));
     let (base, tip, chain) = chain(written, robot, findings)?;
-    let context = Context { robot, chain: &chain, text };
+    let context = ChainContext { robot, chain: &chain, text };
     let dh = match &written.dh {
         Some(dh) => Some(table(dh, &context, findings)?),
         None => None,
     };
     Some(Declared { base, tip, dh, tip_from_tcp, tolerance })
-}
-
-/// What the rows of a table are checked against.
-struct Context<'a> {
-    robot: &'a Robot,
-    /// The moving joints from base to tip.
-    chain: &'a [JointIndex],
-    text: &'a str,
 }
 
 fn chain(
@@ -90,7 +81,11 @@ fn chain(
     Some((base, tip, moving))
 }
 
-fn table(written: &Spanned<WrittenDh>, context: &Context<'_>, findings: &mut Findings) -> Option<DhTable> {
+fn table(
+    written: &Spanned<WrittenDh>,
+    context: &ChainContext<'_>,
+    findings: &mut Findings,
+) -> Option<DhTable> {
     let dh = written.get_ref();
     let transform = |written: &Option<Spanned<WrittenTransform>>, findings: &mut Findings| match written {
         Some(written) => findings.keep(written.get_ref().isometry()),
@@ -136,12 +131,6 @@ fn tolerance(written: Option<&WrittenTolerance>, findings: &mut Findings) -> Tol
         position_m: position_m.unwrap_or(default.position_m),
         orientation_rad: orientation_rad.unwrap_or(default.orientation_rad),
     }
-}
-
-/// The first line of a table: its whole range may be a hundred lines.
-fn first_line(span: Range<usize>, text: &str) -> Range<usize> {
-    let end = text[span.clone()].find('\n').map_or(span.end, |newline| span.start + newline);
-    span.start..end
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 mod check;
 mod places;
+mod rows;
 mod write;
 mod written;
 

@@ -2,7 +2,7 @@
 
 use roxmltree::{Document, Node};
 
-use super::{label, tag};
+use super::node::{label, tag};
 use crate::{diagnostic::Diagnostic, xml};
 
 /// xacro runs code, so it is never run here.

@@ -6,7 +6,10 @@ use nalgebra::{Unit, Vector3};
 use roxmltree::Node;
 use urdf_rs::JointType;
 
-use super::{element, label, place, pose, tag};
+use super::{
+    node::{element, label, place, tag},
+    pose,
+};
 use crate::{
     JointParts,
     diagnostic::Diagnostic,

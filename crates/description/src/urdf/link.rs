@@ -3,7 +3,11 @@
 use nalgebra::{Matrix3, SymmetricEigen};
 use roxmltree::Node;
 
-use super::{element, elements, label, place, pose, shape::ShapeReader};
+use super::{
+    node::{element, elements, label, place},
+    pose,
+    shape::ShapeReader,
+};
 use crate::{
     diagnostic::Diagnostic,
     model::{inertia::Inertia, link::Link},

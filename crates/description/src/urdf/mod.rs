@@ -16,6 +16,7 @@ mod dialect;
 mod grammar;
 mod joint;
 mod link;
+mod node;
 mod number;
 mod places;
 mod pose;
@@ -26,16 +27,15 @@ mod write;
 pub use places::UrdfPlaces;
 pub use write::urdf_text;
 
-use std::{collections::BTreeMap, ops::Range};
-
-use nalgebra::Vector3;
 use roxmltree::Node;
+
+use self::node::{elements, last, place, spans, tag};
 
 use crate::{
     Robot, RobotError,
     diagnostic::{Diagnostic, known_names},
     findings::Findings,
-    mesh::FoundMesh,
+    mesh::FindMesh,
     model::link::Link,
     xml,
 };
@@ -44,9 +44,6 @@ use crate::{
 pub(crate) const URDF_BYTES: u64 = 16 << 20;
 /// The largest number of links: far above any robot, far below what would take minutes.
 const MOST_LINKS: usize = 10_000;
-
-/// Gives the mesh that a URDF names, scaled.
-pub(crate) type FindMesh<'a> = dyn FnMut(&str, Vector3<f64>) -> Result<FoundMesh, Diagnostic> + 'a;
 
 /// Reads a robot; `None` when `findings` holds an error.
 pub(crate) fn parse(text: &str, find_mesh: &mut FindMesh<'_>, findings: &mut Findings) -> Option<Robot> {
@@ -161,47 +158,6 @@ fn first_at(fault: Diagnostic, root: Node<'_, '_>, tag_name: &str, name: &str) -
         Some(line) => fault.with_help(format!("the first one is at line {line}")),
         None => fault,
     }
-}
-
-/// The last element with this name: of two that share one, the second is at fault.
-fn last<'a, 'i>(root: Node<'a, 'i>, tag_name: &str, name: &str) -> Option<Node<'a, 'i>> {
-    elements(root, tag_name).filter(|node| node.attribute("name") == Some(name)).last()
-}
-
-fn spans<'a>(root: Node<'a, '_>, tag_name: &'a str) -> BTreeMap<&'a str, Range<usize>> {
-    elements(root, tag_name).filter_map(|node| Some((node.attribute("name")?, tag(node)))).collect()
-}
-
-/// The child elements with this name, in file order.
-fn elements<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> impl Iterator<Item = Node<'a, 'i>> {
-    parent.children().filter(move |node| node.is_element() && node.tag_name().name() == name)
-}
-
-/// The child element with this name, where there is one.
-fn element<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
-    elements(parent, name).next()
-}
-
-/// The place of a child element, or of the element itself where the child is missing.
-fn place(parent: Node<'_, '_>, child: &str) -> Range<usize> {
-    tag(element(parent, child).unwrap_or(parent))
-}
-
-/// The opening of a start tag, `<name`: an element's whole range may be a thousand lines.
-fn tag(node: Node<'_, '_>) -> Range<usize> {
-    let range = node.range();
-    let text = &node.document().input_text()[range.clone()];
-    let end = text.find(|c: char| c.is_whitespace() || c == '/' || c == '>').unwrap_or(text.len());
-    range.start..range.start + end
-}
-
-/// `link "forearm"`, its name cut where it is longer than a line.
-fn label(node: Node<'_, '_>) -> String {
-    const SHOWN: usize = 60;
-    let name = node.attribute("name").unwrap_or_default();
-    let short: String = name.chars().take(SHOWN).collect();
-    let dots = if short.len() < name.len() { "..." } else { "" };
-    format!("{} \"{short}{dots}\"", node.tag_name().name())
 }
 
 #[cfg(test)]

@@ -2,7 +2,10 @@
 
 use std::{ops::Range, path::Path, sync::Arc};
 
-use super::{URDF_BYTES, last, place};
+use super::{
+    URDF_BYTES,
+    node::{last, place},
+};
 use crate::{diagnostic::SourceFile, file::read_text, xml};
 
 /// A URDF's text, in which joints are found.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use roxmltree::Node;
 
-use super::{element, label, place, tag};
+use super::node::{element, label, place, tag};
 use crate::{diagnostic::Diagnostic, findings::Findings, written_transform::rotation_from_rpy_fixed_xyz};
 
 /// Longer offsets between the parts of one robot are taken for millimetres.

@@ -8,9 +8,9 @@ use std::ops::Range;
 use roxmltree::{Attribute as XmlAttribute, Node};
 
 use super::{
-    elements,
     grammar::{Attribute, Child, Element, Occurs, ROBOT, Value},
-    label, number, tag,
+    node::{elements, label, tag},
+    number,
 };
 use crate::{
     diagnostic::{Diagnostic, known_names},

@@ -5,10 +5,14 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 use roxmltree::Node;
 
-use super::{FindMesh, element, label, pose, tag};
+use super::{
+    node::{element, label, tag},
+    pose,
+};
 use crate::{
     diagnostic::Diagnostic,
     findings::Findings,
+    mesh::FindMesh,
     model::geometry::{Geometry, Mesh, Shape},
 };
 

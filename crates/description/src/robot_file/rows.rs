@@ -1,24 +1,32 @@
 //! The rows of a Denavit-Hartenberg table against the chain that they stand for.
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, ops::Range};
 
 use toml::Spanned;
 
-use super::{Context, first_line};
+use super::written::{WrittenDh, WrittenRow};
 use crate::{
+    Robot,
     diagnostic::{Diagnostic, known_names, line_column},
     findings::Findings,
     model::{
         dh_table::{DhRow, DhRowKind},
         joint::JointIndex,
     },
-    robot_file::written::{WrittenDh, WrittenRow},
     units::Unit,
 };
 
+/// What the rows of a table are checked against.
+pub(super) struct ChainContext<'a> {
+    pub(super) robot: &'a Robot,
+    /// The moving joints from base to tip.
+    pub(super) chain: &'a [JointIndex],
+    pub(super) text: &'a str,
+}
+
 pub(super) fn check(
     dh: &Spanned<WrittenDh>,
-    context: &Context<'_>,
+    context: &ChainContext<'_>,
     findings: &mut Findings,
 ) -> Option<Vec<DhRow>> {
     let written = &dh.get_ref().row;
@@ -30,7 +38,7 @@ pub(super) fn check(
     (!rows.is_empty()).then_some(rows)
 }
 
-fn row(written: &Spanned<WrittenRow>, context: &Context<'_>, findings: &mut Findings) -> Option<DhRow> {
+fn row(written: &Spanned<WrittenRow>, context: &ChainContext<'_>, findings: &mut Findings) -> Option<DhRow> {
     let row = written.get_ref();
     let at = || first_line(written.span(), context.text);
     let mut figure = |quantity, unit: Unit, plain: &Option<Spanned<f64>>, handy: &Option<Spanned<f64>>| {
@@ -92,7 +100,7 @@ fn sign(row: &WrittenRow, findings: &mut Findings) -> Option<f64> {
 }
 
 /// The joint of a row, which must be a moving one of the chain.
-fn joint(row: &WrittenRow, context: &Context<'_>, findings: &mut Findings) -> Option<JointIndex> {
+fn joint(row: &WrittenRow, context: &ChainContext<'_>, findings: &mut Findings) -> Option<JointIndex> {
     let (name, robot) = (row.joint.get_ref(), context.robot);
     let names = || context.chain.iter().map(|&joint| robot.joint(joint).name.as_str());
     let found = robot.find_joint(name).filter(|joint| context.chain.contains(joint));
@@ -135,7 +143,7 @@ fn no_joint_twice(written: &[Spanned<WrittenRow>], rows: &[DhRow], findings: &mu
 fn every_joint_has_a_row(
     dh: &Spanned<WrittenDh>,
     rows: &[DhRow],
-    context: &Context<'_>,
+    context: &ChainContext<'_>,
     findings: &mut Findings,
 ) {
     let robot = context.robot;
@@ -161,7 +169,12 @@ fn every_joint_has_a_row(
         .push(Diagnostic::error("robot_file::missing_row", message).at(first_line(dh.span(), context.text)));
 }
 
-fn order(written: &[Spanned<WrittenRow>], rows: &[DhRow], context: &Context<'_>, findings: &mut Findings) {
+fn order(
+    written: &[Spanned<WrittenRow>],
+    rows: &[DhRow],
+    context: &ChainContext<'_>,
+    findings: &mut Findings,
+) {
     let place = |row: &DhRow| context.chain.iter().position(|&joint| joint == row.joint);
     if let Some(later) = rows.windows(2).position(|pair| place(&pair[0]) > place(&pair[1])) {
         let name = &written[later + 1].get_ref().joint;
@@ -169,4 +182,10 @@ fn order(written: &[Spanned<WrittenRow>], rows: &[DhRow], context: &Context<'_>,
             format!("row of joint \"{}\" is in another order than the chain base -> tip", name.get_ref());
         findings.push(Diagnostic::warning("robot_file::row_order", message).at(name.span()));
     }
+}
+
+/// The first line of a table: its whole range may be a hundred lines.
+pub(super) fn first_line(span: Range<usize>, text: &str) -> Range<usize> {
+    let end = text[span.clone()].find('\n').map_or(span.end, |newline| span.start + newline);
+    span.start..end
 }
