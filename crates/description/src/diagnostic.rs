@@ -41,7 +41,7 @@ pub enum Severity {
     Error,
 }
 
-/// One finding about one input.
+/// One diagnostic about one input.
 ///
 /// A parser knows the span, its caller the file: [`Diagnostic::in_file`] joins the two.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,7 +61,7 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// A finding that stops the work.
+    /// A diagnostic that stops the work.
     pub fn error(code: &'static str, message: impl Into<String>) -> Self {
         Self {
             severity: Severity::Error,
@@ -73,7 +73,7 @@ impl Diagnostic {
         }
     }
 
-    /// A finding that does not stop the work.
+    /// A diagnostic that does not stop the work.
     pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
     }
@@ -118,8 +118,8 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
 }
 
 impl From<Diagnostic> for Vec<Diagnostic> {
-    fn from(finding: Diagnostic) -> Self {
-        vec![finding]
+    fn from(diagnostic: Diagnostic) -> Self {
+        vec![diagnostic]
     }
 }
 

@@ -5,29 +5,25 @@
 
 mod configuration_file;
 mod diagnostic;
+mod diagnostics;
 mod file;
 mod finding;
-mod findings;
-mod fixed_array;
 mod load;
 mod mesh;
 mod model;
 mod packages;
 mod robot_file;
 mod srdf;
-pub mod toml_text;
 pub mod units;
 mod urdf;
-mod written_figure;
-mod written_transform;
+mod written;
 mod xml;
 
 pub use configuration_file::{JointState, JsonList, configuration, read_configurations, read_states};
 pub use diagnostic::{Diagnostic, Severity, SourceFile, known_names, line_column, nearest};
+pub use diagnostics::Diagnostics;
 pub use file::read_text;
 pub use finding::Finding;
-pub use findings::Findings;
-pub use fixed_array::fixed_array;
 pub use load::load_robot;
 pub use model::{
     ByJoint, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
@@ -36,5 +32,9 @@ pub use model::{
 };
 pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey, dh_section};
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
-pub use written_figure::fitted_number;
-pub use written_transform::{WrittenTransform, fitted_transform};
+pub use written::{
+    array::fixed_array,
+    number::fitted_number,
+    toml_text,
+    transform::{WrittenTransform, fitted_transform},
+};

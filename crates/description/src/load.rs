@@ -12,15 +12,15 @@ use toml::Spanned;
 use crate::{
     Robot, RobotDescription, Tolerance,
     diagnostic::{Diagnostic, SourceFile},
+    diagnostics::Diagnostics,
     file::read_text,
-    findings::Findings,
     mesh::MeshStore,
     model::link::LinkIndex,
     packages::Packages,
     robot_file::{self, Declared, ROBOT_FILE, ROBOT_FILE_BYTES, WrittenRobot},
     srdf::{self, SRDF_BYTES},
-    toml_text::parse_toml,
     urdf::{self, URDF_BYTES},
+    written::toml_text::parse_toml,
 };
 
 const ACCEPTED: &str = "give a folder with robot.toml, a robot file (.toml) or a .urdf";
@@ -31,7 +31,7 @@ const ACCEPTED: &str = "give a folder with robot.toml, a robot file (.toml) or a
 /// Denavit-Hartenberg table.
 ///
 /// # Errors
-/// Every finding, errors and warnings, when at least one is an error.
+/// Every diagnostic, errors and warnings, when at least one is an error.
 pub fn load_robot(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
     let name = path.display();
     if path.is_dir() {
@@ -85,10 +85,10 @@ fn load_urdf(
         vec![Diagnostic::error("file::unreadable", message)]
     })?;
     let mut meshes = MeshStore::new(&packages);
-    let mut findings = Findings::default();
-    let robot = urdf::parse(&source.text, &mut |uri, scale| meshes.find(uri, scale), &mut findings);
-    let findings = findings.in_file(&source);
-    robot.map(|robot| (robot, findings.clone())).ok_or(findings)
+    let mut diagnostics = Diagnostics::default();
+    let robot = urdf::parse(&source.text, &mut |uri, scale| meshes.find(uri, scale), &mut diagnostics);
+    let diagnostics = diagnostics.in_file(&source);
+    robot.map(|robot| (robot, diagnostics.clone())).ok_or(diagnostics)
 }
 
 /// The folder of a file; a bare file name is in the current one.
@@ -101,33 +101,33 @@ fn parent(path: &Path) -> &Path {
 
 fn load_robot_file(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
     let source = open(path, ROBOT_FILE_BYTES)?;
-    let mut findings = Findings::default();
-    let description = read_robot_file(path, &source.text, &mut findings);
-    let is_refused = findings.has_error();
-    let findings = findings.in_file(&source);
+    let mut diagnostics = Diagnostics::default();
+    let description = read_robot_file(path, &source.text, &mut diagnostics);
+    let is_refused = diagnostics.has_error();
+    let diagnostics = diagnostics.in_file(&source);
     match description {
-        Some(description) if !is_refused => Ok(RobotDescription { warnings: findings, ..description }),
-        _ => Err(findings),
+        Some(description) if !is_refused => Ok(RobotDescription { warnings: diagnostics, ..description }),
+        _ => Err(diagnostics),
     }
 }
 
-/// Everything about the robot file at `path`; its warnings are in `findings`.
-fn read_robot_file(path: &Path, text: &str, findings: &mut Findings) -> Option<RobotDescription> {
-    let (written, urdf_path) = written_robot(path, text, findings)?;
-    let declared_packages = declared_packages(&written, parent(path), findings);
+/// Everything about the robot file at `path`; its warnings are in `diagnostics`.
+fn read_robot_file(path: &Path, text: &str, diagnostics: &mut Diagnostics) -> Option<RobotDescription> {
+    let (written, urdf_path) = written_robot(path, text, diagnostics)?;
+    let declared_packages = declared_packages(&written, parent(path), diagnostics);
     let robot = match load_urdf(&urdf_path, declared_packages) {
         Ok((robot, warnings)) => {
-            findings.extend(warnings);
+            diagnostics.extend(warnings);
             robot
         }
         Err(faults) => {
             let urdf = written.urdf.as_ref().map_or(0..0, Spanned::span);
-            findings.extend(faults.into_iter().map(|fault| placed(fault, &urdf)));
+            diagnostics.extend(faults.into_iter().map(|fault| placed(fault, &urdf)));
             return None;
         }
     };
-    let declared = robot_file::check(&written, text, &robot, findings);
-    let disabled_collisions = disabled_collisions(&written, parent(path), &robot, findings);
+    let declared = robot_file::check(&written, text, &robot, diagnostics);
+    let disabled_collisions = disabled_collisions(&written, parent(path), &robot, diagnostics);
     let Declared { base, tip, dh, tip_from_tcp, tolerance } = declared?;
     let name = written.name.map_or_else(|| robot.name().to_owned(), Spanned::into_inner);
     Some(RobotDescription {
@@ -149,17 +149,17 @@ fn disabled_collisions(
     written: &WrittenRobot,
     folder: &Path,
     robot: &Robot,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> BTreeSet<(LinkIndex, LinkIndex)> {
     let Some(srdf) = &written.srdf else { return BTreeSet::new() };
     match read_text(&folder.join(srdf.get_ref()), SRDF_BYTES) {
         Ok(source) => {
             let (pairs, faults) = srdf::parse(&source, robot);
-            findings.extend(faults);
+            diagnostics.extend(faults);
             pairs
         }
         Err(fault) => {
-            findings.push(placed(fault, &srdf.span()));
+            diagnostics.push(placed(fault, &srdf.span()));
             BTreeSet::new()
         }
     }
@@ -170,9 +170,9 @@ fn placed(fault: Diagnostic, named_at: &Range<usize>) -> Diagnostic {
     if fault.source.is_some() { fault } else { fault.at(named_at.clone()) }
 }
 
-fn written_robot(path: &Path, text: &str, findings: &mut Findings) -> Option<(WrittenRobot, PathBuf)> {
-    let written: WrittenRobot = parse_toml(text, findings)?;
-    let urdf = findings.keep(written.urdf.as_ref().ok_or_else(|| {
+fn written_robot(path: &Path, text: &str, diagnostics: &mut Diagnostics) -> Option<(WrittenRobot, PathBuf)> {
+    let written: WrittenRobot = parse_toml(text, diagnostics)?;
+    let urdf = diagnostics.keep(written.urdf.as_ref().ok_or_else(|| {
         Diagnostic::error("robot_file::urdf", "the robot file has no key \"urdf\"")
             .at(0..0)
             .with_help("urdf = \"robot.urdf\", relative to the robot file")
@@ -181,7 +181,7 @@ fn written_robot(path: &Path, text: &str, findings: &mut Findings) -> Option<(Wr
     if !urdf_path.exists() {
         let message =
             format!("urdf = \"{}\": {} does not exist", urdf.get_ref().display(), urdf_path.display());
-        findings.push(Diagnostic::error("file::not_found", message).at(urdf.span()));
+        diagnostics.push(Diagnostic::error("file::not_found", message).at(urdf.span()));
         return None;
     }
     Some((written, urdf_path))
@@ -190,12 +190,12 @@ fn written_robot(path: &Path, text: &str, findings: &mut Findings) -> Option<(Wr
 fn declared_packages(
     written: &WrittenRobot,
     folder: &Path,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, PathBuf> {
     let mut resolve = |(name, written): (&String, &Spanned<PathBuf>)| {
         let path = folder.join(written.get_ref());
         let canonical = path.canonicalize().ok().filter(|path| path.is_dir());
-        let folder = findings.keep(canonical.ok_or_else(|| {
+        let folder = diagnostics.keep(canonical.ok_or_else(|| {
             let message = format!("package \"{name}\": {} is not a folder", path.display());
             Diagnostic::error("robot_file::package", message).at(written.span())
         }))?;

@@ -5,7 +5,7 @@ use std::{ops::Range, sync::Arc};
 use congruent_description::{
     ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, SourceFile, fitted_number,
     fitted_transform, line_column,
-    units::{Scale, Unit},
+    units::{Unit, UnitSystem},
 };
 use congruent_kinematics::{Pose, rotation_log};
 
@@ -339,7 +339,7 @@ impl Witness<'_> {
         let unit = if is_angle(entry) { Unit::Angle } else { Unit::Length };
         match place {
             Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.scale)),
-            None => format!("{} = {}", entry_name(entry), unit.fitted(value, Scale::Plain)),
+            None => format!("{} = {}", entry_name(entry), unit.fitted(value, UnitSystem::Si)),
         }
     }
 }

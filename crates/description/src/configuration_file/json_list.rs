@@ -7,7 +7,7 @@ use serde_json::value::RawValue;
 
 use crate::Diagnostic;
 
-/// A kind of list, in the words of its findings.
+/// A kind of list, in the words of its diagnostics.
 #[derive(Debug, Clone, Copy)]
 pub struct JsonList {
     /// What an entry is.

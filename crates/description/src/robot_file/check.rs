@@ -10,10 +10,10 @@ use super::{
 use crate::{
     Robot,
     diagnostic::{Diagnostic, known_names},
-    findings::Findings,
+    diagnostics::Diagnostics,
     model::{description::Tolerance, dh_table::DhTable, joint::JointIndex, link::LinkIndex},
     units::Unit,
-    written_transform::WrittenTransform,
+    written::transform::WrittenTransform,
 };
 
 /// What a robot file declares about a robot.
@@ -31,15 +31,15 @@ pub(crate) fn check(
     written: &WrittenRobot,
     text: &str,
     robot: &Robot,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Declared> {
-    let tolerance = tolerance(written.tolerance.as_ref(), findings);
+    let tolerance = tolerance(written.tolerance.as_ref(), diagnostics);
     let tcp = written.tcp.as_ref().map(Spanned::get_ref);
-    let tip_from_tcp = tcp.and_then(|tcp| findings.keep(tcp.isometry()));
-    let (base, tip, chain) = chain(written, robot, findings)?;
+    let tip_from_tcp = tcp.and_then(|tcp| diagnostics.keep(tcp.isometry()));
+    let (base, tip, chain) = chain(written, robot, diagnostics)?;
     let context = ChainContext { robot, chain: &chain, text };
     let dh = match &written.dh {
-        Some(dh) => Some(table(dh, &context, findings)?),
+        Some(dh) => Some(table(dh, &context, diagnostics)?),
         None => None,
     };
     Some(Declared { base, tip, dh, tip_from_tcp, tolerance })
@@ -48,10 +48,10 @@ pub(crate) fn check(
 fn chain(
     written: &WrittenRobot,
     robot: &Robot,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> Option<(LinkIndex, LinkIndex, Vec<JointIndex>)> {
     let mut link = |key: &str, name: &Spanned<String>| {
-        findings.keep(robot.find_link(name.get_ref()).ok_or_else(|| {
+        diagnostics.keep(robot.find_link(name.get_ref()).ok_or_else(|| {
             let message = format!("{key} = \"{}\": the robot has no such link", name.get_ref());
             let links = robot.links().iter().map(|link| link.name.as_str());
             Diagnostic::error("robot_file::unknown_link", message).at(name.span()).with_help(known_names(
@@ -70,7 +70,7 @@ fn chain(
         let (base, tip) = (&robot.link(base).name, &robot.link(tip).name);
         let message = format!("tip \"{tip}\" does not hang below base \"{base}\"");
         let at = written.tip.as_ref().or(written.base.as_ref()).map_or(0..0, Spanned::span);
-        findings.push(
+        diagnostics.push(
             Diagnostic::error("robot_file::chain", message)
                 .at(at)
                 .with_help("no chain of joints leads from base down to tip"),
@@ -84,18 +84,19 @@ fn chain(
 fn table(
     written: &Spanned<WrittenDh>,
     context: &ChainContext<'_>,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> Option<DhTable> {
     let dh = written.get_ref();
-    let transform = |written: &Option<Spanned<WrittenTransform>>, findings: &mut Findings| match written {
-        Some(written) => findings.keep(written.get_ref().isometry()),
+    let transform = |written: &Option<Spanned<WrittenTransform>>, diagnostics: &mut Diagnostics| match written
+    {
+        Some(written) => diagnostics.keep(written.get_ref().isometry()),
         None => Some(Isometry3::identity()),
     };
-    let base_from_dh0 = transform(&dh.base_from_dh0, findings);
-    let dhn_from_tip = transform(&dh.dhn_from_tip, findings);
-    let rows = rows::check(written, context, findings);
+    let base_from_dh0 = transform(&dh.base_from_dh0, diagnostics);
+    let dhn_from_tip = transform(&dh.dhn_from_tip, diagnostics);
+    let rows = rows::check(written, context, diagnostics);
     let convention =
-        findings.keep(dh.convention.as_ref().map(|written| *written.get_ref()).ok_or_else(|| {
+        diagnostics.keep(dh.convention.as_ref().map(|written| *written.get_ref()).ok_or_else(|| {
             Diagnostic::error("robot_file::convention", "[dh] has no convention")
                 .at(first_line(written.span(), context.text))
                 .with_help(
@@ -112,15 +113,15 @@ fn table(
     })
 }
 
-fn tolerance(written: Option<&WrittenTolerance>, findings: &mut Findings) -> Tolerance {
+fn tolerance(written: Option<&WrittenTolerance>, diagnostics: &mut Diagnostics) -> Tolerance {
     let default = Tolerance::default();
     let Some(written) = written else { return default };
     let mut positive = |quantity, unit: Unit, plain: &Option<Spanned<f64>>, handy: &Option<Spanned<f64>>| {
-        let value = findings.keep(unit.value(quantity, plain.as_ref(), handy.as_ref())).flatten()?;
+        let value = diagnostics.keep(unit.value(quantity, plain.as_ref(), handy.as_ref())).flatten()?;
         let span = plain.as_ref().or(handy.as_ref()).map_or(0..0, Spanned::span);
         if value <= 0.0 {
             let message = format!("tolerance {quantity} must be greater than 0, it is {value}");
-            findings.push(Diagnostic::error("robot_file::tolerance", message).at(span));
+            diagnostics.push(Diagnostic::error("robot_file::tolerance", message).at(span));
         }
         Some(value)
     };

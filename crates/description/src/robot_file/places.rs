@@ -11,11 +11,11 @@ use super::{
 };
 use crate::{
     diagnostic::SourceFile,
+    diagnostics::Diagnostics,
     file::read_text,
-    findings::Findings,
-    toml_text::parse_toml,
-    units::{Scale, Unit},
-    written_transform::WrittenTransform,
+    units::{Unit, UnitSystem},
+    written::toml_text::parse_toml,
+    written::transform::WrittenTransform,
 };
 
 /// A figure of a row.
@@ -71,7 +71,7 @@ pub struct FigurePlace {
     /// The key under which it stands, or would: `alpha_deg`.
     pub key: String,
     /// In which of its units.
-    pub scale: Scale,
+    pub scale: UnitSystem,
     /// Whether the file writes the figure; one that it leaves out is zero.
     pub is_written: bool,
     /// Byte range of the value, or of the row's joint where the figure is left out.
@@ -89,7 +89,7 @@ impl RobotFilePlaces {
     /// Reads the file again; `None` where it cannot be read any more or has no table.
     pub fn read(path: &Path) -> Option<Self> {
         let source = read_text(path, ROBOT_FILE_BYTES).ok()?;
-        let written: WrittenRobot = parse_toml(&source.text, &mut Findings::default())?;
+        let written: WrittenRobot = parse_toml(&source.text, &mut Diagnostics::default())?;
         Some(Self { dh: written.dh?, source })
     }
 
@@ -113,10 +113,10 @@ impl RobotFilePlaces {
             span: span.unwrap_or_else(|| row.joint.span()),
         };
         let (quantity, unit) = match key {
-            RowKey::Joint => return Some(place("joint".to_owned(), Scale::Plain, Some(row.joint.span()))),
-            RowKey::Kind => return Some(place("kind".to_owned(), Scale::Plain, Some(row.kind.span()))),
+            RowKey::Joint => return Some(place("joint".to_owned(), UnitSystem::Si, Some(row.joint.span()))),
+            RowKey::Kind => return Some(place("kind".to_owned(), UnitSystem::Si, Some(row.kind.span()))),
             RowKey::Sign => {
-                return Some(place("sign".to_owned(), Scale::Plain, row.sign.as_ref().map(Spanned::span)));
+                return Some(place("sign".to_owned(), UnitSystem::Si, row.sign.as_ref().map(Spanned::span)));
             }
             RowKey::A => ("a", Unit::Length),
             RowKey::Alpha => ("alpha", Unit::Angle),
@@ -125,20 +125,20 @@ impl RobotFilePlaces {
         };
         let [plain, handy] = figures(row, key);
         let [plain_key, handy_key] = unit.keys(quantity);
-        let scale = Scale::of(plain, handy, self.scale(unit));
+        let scale = UnitSystem::of(plain, handy, self.scale(unit));
         let span = plain.or(handy).map(Spanned::span);
-        Some(place(if scale == Scale::Handy { handy_key } else { plain_key }, scale, span))
+        Some(place(if scale == UnitSystem::Engineering { handy_key } else { plain_key }, scale, span))
     }
 
     /// How the rows write a unit, and a new figure should be written.
-    fn scale(&self, unit: Unit) -> Scale {
+    fn scale(&self, unit: Unit) -> UnitSystem {
         let keys = match unit {
             Unit::Length => [RowKey::A, RowKey::D],
             Unit::Angle => [RowKey::Alpha, RowKey::Theta],
         };
         let rows = self.dh.get_ref().row.iter().map(Spanned::get_ref);
         let mut all = rows.flat_map(|row| keys.map(|key| figures(row, key)));
-        if all.any(|[_, handy]| handy.is_some()) { Scale::Handy } else { Scale::Plain }
+        if all.any(|[_, handy]| handy.is_some()) { UnitSystem::Engineering } else { UnitSystem::Si }
     }
 
     /// How the file would write another value of a declared transform, to be put at

@@ -8,7 +8,7 @@ use super::written::{WrittenDh, WrittenRow};
 use crate::{
     Robot,
     diagnostic::{Diagnostic, known_names, line_column},
-    findings::Findings,
+    diagnostics::Diagnostics,
     model::{
         dh_table::{DhRow, DhRowKind},
         joint::JointIndex,
@@ -27,29 +27,33 @@ pub(super) struct ChainContext<'a> {
 pub(super) fn check(
     dh: &Spanned<WrittenDh>,
     context: &ChainContext<'_>,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Vec<DhRow>> {
     let written = &dh.get_ref().row;
-    let rows: Vec<Option<DhRow>> = written.iter().map(|row| self::row(row, context, findings)).collect();
+    let rows: Vec<Option<DhRow>> = written.iter().map(|row| self::row(row, context, diagnostics)).collect();
     let rows: Vec<DhRow> = rows.into_iter().collect::<Option<_>>()?;
-    no_joint_twice(written, &rows, findings);
-    every_joint_has_a_row(dh, &rows, context, findings);
-    order(written, &rows, context, findings);
+    no_joint_twice(written, &rows, diagnostics);
+    every_joint_has_a_row(dh, &rows, context, diagnostics);
+    order(written, &rows, context, diagnostics);
     (!rows.is_empty()).then_some(rows)
 }
 
-fn row(written: &Spanned<WrittenRow>, context: &ChainContext<'_>, findings: &mut Findings) -> Option<DhRow> {
+fn row(
+    written: &Spanned<WrittenRow>,
+    context: &ChainContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<DhRow> {
     let row = written.get_ref();
     let at = || first_line(written.span(), context.text);
     let mut figure = |quantity, unit: Unit, plain: &Option<Spanned<f64>>, handy: &Option<Spanned<f64>>| {
-        findings.keep(unit.value(quantity, plain.as_ref(), handy.as_ref()))
+        diagnostics.keep(unit.value(quantity, plain.as_ref(), handy.as_ref()))
     };
     let a_m = figure("a", Unit::Length, &row.a_m, &row.a_mm);
     let alpha_rad = figure("alpha", Unit::Angle, &row.alpha_rad, &row.alpha_deg);
     let d_m = figure("d", Unit::Length, &row.d_m, &row.d_mm);
     let theta_rad = figure("theta", Unit::Angle, &row.theta_rad, &row.theta_deg);
     let mut needed = |quantity, unit: Unit, value: Option<Option<f64>>| {
-        findings.keep(value?.ok_or_else(|| {
+        diagnostics.keep(value?.ok_or_else(|| {
             let [plain, handy] = unit.keys(quantity);
             let message = format!("row of joint \"{}\" has no {plain} or {handy}", row.joint.get_ref());
             Diagnostic::error("robot_file::missing_figure", message).at(at())
@@ -66,15 +70,15 @@ fn row(written: &Spanned<WrittenRow>, context: &ChainContext<'_>, findings: &mut
             && value.abs() > TAU
         {
             let message = format!("{quantity}_rad = {value} is more than a full turn");
-            findings.push(
+            diagnostics.push(
                 Diagnostic::warning("robot_file::degrees", message)
                     .at(span)
                     .with_help(format!("degrees? then the key is {quantity}_deg")),
             );
         }
     }
-    let sign = sign(row, findings);
-    let joint = joint(row, context, findings);
+    let sign = sign(row, diagnostics);
+    let joint = joint(row, context, diagnostics);
     Some(DhRow {
         joint: joint?,
         kind: (*row.kind.get_ref()).into(),
@@ -87,20 +91,20 @@ fn row(written: &Spanned<WrittenRow>, context: &ChainContext<'_>, findings: &mut
     })
 }
 
-fn sign(row: &WrittenRow, findings: &mut Findings) -> Option<f64> {
+fn sign(row: &WrittenRow, diagnostics: &mut Diagnostics) -> Option<f64> {
     let Some(sign) = &row.sign else { return Some(1.0) };
     match *sign.get_ref() {
         value @ (1.0 | -1.0) => Some(value),
         value => {
             let message = format!("sign = {value} must be 1 or -1");
-            findings.push(Diagnostic::error("robot_file::sign", message).at(sign.span()));
+            diagnostics.push(Diagnostic::error("robot_file::sign", message).at(sign.span()));
             None
         }
     }
 }
 
 /// The joint of a row, which must be a moving one of the chain.
-fn joint(row: &WrittenRow, context: &ChainContext<'_>, findings: &mut Findings) -> Option<JointIndex> {
+fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnostics) -> Option<JointIndex> {
     let (name, robot) = (row.joint.get_ref(), context.robot);
     let names = || context.chain.iter().map(|&joint| robot.joint(joint).name.as_str());
     let found = robot.find_joint(name).filter(|joint| context.chain.contains(joint));
@@ -112,7 +116,7 @@ fn joint(row: &WrittenRow, context: &ChainContext<'_>, findings: &mut Findings) 
         };
         let message = format!("joint \"{name}\" {what}");
         let help = known_names(name, "moving joints of the chain", names().collect::<Vec<_>>());
-        findings.push(
+        diagnostics.push(
             Diagnostic::error("robot_file::unknown_joint", message).at(row.joint.span()).with_help(help),
         );
         return None;
@@ -125,17 +129,17 @@ fn joint(row: &WrittenRow, context: &ChainContext<'_>, findings: &mut Findings) 
             DhRowKind::Prismatic => ("prismatic", "radians"),
         };
         let message = format!("the row is {row_kind}, joint \"{name}\" of the URDF moves in {unit}");
-        findings.push(Diagnostic::warning("robot_file::row_kind", message).at(row.kind.span()));
+        diagnostics.push(Diagnostic::warning("robot_file::row_kind", message).at(row.kind.span()));
     }
     Some(joint)
 }
 
-fn no_joint_twice(written: &[Spanned<WrittenRow>], rows: &[DhRow], findings: &mut Findings) {
+fn no_joint_twice(written: &[Spanned<WrittenRow>], rows: &[DhRow], diagnostics: &mut Diagnostics) {
     for (index, row) in rows.iter().enumerate() {
         if let Some(first) = rows[..index].iter().find(|first| first.joint == row.joint) {
             let name = &written[index].get_ref().joint;
             let message = format!("joint \"{}\" has a row already, at line {}", name.get_ref(), first.line);
-            findings.push(Diagnostic::error("robot_file::joint_twice", message).at(name.span()));
+            diagnostics.push(Diagnostic::error("robot_file::joint_twice", message).at(name.span()));
         }
     }
 }
@@ -144,7 +148,7 @@ fn every_joint_has_a_row(
     dh: &Spanned<WrittenDh>,
     rows: &[DhRow],
     context: &ChainContext<'_>,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) {
     let robot = context.robot;
     // A mimic joint is driven by its master, in the model as in the machine.
@@ -165,7 +169,7 @@ fn every_joint_has_a_row(
         count(context.chain.len(), "moving joint"),
         if missing.is_empty() { "any".to_owned() } else { missing.join(", ") }
     );
-    findings
+    diagnostics
         .push(Diagnostic::error("robot_file::missing_row", message).at(first_line(dh.span(), context.text)));
 }
 
@@ -173,14 +177,14 @@ fn order(
     written: &[Spanned<WrittenRow>],
     rows: &[DhRow],
     context: &ChainContext<'_>,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) {
     let place = |row: &DhRow| context.chain.iter().position(|&joint| joint == row.joint);
     if let Some(later) = rows.windows(2).position(|pair| place(&pair[0]) > place(&pair[1])) {
         let name = &written[later + 1].get_ref().joint;
         let message =
             format!("row of joint \"{}\" is in another order than the chain base -> tip", name.get_ref());
-        findings.push(Diagnostic::warning("robot_file::row_order", message).at(name.span()));
+        diagnostics.push(Diagnostic::warning("robot_file::row_order", message).at(name.span()));
     }
 }
 

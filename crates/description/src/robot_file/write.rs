@@ -2,12 +2,15 @@
 
 use std::fmt::Write;
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 
 use crate::{
     Robot,
     model::dh_table::{DhConvention, DhRowKind, DhTable},
-    written_figure::{is_identity, number, numbers, rpy_fixed_xyz_rad, short_degrees},
+    written::{
+        number::{number, numbers, short_degrees},
+        rpy::rpy_fixed_xyz_rad,
+    },
 };
 
 /// Writes a table as the section `[dh]` of a robot file: lengths in metres, angles in degrees where
@@ -61,4 +64,9 @@ fn transform(pose: &Isometry3<f64>) -> String {
         None => format!("rpy_rad = [{}]", numbers(rpy_rad, ", ")),
     };
     format!("{{ xyz_m = [{xyz_m}], {rpy} }}")
+}
+
+/// Whether a pose moves nothing, to the last digit.
+fn is_identity(pose: &Isometry3<f64>) -> bool {
+    pose.translation.vector == Vector3::zeros() && pose.rotation.angle() == 0.0
 }

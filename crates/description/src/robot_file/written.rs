@@ -7,7 +7,7 @@ use toml::Spanned;
 
 use crate::{
     model::dh_table::{DhConvention, DhRowKind},
-    written_transform::WrittenTransform,
+    written::transform::WrittenTransform,
 };
 
 #[derive(Debug, Deserialize)]

@@ -13,7 +13,7 @@ use super::{
 use crate::{
     JointParts,
     diagnostic::Diagnostic,
-    findings::Findings,
+    diagnostics::Diagnostics,
     model::{
         joint::{Joint, JointKind, JointLimit},
         link::LinkIndex,
@@ -29,14 +29,14 @@ const LARGEST_PLAUSIBLE_RAD: f64 = 4.0 * TAU;
 struct Reader<'a, 'f> {
     joint: &'a urdf_rs::Joint,
     node: Node<'a, 'a>,
-    findings: &'f mut Findings,
+    diagnostics: &'f mut Diagnostics,
 }
 
 /// Reads a joint. Its links are found by name when the tree is built; where something is wrong
 /// the value is a stand-in that lets the rest be checked.
-pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, findings: &mut Findings) -> JointParts {
-    let parent_from_joint = pose::read(&joint.origin, node, node, findings);
-    let mut reader = Reader { joint, node, findings };
+pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, diagnostics: &mut Diagnostics) -> JointParts {
+    let parent_from_joint = pose::read(&joint.origin, node, node, diagnostics);
+    let mut reader = Reader { joint, node, diagnostics };
     let kind = reader.kind();
     let read = Joint {
         name: joint.name.clone(),
@@ -60,9 +60,9 @@ pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, findings: &mut Fi
 }
 
 impl Reader<'_, '_> {
-    fn report(&mut self, finding: Diagnostic, child: &str) {
-        let message = format!("{}: {}", label(self.node), finding.message);
-        self.findings.push(Diagnostic { message, ..finding }.at(place(self.node, child)));
+    fn report(&mut self, diagnostic: Diagnostic, child: &str) {
+        let message = format!("{}: {}", label(self.node), diagnostic.message);
+        self.diagnostics.push(Diagnostic { message, ..diagnostic }.at(place(self.node, child)));
     }
 
     fn error(&mut self, code: &'static str, what: impl Into<String>, child: &str) {

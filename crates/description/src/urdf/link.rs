@@ -45,9 +45,9 @@ fn inertia(inertial: &urdf_rs::Inertial, node: Node<'_, '_>, shapes: &mut ShapeR
         m.ixy, m.iyy, m.iyz, //
         m.ixz, m.iyz, m.izz,
     );
-    let mut report = |finding: Diagnostic, child: &str| {
-        let message = format!("{}: {}", label(owner), finding.message);
-        shapes.findings.push(Diagnostic { message, ..finding }.at(place(node, child)));
+    let mut report = |diagnostic: Diagnostic, child: &str| {
+        let message = format!("{}: {}", label(owner), diagnostic.message);
+        shapes.diagnostics.push(Diagnostic { message, ..diagnostic }.at(place(node, child)));
     };
     if mass_kg < 0.0 {
         report(Diagnostic::error("urdf::mass", format!("mass {mass_kg} is negative")), "mass");
@@ -55,7 +55,7 @@ fn inertia(inertial: &urdf_rs::Inertial, node: Node<'_, '_>, shapes: &mut ShapeR
     if let Some(fault) = tensor_fault(mass_kg, &tensor_kg_m2) {
         report(fault, "inertia");
     }
-    let link_from_inertial = pose::read(&inertial.origin, node, owner, shapes.findings);
+    let link_from_inertial = pose::read(&inertial.origin, node, owner, shapes.diagnostics);
     Inertia { mass_kg, link_from_inertial, tensor_kg_m2 }
 }
 

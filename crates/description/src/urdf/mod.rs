@@ -34,7 +34,7 @@ use self::node::{elements, last, place, spans, tag};
 use crate::{
     Robot, RobotError,
     diagnostic::{Diagnostic, known_names},
-    findings::Findings,
+    diagnostics::Diagnostics,
     mesh::FindMesh,
     model::link::Link,
     xml,
@@ -45,45 +45,49 @@ pub(crate) const URDF_BYTES: u64 = 16 << 20;
 /// The largest number of links: far above any robot, far below what would take minutes.
 const MOST_LINKS: usize = 10_000;
 
-/// Reads a robot; `None` when `findings` holds an error.
-pub(crate) fn parse(text: &str, find_mesh: &mut FindMesh<'_>, findings: &mut Findings) -> Option<Robot> {
-    let document = findings.keep(xml::parse(text).map_err(dialect::explain))?;
+/// Reads a robot; `None` when `diagnostics` holds an error.
+pub(crate) fn parse(
+    text: &str,
+    find_mesh: &mut FindMesh<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Robot> {
+    let document = diagnostics.keep(xml::parse(text).map_err(dialect::explain))?;
     let root = document.root_element();
-    findings.keep(dialect::check(root))?;
-    raw::check(root, findings);
+    diagnostics.keep(dialect::check(root))?;
+    raw::check(root, diagnostics);
     let links = elements(root, "link").count();
     if links > MOST_LINKS {
         let message = format!("too many links: {links}, the limit is {MOST_LINKS}");
-        findings.push(Diagnostic::error("urdf::too_many_links", message).at(tag(root)));
+        diagnostics.push(Diagnostic::error("urdf::too_many_links", message).at(tag(root)));
     }
-    if findings.has_error() {
+    if diagnostics.has_error() {
         return None;
     }
-    let urdf = findings.keep(urdf_rs::read_from_string(&without_text(root)).map_err(|error| {
+    let urdf = diagnostics.keep(urdf_rs::read_from_string(&without_text(root)).map_err(|error| {
         // Whatever the grammar lets through and urdf-rs does not.
         Diagnostic::error("urdf::structure", format!("not a valid URDF: {error}")).at(tag(root))
     }))?;
-    let robot = build(&urdf, root, find_mesh, findings)?;
-    if findings.has_error() {
+    let robot = build(&urdf, root, find_mesh, diagnostics)?;
+    if diagnostics.has_error() {
         return None;
     }
-    body::check(&robot, &spans(root, "link"), findings);
+    body::check(&robot, &spans(root, "link"), diagnostics);
     Some(robot)
 }
 
 /// Reads a robot from URDF text alone; meshes cannot be found, so it may name none.
 ///
 /// # Errors
-/// Every finding, errors and warnings, when at least one is an error.
+/// Every diagnostic, errors and warnings, when at least one is an error.
 /// # Examples
 /// See [`urdf_text`].
 pub fn parse_urdf(text: &str) -> Result<Robot, Vec<Diagnostic>> {
-    let mut findings = Findings::default();
+    let mut diagnostics = Diagnostics::default();
     let mut no_mesh = |uri: &str, _| {
         Err(Diagnostic::error("mesh::no_folder", format!("mesh \"{uri}\" cannot be found from text alone")))
     };
-    let robot = parse(text, &mut no_mesh, &mut findings);
-    robot.ok_or_else(|| findings.into_vec())
+    let robot = parse(text, &mut no_mesh, &mut diagnostics);
+    robot.ok_or_else(|| diagnostics.into_vec())
 }
 
 /// The document with every text between elements blanked: it means nothing in a URDF, real files
@@ -103,11 +107,11 @@ fn build(
     urdf: &urdf_rs::Robot,
     root: Node<'_, '_>,
     find_mesh: &mut FindMesh<'_>,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Robot> {
     // urdf-rs lists links and joints in file order, as the XML does.
     let colors = shape::named_colors(urdf);
-    let mut reader = shape::ShapeReader { colors, find_mesh, findings };
+    let mut reader = shape::ShapeReader { colors, find_mesh, diagnostics };
     let links: Vec<Link> = urdf
         .links
         .iter()
@@ -118,10 +122,10 @@ fn build(
         .joints
         .iter()
         .zip(elements(root, "joint"))
-        .map(|(joint, node)| joint::read(joint, node, findings))
+        .map(|(joint, node)| joint::read(joint, node, diagnostics))
         .collect();
     let name = urdf.name.clone();
-    findings.keep(Robot::new(name, links, joints).map_err(|error| tree_fault(&error, root)))
+    diagnostics.keep(Robot::new(name, links, joints).map_err(|error| tree_fault(&error, root)))
 }
 
 fn tree_fault(error: &RobotError, root: Node<'_, '_>) -> Diagnostic {

@@ -14,18 +14,18 @@ use super::{
 };
 use crate::{
     diagnostic::{Diagnostic, known_names},
-    findings::Findings,
+    diagnostics::Diagnostics,
 };
 
 /// The longest name without a warning: what a file system allows.
 const LONGEST_NAME: usize = 255;
 
 /// Checks a whole document.
-pub(super) fn check(root: Node<'_, '_>, findings: &mut Findings) {
+pub(super) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) {
     if root.attribute("name").is_none_or(str::is_empty) {
-        findings.push(Diagnostic::warning("urdf::robot_name", "the robot has no name").at(tag(root)));
+        diagnostics.push(Diagnostic::warning("urdf::robot_name", "the robot has no name").at(tag(root)));
     }
-    let mut reader = Reader { version: version(root), owner: "robot".to_owned(), findings };
+    let mut reader = Reader { version: version(root), owner: "robot".to_owned(), diagnostics };
     reader.attributes(root, &ROBOT);
     reader.unknown_children(root, &ROBOT);
     for child in ROBOT.children {
@@ -48,14 +48,14 @@ pub(super) fn version(root: Node<'_, '_>) -> (u32, u32) {
 
 struct Reader<'f> {
     version: (u32, u32),
-    /// The link, joint or material that is read: every finding begins with it.
+    /// The link, joint or material that is read: every diagnostic begins with it.
     owner: String,
-    findings: &'f mut Findings,
+    diagnostics: &'f mut Diagnostics,
 }
 
 impl Reader<'_> {
     fn report(&mut self, code: &'static str, what: &str, at: Range<usize>) {
-        self.findings.push(Diagnostic::error(code, format!("{}: {what}", self.owner)).at(at));
+        self.diagnostics.push(Diagnostic::error(code, format!("{}: {what}", self.owner)).at(at));
     }
 
     /// Recursion ends with the grammar, whose deepest path has six elements.
@@ -178,7 +178,7 @@ impl Reader<'_> {
         } else {
             return;
         };
-        self.findings
+        self.diagnostics
             .push(Diagnostic::warning("urdf::name", format!("{}: {what}", self.owner)).at(tag(node)));
     }
 }

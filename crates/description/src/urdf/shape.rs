@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     diagnostic::Diagnostic,
-    findings::Findings,
+    diagnostics::Diagnostics,
     mesh::FindMesh,
     model::geometry::{Geometry, Mesh, Shape},
 };
@@ -33,7 +33,7 @@ fn own_color(material: &urdf_rs::Material) -> Option<[f32; 4]> {
 pub(super) struct ShapeReader<'a, 'm> {
     pub(super) colors: BTreeMap<&'a str, [f32; 4]>,
     pub(super) find_mesh: &'a mut FindMesh<'m>,
-    pub(super) findings: &'a mut Findings,
+    pub(super) diagnostics: &'a mut Diagnostics,
 }
 
 impl ShapeReader<'_, '_> {
@@ -59,16 +59,16 @@ impl ShapeReader<'_, '_> {
         node: Node<'_, '_>,
     ) -> Option<Shape> {
         let owner = node.parent_element().unwrap_or(node);
-        let link_from_shape = pose::read(origin, node, owner, self.findings);
+        let link_from_shape = pose::read(origin, node, owner, self.diagnostics);
         let place =
             element(node, "geometry").and_then(|geometry| geometry.first_element_child()).unwrap_or(node);
         let geometry = match self.geometry(geometry) {
             Ok((geometry, warnings)) => {
-                self.findings.extend(warnings.into_iter().map(|warning| placed(warning, owner, place)));
+                self.diagnostics.extend(warnings.into_iter().map(|warning| placed(warning, owner, place)));
                 geometry
             }
             Err(fault) => {
-                self.findings.push(placed(fault, owner, place));
+                self.diagnostics.push(placed(fault, owner, place));
                 return None;
             }
         };
@@ -119,9 +119,9 @@ impl ShapeReader<'_, '_> {
     }
 }
 
-fn placed(finding: Diagnostic, owner: Node<'_, '_>, place: Node<'_, '_>) -> Diagnostic {
-    let message = format!("{}: {}", label(owner), finding.message);
-    Diagnostic { message, ..finding }.at(tag(place))
+fn placed(diagnostic: Diagnostic, owner: Node<'_, '_>, place: Node<'_, '_>) -> Diagnostic {
+    let message = format!("{}: {}", label(owner), diagnostic.message);
+    Diagnostic { message, ..diagnostic }.at(tag(place))
 }
 
 /// The smallest of the sizes, all of which must be positive.

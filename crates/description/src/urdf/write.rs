@@ -5,7 +5,10 @@ use std::fmt::Write;
 use crate::{
     Robot,
     model::joint::{Joint, JointKind},
-    written_figure::{number, numbers, rpy_fixed_xyz_rad},
+    written::{
+        number::{number, numbers},
+        rpy::rpy_fixed_xyz_rad,
+    },
 };
 
 /// Writes the joints of a robot as URDF; links have their names and nothing else.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{Diagnostic, Findings, RobotDescription, known_names, toml_text};
+use congruent_description::{Diagnostic, Diagnostics, RobotDescription, known_names, toml_text};
 use congruent_kinematics::move_inside_limits;
 use congruent_simulation::{Gains, controller_names};
 use serde::Deserialize;
@@ -70,7 +70,7 @@ pub(super) struct Document<'a> {
     checks: Vec<Section<'a>>,
     expect: Option<Section<'a>>,
     /// What is wrong so far; the sections are checked all the same.
-    findings: Findings,
+    findings: Diagnostics,
 }
 
 /// The sections that [`Document::parse`] takes out of the top.
@@ -88,7 +88,7 @@ impl<'a> Document<'a> {
         let zones = document.take_tables("zone")?;
         let checks = document.take_tables("check")?;
         let expect = document.take_table("expect")?;
-        let mut findings = Findings::default();
+        let mut findings = Diagnostics::default();
         let top = document.read_into(&mut findings);
         let mut findings = findings.map(name_sections);
         let Some(top) = top else { return Err(findings.into_vec()) };
@@ -179,7 +179,7 @@ impl<'a> Document<'a> {
 }
 
 /// The value of `result`; its faults are kept in `findings`.
-fn keep_all<T>(findings: &mut Findings, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
+fn keep_all<T>(findings: &mut Diagnostics, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
     result.map_err(|errors| findings.extend(errors)).ok()
 }
 

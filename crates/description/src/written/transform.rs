@@ -5,11 +5,14 @@ use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuat
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::{
+    array::{fixed_array, fixed_matrix},
+    number::fitted_list,
+    rpy::{fitted_rpy_fixed_xyz_rad, rotation_from_rpy_fixed_xyz},
+};
 use crate::{
     diagnostic::Diagnostic,
-    fixed_array::{fixed_array, fixed_matrix},
-    units::{Scale, Unit, check_finite},
-    written_figure::{fitted_list, fitted_rpy_fixed_xyz_rad},
+    units::{Unit, UnitSystem, check_finite},
 };
 
 /// How far the norm of a written quaternion may be from 1: six digits in the file, rounding of
@@ -76,7 +79,7 @@ impl WrittenTransform {
 
     /// The keys with which another transform is written as this one is: in its units and by its kind
     /// of rotation. `others` are the scales of lengths and of angles that a new key has.
-    pub(crate) fn with_keys(&self, pose: &Isometry3<f64>, others: [Scale; 2]) -> Vec<String> {
+    pub(crate) fn with_keys(&self, pose: &Isometry3<f64>, others: [UnitSystem; 2]) -> Vec<String> {
         if self.matrix.is_some() {
             let matrix = pose.to_homogeneous();
             let rows = (0..4).map(|row| fitted_list(matrix.row(row).iter().copied()));
@@ -84,14 +87,14 @@ impl WrittenTransform {
         }
         let shift = (pose.translation.vector.norm() > 0.0 || self.xyz_m.is_some() || self.xyz_mm.is_some())
             .then(|| {
-                let scale = Scale::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), others[0]);
+                let scale = UnitSystem::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), others[0]);
                 Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), scale)
             });
         let turn = if self.quaternion_wxyz.is_some() {
             let Quaternion { coords } = *pose.rotation.quaternion();
             Some(format!("quaternion_wxyz = {}", fitted_list([coords.w, coords.x, coords.y, coords.z])))
         } else {
-            let scale = Scale::of(self.rpy_rad.as_ref(), self.rpy_deg.as_ref(), others[1]);
+            let scale = UnitSystem::of(self.rpy_rad.as_ref(), self.rpy_deg.as_ref(), others[1]);
             let rpy_rad = fitted_rpy_fixed_xyz_rad(pose);
             let has_turn = self.has_rotation() || rpy_rad.iter().any(|angle| angle.abs() > 0.0);
             has_turn.then(|| Unit::Angle.fitted_vector("rpy", rpy_rad, scale))
@@ -127,14 +130,9 @@ impl WrittenTransform {
 
 /// A fitted transform in metres and radians, as a robot file could write it.
 pub fn fitted_transform(pose: &Isometry3<f64>) -> String {
-    let xyz = Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), Scale::Plain);
-    let rpy = Unit::Angle.fitted_vector("rpy", fitted_rpy_fixed_xyz_rad(pose), Scale::Plain);
+    let xyz = Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), UnitSystem::Si);
+    let rpy = Unit::Angle.fitted_vector("rpy", fitted_rpy_fixed_xyz_rad(pose), UnitSystem::Si);
     format!("{{ {xyz}, {rpy} }}")
-}
-
-/// The rotation that turns about the fixed axes x, then y, then z: `Rz(yaw) Ry(pitch) Rx(roll)`.
-pub(crate) fn rotation_from_rpy_fixed_xyz([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
-    UnitQuaternion::from_euler_angles(roll, pitch, yaw)
 }
 
 fn conflict(message: &str, span: std::ops::Range<usize>) -> Diagnostic {
@@ -192,11 +190,11 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
-    use crate::{findings::Findings, toml_text::parse_toml};
+    use crate::{diagnostics::Diagnostics, written::toml_text::parse_toml};
 
     fn read(text: &str) -> Result<Isometry3<f64>, Diagnostic> {
-        let mut findings = Findings::default();
-        parse_toml::<WrittenTransform>(text, &mut findings).expect(text).isometry()
+        let mut diagnostics = Diagnostics::default();
+        parse_toml::<WrittenTransform>(text, &mut diagnostics).expect(text).isometry()
     }
 
     /// Rounding of a handful of products of numbers near 1; worst seen 2.3e-16.
@@ -238,13 +236,13 @@ mod tests {
             "quaternion_wxyz = [1.0, 0.0, 0.0, 0.0]\n",
             "matrix = [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 2.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]\n",
         ] {
-            let mut findings = Findings::default();
-            let written = parse_toml::<WrittenTransform>(text, &mut findings).unwrap();
+            let mut diagnostics = Diagnostics::default();
+            let written = parse_toml::<WrittenTransform>(text, &mut diagnostics).unwrap();
             assert_eq!(written.to_table().to_string(), text);
             assert_eq!(written.has_rotation(), !text.is_empty());
         }
-        let mut findings = Findings::default();
-        let place = parse_toml::<WrittenTransform>("xyz_m = [1, 2, 3]", &mut findings).unwrap();
+        let mut diagnostics = Diagnostics::default();
+        let place = parse_toml::<WrittenTransform>("xyz_m = [1, 2, 3]", &mut diagnostics).unwrap();
         assert!(!place.has_rotation());
     }
 
@@ -257,9 +255,9 @@ mod tests {
 
     #[track_caller]
     fn unreadable(text: &str, message: &str) {
-        let mut findings = Findings::default();
-        assert!(parse_toml::<WrittenTransform>(text, &mut findings).is_none(), "{text}");
-        let found = findings.into_vec();
+        let mut diagnostics = Diagnostics::default();
+        assert!(parse_toml::<WrittenTransform>(text, &mut diagnostics).is_none(), "{text}");
+        let found = diagnostics.into_vec();
         assert!(found[0].message.contains(message), "{}", found[0].message);
         let span = found[0].span.clone().unwrap();
         assert!(text[span.clone()].starts_with('['), "{text}: {span:?}");
@@ -297,10 +295,10 @@ mod tests {
 
     /// Writes a pose as `like` is written and reads it again.
     fn read_again(like: &str, pose: &Isometry3<f64>) -> Isometry3<f64> {
-        let mut findings = Findings::default();
-        let like = parse_toml::<WrittenTransform>(like, &mut findings).unwrap();
-        let keys = like.with_keys(pose, [Scale::Plain, Scale::Handy]).join("\n");
-        parse_toml::<WrittenTransform>(&keys, &mut findings).expect(&keys).isometry().unwrap()
+        let mut diagnostics = Diagnostics::default();
+        let like = parse_toml::<WrittenTransform>(like, &mut diagnostics).unwrap();
+        let keys = like.with_keys(pose, [UnitSystem::Si, UnitSystem::Engineering]).join("\n");
+        parse_toml::<WrittenTransform>(&keys, &mut diagnostics).expect(&keys).isometry().unwrap()
     }
 
     #[test]
@@ -329,8 +327,8 @@ mod tests {
     #[test]
     fn a_transform_is_written_as_the_file_writes_it() {
         let written = |like: &str, pose: &Isometry3<f64>| {
-            let like = parse_toml::<WrittenTransform>(like, &mut Findings::default()).unwrap();
-            like.with_keys(pose, [Scale::Handy; 2]).join(", ")
+            let like = parse_toml::<WrittenTransform>(like, &mut Diagnostics::default()).unwrap();
+            like.with_keys(pose, [UnitSystem::Engineering; 2]).join(", ")
         };
         let down = Isometry3::from_parts(
             Translation3::new(0.0, 0.0, 0.12),
