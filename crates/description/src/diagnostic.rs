@@ -3,6 +3,7 @@
 use std::{fmt, ops::Range, path::PathBuf, sync::Arc};
 
 use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
+use serde::Serialize;
 
 /// A file that was read, kept so that a diagnostic can show the line.
 #[derive(Debug, PartialEq, Eq)]
@@ -33,7 +34,8 @@ impl SourceCode for SourceFile {
 }
 
 /// Whether work can go on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Severity {
     /// Suspicious; the run goes on.
     Warning,

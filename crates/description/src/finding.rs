@@ -8,7 +8,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Finding {
     /// `error` or `warning`.
-    pub severity: &'static str,
+    pub severity: Severity,
     /// Stable name of the fault.
     pub code: &'static str,
     /// What is wrong.
@@ -27,10 +27,7 @@ impl From<&Diagnostic> for Finding {
     fn from(diagnostic: &Diagnostic) -> Self {
         let place = diagnostic.line_column();
         Self {
-            severity: match diagnostic.severity {
-                Severity::Warning => "warning",
-                Severity::Error => "error",
-            },
+            severity: diagnostic.severity,
             code: diagnostic.code,
             message: diagnostic.message.clone(),
             file: diagnostic.source.as_ref().map(|source| source.path.display().to_string()),

@@ -34,6 +34,7 @@ pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, Ro
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use written::{
     array::fixed_array,
+    name::serde_name,
     number::fitted_number,
     toml_text,
     transform::{WrittenTransform, fitted_transform},

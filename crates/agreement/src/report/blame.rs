@@ -91,10 +91,7 @@ impl Witness<'_> {
             return self.columns(&[Entry::A, Entry::D]);
         }
         let span = self.names.places.as_ref().and_then(RobotFilePlaces::convention);
-        let word = |suspect: &Suspect| match suspect.convention {
-            Some(DhConvention::Modified) => "modified",
-            _ => "standard",
-        };
+        let word = |suspect: &Suspect| suspect.convention.unwrap_or(DhConvention::Standard).name();
         let (found, expected) = (word(&self.before.suspect), word(&self.after.suspect));
         let blame = Blame {
             found: Some(Figure::Text(found.to_owned())),
@@ -167,8 +164,8 @@ impl Witness<'_> {
 
     fn kind(&self, row: usize) -> Said {
         let kind = |case: &Case| match case.suspect.rows[row].link {
-            SuspectLink::Dh { kind: DhRowKind::Prismatic, .. } => "prismatic",
-            _ => "revolute",
+            SuspectLink::Dh { kind, .. } => kind.name(),
+            SuspectLink::Screw { .. } => DhRowKind::Revolute.name(),
         };
         let (found, expected, joint) = (kind(self.before), kind(self.after), self.joint(row));
         let message = format!("the row of joint \"{joint}\" is {found}, the joint is {expected}");

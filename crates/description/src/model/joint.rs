@@ -1,8 +1,10 @@
 //! Joints: what moves, about which axis, how far. Building and checking the tree is `robot.rs`.
 
 use nalgebra::{Isometry3, Unit, Vector3};
+use serde::Serialize;
 
 use super::link::LinkIndex;
+use crate::written::name::serde_name;
 
 /// Position of a joint in [`Robot::joints`](crate::Robot::joints).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,7 +18,8 @@ impl JointIndex {
 }
 
 /// How a joint moves its child link.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum JointKind {
     /// The child does not move against the parent.
     Fixed,
@@ -29,6 +32,11 @@ pub enum JointKind {
 }
 
 impl JointKind {
+    /// The name in URDF.
+    pub fn name(self) -> &'static str {
+        serde_name(&self)
+    }
+
     /// Whether the joint has a coordinate.
     pub fn is_movable(self) -> bool {
         self != Self::Fixed

@@ -11,7 +11,12 @@ use crate::{
     Robot,
     diagnostic::{Diagnostic, known_names},
     diagnostics::Diagnostics,
-    model::{description::Tolerance, dh_table::DhTable, joint::JointIndex, link::LinkIndex},
+    model::{
+        description::Tolerance,
+        dh_table::{DhConvention, DhTable},
+        joint::JointIndex,
+        link::LinkIndex,
+    },
     units::Unit,
     written::transform::WrittenTransform,
 };
@@ -99,13 +104,14 @@ fn table(
         diagnostics.keep(dh.convention.as_ref().map(|written| *written.get_ref()).ok_or_else(|| {
             Diagnostic::error("robot_file::convention", "[dh] has no convention")
                 .at(first_line(written.span(), context.text))
-                .with_help(
-                    "convention = \"standard\" is Rz(theta) Tz(d) Tx(a) Rx(alpha); \"modified\" (Craig) is \
-                 Rx(alpha) Tx(a) Rz(theta) Tz(d): the same table means two robots",
-                )
+                .with_help(format!(
+                    "convention = \"standard\" is {}; \"modified\" (Craig) is {}: the same table means two robots",
+                    DhConvention::Standard.equation(),
+                    DhConvention::Modified.equation()
+                ))
         }));
     Some(DhTable {
-        convention: convention?.into(),
+        convention: convention?,
         source: dh.source.clone(),
         base_from_dh0: base_from_dh0?,
         dhn_from_tip: dhn_from_tip?,

@@ -3,6 +3,7 @@
 use std::{ops::Range, path::Path, sync::Arc};
 
 use nalgebra::Isometry3;
+use serde::Serialize;
 use toml::Spanned;
 
 use super::{
@@ -14,12 +15,12 @@ use crate::{
     diagnostics::Diagnostics,
     file::read_text,
     units::{Unit, UnitSystem},
-    written::toml_text::parse_toml,
-    written::transform::WrittenTransform,
+    written::{name::serde_name, toml_text::parse_toml, transform::WrittenTransform},
 };
 
 /// A figure of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum RowKey {
     /// The joint's name.
     Joint,
@@ -38,7 +39,8 @@ pub enum RowKey {
 }
 
 /// One of the two declared transforms of a table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ConstantKey {
     /// `base_from_dh0`.
     BaseFromDh0,
@@ -58,10 +60,7 @@ pub enum ConstantPart {
 impl ConstantKey {
     /// The key as files write it.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::BaseFromDh0 => "base_from_dh0",
-            Self::DhnFromTip => "dhn_from_tip",
-        }
+        serde_name(&self)
     }
 }
 

@@ -81,7 +81,7 @@ fn row(
     let joint = joint(row, context, diagnostics);
     Some(DhRow {
         joint: joint?,
-        kind: (*row.kind.get_ref()).into(),
+        kind: *row.kind.get_ref(),
         a_m: a_m?,
         alpha_rad: alpha_rad?,
         d_m: d_m?,
@@ -121,14 +121,11 @@ fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnos
         );
         return None;
     };
-    let kind: DhRowKind = (*row.kind.get_ref()).into();
+    let kind = *row.kind.get_ref();
     let is_angular = robot.joint(joint).kind.is_angular();
     if is_angular != (kind == DhRowKind::Revolute) {
-        let (row_kind, unit) = match kind {
-            DhRowKind::Revolute => ("revolute", "metres"),
-            DhRowKind::Prismatic => ("prismatic", "radians"),
-        };
-        let message = format!("the row is {row_kind}, joint \"{name}\" of the URDF moves in {unit}");
+        let unit = if is_angular { "radians" } else { "metres" };
+        let message = format!("the row is {}, joint \"{name}\" of the URDF moves in {unit}", kind.name());
         diagnostics.push(Diagnostic::warning("robot_file::row_kind", message).at(row.kind.span()));
     }
     Some(joint)

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Vector3};
 
 use crate::{
     Robot,
-    model::dh_table::{DhConvention, DhRowKind, DhTable},
+    model::dh_table::DhTable,
     written::{
         number::{number, numbers, short_degrees},
         rpy::rpy_fixed_xyz_rad,
@@ -17,22 +17,14 @@ use crate::{
 /// a short figure says exactly the same, otherwise in radians with all digits.
 pub fn dh_section(table: &DhTable, robot: &Robot) -> String {
     let mut text = String::from("[dh]\n");
-    let convention = match table.convention {
-        DhConvention::Standard => "standard",
-        DhConvention::Modified => "modified",
-    };
-    let _ = writeln!(text, "convention = \"{convention}\"");
+    let _ = writeln!(text, "convention = \"{}\"", table.convention.name());
     if let Some(source) = &table.source {
         let _ = writeln!(text, "source = {}", quoted(source));
     }
     let _ = writeln!(text, "base_from_dh0 = {}", transform(&table.base_from_dh0));
     let _ = writeln!(text, "dhn_from_tip = {}", transform(&table.dhn_from_tip));
     for row in &table.rows {
-        let kind = match row.kind {
-            DhRowKind::Revolute => "revolute",
-            DhRowKind::Prismatic => "prismatic",
-        };
-        let joint = quoted(&robot.joint(row.joint).name);
+        let (joint, kind) = (quoted(&robot.joint(row.joint).name), row.kind.name());
         let _ = writeln!(text, "\n[[dh.row]]\njoint = {joint}\nkind = \"{kind}\"");
         let _ = writeln!(text, "a_m = {}\n{}", number(row.a_m), angle("alpha", row.alpha_rad));
         let _ = writeln!(text, "d_m = {}\n{}", number(row.d_m), angle("theta", row.theta_rad));

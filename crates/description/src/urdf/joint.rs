@@ -125,9 +125,8 @@ impl Reader<'_, '_> {
     fn limit(&mut self, kind: JointKind) -> Option<JointLimit> {
         let written = element(self.node, "limit");
         if written.is_none() && matches!(kind, JointKind::Revolute | JointKind::Prismatic) {
-            let name = if kind == JointKind::Revolute { "revolute" } else { "prismatic" };
             let or = if kind == JointKind::Revolute { " (or type \"continuous\")" } else { "" };
-            self.error("urdf::limit", format!("a {name} joint needs <limit>{or}"), "limit");
+            self.error("urdf::limit", format!("a {} joint needs <limit>{or}", kind.name()), "limit");
         }
         let limit = &self.joint.limit;
         let written = written.filter(|_| kind.is_movable())?;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::{
     Robot,
-    model::joint::{Joint, JointKind},
+    model::joint::Joint,
     written::{
         number::{number, numbers},
         rpy::rpy_fixed_xyz_rad,
@@ -34,12 +34,7 @@ pub fn urdf_text(robot: &Robot) -> String {
 }
 
 fn write_joint(text: &mut String, joint: &Joint, robot: &Robot) {
-    let kind = match joint.kind {
-        JointKind::Fixed => "fixed",
-        JointKind::Revolute => "revolute",
-        JointKind::Continuous => "continuous",
-        JointKind::Prismatic => "prismatic",
-    };
+    let kind = joint.kind.name();
     let link = |index| escaped(&robot.link(index).name);
     let _ = writeln!(text, "  <joint name=\"{}\" type=\"{kind}\">", escaped(&joint.name));
     let _ = writeln!(text, "    <parent link=\"{}\"/>", link(joint.parent));
