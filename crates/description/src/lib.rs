@@ -4,6 +4,7 @@
 //! Parsers take text and give a value or diagnostics; only `file.rs` opens files.
 
 mod configuration_file;
+mod description;
 mod diagnostic;
 mod diagnostics;
 mod file;
@@ -20,17 +21,18 @@ mod written;
 mod xml;
 
 pub use configuration_file::{JointState, JsonList, configuration, read_configurations, read_states};
+pub use description::{Places, RobotDescription};
 pub use diagnostic::{Diagnostic, Severity, SourceFile, known_names, line_column, nearest};
 pub use diagnostics::Diagnostics;
 pub use file::read_text;
 pub use finding::Finding;
-pub use load::load_robot;
+pub use load::{load_robot, parse_robot};
 pub use model::{
     ByJoint, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
-    JointLimit, JointParts, Link, LinkIndex, Mesh, Mimic, NamedValue, Robot, RobotDescription, RobotError,
-    Shape, Tolerance, as_map,
+    JointLimit, JointParts, Link, LinkIndex, Mesh, Mimic, NamedValue, Robot, RobotError, Shape, Tolerance,
+    as_map,
 };
-pub use robot_file::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey, dh_section};
+pub use robot_file::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace, dh_section};
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use written::{
     array::fixed_array,

@@ -90,7 +90,7 @@ impl Witness<'_> {
         if self.part.cause != Cause::ConventionSwapped {
             return self.columns(&[Entry::A, Entry::D]);
         }
-        let span = self.names.places.as_ref().and_then(RobotFilePlaces::convention);
+        let span = self.names.places.and_then(RobotFilePlaces::convention);
         let word = |suspect: &Suspect| suspect.convention.unwrap_or(DhConvention::Standard).name();
         let (found, expected) = (word(&self.before.suspect), word(&self.after.suspect));
         let blame = Blame {
@@ -248,7 +248,7 @@ impl Witness<'_> {
             Cause::Tool | Cause::Base => format!("is off by {}", off_by(shift.norm(), turn.norm())),
             _ => "is in another unit than its keys say".to_owned(),
         };
-        let places = self.names.places.as_ref();
+        let places = self.names.places;
         let [found, expected] = [found, expected].map(|pose| isometry(&pose));
         let suggestion = match places {
             Some(places) => places.constant_as(key, &expected),
@@ -262,7 +262,8 @@ impl Witness<'_> {
             suggestion,
             ..Blame::default()
         };
-        let part = if shift.norm() > turn.norm() { ConstantPart::Shift } else { ConstantPart::Turn };
+        let part =
+            if shift.norm() > turn.norm() { ConstantPart::Translation } else { ConstantPart::Rotation };
         let span = places.map(|places| places.constant(key, part));
         (blame, format!("the declared transform {name} {how}"), self.in_robot_file(span))
     }
@@ -296,7 +297,7 @@ impl Witness<'_> {
                 )
             }
         };
-        let spot = self.names.urdf.as_ref().and_then(|urdf| {
+        let spot = self.names.urdf.and_then(|urdf| {
             Some(Spot { source: Arc::clone(urdf.source()), span: urdf.joint_origin(names.first()?)? })
         });
         match <[String; 1]>::try_from(names) {
@@ -311,18 +312,18 @@ impl Witness<'_> {
     }
 
     fn in_robot_file(&self, span: Option<Range<usize>>) -> Option<Spot> {
-        Some(Spot { source: Arc::clone(self.names.places.as_ref()?.source()), span: span? })
+        Some(Spot { source: Arc::clone(self.names.places?.source()), span: span? })
     }
 
     /// Whether the file writes a figure of a row; where there is no file nothing is left out.
     fn is_written(&self, row: usize, key: RowKey) -> bool {
-        let place = self.names.places.as_ref().and_then(|places| places.figure(row, key));
+        let place = self.names.places.and_then(|places| places.value(row, key));
         place.is_none_or(|place| place.is_written)
     }
 
     /// Where a figure of a row stands.
     pub(super) fn spot(&self, row: usize, key: RowKey) -> Option<Spot> {
-        self.in_robot_file(Some(self.names.places.as_ref()?.figure(row, key)?.span))
+        self.in_robot_file(Some(self.names.places?.value(row, key)?.span))
     }
 
     /// Whether the figures have changed places with the names.
@@ -332,10 +333,10 @@ impl Witness<'_> {
 
     /// A figure of a row as the file writes it, in the unit of its key there.
     fn written(&self, row: usize, entry: Entry, value: f64) -> String {
-        let place = self.names.places.as_ref().and_then(|places| places.figure(row, row_key(entry)));
+        let place = self.names.places.and_then(|places| places.value(row, row_key(entry)));
         let unit = if is_angle(entry) { Unit::Angle } else { Unit::Length };
         match place {
-            Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.scale)),
+            Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.units)),
             None => format!("{} = {}", entry_name(entry), unit.fitted(value, UnitSystem::Si)),
         }
     }

@@ -25,8 +25,8 @@ pub(crate) struct Names<'a> {
     pub(crate) moving: Vec<JointIndex>,
     /// All joints of the chain.
     pub(crate) chain: Vec<JointIndex>,
-    pub(crate) places: Option<RobotFilePlaces>,
-    pub(crate) urdf: Option<UrdfPlaces>,
+    pub(crate) places: Option<&'a RobotFilePlaces>,
+    pub(crate) urdf: Option<&'a UrdfPlaces>,
 }
 
 /// Climbs the ladder wherever two models of the chain from base to tip differ.
@@ -45,7 +45,7 @@ pub fn climb(
     let moving: Vec<JointIndex> =
         chain.iter().copied().filter(|&joint| robot.joint(joint).kind.is_movable()).collect();
     let coordinates: Vec<usize> = moving.iter().filter_map(|&joint| robot.coordinate(joint)).collect();
-    let places = description.dh.as_ref().and_then(|_| RobotFilePlaces::read(&description.path));
+    let places = description.places.robot_file.as_deref();
     let physics = Reference::from_screws(physics);
     let of_chain = |q: &Vec<f64>| coordinates.iter().map(|&coordinate| q[coordinate]).collect();
     let question = Question {
@@ -53,7 +53,7 @@ pub fn climb(
         orientation_rad: description.tolerance.orientation_rad,
         configurations: configurations.iter().map(of_chain).collect(),
     };
-    let names = Names { description, moving, chain, places, urdf: UrdfPlaces::read(&description.urdf_path) };
+    let names = Names { description, moving, chain, places, urdf: description.places.urdf.as_ref() };
     let cases = if let Some(suspect) = suspect(&names) {
         let against_physics = Case { suspect: suspect.clone(), reference: physics };
         vec![(MODEL_URDF, Case { suspect, reference: urdf }), (MODEL_SIMULATION, against_physics)]
@@ -72,7 +72,7 @@ fn suspect(names: &Names<'_>) -> Option<Suspect> {
     use congruent_description::ConstantKey::{BaseFromDh0, DhnFromTip};
     let suspect = Suspect::from_table(names.description.dh.as_ref()?, &names.moving)?;
     let written = |constant: Constant, key| Constant {
-        written_rpy_rad: names.places.as_ref().and_then(|places| places.rpy_rad(key)),
+        written_rpy_rad: names.places.and_then(|places| places.rpy_rad(key)),
         ..constant
     };
     Some(Suspect {

@@ -8,4 +8,4 @@ mod obj;
 mod stl;
 mod store;
 
-pub(crate) use store::{FindMesh, MeshStore};
+pub(crate) use store::{FindMesh, FoundMesh, MeshStore};

@@ -1,6 +1,5 @@
 //! The validated robot: links, joints and their tree, the table that models its chain, and joint values.
 
-pub(crate) mod description;
 pub(crate) mod dh_table;
 mod error;
 pub(crate) mod geometry;
@@ -9,9 +8,9 @@ pub(crate) mod joint;
 pub(crate) mod joint_values;
 pub(crate) mod link;
 pub(crate) mod robot;
+pub(crate) mod tolerance;
 mod tree;
 
-pub use description::{RobotDescription, Tolerance};
 pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};
 pub use error::RobotError;
 pub use geometry::{Geometry, Mesh, Shape};
@@ -20,3 +19,4 @@ pub use joint::{Joint, JointIndex, JointKind, JointLimit, JointParts, Mimic};
 pub use joint_values::{ByJoint, NamedValue, as_map};
 pub use link::{Link, LinkIndex};
 pub use robot::Robot;
+pub use tolerance::Tolerance;

@@ -8,15 +8,9 @@ use super::{
     written::{WrittenDh, WrittenRobot, WrittenTolerance},
 };
 use crate::{
-    Robot,
     diagnostic::{Diagnostic, known_names},
     diagnostics::Diagnostics,
-    model::{
-        description::Tolerance,
-        dh_table::{DhConvention, DhTable},
-        joint::JointIndex,
-        link::LinkIndex,
-    },
+    model::{DhConvention, DhTable, JointIndex, LinkIndex, Robot, Tolerance},
     units::Unit,
     written::transform::WrittenTransform,
 };

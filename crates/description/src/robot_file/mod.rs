@@ -7,7 +7,7 @@ mod write;
 mod written;
 
 pub(crate) use check::{Declared, check};
-pub use places::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey};
+pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
 pub use write::dh_section;
 pub(crate) use written::WrittenRobot;
 

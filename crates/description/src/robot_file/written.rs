@@ -25,7 +25,7 @@ pub(crate) struct WrittenRobot {
     pub(crate) tolerance: Option<WrittenTolerance>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenDh {
     /// Optional here so that its absence gets a message of its own.
@@ -37,7 +37,7 @@ pub(crate) struct WrittenDh {
     pub(crate) row: Vec<Spanned<WrittenRow>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenRow {
     pub(crate) joint: Spanned<String>,

@@ -27,6 +27,7 @@ mod write;
 pub use places::UrdfPlaces;
 pub use write::urdf_text;
 
+use nalgebra::Vector3;
 use roxmltree::Node;
 
 use self::node::{elements, last, place, spans, tag};
@@ -35,7 +36,7 @@ use crate::{
     Robot, RobotError,
     diagnostic::{Diagnostic, known_names},
     diagnostics::Diagnostics,
-    mesh::FindMesh,
+    mesh::{FindMesh, FoundMesh},
     model::link::Link,
     xml,
 };
@@ -83,11 +84,14 @@ pub(crate) fn parse(
 /// See [`urdf_text`].
 pub fn parse_urdf(text: &str) -> Result<Robot, Vec<Diagnostic>> {
     let mut diagnostics = Diagnostics::default();
-    let mut no_mesh = |uri: &str, _| {
-        Err(Diagnostic::error("mesh::no_folder", format!("mesh \"{uri}\" cannot be found from text alone")))
-    };
     let robot = parse(text, &mut no_mesh, &mut diagnostics);
     robot.ok_or_else(|| diagnostics.into_vec())
+}
+
+/// Refuses every mesh: for texts without a folder.
+pub(crate) fn no_mesh(uri: &str, _: Vector3<f64>) -> Result<FoundMesh, Diagnostic> {
+    let message = format!("mesh \"{uri}\" cannot be found from text alone");
+    Err(Diagnostic::error("mesh::no_folder", message))
 }
 
 /// The document with every text between elements blanked: it means nothing in a URDF, real files
