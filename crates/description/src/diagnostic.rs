@@ -1,4 +1,4 @@
-//! What is wrong with an input, where, and what to do: one type for every file that is read.
+//! What is wrong with an input, at which place, and what to do: one type for every file that is read.
 
 use std::{fmt, ops::Range, path::PathBuf, sync::Arc};
 
@@ -10,7 +10,7 @@ use serde::Serialize;
 pub struct SourceFile {
     /// Where it was read from.
     pub path: PathBuf,
-    /// Its text; empty where it is no text.
+    /// Its text; empty if it is no text.
     pub text: String,
 }
 
@@ -43,9 +43,9 @@ pub enum Severity {
     Error,
 }
 
-/// One diagnostic about one input.
+/// One fault of an input, or one thing in it that is suspicious.
 ///
-/// A parser knows the span, its caller the file: [`Diagnostic::in_file`] joins the two.
+/// A parser knows the span, its caller the file: [`Diagnostic::in_file`] adds the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
     /// Whether work can go on.
@@ -56,7 +56,7 @@ pub struct Diagnostic {
     pub message: String,
     /// What to do about it.
     pub help: Option<String>,
-    /// Byte range in the file, where there is one.
+    /// Byte range in the file; `None` if it is about the file as a whole.
     pub span: Option<Range<usize>>,
     /// The file, once known.
     pub source: Option<Arc<SourceFile>>,
@@ -80,21 +80,21 @@ impl Diagnostic {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
     }
 
-    /// Says what to do.
+    /// Adds what to do.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Says where in the text.
+    /// Adds the place in the text.
     #[must_use]
     pub fn at(mut self, span: Range<usize>) -> Self {
         self.span = Some(span);
         self
     }
 
-    /// Says in which file, unless that is known already.
+    /// Adds the file, unless it is known already.
     #[must_use]
     pub fn in_file(mut self, source: &Arc<SourceFile>) -> Self {
         self.source.get_or_insert_with(|| Arc::clone(source));
@@ -159,7 +159,7 @@ impl miette::Diagnostic for Diagnostic {
     }
 }
 
-/// The known name nearest to `name`, where one is near enough to be meant.
+/// The known name nearest to `name`, if one is near enough to be meant.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     known
         .into_iter()

@@ -1,10 +1,10 @@
-//! Collecting what is wrong instead of stopping at the first fault.
+//! Collects diagnostics, so that reading does not stop at the first fault.
 
 use std::{path::Path, sync::Arc};
 
 use crate::diagnostic::{Diagnostic, Severity, SourceFile};
 
-/// What was found so far while reading one input.
+/// The diagnostics of one input so far.
 #[derive(Debug, Default)]
 pub struct Diagnostics(Vec<Diagnostic>);
 
@@ -19,7 +19,7 @@ impl Diagnostics {
         self.0.extend(diagnostics);
     }
 
-    /// The value of `result`; its fault is kept here.
+    /// The value of `result`; an error is added here.
     pub fn keep<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
         result.map_err(|diagnostic| self.push(diagnostic)).ok()
     }
@@ -30,7 +30,7 @@ impl Diagnostics {
         Self(self.0.into_iter().map(change).collect())
     }
 
-    /// Whether anything found so far stops the work.
+    /// Whether any of them stops the work.
     pub fn has_error(&self) -> bool {
         self.0.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
@@ -48,7 +48,7 @@ impl Diagnostics {
     }
 }
 
-/// By file, the one that is being read first, then by place in it.
+/// By file, first the one that is being read, then by place in it.
 fn place(diagnostic: &Diagnostic) -> (Option<&Path>, Option<usize>) {
     let file = diagnostic.source.as_ref().map(|source| source.path.as_path());
     (file, diagnostic.span.as_ref().map(|span| span.start))

@@ -9,11 +9,11 @@ use crate::diagnostic::{Diagnostic, Severity};
 pub struct Finding {
     /// `error` or `warning`.
     pub severity: Severity,
-    /// Stable name of the fault.
+    /// Stable name.
     pub code: &'static str,
     /// What is wrong.
     pub message: String,
-    /// The file, where there is one.
+    /// The file, if it is known.
     pub file: Option<String>,
     /// Line, from 1.
     pub line: Option<usize>,

@@ -1,5 +1,5 @@
-//! What a robot is: URDF, SRDF, `robot.toml` and meshes, read into a validated [`Robot`] or
-//! refused with diagnostics that say what, where and what now.
+//! What a robot is: URDF, SRDF, `robot.toml` and meshes, read into a validated [`Robot`] or refused with
+//! diagnostics that say what is wrong, at which place, and what to do.
 //!
 //! Parsers take text and give a value or diagnostics; only `file.rs` opens files.
 

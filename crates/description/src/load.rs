@@ -237,7 +237,7 @@ fn disabled_collisions(
     }
 }
 
-/// A fault of a file without readable text is shown where the file is named.
+/// A fault of a file without readable text is shown at the key that names the file.
 fn placed(fault: Diagnostic, named_at: &Range<usize>) -> Diagnostic {
     if fault.source.is_some() { fault } else { fault.at(named_at.clone()) }
 }

@@ -6,9 +6,8 @@ use std::{
 };
 
 use crate::{
-    Robot,
     diagnostic::{Diagnostic, SourceFile, known_names},
-    model::link::LinkIndex,
+    model::{LinkIndex, Robot},
     xml,
 };
 

@@ -25,8 +25,8 @@ pub(crate) enum MeshError {
     #[error("{bytes} bytes are too short for an STL file, whose header alone is 84")]
     TooShort { bytes: usize },
     /// The count in the header and the length of the file disagree.
-    #[error("the header promises {promised} triangles, the file holds {held}: it is truncated")]
-    Truncated { promised: u32, held: usize },
+    #[error("the header announces {announced} triangles, the file holds {held}: it is truncated")]
+    Truncated { announced: u32, held: usize },
     /// A fault with its line.
     #[error("line {line}: {what}")]
     Line { line: usize, what: String },
@@ -39,10 +39,10 @@ pub(crate) enum MeshError {
     /// A coordinate is NaN or infinite.
     #[error("triangle {triangle} has a vertex that is not finite")]
     NotFinite { triangle: usize },
-    /// No machine is so large, and squares of such figures overflow.
+    /// No machine is so large, and squares of such numbers overflow.
     #[error("a vertex is {furthest_m:.1e} m away from the origin, the limit is {FURTHEST_M:e} m")]
     TooFar { furthest_m: f64 },
-    /// Nothing to touch or to look at.
+    /// All triangles are degenerate, or there are none.
     #[error("no triangle has area")]
     NoArea,
 }
@@ -57,7 +57,7 @@ impl MeshFile {
                 return Err(MeshError::Index { triangle, index, vertices });
             }
             let [a, b, c] = corners.map(|index| self.vertices_m[index as usize]);
-            if [a, b, c].iter().any(|corner| !corner.coords.iter().all(|figure| figure.is_finite())) {
+            if [a, b, c].iter().any(|corner| !corner.coords.iter().all(|coordinate| coordinate.is_finite())) {
                 return Err(MeshError::NotFinite { triangle });
             }
             has_area |= (b - a).cross(&(c - a)) != Vector3::zeros();

@@ -1,4 +1,5 @@
-//! STL, binary and ASCII. `stl_io` reads; what it trusts (count, header, encoding) is checked first.
+//! STL, binary and ASCII, by `stl_io`; count, header and encoding, which it takes on trust, are checked
+//! first.
 
 use std::io::Cursor;
 
@@ -36,12 +37,12 @@ fn count(bytes: &[u8]) -> Option<u32> {
 
 /// Length of the binary STL that `bytes` begin with; exporters that pad the end are allowed to.
 fn binary_length(bytes: &[u8]) -> Result<usize, MeshError> {
-    let promised = count(bytes).ok_or(MeshError::TooShort { bytes: bytes.len() })?;
+    let announced = count(bytes).ok_or(MeshError::TooShort { bytes: bytes.len() })?;
     let held = (bytes.len() - HEADER_BYTES) / TRIANGLE_BYTES;
-    if promised as usize > held {
-        return Err(MeshError::Truncated { promised, held });
+    if announced as usize > held {
+        return Err(MeshError::Truncated { announced, held });
     }
-    Ok(HEADER_BYTES + promised as usize * TRIANGLE_BYTES)
+    Ok(HEADER_BYTES + announced as usize * TRIANGLE_BYTES)
 }
 
 /// The text of an ASCII STL, its first line in the one form that `stl_io` knows.
@@ -64,13 +65,13 @@ mod tests {
     const ASCII: &str = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n\
                          vertex 0 1 0\nendloop\nendfacet\nendsolid\n";
 
-    fn binary(header: &str, promised: u32, corners: &[[f32; 3]]) -> Vec<u8> {
+    fn binary(header: &str, announced: u32, corners: &[[f32; 3]]) -> Vec<u8> {
         let mut bytes = header.as_bytes().to_vec();
         bytes.resize(HEADER_BYTES - 4, 0);
-        bytes.extend(promised.to_le_bytes());
+        bytes.extend(announced.to_le_bytes());
         for triangle in corners.chunks(3) {
             bytes.extend([0; 12]);
-            bytes.extend(triangle.iter().flatten().flat_map(|figure| figure.to_le_bytes()));
+            bytes.extend(triangle.iter().flatten().flat_map(|coordinate| coordinate.to_le_bytes()));
             bytes.extend([0; 2]);
         }
         bytes
@@ -96,7 +97,7 @@ mod tests {
 
     #[test]
     fn a_count_that_the_length_denies_is_refused() {
-        let truncated = |promised, held| Err(MeshError::Truncated { promised, held });
+        let truncated = |announced, held| Err(MeshError::Truncated { announced, held });
         assert_eq!(parse(&binary("", 2, &CORNERS)), truncated(2, 1));
         assert_eq!(parse(&binary("", u32::MAX, &CORNERS)), truncated(u32::MAX, 1));
         assert_eq!(parse(b"0123456789"), Err(MeshError::TooShort { bytes: 10 }));

@@ -8,12 +8,12 @@ use super::{
     format::MeshFormat,
     mesh_file::{FURTHEST_M, MeshError, MeshFile},
 };
-use crate::{diagnostic::Diagnostic, file::read_bytes, model::geometry::Mesh, packages::Packages};
+use crate::{diagnostic::Diagnostic, file::read_bytes, model::Mesh, packages::Packages};
 
 /// The largest mesh file that is read.
 const MESH_BYTES: u64 = 256 << 20;
 
-/// A mesh and what is suspicious about it; the latter only where it is read for the first time.
+/// A mesh with its warnings, which come only when its file is read for the first time.
 pub(crate) struct FoundMesh {
     pub(crate) mesh: Arc<Mesh>,
     pub(crate) warnings: Vec<Diagnostic>,

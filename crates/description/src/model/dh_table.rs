@@ -66,7 +66,7 @@ pub struct DhRow {
     pub theta_rad: f64,
     /// `1.0` or `-1.0`.
     pub sign: f64,
-    /// Line of the row in the robot file, from 1.
+    /// Line of the row in the robot file, from 1; 0 if it was not read from one.
     pub line: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Every way in which links and joints are no robot; `tree.rs` finds them.
+//! Why links and joints form no robot; `tree.rs` finds it out.
 
 /// Why links and joints do not make a robot.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -39,7 +39,7 @@ pub enum RobotError {
         /// The link.
         link: String,
     },
-    /// A link hangs on two joints.
+    /// A link is the child of two joints.
     #[error(
         "link \"{link}\" already has a parent: it is the child of joint \"{first}\" and of joint \"{second}\""
     )]
@@ -86,7 +86,7 @@ pub enum RobotError {
 }
 
 impl RobotError {
-    /// The joint at fault, where it is a joint.
+    /// The joint at fault, if it is a joint.
     pub fn joint(&self) -> Option<&str> {
         match self {
             Self::DuplicateJoint { joint }
@@ -100,7 +100,7 @@ impl RobotError {
         }
     }
 
-    /// The link at fault, where it is a link.
+    /// The link at fault, if it is a link.
     pub fn link(&self) -> Option<&str> {
         match self {
             Self::DuplicateLink { link } => Some(link),

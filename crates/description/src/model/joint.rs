@@ -1,4 +1,4 @@
-//! Joints: what moves, about which axis, how far. Building and checking the tree is `robot.rs`.
+//! Joints: what moves, about which axis, how far. `tree.rs` makes a tree of them.
 
 use nalgebra::{Isometry3, Unit, Vector3};
 use serde::Serialize;
@@ -80,7 +80,7 @@ pub struct Mimic {
     pub master: JointIndex,
     /// Ratio of this joint's position to the master's.
     pub multiplier: f64,
-    /// Position of this joint when the master is at zero.
+    /// Position of this joint if the master is at zero.
     pub offset: f64,
 }
 
@@ -97,20 +97,20 @@ pub struct Joint {
     pub child: LinkIndex,
     /// Pose of the joint frame (and of the child link at position zero) in the parent link.
     pub parent_from_joint: Isometry3<f64>,
-    /// Axis of motion in the joint frame; meaningless for a fixed joint.
+    /// Axis of motion in the joint frame; of no meaning for a fixed joint.
     pub axis_in_joint: Unit<Vector3<f64>>,
-    /// Limits, where the description gives them.
+    /// Limits, if the description gives them.
     pub limit: Option<JointLimit>,
     /// Viscous damping, N m s/rad or N s/m.
     pub damping: f64,
     /// Dry friction, N m or N.
     pub friction: f64,
-    /// Set when the joint follows another.
+    /// Set if the joint follows another.
     pub mimic: Option<Mimic>,
 }
 
 impl Joint {
-    /// The closed range of positions, where the joint has one.
+    /// The closed range of positions, if the joint has one.
     pub fn position_range(&self) -> Option<(f64, f64)> {
         let limit = self.limit.filter(|_| matches!(self.kind, JointKind::Revolute | JointKind::Prismatic))?;
         Some((limit.lower, limit.upper))

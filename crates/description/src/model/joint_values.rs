@@ -1,8 +1,8 @@
-//! Figures by joint in the order of the arm.
+//! Values by joint name, in the order of the joints.
 
 use serde::{Serialize, Serializer};
 
-/// One figure for each joint, base to tip; a map in JSON.
+/// One value for each joint, base to tip; a map in JSON.
 ///
 /// # Examples
 /// ```
@@ -15,17 +15,17 @@ use serde::{Serialize, Serializer};
 pub struct ByJoint(Vec<(String, f64)>);
 
 impl ByJoint {
-    /// Pairs names with figures, in rad or m.
+    /// Pairs names with values, in rad or m.
     pub fn new(names: &[String], values: &[f64]) -> Self {
         Self(names.iter().cloned().zip(values.iter().copied()).collect())
     }
 
-    /// Joints and figures, base to tip.
+    /// Joints and values, base to tip.
     pub fn iter(&self) -> impl Iterator<Item = (&str, f64)> {
         self.0.iter().map(|(name, value)| (name.as_str(), *value))
     }
 
-    /// All of them in a line, with so many decimals.
+    /// All of them in one line, with this number of decimals.
     pub fn listed(&self, decimals: usize) -> String {
         let each: Vec<String> =
             self.iter().map(|(joint, value)| format!("{joint} {value:.decimals$}")).collect();

@@ -1,14 +1,14 @@
 //! The validated robot: links, joints and their tree, the table that models its chain, and joint values.
 
-pub(crate) mod dh_table;
+mod dh_table;
 mod error;
-pub(crate) mod geometry;
-pub(crate) mod inertia;
-pub(crate) mod joint;
-pub(crate) mod joint_values;
-pub(crate) mod link;
-pub(crate) mod robot;
-pub(crate) mod tolerance;
+mod geometry;
+mod inertia;
+mod joint;
+mod joint_values;
+mod link;
+mod robot;
+mod tolerance;
 mod tree;
 
 pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};

@@ -25,7 +25,7 @@ impl Robot {
     /// Builds the tree: names are resolved, links and joints sorted depth first in file order.
     ///
     /// # Errors
-    /// [`RobotError`] when names repeat or are unknown, or when the joints are no tree.
+    /// [`RobotError`] if names repeat or are unknown, or if the joints form no tree.
     pub fn new(
         name: impl Into<String>,
         links: Vec<Link>,
@@ -65,7 +65,7 @@ impl Robot {
         &self.joints
     }
 
-    /// The link that hangs on no joint.
+    /// The link without a joint above it.
     pub fn root(&self) -> LinkIndex {
         LinkIndex(0)
     }
@@ -115,15 +115,16 @@ impl Robot {
         self.movable.len()
     }
 
-    /// Where a joint's position stands in a configuration vector; `None` for a fixed joint.
+    /// Index of a joint's position in a configuration vector; `None` for a fixed joint.
     pub fn coordinate(&self, joint: JointIndex) -> Option<usize> {
         self.coordinates[joint.0]
     }
 
     /// The joints that move link `tip` against link `base`, fixed ones between them included, from
-    /// the first that leaves the body of `base`; `None` where `tip` does not hang below that body.
+    /// the first that leaves the body of `base`; `None` if `tip` does not hang below that body.
     ///
-    /// `base` may stand aside, as the link `base` of a Universal Robots arm does: only its body counts.
+    /// `base` need not be above `tip` itself, as the link `base` of a Universal Robots arm is not: its body
+    /// must be.
     pub fn chain(&self, base: LinkIndex, tip: LinkIndex) -> Option<Vec<JointIndex>> {
         let base_body = self.body(base);
         let mut joints = Vec::new();
@@ -171,7 +172,7 @@ impl Robot {
     /// Overwrites the entries of mimic joints in `q` by what their masters imply.
     ///
     /// # Panics
-    /// When `q` is not a configuration vector of this robot.
+    /// If `q` is not a configuration vector of this robot.
     pub fn apply_mimic(&self, q: &mut [f64]) {
         self.follow_masters(q, |mimic| mimic.offset);
     }
@@ -179,7 +180,7 @@ impl Robot {
     /// The same for speeds, which no offset changes.
     ///
     /// # Panics
-    /// When `qd` is not a configuration vector of this robot.
+    /// If `qd` is not a configuration vector of this robot.
     /// # Examples
     /// ```
     /// let robot = congruent_description::parse_urdf(

@@ -1,4 +1,4 @@
-//! From named parts to a sorted tree: every way in which links and joints are no robot is found here.
+//! From named parts to a sorted tree; whatever keeps links and joints from forming one is found here.
 
 use std::collections::BTreeMap;
 
@@ -112,7 +112,7 @@ fn parents(joints: &[JointParts], links: &[Link], ends: &[Ends]) -> Result<Vec<O
     Ok(above)
 }
 
-/// Links from `link` up to `ancestor`, both included, or `None` where `ancestor` is not above it.
+/// Links from `link` up to `ancestor`, both included, or `None` if `ancestor` is not above it.
 fn path_up(link: usize, ancestor: usize, ends: &[Ends], above: &[Option<usize>]) -> Option<Vec<usize>> {
     let mut path = vec![link];
     let mut at = link;

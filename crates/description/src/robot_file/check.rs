@@ -1,4 +1,4 @@
-//! A robot file against its robot: names, chain, table, figures.
+//! A robot file against its robot: names, chain, table, values.
 
 use nalgebra::Isometry3;
 use toml::Spanned;
@@ -116,15 +116,17 @@ fn table(
 fn tolerance(written: Option<&WrittenTolerance>, diagnostics: &mut Diagnostics) -> Tolerance {
     let default = Tolerance::default();
     let Some(written) = written else { return default };
-    let mut positive = |quantity, unit: Unit, plain: &Option<Spanned<f64>>, handy: &Option<Spanned<f64>>| {
-        let value = diagnostics.keep(unit.value(quantity, plain.as_ref(), handy.as_ref())).flatten()?;
-        let span = plain.as_ref().or(handy.as_ref()).map_or(0..0, Spanned::span);
-        if value <= 0.0 {
-            let message = format!("tolerance {quantity} must be greater than 0, it is {value}");
-            diagnostics.push(Diagnostic::error("robot_file::tolerance", message).at(span));
-        }
-        Some(value)
-    };
+    let mut positive =
+        |quantity, unit: Unit, si: &Option<Spanned<f64>>, engineering: &Option<Spanned<f64>>| {
+            let value =
+                diagnostics.keep(unit.value(quantity, si.as_ref(), engineering.as_ref())).flatten()?;
+            let span = si.as_ref().or(engineering.as_ref()).map_or(0..0, Spanned::span);
+            if value <= 0.0 {
+                let message = format!("tolerance {quantity} must be greater than 0, it is {value}");
+                diagnostics.push(Diagnostic::error("robot_file::tolerance", message).at(span));
+            }
+            Some(value)
+        };
     let position_m = positive("position", Unit::Length, &written.position_m, &written.position_mm);
     let orientation_rad =
         positive("orientation", Unit::Angle, &written.orientation_rad, &written.orientation_deg);

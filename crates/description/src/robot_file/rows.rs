@@ -6,13 +6,9 @@ use toml::Spanned;
 
 use super::written::{WrittenDh, WrittenRow};
 use crate::{
-    Robot,
     diagnostic::{Diagnostic, known_names, line_column},
     diagnostics::Diagnostics,
-    model::{
-        dh_table::{DhRow, DhRowKind},
-        joint::JointIndex,
-    },
+    model::{DhRow, DhRowKind, JointIndex, Robot},
     units::Unit,
 };
 
@@ -45,17 +41,17 @@ fn row(
 ) -> Option<DhRow> {
     let row = written.get_ref();
     let at = || first_line(written.span(), context.text);
-    let mut figure = |quantity, unit: Unit, plain: &Option<Spanned<f64>>, handy: &Option<Spanned<f64>>| {
-        diagnostics.keep(unit.value(quantity, plain.as_ref(), handy.as_ref()))
+    let mut value = |quantity, unit: Unit, si: &Option<Spanned<f64>>, engineering: &Option<Spanned<f64>>| {
+        diagnostics.keep(unit.value(quantity, si.as_ref(), engineering.as_ref()))
     };
-    let a_m = figure("a", Unit::Length, &row.a_m, &row.a_mm);
-    let alpha_rad = figure("alpha", Unit::Angle, &row.alpha_rad, &row.alpha_deg);
-    let d_m = figure("d", Unit::Length, &row.d_m, &row.d_mm);
-    let theta_rad = figure("theta", Unit::Angle, &row.theta_rad, &row.theta_deg);
+    let a_m = value("a", Unit::Length, &row.a_m, &row.a_mm);
+    let alpha_rad = value("alpha", Unit::Angle, &row.alpha_rad, &row.alpha_deg);
+    let d_m = value("d", Unit::Length, &row.d_m, &row.d_mm);
+    let theta_rad = value("theta", Unit::Angle, &row.theta_rad, &row.theta_deg);
     let mut needed = |quantity, unit: Unit, value: Option<Option<f64>>| {
         diagnostics.keep(value?.ok_or_else(|| {
-            let [plain, handy] = unit.keys(quantity);
-            let message = format!("row of joint \"{}\" has no {plain} or {handy}", row.joint.get_ref());
+            let [si, engineering] = unit.keys(quantity);
+            let message = format!("row of joint \"{}\" has no {si} or {engineering}", row.joint.get_ref());
             Diagnostic::error("robot_file::missing_figure", message).at(at())
         }))
     };

@@ -5,16 +5,15 @@ use std::fmt::Write;
 use nalgebra::{Isometry3, Vector3};
 
 use crate::{
-    Robot,
-    model::dh_table::DhTable,
+    model::{DhTable, Robot},
     written::{
         number::{number, numbers, short_degrees},
         rpy::rpy_fixed_xyz_rad,
     },
 };
 
-/// Writes a table as the section `[dh]` of a robot file: lengths in metres, angles in degrees where
-/// a short figure says exactly the same, otherwise in radians with all digits.
+/// Writes a table as the section `[dh]` of a robot file: lengths in metres, angles in degrees if a
+/// short number says exactly the same, otherwise in radians with all digits.
 pub fn dh_section(table: &DhTable, robot: &Robot) -> String {
     let mut text = String::from("[dh]\n");
     let _ = writeln!(text, "convention = \"{}\"", table.convention.name());

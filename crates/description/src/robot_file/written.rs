@@ -6,7 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::{
-    model::dh_table::{DhConvention, DhRowKind},
+    model::{DhConvention, DhRowKind},
     written::transform::WrittenTransform,
 };
 
@@ -28,7 +28,7 @@ pub(crate) struct WrittenRobot {
 #[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenDh {
-    /// Optional here so that its absence gets a message of its own.
+    /// Optional, so that a missing one gets a message of its own.
     pub(crate) convention: Option<Spanned<DhConvention>>,
     pub(crate) source: Option<String>,
     pub(crate) base_from_dh0: Option<Spanned<WrittenTransform>>,

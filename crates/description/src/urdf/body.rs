@@ -3,7 +3,7 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
-use crate::{Robot, diagnostic::Diagnostic, diagnostics::Diagnostics};
+use crate::{diagnostic::Diagnostic, diagnostics::Diagnostics, model::Robot};
 
 /// Warns of moving bodies without mass.
 pub(super) fn check(robot: &Robot, spans: &BTreeMap<&str, Range<usize>>, diagnostics: &mut Diagnostics) {

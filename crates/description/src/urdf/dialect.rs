@@ -1,4 +1,4 @@
-//! Files that are not URDF: SDF, other robot formats, xacro that nobody expanded.
+//! Files that are not URDF: SDF, other robot formats, xacro that has not been expanded.
 
 use roxmltree::{Document, Node};
 

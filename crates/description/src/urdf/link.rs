@@ -10,13 +10,13 @@ use super::{
 };
 use crate::{
     diagnostic::Diagnostic,
-    model::{inertia::Inertia, link::Link},
+    model::{Inertia, Link},
 };
 
 /// Rounding in files: principal moments may miss a bound by so much of the largest one. Real
-/// robots miss by up to 1e-4 where inertias are written with four digits.
+/// robots miss by up to 1e-4 if inertias are written with four digits.
 const MOMENT: f64 = 1e-3;
-/// A larger radius of gyration is that of a house: the tensor is taken for kg mm^2.
+/// No link of a robot has a larger radius of gyration: the tensor is taken for kg mm^2.
 const LARGEST_GYRATION_M: f64 = 3.0;
 
 pub(super) fn read(link: &urdf_rs::Link, node: Node<'_, '_>, shapes: &mut ShapeReader<'_, '_>) -> Link {

@@ -1,13 +1,13 @@
-//! URDF text to a [`Robot`], or to diagnostics that each say where.
+//! URDF text to a [`Robot`], or to diagnostics with their places.
 //!
-//! Four passes, each of which may trust what the one before has checked:
+//! Four passes, each of which relies on what the one before has checked:
 //! 1. `xml`: tokens, then the tree; refuses what would overflow a stack or the memory;
 //! 2. `raw`: the XML with positions against the grammar of URDF, every number token by token;
 //! 3. `urdf-rs`: the structure. It accepts much that is wrong (it drops vector tokens that are no
 //!    numbers, it cannot tell a missing element from its default), which is why pass 2 exists;
-//! 4. `joint`, `link`, `shape`: what the figures mean, then the tree.
+//! 4. `joint`, `link`, `shape`: what the values mean, then the tree.
 //!
-//! Every figure is taken from `urdf-rs`; pass 2 reads the same text but only judges it. The one
+//! Every value is taken from `urdf-rs`; pass 2 reads the same text but only judges it. The one
 //! exception is `quat_xyzw`, which `urdf-rs` turns into angles and loses up to 4 mrad near a pitch
 //! of a quarter turn: it is taken from the XML.
 
@@ -33,11 +33,10 @@ use roxmltree::Node;
 use self::node::{elements, last, place, spans, tag};
 
 use crate::{
-    Robot, RobotError,
     diagnostic::{Diagnostic, known_names},
     diagnostics::Diagnostics,
     mesh::{FindMesh, FoundMesh},
-    model::link::Link,
+    model::{Link, Robot, RobotError},
     xml,
 };
 
@@ -46,7 +45,7 @@ pub(crate) const URDF_BYTES: u64 = 16 << 20;
 /// The largest number of links: far above any robot, far below what would take minutes.
 const MOST_LINKS: usize = 10_000;
 
-/// Reads a robot; `None` when `diagnostics` holds an error.
+/// Reads a robot; `None` if `diagnostics` holds an error.
 pub(crate) fn parse(
     text: &str,
     find_mesh: &mut FindMesh<'_>,
@@ -79,7 +78,7 @@ pub(crate) fn parse(
 /// Reads a robot from URDF text alone; meshes cannot be found, so it may name none.
 ///
 /// # Errors
-/// Every diagnostic, errors and warnings, when at least one is an error.
+/// Every diagnostic, errors and warnings, if at least one is an error.
 /// # Examples
 /// See [`urdf_text`].
 pub fn parse_urdf(text: &str) -> Result<Robot, Vec<Diagnostic>> {

@@ -18,12 +18,12 @@ pub(super) fn elements<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> impl Iterato
     parent.children().filter(move |node| node.is_element() && node.tag_name().name() == name)
 }
 
-/// The child element with this name, where there is one.
+/// The child element with this name, if there is one.
 pub(super) fn element<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
     elements(parent, name).next()
 }
 
-/// The place of a child element, or of the element itself where the child is missing.
+/// The place of a child element, or of the element itself if the child is missing.
 pub(super) fn place(parent: Node<'_, '_>, child: &str) -> Range<usize> {
     tag(element(parent, child).unwrap_or(parent))
 }
@@ -36,7 +36,7 @@ pub(super) fn tag(node: Node<'_, '_>) -> Range<usize> {
     range.start..range.start + end
 }
 
-/// `link "forearm"`, its name cut where it is longer than a line.
+/// `link "forearm"`, its name cut if it is longer than a line.
 pub(super) fn label(node: Node<'_, '_>) -> String {
     const SHOWN: usize = 60;
     let name = node.attribute("name").unwrap_or_default();

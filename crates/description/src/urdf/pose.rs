@@ -11,7 +11,7 @@ use crate::{diagnostic::Diagnostic, diagnostics::Diagnostics, written::rpy::rota
 /// Longer offsets between the parts of one robot are taken for millimetres.
 pub(super) const LARGEST_PLAUSIBLE_M: f64 = 10.0;
 
-/// The pose that `<origin>` in `parent` gives; identity where there is none.
+/// The pose that `<origin>` in `parent` gives; the identity if there is none.
 ///
 /// `owner` is the link or joint that warnings name.
 pub(super) fn read(
@@ -50,9 +50,9 @@ pub(super) fn read(
     Isometry3::from_parts(translation, rotation_from_rpy_fixed_xyz(rpy))
 }
 
-/// Normalised as urdfdom does; the raw pass has checked the figures.
+/// Normalised as urdfdom does; the pass against the grammar has checked the numbers.
 fn from_quaternion(text: &str) -> Option<UnitQuaternion<f64>> {
-    let figures: Vec<f64> = text.split_whitespace().filter_map(|token| token.parse().ok()).collect();
-    let [x, y, z, w] = figures[..] else { return None };
+    let numbers: Vec<f64> = text.split_whitespace().filter_map(|token| token.parse().ok()).collect();
+    let [x, y, z, w] = numbers[..] else { return None };
     UnitQuaternion::try_new(Quaternion::new(w, x, y, z), f64::MIN_POSITIVE)
 }

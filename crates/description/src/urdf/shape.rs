@@ -13,7 +13,7 @@ use crate::{
     diagnostic::Diagnostic,
     diagnostics::Diagnostics,
     mesh::FindMesh,
-    model::geometry::{Geometry, Mesh, Shape},
+    model::{Geometry, Mesh, Shape},
 };
 
 /// Colours of the materials that the document defines at its top, by name.
@@ -29,7 +29,7 @@ fn own_color(material: &urdf_rs::Material) -> Option<[f32; 4]> {
     material.color.as_ref().map(|color| color.rgba.0.map(|channel| channel.clamp(0.0, 1.0) as f32))
 }
 
-/// Reads shapes: what they need from outside their own element.
+/// Reads shapes, with what is defined outside their own element: named colours and meshes.
 pub(super) struct ShapeReader<'a, 'm> {
     pub(super) colors: BTreeMap<&'a str, [f32; 4]>,
     pub(super) find_mesh: &'a mut FindMesh<'m>,
@@ -37,7 +37,7 @@ pub(super) struct ShapeReader<'a, 'm> {
 }
 
 impl ShapeReader<'_, '_> {
-    /// A shape to look at; `None` where something is wrong with it.
+    /// A visual shape; `None` if something is wrong with it.
     pub(super) fn visual(&mut self, visual: &urdf_rs::Visual, node: Node<'_, '_>) -> Option<Shape> {
         let color = |material: &urdf_rs::Material| {
             own_color(material).or_else(|| self.colors.get(material.name.as_str()).copied())
@@ -47,7 +47,7 @@ impl ShapeReader<'_, '_> {
         Some(Shape { color_rgba, ..shape })
     }
 
-    /// A shape that touches; `None` where something is wrong with it.
+    /// A collision shape; `None` if something is wrong with it.
     pub(super) fn collision(&mut self, collision: &urdf_rs::Collision, node: Node<'_, '_>) -> Option<Shape> {
         self.shape(&collision.origin, &collision.geometry, node)
     }
@@ -101,7 +101,7 @@ impl ShapeReader<'_, '_> {
             }
         };
         let (geometry, smallest_m) = geometry;
-        // The smallest side, so that a wide floor is no fault.
+        // The smallest side, so that a wide floor raises no warning.
         let warnings = too_large("shape", smallest_m).into_iter().collect();
         Ok((geometry, warnings))
     }

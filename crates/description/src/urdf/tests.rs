@@ -1,6 +1,6 @@
-//! URDF documents with one fault each, and good ones that must not be blamed.
+//! URDF documents with one fault each, and good ones that must not be refused.
 
-#![expect(clippy::float_cmp, reason = "figures must arrive as they are written")]
+#![expect(clippy::float_cmp, reason = "values must arrive as they are written")]
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,9 +8,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::*;
 use crate::{
-    JointKind,
     diagnostic::{Severity, line_column},
-    model::geometry::Geometry,
+    model::{Geometry, JointKind},
 };
 
 /// Two links and a joint, each with a place for more.
@@ -75,7 +74,7 @@ fn link_error(link: &str, code: &str, message: &str) {
 }
 
 #[test]
-fn every_figure_arrives() {
+fn every_value_arrives() {
     let joint = format!(
         r#"{LIMIT}<origin rpy="0 0 {FRAC_PI_2}" xyz="1 2 3"/><axis xyz="0 -1 0"/><dynamics damping="0.5" friction="0.25"/>"#
     );

@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use crate::{
-    Robot,
-    model::joint::Joint,
+    model::{Joint, Robot},
     written::{
         number::{number, numbers},
         rpy::rpy_fixed_xyz_rad,

@@ -1,7 +1,7 @@
-//! TOML text to a `Written` struct, every fault a diagnostic with its place in the text.
+//! TOML text to a struct that holds what is written; every fault is a diagnostic with its place in the text.
 //!
 //! serde stops at the first unknown key. Here that key is reported and taken out, and the rest is
-//! tried again, so that one run names every misspelt key.
+//! read again, so that one run names every misspelt key.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ use crate::{
 
 /// Parses `text`; faults go to `diagnostics`.
 ///
-/// A value is returned as well when the only faults are unknown keys, so that the caller can
+/// A value is returned as well if the only faults are unknown keys, so that the caller can
 /// check the rest and report everything at once.
 pub fn parse_toml<T: DeserializeOwned>(text: &str, diagnostics: &mut Diagnostics) -> Option<T> {
     let root = diagnostics.keep(DeTable::parse(text).map_err(|error| diagnostic(&error)))?;
@@ -46,7 +46,7 @@ pub fn read_table<T: DeserializeOwned>(
     None
 }
 
-/// So many are named in one run: every one costs another turn through the text.
+/// Most unknown keys that are named in one run: each costs another pass over the text.
 const MOST_UNKNOWN_KEYS: usize = 100;
 
 /// The code of a diagnostic about a key that no field has.

@@ -16,12 +16,12 @@ use crate::{
 };
 
 /// How far the norm of a written quaternion may be from 1: six digits in the file, rounding of
-/// four components. A larger fault is a slip of the pen, and normalising would hide it.
+/// four components. A larger deviation is an error in the file, which normalising would hide.
 const QUATERNION_NORM: f64 = 1e-6;
 /// How far `R^T R` of a written matrix may be from the identity, per entry: ten digits in the file.
 const ORTHONORMAL: f64 = 1e-9;
 
-/// A transform as written; identity where nothing is given.
+/// A transform as written; the identity if nothing is given.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WrittenTransform {
@@ -77,9 +77,9 @@ impl WrittenTransform {
         vectors.into_iter().chain([quaternion, matrix]).flatten().collect()
     }
 
-    /// The keys with which another transform is written as this one is: in its units and by its kind
-    /// of rotation. `others` are the scales of lengths and of angles that a new key has.
-    pub(crate) fn with_keys(&self, pose: &Isometry3<f64>, others: [UnitSystem; 2]) -> Vec<String> {
+    /// The keys that write another transform as this one is written: in its units and by its kind of
+    /// rotation. A key that this one lacks is written in the units `default`, of lengths and of angles.
+    pub(crate) fn with_keys(&self, pose: &Isometry3<f64>, default: [UnitSystem; 2]) -> Vec<String> {
         if self.matrix.is_some() {
             let matrix = pose.to_homogeneous();
             let rows = (0..4).map(|row| fitted_list(matrix.row(row).iter().copied()));
@@ -87,17 +87,17 @@ impl WrittenTransform {
         }
         let shift = (pose.translation.vector.norm() > 0.0 || self.xyz_m.is_some() || self.xyz_mm.is_some())
             .then(|| {
-                let scale = UnitSystem::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), others[0]);
-                Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), scale)
+                let units = UnitSystem::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), default[0]);
+                Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), units)
             });
         let turn = if self.quaternion_wxyz.is_some() {
             let Quaternion { coords } = *pose.rotation.quaternion();
             Some(format!("quaternion_wxyz = {}", fitted_list([coords.w, coords.x, coords.y, coords.z])))
         } else {
-            let scale = UnitSystem::of(self.rpy_rad.as_ref(), self.rpy_deg.as_ref(), others[1]);
+            let units = UnitSystem::of(self.rpy_rad.as_ref(), self.rpy_deg.as_ref(), default[1]);
             let rpy_rad = fitted_rpy_fixed_xyz_rad(pose);
             let has_turn = self.has_rotation() || rpy_rad.iter().any(|angle| angle.abs() > 0.0);
-            has_turn.then(|| Unit::Angle.fitted_vector("rpy", rpy_rad, scale))
+            has_turn.then(|| Unit::Angle.fitted_vector("rpy", rpy_rad, units))
         };
         shift.into_iter().chain(turn).collect()
     }
@@ -105,7 +105,7 @@ impl WrittenTransform {
     /// The transform.
     ///
     /// # Errors
-    /// Two keys for one thing, a figure that is not finite, a quaternion whose norm is not 1, or
+    /// Two keys for one part, a value that is not finite, a quaternion whose norm is not 1, or
     /// a matrix that is no rigid motion.
     pub fn isometry(&self) -> Result<Isometry3<f64>, Diagnostic> {
         let translation = Unit::Length.vector("xyz", self.xyz_m.as_ref(), self.xyz_mm.as_ref())?;
@@ -141,8 +141,8 @@ fn conflict(message: &str, span: std::ops::Range<usize>) -> Diagnostic {
 
 fn from_quaternion(written: &Spanned<[f64; 4]>) -> Result<UnitQuaternion<f64>, Diagnostic> {
     let [w, x, y, z] = *written.get_ref();
-    for figure in [w, x, y, z] {
-        check_finite("quaternion_wxyz", figure, written.span())?;
+    for value in [w, x, y, z] {
+        check_finite("quaternion_wxyz", value, written.span())?;
     }
     let quaternion = Quaternion::new(w, x, y, z);
     let norm = quaternion.norm();
@@ -157,8 +157,8 @@ fn from_quaternion(written: &Spanned<[f64; 4]>) -> Result<UnitQuaternion<f64>, D
 
 fn from_matrix(written: &Spanned<[[f64; 4]; 4]>) -> Result<Isometry3<f64>, Diagnostic> {
     let rows = written.get_ref();
-    for &figure in rows.iter().flatten() {
-        check_finite("matrix", figure, written.span())?;
+    for &value in rows.iter().flatten() {
+        check_finite("matrix", value, written.span())?;
     }
     let refused = |message: String| {
         Err(Diagnostic::error("transform::matrix", message)
@@ -287,7 +287,7 @@ mod tests {
         );
     }
 
-    /// How far a suggested transform may be from what it stands for. Kind: figures within 5e-14 of six
+    /// How far a suggested transform may be from what it stands for. Kind: six values within 5e-14
     /// that move a pose, and a quaternion on the way; worst seen 1.8e-13.
     const SUGGESTED: f64 = 5e-13;
 
@@ -334,7 +334,7 @@ mod tests {
             Translation3::new(0.0, 0.0, 0.12),
             rotation_from_rpy_fixed_xyz([0.3, -FRAC_PI_2, 0.2]),
         );
-        // Where only roll plus yaw counts, there is no yaw.
+        // If only roll plus yaw counts, there is no yaw.
         let angle = "28.64788975654";
         assert_eq!(written("", &down), format!("xyz_mm = [0, 0, 120], rpy_deg = [{angle}, -90, 0]"));
         assert_eq!(

@@ -32,7 +32,7 @@ impl Part {
     }
 }
 
-/// Where a list of positions stands among the vertices of a part.
+/// The range of a list of positions among the vertices of a part.
 #[derive(Clone, Copy)]
 struct Positions {
     first: usize,
@@ -83,13 +83,13 @@ fn positions<'a, 'i>(vertices: Node<'a, 'i>, ids: &Ids<'a, 'i>) -> Result<Vec<Po
     let needed = count.checked_mul(stride).and_then(|needed| needed.checked_add(offset));
     if needed.is_none_or(|needed| needed > values.len()) {
         let what =
-            format!("{count} positions of {stride} numbers are promised, {} numbers are there", values.len());
+            format!("{count} positions of {stride} numbers are announced, the array holds {}", values.len());
         return Err(fault(array, what));
     }
     Ok(values[offset..].chunks_exact(stride).take(count).map(|p| Point3::new(p[0], p[1], p[2])).collect())
 }
 
-/// The input of this meaning.
+/// The input with this semantic.
 fn input<'a, 'i>(parent: Node<'a, 'i>, semantic: &str) -> Result<Node<'a, 'i>, MeshError> {
     let found = children(parent, "input").find(|input| input.attribute("semantic") == Some(semantic));
     found.ok_or_else(|| fault(parent, format!("<{}> has no input {semantic}", parent.tag_name().name())))

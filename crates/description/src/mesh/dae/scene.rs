@@ -19,7 +19,7 @@ const MOST_NODES: usize = 100_000;
 /// The same for their triangles.
 const MOST_TRIANGLES: usize = 20_000_000;
 
-pub(in crate::mesh) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
+pub(crate) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
     let text = std::str::from_utf8(bytes).map_err(|_| format_fault("COLLADA text is not UTF-8"))?;
     let text = text.trim_start_matches('\u{feff}');
     let document = xml::parse(text).map_err(|fault| format_fault(fault.message))?;

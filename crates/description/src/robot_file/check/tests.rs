@@ -3,7 +3,12 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::*;
-use crate::{DhRowKind, JointKind, Severity, diagnostic::line_column, urdf, written::toml_text::parse_toml};
+use crate::{
+    diagnostic::{Severity, line_column},
+    model::{DhRowKind, JointKind},
+    urdf,
+    written::toml_text::parse_toml,
+};
 
 /// base -(fixed)- root -a- one -b- two -(fixed)- tip, and a joint c that follows b beside it.
 fn robot() -> Robot {
@@ -138,7 +143,7 @@ fn the_table_must_fit_the_chain() {
 }
 
 #[test]
-fn figures_are_checked() {
+fn values_are_checked() {
     error("convention = 'modified'\n", "", 5, "[dh] has no convention");
     error("d_m = 0.2", "d_m = nan", 13, "d_m is NaN");
     error("d_m = 0.2\n", "", 8, "row of joint \"a\" has no d_m or d_mm");
