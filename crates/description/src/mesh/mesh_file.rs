@@ -25,8 +25,8 @@ pub(crate) enum MeshError {
     #[error("{bytes} bytes are too short for an STL file, whose header alone is 84")]
     TooShort { bytes: usize },
     /// The count in the header and the length of the file disagree.
-    #[error("the header announces {announced} triangles, the file holds {held}: it is truncated")]
-    Truncated { announced: u32, held: usize },
+    #[error("the header promises {promised} triangles, the file holds {held}: it is truncated")]
+    Truncated { promised: u32, held: usize },
     /// A fault with its line.
     #[error("line {line}: {what}")]
     Line { line: usize, what: String },

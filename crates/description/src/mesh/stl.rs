@@ -37,12 +37,12 @@ fn count(bytes: &[u8]) -> Option<u32> {
 
 /// Length of the binary STL that `bytes` begin with; exporters that pad the end are allowed to.
 fn binary_length(bytes: &[u8]) -> Result<usize, MeshError> {
-    let announced = count(bytes).ok_or(MeshError::TooShort { bytes: bytes.len() })?;
+    let promised = count(bytes).ok_or(MeshError::TooShort { bytes: bytes.len() })?;
     let held = (bytes.len() - HEADER_BYTES) / TRIANGLE_BYTES;
-    if announced as usize > held {
-        return Err(MeshError::Truncated { announced, held });
+    if promised as usize > held {
+        return Err(MeshError::Truncated { promised, held });
     }
-    Ok(HEADER_BYTES + announced as usize * TRIANGLE_BYTES)
+    Ok(HEADER_BYTES + promised as usize * TRIANGLE_BYTES)
 }
 
 /// The text of an ASCII STL, its first line in the one form that `stl_io` knows.
@@ -65,10 +65,10 @@ mod tests {
     const ASCII: &str = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n\
                          vertex 0 1 0\nendloop\nendfacet\nendsolid\n";
 
-    fn binary(header: &str, announced: u32, corners: &[[f32; 3]]) -> Vec<u8> {
+    fn binary(header: &str, promised: u32, corners: &[[f32; 3]]) -> Vec<u8> {
         let mut bytes = header.as_bytes().to_vec();
         bytes.resize(HEADER_BYTES - 4, 0);
-        bytes.extend(announced.to_le_bytes());
+        bytes.extend(promised.to_le_bytes());
         for triangle in corners.chunks(3) {
             bytes.extend([0; 12]);
             bytes.extend(triangle.iter().flatten().flat_map(|coordinate| coordinate.to_le_bytes()));
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn a_count_that_the_length_denies_is_refused() {
-        let truncated = |announced, held| Err(MeshError::Truncated { announced, held });
+        let truncated = |promised, held| Err(MeshError::Truncated { promised, held });
         assert_eq!(parse(&binary("", 2, &CORNERS)), truncated(2, 1));
         assert_eq!(parse(&binary("", u32::MAX, &CORNERS)), truncated(u32::MAX, 1));
         assert_eq!(parse(b"0123456789"), Err(MeshError::TooShort { bytes: 10 }));
