@@ -1,15 +1,17 @@
-//! What is wrong with an input, where, and what to do: one type for every file that is read.
+//! What is wrong with an input, at which place, and what to do: one type for every file that is read.
 
 use std::{fmt, ops::Range, path::PathBuf, sync::Arc};
 
 use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// A file that was read, kept so that a diagnostic can show the line.
 #[derive(Debug, PartialEq, Eq)]
 pub struct SourceFile {
     /// Where it was read from.
     pub path: PathBuf,
-    /// Its text; empty where it is no text.
+    /// Its text; empty if it is no text.
     pub text: String,
 }
 
@@ -33,7 +35,8 @@ impl SourceCode for SourceFile {
 }
 
 /// Whether work can go on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Severity {
     /// Suspicious; the run goes on.
     Warning,
@@ -41,9 +44,9 @@ pub enum Severity {
     Error,
 }
 
-/// One finding about one input.
+/// One fault of an input, or one thing in it that is suspicious.
 ///
-/// A parser knows the span, its caller the file: [`Diagnostic::in_file`] joins the two.
+/// A parser knows the span, its caller the file: [`Diagnostic::in_file`] adds the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
     /// Whether work can go on.
@@ -54,14 +57,14 @@ pub struct Diagnostic {
     pub message: String,
     /// What to do about it.
     pub help: Option<String>,
-    /// Byte range in the file, where there is one.
+    /// Byte range in the file; `None` if it is about the file as a whole.
     pub span: Option<Range<usize>>,
     /// The file, once known.
     pub source: Option<Arc<SourceFile>>,
 }
 
 impl Diagnostic {
-    /// A finding that stops the work.
+    /// A diagnostic that stops the work.
     pub fn error(code: &'static str, message: impl Into<String>) -> Self {
         Self {
             severity: Severity::Error,
@@ -73,26 +76,26 @@ impl Diagnostic {
         }
     }
 
-    /// A finding that does not stop the work.
+    /// A diagnostic that does not stop the work.
     pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
     }
 
-    /// Says what to do.
+    /// Adds what to do.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Says where in the text.
+    /// Adds the place in the text.
     #[must_use]
     pub fn at(mut self, span: Range<usize>) -> Self {
         self.span = Some(span);
         self
     }
 
-    /// Says in which file, unless that is known already.
+    /// Adds the file, unless it is known already.
     #[must_use]
     pub fn in_file(mut self, source: &Arc<SourceFile>) -> Self {
         self.source.get_or_insert_with(|| Arc::clone(source));
@@ -118,8 +121,8 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
 }
 
 impl From<Diagnostic> for Vec<Diagnostic> {
-    fn from(finding: Diagnostic) -> Self {
-        vec![finding]
+    fn from(diagnostic: Diagnostic) -> Self {
+        vec![diagnostic]
     }
 }
 
@@ -157,7 +160,7 @@ impl miette::Diagnostic for Diagnostic {
     }
 }
 
-/// The known name nearest to `name`, where one is near enough to be meant.
+/// The known name nearest to `name`, if one is near enough to be meant.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     known
         .into_iter()

@@ -1,5 +1,5 @@
-//! Opening files, and the only place that does: kind before size before content, since a pipe
-//! hangs whoever opens it and a huge file fills the memory.
+//! Opens files; nothing else in this crate does. Kind and size are checked before the content is read: a
+//! pipe would block its reader, and a huge file would fill the memory.
 
 use std::{
     fs::File,

@@ -9,12 +9,12 @@ use crate::diagnostic::{Diagnostic, Severity};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Finding {
     /// `error` or `warning`.
-    pub severity: &'static str,
-    /// Stable name of the fault.
+    pub severity: Severity,
+    /// Stable name.
     pub code: &'static str,
     /// What is wrong.
     pub message: String,
-    /// The file, where there is one.
+    /// The file, if it is known.
     pub file: Option<String>,
     /// Line, from 1.
     pub line: Option<usize>,
@@ -28,10 +28,7 @@ impl From<&Diagnostic> for Finding {
     fn from(diagnostic: &Diagnostic) -> Self {
         let place = diagnostic.line_column();
         Self {
-            severity: match diagnostic.severity {
-                Severity::Warning => "warning",
-                Severity::Error => "error",
-            },
+            severity: diagnostic.severity,
             code: diagnostic.code,
             message: diagnostic.message.clone(),
             file: diagnostic.source.as_ref().map(|source| source.path.display().to_string()),

@@ -10,17 +10,17 @@ use std::{
 use toml::Spanned;
 
 use crate::{
-    Robot, RobotDescription, Tolerance,
+    description::{Places, RobotDescription},
     diagnostic::{Diagnostic, SourceFile},
+    diagnostics::Diagnostics,
     file::read_text,
-    findings::Findings,
-    mesh::MeshStore,
-    model::link::LinkIndex,
+    mesh::{FindMesh, MeshStore},
+    model::{LinkIndex, Robot, Tolerance},
     packages::Packages,
-    robot_file::{self, Declared, ROBOT_FILE, ROBOT_FILE_BYTES, WrittenRobot, default_chain},
+    robot_file::{self, Declared, ROBOT_FILE, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
     srdf::{self, SRDF_BYTES},
-    toml_text::parse_toml,
-    urdf::{self, URDF_BYTES},
+    urdf::{self, URDF_BYTES, UrdfPlaces},
+    written::toml_text::parse_toml,
 };
 
 const ACCEPTED: &str = "give a folder with robot.toml, a robot file (.toml) or a .urdf";
@@ -31,7 +31,7 @@ const ACCEPTED: &str = "give a folder with robot.toml, a robot file (.toml) or a
 /// Denavit-Hartenberg table.
 ///
 /// # Errors
-/// Every finding, errors and warnings, when at least one is an error.
+/// Every diagnostic, errors and warnings, if at least one is an error.
 pub fn load_robot(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
     let name = path.display();
     if path.is_dir() {
@@ -56,38 +56,87 @@ fn open(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Vec<Diagnostic>
     })
 }
 
+/// The same from texts alone, whose paths only name them: nothing is opened.
+///
+/// A URDF with meshes is refused, and of the robot file the keys `urdf`, `srdf` and `packages` are not
+/// followed.
+///
+/// # Errors
+/// Every diagnostic, errors and warnings, if at least one is an error.
+/// # Examples
+/// ```
+/// use congruent_description::{SourceFile, parse_robot};
+/// let source = |name: &str, text: &str| SourceFile { path: name.into(), text: text.into() }.into();
+/// let urdf = source("stand.urdf", "<robot name='stand'><link name='base'/></robot>");
+/// let robot_file = source("robot.toml", "name = 'mine'\ntip = 'tool'");
+/// assert_eq!(parse_robot(None, &urdf).unwrap().name, "stand");
+/// let refused = parse_robot(Some(&robot_file), &urdf).unwrap_err();
+/// assert_eq!(refused[0].line_column(), Some((2, 7)));
+/// ```
+pub fn parse_robot(
+    robot_file: Option<&Arc<SourceFile>>,
+    urdf: &Arc<SourceFile>,
+) -> Result<RobotDescription, Vec<Diagnostic>> {
+    let (robot, warnings) = read_urdf(urdf, &mut urdf::no_mesh)?;
+    let Some(robot_file) = robot_file else { return Ok(bare(urdf, robot, warnings)) };
+    let mut diagnostics = Diagnostics::default();
+    diagnostics.extend(warnings);
+    let declared = parse_toml(&robot_file.text, &mut diagnostics)
+        .and_then(|written| declared(written, robot_file, urdf, robot, &mut diagnostics));
+    checked(declared, diagnostics, robot_file)
+}
+
 fn load_bare_urdf(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
-    let (robot, warnings) = load_urdf(path, BTreeMap::new())?;
-    let (base, tip) = default_chain(&robot);
-    Ok(RobotDescription {
-        path: path.to_owned(),
+    let urdf = open(path, URDF_BYTES)?;
+    let (robot, warnings) = load_urdf(&urdf, BTreeMap::new())?;
+    Ok(bare(&urdf, robot, warnings))
+}
+
+/// A description without a robot file.
+fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> RobotDescription {
+    let base = robot.root();
+    RobotDescription {
+        path: urdf.path.clone(),
         name: robot.name().to_owned(),
-        urdf_path: path.to_owned(),
-        robot,
+        urdf_path: urdf.path.clone(),
         base,
-        tip,
+        tip: robot.tip_of_longest_chain(base),
+        robot,
         dh: None,
         tip_from_tcp: None,
         tolerance: Tolerance::default(),
         disabled_collisions: BTreeSet::new(),
         warnings,
-    })
+        places: Places { robot_file: None, urdf: Some(UrdfPlaces::new(Arc::clone(urdf))) },
+    }
 }
 
+/// Reads a URDF with its meshes.
 fn load_urdf(
-    path: &Path,
+    source: &Arc<SourceFile>,
     declared: BTreeMap<String, PathBuf>,
 ) -> Result<(Robot, Vec<Diagnostic>), Vec<Diagnostic>> {
-    let source = open(path, URDF_BYTES)?;
+    let path = &source.path;
     let packages = Packages::new(parent(path), declared).map_err(|error| {
         let message = format!("{}: its folder cannot be read: {error}", path.display());
         vec![Diagnostic::error("file::unreadable", message)]
     })?;
     let mut meshes = MeshStore::new(&packages);
-    let mut findings = Findings::default();
-    let robot = urdf::parse(&source.text, &mut |uri, scale| meshes.find(uri, scale), &mut findings);
-    let findings = findings.in_file(&source);
-    robot.map(|robot| (robot, findings.clone())).ok_or(findings)
+    read_urdf(source, &mut |uri, scale| meshes.find(uri, scale))
+}
+
+/// A robot with its warnings, or every diagnostic if one is an error.
+fn read_urdf(
+    source: &Arc<SourceFile>,
+    find_mesh: &mut FindMesh<'_>,
+) -> Result<(Robot, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let mut diagnostics = Diagnostics::default();
+    let robot = urdf::parse(&source.text, find_mesh, &mut diagnostics);
+    let diagnostics = diagnostics.in_file(source);
+    match robot {
+        Some(robot) => Ok((robot, diagnostics)),
+        None => Err(diagnostics),
+    }
 }
 
 /// The folder of a file; a bare file name is in the current one.
@@ -100,87 +149,111 @@ fn parent(path: &Path) -> &Path {
 
 fn load_robot_file(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
     let source = open(path, ROBOT_FILE_BYTES)?;
-    let mut findings = Findings::default();
-    let description = read_robot_file(path, &source.text, &mut findings);
-    let is_refused = findings.has_error();
-    let findings = findings.in_file(&source);
+    let mut diagnostics = Diagnostics::default();
+    let description = read_robot_file(&source, &mut diagnostics);
+    checked(description, diagnostics, &source)
+}
+
+/// A description with its warnings, or every diagnostic if one is an error.
+fn checked(
+    description: Option<RobotDescription>,
+    diagnostics: Diagnostics,
+    robot_file: &Arc<SourceFile>,
+) -> Result<RobotDescription, Vec<Diagnostic>> {
+    let is_refused = diagnostics.has_error();
+    let diagnostics = diagnostics.in_file(robot_file);
     match description {
-        Some(description) if !is_refused => Ok(RobotDescription { warnings: findings, ..description }),
-        _ => Err(findings),
+        Some(description) if !is_refused => Ok(RobotDescription { warnings: diagnostics, ..description }),
+        _ => Err(diagnostics),
     }
 }
 
-/// Everything about the robot file at `path`; its warnings are in `findings`.
-fn read_robot_file(path: &Path, text: &str, findings: &mut Findings) -> Option<RobotDescription> {
-    let (written, urdf_path) = written_robot(path, text, findings)?;
-    let declared_packages = declared_packages(&written, parent(path), findings);
-    let robot = match load_urdf(&urdf_path, declared_packages) {
-        Ok((robot, warnings)) => {
-            findings.extend(warnings);
-            robot
-        }
+/// Everything about a robot file and the files that it names.
+fn read_robot_file(robot_file: &Arc<SourceFile>, diagnostics: &mut Diagnostics) -> Option<RobotDescription> {
+    let (written, urdf_path) = written_robot(robot_file, diagnostics)?;
+    let folder = parent(&robot_file.path);
+    let packages = declared_packages(&written, folder, diagnostics);
+    let urdf = open(&urdf_path, URDF_BYTES);
+    let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, packages)?, urdf)));
+    let ((robot, warnings), urdf) = match robot {
+        Ok(read) => read,
         Err(faults) => {
             let urdf = written.urdf.as_ref().map_or(0..0, Spanned::span);
-            findings.extend(faults.into_iter().map(|fault| placed(fault, &urdf)));
+            diagnostics.extend(faults.into_iter().map(|fault| placed(fault, &urdf)));
             return None;
         }
     };
-    let declared = robot_file::check(&written, text, &robot, findings);
-    let disabled_collisions = disabled_collisions(&written, parent(path), &robot, findings);
+    diagnostics.extend(warnings);
+    let srdf = written.srdf.clone();
+    let disabled_collisions = disabled_collisions(srdf.as_ref(), folder, &robot, diagnostics);
+    let description = declared(written, robot_file, &urdf, robot, diagnostics)?;
+    Some(RobotDescription { disabled_collisions, ..description })
+}
+
+/// What a robot file declares about its robot; SRDF and warnings are left to the caller.
+fn declared(
+    written: WrittenRobot,
+    robot_file: &Arc<SourceFile>,
+    urdf: &Arc<SourceFile>,
+    robot: Robot,
+    diagnostics: &mut Diagnostics,
+) -> Option<RobotDescription> {
+    let declared = robot_file::check(&written, &robot_file.text, &robot, diagnostics);
     let Declared { base, tip, dh, tip_from_tcp, tolerance } = declared?;
-    let name = written.name.map_or_else(|| robot.name().to_owned(), Spanned::into_inner);
+    let table = written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh)));
     Some(RobotDescription {
-        path: path.to_owned(),
-        name,
-        urdf_path,
+        path: robot_file.path.clone(),
+        name: written.name.map_or_else(|| robot.name().to_owned(), Spanned::into_inner),
+        urdf_path: urdf.path.clone(),
         robot,
         base,
         tip,
         dh,
         tip_from_tcp,
         tolerance,
-        disabled_collisions,
+        disabled_collisions: BTreeSet::new(),
         warnings: Vec::new(),
+        places: Places { robot_file: table, urdf: Some(UrdfPlaces::new(Arc::clone(urdf))) },
     })
 }
 
 fn disabled_collisions(
-    written: &WrittenRobot,
+    srdf: Option<&Spanned<PathBuf>>,
     folder: &Path,
     robot: &Robot,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> BTreeSet<(LinkIndex, LinkIndex)> {
-    let Some(srdf) = &written.srdf else { return BTreeSet::new() };
+    let Some(srdf) = srdf else { return BTreeSet::new() };
     match read_text(&folder.join(srdf.get_ref()), SRDF_BYTES) {
         Ok(source) => {
             let (pairs, faults) = srdf::parse(&source, robot);
-            findings.extend(faults);
+            diagnostics.extend(faults);
             pairs
         }
         Err(fault) => {
-            findings.push(placed(fault, &srdf.span()));
+            diagnostics.push(placed(fault, &srdf.span()));
             BTreeSet::new()
         }
     }
 }
 
-/// A fault of a file without readable text is shown where the file is named.
+/// A fault of a file without readable text is shown at the key that names the file.
 fn placed(fault: Diagnostic, named_at: &Range<usize>) -> Diagnostic {
     if fault.source.is_some() { fault } else { fault.at(named_at.clone()) }
 }
 
-fn written_robot(path: &Path, text: &str, findings: &mut Findings) -> Option<(WrittenRobot, PathBuf)> {
-    let written: WrittenRobot = parse_toml(text, findings)?;
-    let urdf = findings.keep(written.urdf.as_ref().ok_or_else(|| {
+fn written_robot(robot_file: &SourceFile, diagnostics: &mut Diagnostics) -> Option<(WrittenRobot, PathBuf)> {
+    let written: WrittenRobot = parse_toml(&robot_file.text, diagnostics)?;
+    let urdf = diagnostics.keep(written.urdf.as_ref().ok_or_else(|| {
         Diagnostic::error("robot_file::urdf", "the robot file has no key \"urdf\"")
             .at(0..0)
             .with_help("urdf = \"robot.urdf\", relative to the robot file")
     }))?;
-    let urdf_path = parent(path).join(urdf.get_ref());
+    let urdf_path = parent(&robot_file.path).join(urdf.get_ref());
     if !urdf_path.exists() {
         let message =
             format!("urdf = \"{}\": {} does not exist", urdf.get_ref().display(), urdf_path.display());
-        findings.push(Diagnostic::error("file::not_found", message).at(urdf.span()));
+        diagnostics.push(Diagnostic::error("file::not_found", message).at(urdf.span()));
         return None;
     }
     Some((written, urdf_path))
@@ -189,12 +262,12 @@ fn written_robot(path: &Path, text: &str, findings: &mut Findings) -> Option<(Wr
 fn declared_packages(
     written: &WrittenRobot,
     folder: &Path,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, PathBuf> {
     let mut resolve = |(name, written): (&String, &Spanned<PathBuf>)| {
         let path = folder.join(written.get_ref());
         let canonical = path.canonicalize().ok().filter(|path| path.is_dir());
-        let folder = findings.keep(canonical.ok_or_else(|| {
+        let folder = diagnostics.keep(canonical.ok_or_else(|| {
             let message = format!("package \"{name}\": {} is not a folder", path.display());
             Diagnostic::error("robot_file::package", message).at(written.span())
         }))?;

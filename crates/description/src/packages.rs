@@ -1,10 +1,10 @@
-//! Where a mesh may be: turns what a URDF says into a path inside the folders that are allowed.
+//! Which folders may hold meshes: turns the path or URI in a URDF into a file inside those.
 //!
-//! The fence is a folder, not the URDF's own: real robots say `../meshes/x.stl`. It is the nearest
-//! folder at or above the URDF that holds `package.xml`, `robot.toml` or `.git`, and the folder
-//! above the URDF's where none does. It never grows to `/` or to a home folder. Besides the fence
-//! only the folders are allowed that a robot file declares under `packages`. Symbolic links are
-//! resolved before a path is compared with them, and nothing outside is opened.
+//! One is the project folder. It is not the URDF's own, since real robots say `../meshes/x.stl`, but the
+//! nearest folder at or above the URDF that holds `package.xml`, `robot.toml` or `.git`; if none does,
+//! it is the folder above the URDF's. It is never `/` or a home folder. The others are the folders that
+//! a robot file declares under `packages`. Symbolic links are resolved before a path is compared with
+//! these folders, and nothing outside of them is opened.
 
 use std::{
     collections::BTreeMap,
@@ -14,14 +14,14 @@ use std::{
 
 use crate::diagnostic::Diagnostic;
 
-/// What marks the top folder of a project.
+/// Names that mark the top folder of a project.
 const MARKS: [&str; 3] = ["package.xml", "robot.toml", ".git"];
 
 /// The folders in which the meshes of one URDF may be; all canonical.
 #[derive(Debug)]
 pub(crate) struct Packages {
     urdf_folder: PathBuf,
-    fence: PathBuf,
+    project_folder: PathBuf,
     declared: BTreeMap<String, PathBuf>,
 }
 
@@ -30,8 +30,8 @@ impl Packages {
     pub(crate) fn new(urdf_folder: &Path, declared: BTreeMap<String, PathBuf>) -> io::Result<Self> {
         let urdf_folder = urdf_folder.canonicalize()?;
         let home = std::env::var_os("HOME").and_then(|home| Path::new(&home).canonicalize().ok());
-        let fence = fence(&urdf_folder, home.as_deref());
-        Ok(Self { urdf_folder, fence, declared })
+        let project_folder = project_folder(&urdf_folder, home.as_deref());
+        Ok(Self { urdf_folder, project_folder, declared })
     }
 
     /// The regular file that `uri` names: `package://PKG/rest`, `file:///path` or a path relative
@@ -40,8 +40,10 @@ impl Packages {
         let mut tried = Vec::new();
         for candidate in self.candidates(uri)? {
             let outside = || {
-                let message =
-                    format!("mesh \"{uri}\" leaves the project folder {}: refused", self.fence.display());
+                let message = format!(
+                    "mesh \"{uri}\" leaves the project folder {}: refused",
+                    self.project_folder.display()
+                );
                 Diagnostic::error("mesh::outside", message).with_help(
                     "mesh paths must stay inside the project; declare other folders under `packages` in robot.toml",
                 )
@@ -58,7 +60,7 @@ impl Packages {
         }
         let help = match uri.strip_prefix("package://") {
             Some(rest) => format!(
-                "tried {}; declare where package \"{}\" is under `packages` in robot.toml",
+                "tried {}; declare the folder of package \"{}\" under `packages` in robot.toml",
                 tried.join(", "),
                 rest.split('/').next().unwrap_or_default()
             ),
@@ -68,10 +70,10 @@ impl Packages {
         Err(Diagnostic::error("mesh::not_found", message).with_help(help))
     }
 
-    /// Whether a path, taken by its letters, is inside an allowed folder.
+    /// Whether a path is lexically inside an allowed folder.
     pub(crate) fn allows(&self, path: &Path) -> bool {
         let path = normalised(path);
-        std::iter::once(&self.fence).chain(self.declared.values()).any(|root| path.starts_with(root))
+        std::iter::once(&self.project_folder).chain(self.declared.values()).any(|root| path.starts_with(root))
     }
 
     fn candidates(&self, uri: &str) -> Result<Vec<PathBuf>, Diagnostic> {
@@ -98,13 +100,14 @@ impl Packages {
         }
     }
 
-    /// Where a package may be: where it is declared, else beside the URDF, else at or beside a
-    /// folder between the URDF and the fence.
+    /// The folders that may be a package: the declared one, or else every folder from the URDF's up to the
+    /// project folder that has its name or a child of that name.
     fn package_folders(&self, package: &str) -> Vec<PathBuf> {
         if let Some(folder) = self.declared.get(package) {
             return vec![folder.clone()];
         }
-        let inside = self.urdf_folder.ancestors().take_while(|folder| folder.starts_with(&self.fence));
+        let inside =
+            self.urdf_folder.ancestors().take_while(|folder| folder.starts_with(&self.project_folder));
         let mut folders = Vec::new();
         for folder in inside {
             if folder.file_name().is_some_and(|name| name == package) {
@@ -116,14 +119,14 @@ impl Packages {
     }
 }
 
-fn fence(urdf_folder: &Path, home: Option<&Path>) -> PathBuf {
+fn project_folder(urdf_folder: &Path, home: Option<&Path>) -> PathBuf {
     let too_wide = |folder: &Path| folder.parent().is_none() || home == Some(folder);
     let narrow = || urdf_folder.ancestors().take_while(|folder| !too_wide(folder));
     let marked = |folder: &&Path| MARKS.iter().any(|mark| folder.join(mark).exists());
     narrow().find(marked).or_else(|| narrow().nth(1)).unwrap_or(urdf_folder).to_owned()
 }
 
-/// The path without `.` and `..`, by its letters alone.
+/// The path without `.` and `..`, lexically.
 fn normalised(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for component in path.components() {
@@ -172,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn meshes_inside_the_fence_are_found() {
+    fn meshes_inside_the_project_are_found() {
         let (top, packages) = project(None);
         found(&packages, "../meshes/a.stl", "robot/meshes/a.stl");
         found(&packages, "package://pkg/b.stl", "urdf/pkg/b.stl");
@@ -182,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_outside_the_fence_is() {
+    fn meshes_outside_the_project_are_refused() {
         let (top, packages) = project(None);
         refused(&packages, "../../outside/c.stl", "mesh::outside");
         refused(&packages, "../../../../../../../../etc/hosts", "mesh::outside");
@@ -200,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mark_moves_the_fence_and_declared_folders_widen_it() {
+    fn a_mark_sets_the_project_folder_and_declared_folders_are_allowed() {
         let (_top, packages) = project(Some(".git"));
         found(&packages, "../../outside/c.stl", "outside/c.stl");
         let (_top, packages) = project(Some("robot/urdf/package.xml"));
@@ -213,11 +216,11 @@ mod tests {
     }
 
     #[test]
-    fn the_fence_never_grows_to_the_root_or_a_home() {
+    fn the_project_folder_is_never_the_root_or_a_home() {
         let home = Some(Path::new("/home/someone"));
-        assert_eq!(fence(Path::new("/urdf"), home), Path::new("/urdf"));
-        assert_eq!(fence(Path::new("/home/someone"), home), Path::new("/home/someone"));
-        assert_eq!(fence(Path::new("/home/someone/arm"), home), Path::new("/home/someone/arm"));
-        assert_eq!(fence(Path::new("/home/someone/arm/urdf"), home), Path::new("/home/someone/arm"));
+        assert_eq!(project_folder(Path::new("/urdf"), home), Path::new("/urdf"));
+        assert_eq!(project_folder(Path::new("/home/someone"), home), Path::new("/home/someone"));
+        assert_eq!(project_folder(Path::new("/home/someone/arm"), home), Path::new("/home/someone/arm"));
+        assert_eq!(project_folder(Path::new("/home/someone/arm/urdf"), home), Path::new("/home/someone/arm"));
     }
 }

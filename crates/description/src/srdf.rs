@@ -6,16 +6,15 @@ use std::{
 };
 
 use crate::{
-    Robot,
     diagnostic::{Diagnostic, SourceFile, known_names},
-    model::link::LinkIndex,
+    model::{LinkIndex, Robot},
     xml,
 };
 
 /// The largest SRDF that is read.
 pub(crate) const SRDF_BYTES: u64 = 16 << 20;
 
-/// The pairs that `<disable_collisions>` names, the smaller index first; findings beside them.
+/// The pairs that `<disable_collisions>` names, the smaller index first; diagnostics beside them.
 pub(crate) fn parse(
     source: &Arc<SourceFile>,
     robot: &Robot,
@@ -25,7 +24,7 @@ pub(crate) fn parse(
         Ok(document) => document,
         Err(fault) => return (pairs, vec![fault.in_file(source)]),
     };
-    let mut findings = Vec::new();
+    let mut diagnostics = Vec::new();
     let links: BTreeMap<&str, LinkIndex> =
         robot.link_indices().map(|index| (robot.link(index).name.as_str(), index)).collect();
     for node in document.descendants().filter(|node| node.has_tag_name("disable_collisions")) {
@@ -33,10 +32,10 @@ pub(crate) fn parse(
             let name = node.attribute(key).unwrap_or_default();
             links.get(name).copied().or_else(|| {
                 let message = format!("<disable_collisions>: {key} \"{name}\" is no link of the robot");
-                let finding = Diagnostic::warning("srdf::unknown_link", message)
+                let diagnostic = Diagnostic::warning("srdf::unknown_link", message)
                     .at(node.range())
                     .with_help(known_names(name, "links", links.keys().copied()));
-                findings.push(finding.in_file(source));
+                diagnostics.push(diagnostic.in_file(source));
                 None
             })
         };
@@ -44,31 +43,32 @@ pub(crate) fn parse(
             pairs.insert((one.min(other), one.max(other)));
         }
     }
-    (pairs, findings)
+    (pairs, diagnostics)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{findings::Findings, urdf};
+    use crate::{diagnostics::Diagnostics, urdf};
 
     fn read(text: &str) -> (usize, Vec<String>) {
         let urdf = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'>\
                     <parent link='a'/><child link='b'/></joint></robot>";
-        let robot = urdf::parse(urdf, &mut |_, _| unreachable!("no mesh"), &mut Findings::default()).unwrap();
+        let robot =
+            urdf::parse(urdf, &mut |_, _| unreachable!("no mesh"), &mut Diagnostics::default()).unwrap();
         let source = Arc::new(SourceFile { path: "r.srdf".into(), text: text.to_owned() });
-        let (pairs, findings) = parse(&source, &robot);
-        (pairs.len(), findings.into_iter().map(|found| found.message).collect())
+        let (pairs, diagnostics) = parse(&source, &robot);
+        (pairs.len(), diagnostics.into_iter().map(|found| found.message).collect())
     }
 
     #[test]
     fn pairs_are_unordered_and_unknown_links_are_warned_of() {
-        let (pairs, findings) = read(
+        let (pairs, diagnostics) = read(
             "<robot name='r'><disable_collisions link1='a' link2='b' reason='Adjacent'/>\
              <disable_collisions link1='b' link2='a'/><disable_collisions link1='a' link2='c'/></robot>",
         );
         assert_eq!(pairs, 1);
-        assert_eq!(findings, ["<disable_collisions>: link2 \"c\" is no link of the robot"]);
+        assert_eq!(diagnostics, ["<disable_collisions>: link2 \"c\" is no link of the robot"]);
         assert_eq!(read("<robot>").0, 0);
     }
 }

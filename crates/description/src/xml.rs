@@ -15,7 +15,7 @@ pub(crate) const UNKNOWN_PREFIX: &str = "xml::prefix";
 const DEEPEST: usize = 64;
 
 /// An element that is not closed yet.
-struct Open<'a> {
+struct OpenElement<'a> {
     tag: &'a str,
     name: Option<&'a str>,
     start: usize,
@@ -47,7 +47,7 @@ fn unbuilt(error: &roxmltree::Error, text: &str) -> Diagnostic {
 
 /// Refuses DTDs, too deep nesting and text that ends early.
 fn check(text: &str) -> Result<(), Diagnostic> {
-    let mut open: Vec<Open<'_>> = Vec::new();
+    let mut open: Vec<OpenElement<'_>> = Vec::new();
     for token in Tokenizer::from(text) {
         let token = token.map_err(|error| malformed(&error, text, &open))?;
         match token {
@@ -58,7 +58,7 @@ fn check(text: &str) -> Result<(), Diagnostic> {
                     .with_help("write the values out; no entity is ever expanded or fetched"));
             }
             Token::ElementStart { span, local, .. } => {
-                open.push(Open { tag: local.as_str(), name: None, start: span.start() });
+                open.push(OpenElement { tag: local.as_str(), name: None, start: span.start() });
                 if open.len() > DEEPEST {
                     let message = format!("XML is nested deeper than {DEEPEST} elements");
                     return Err(Diagnostic::error("xml::depth", message).at(span.range()));
@@ -78,7 +78,7 @@ fn check(text: &str) -> Result<(), Diagnostic> {
     if open.is_empty() { Ok(()) } else { Err(unclosed(&open)) }
 }
 
-fn malformed(error: &xmlparser::Error, text: &str, open: &[Open<'_>]) -> Diagnostic {
+fn malformed(error: &xmlparser::Error, text: &str, open: &[OpenElement<'_>]) -> Diagnostic {
     let at = offset(text, error.pos().row, error.pos().col);
     if !open.is_empty() && !text[at..].contains('>') {
         return unclosed(open);
@@ -90,7 +90,7 @@ fn malformed(error: &xmlparser::Error, text: &str, open: &[Open<'_>]) -> Diagnos
 
 /// What is open at the end, innermost last: the innermost element that has a name is what a
 /// person looks for.
-fn unclosed(open: &[Open<'_>]) -> Diagnostic {
+fn unclosed(open: &[OpenElement<'_>]) -> Diagnostic {
     let last = &open[open.len() - 1];
     let owner = open.iter().rev().find_map(|element| Some((element.tag, element.name?)));
     let inside = match owner {

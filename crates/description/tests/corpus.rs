@@ -14,7 +14,7 @@ fn json(path: &Path) -> Value {
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// A finding as a person reads it: place, message, help.
+/// A diagnostic as a person reads it: place, message, help.
 fn line(found: &Diagnostic) -> String {
     let file = found.source.as_ref().map_or(String::new(), |source| source.path.display().to_string());
     let place = found.line_column().map_or(String::new(), |(line, column)| format!(":{line}:{column}"));

@@ -1,6 +1,6 @@
 //! What a check found: one shape for every check, so that every report and exit code agrees.
 
-use congruent_description::JointValues;
+use congruent_description::{JointValues, serde_name};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -23,12 +23,7 @@ pub enum Status {
 impl Status {
     /// The word that reports use.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Pass => "pass",
-            Self::Fail => "fail",
-            Self::Error => "error",
-            Self::Skipped => "skipped",
-        }
+        serde_name(&self)
     }
 }
 

@@ -53,8 +53,8 @@ pub struct ConversionReport {
 /// A table as programs read it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TableReport {
-    /// `standard` or `modified`.
-    pub convention: &'static str,
+    /// Which equation the rows stand for.
+    pub convention: DhConvention,
     /// The equation of a row.
     pub equation: &'static str,
     /// Pose of the table's frame 0 in link `base`.
@@ -70,8 +70,8 @@ pub struct TableReport {
 pub struct RowReport {
     /// The joint that drives it.
     pub joint: String,
-    /// `revolute` or `prismatic`.
-    pub kind: &'static str,
+    /// Which entry the joint drives.
+    pub kind: DhRowKind,
     /// Link length.
     pub a_m: f64,
     /// Link twist.
@@ -231,16 +231,9 @@ fn notes(subject: &Subject<'_>) -> Vec<String> {
 
 impl TableReport {
     pub(super) fn new(table: &DhTable, robot: &Robot) -> Self {
-        let (convention, equation) = match table.convention {
-            DhConvention::Standard => ("standard", "Rz(theta) Tz(d) Tx(a) Rx(alpha)"),
-            DhConvention::Modified => ("modified", "Rx(alpha) Tx(a) Rz(theta) Tz(d)"),
-        };
         let row = |row: &DhRow| RowReport {
             joint: robot.joint(row.joint).name.clone(),
-            kind: match row.kind {
-                DhRowKind::Revolute => "revolute",
-                DhRowKind::Prismatic => "prismatic",
-            },
+            kind: row.kind,
             a_m: row.a_m,
             alpha_rad: row.alpha_rad,
             d_m: row.d_m,
@@ -248,8 +241,8 @@ impl TableReport {
             sign: row.sign,
         };
         Self {
-            convention,
-            equation,
+            convention: table.convention,
+            equation: table.convention.equation(),
             base_from_dh0: (&Pose::from(table.base_from_dh0)).into(),
             rows: table.rows.iter().map(row).collect(),
             dhn_from_tip: (&Pose::from(table.dhn_from_tip)).into(),

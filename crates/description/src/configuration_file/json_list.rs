@@ -1,29 +1,28 @@
-//! Lists of entries in JSON: every fault with the number of its entry, from 1, and its line.
+//! Lists of entries in JSON; every fault names the number of its entry, from 1, and its line.
 
 use std::ops::Range;
 
 use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 
-use crate::Diagnostic;
+use crate::diagnostic::Diagnostic;
 
-/// A kind of list, in the words of its findings.
+/// A kind of list, as diagnostics name it.
 #[derive(Debug, Clone, Copy)]
 pub struct JsonList {
-    /// What an entry is.
+    /// What an entry is called.
     pub entry: &'static str,
-    /// Code of what is no such list at all.
+    /// Code of a text that is no such list.
     pub code: &'static str,
-    /// What was expected instead.
+    /// Help for such a text: what was expected.
     pub help: &'static str,
 }
 
 impl JsonList {
-    /// Reads all entries as `check` makes something of them; it is given the place of the entry's first
-    /// line.
+    /// Reads all entries; `check` is given each, with the span of its first line, and makes a value of it.
     ///
     /// # Errors
-    /// Every fault, or the one that makes the text no list.
+    /// The faults of all entries, or the one fault for which the text is no list.
     pub fn read<Written: DeserializeOwned, T>(
         &self,
         text: &str,

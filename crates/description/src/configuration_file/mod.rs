@@ -6,7 +6,11 @@ use std::{collections::BTreeMap, path::Path};
 
 use serde::Deserialize;
 
-use crate::{Diagnostic, Robot, RobotQ, known_names, read_text};
+use crate::{
+    diagnostic::{Diagnostic, known_names},
+    file::read_text,
+    model::{Robot, RobotQ},
+};
 
 pub use self::json_list::JsonList;
 
@@ -21,10 +25,10 @@ const LIST: JsonList = JsonList {
 /// Largest file of configurations that is read.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// One entry of a batch, joints by name; what a command does not use is checked all the same.
+/// One entry of a batch, joints by name; joints of groups that a command does not use are checked too.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Written {
+struct WrittenConfiguration {
     #[serde(default)]
     q: BTreeMap<String, f64>,
     #[serde(default)]
@@ -35,7 +39,7 @@ struct Written {
     a: BTreeMap<String, f64>,
 }
 
-/// Where a robot is and how fast it moves: one entry for each movable joint.
+/// Positions and speeds of a robot: one entry for each movable joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointState {
     /// Positions in rad and m.
@@ -48,18 +52,18 @@ pub struct JointState {
 /// missing joints 0. The result holds configuration vectors of the robot.
 ///
 /// # Errors
-/// Where the file cannot be read, is no such array, or names an unknown joint.
+/// The file cannot be read, is no such array, or names an unknown joint.
 pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<RobotQ>, Vec<Diagnostic>> {
     read(path, robot, |written| configuration(&written.q, robot))
 }
 
-/// The same with the speeds `"v"`, in rad/s and m/s, missing ones 0; those of mimic joints as their
+/// The same with the speeds `"v"`, in rad/s and m/s, missing ones 0; mimic joints have those that their
 /// masters imply.
 ///
 /// # Errors
-/// As [`read_configurations`], and where a mimic joint is not as fast as its master makes it.
+/// As [`read_configurations`], or a mimic joint has another speed than its master implies.
 pub fn read_states(path: &Path, robot: &Robot) -> Result<Vec<JointState>, Vec<Diagnostic>> {
-    let state = |written: &Written| {
+    let state = |written: &WrittenConfiguration| {
         let qd = followed(&written.v, robot, |robot, qd| robot.apply_mimic_to_speeds(qd))?.to_vec();
         Ok(JointState { q: configuration(&written.q, robot)?, qd })
     };
@@ -69,10 +73,10 @@ pub fn read_states(path: &Path, robot: &Robot) -> Result<Vec<JointState>, Vec<Di
 fn read<T>(
     path: &Path,
     robot: &Robot,
-    vectors: impl Fn(&Written) -> Result<T, Diagnostic>,
+    vectors: impl Fn(&WrittenConfiguration) -> Result<T, Diagnostic>,
 ) -> Result<Vec<T>, Vec<Diagnostic>> {
     let source = read_text(path, MOST_BYTES)?;
-    let entry = |written: Written, _| {
+    let entry = |written: WrittenConfiguration, _| {
         for group in [&written.v, &written.tau, &written.a] {
             place(group, robot)?;
         }
@@ -86,7 +90,7 @@ fn read<T>(
 /// mimic joints as their masters imply.
 ///
 /// # Errors
-/// Where a joint is unknown, or a mimic joint is not where its master puts it.
+/// A joint is unknown, or a mimic joint has another position than its master implies.
 pub fn configuration(values: &BTreeMap<String, f64>, robot: &Robot) -> Result<RobotQ, Diagnostic> {
     followed(values, robot, Robot::apply_mimic)
 }
@@ -103,10 +107,11 @@ fn followed(
     for ((&joint, implied), given) in robot.movable_joints().iter().zip(vector.iter()).zip(given.iter()) {
         let name = &robot.joint(joint).name;
         if values.contains_key(name) && (implied - given).abs() > MIMIC_DIGITS {
-            let message =
-                format!("joint \"{name}\" is given as {given}, but what it mimics puts it at {implied}");
+            let message = format!(
+                "joint \"{name}\" is given as {given}, but the joint that it mimics implies {implied}"
+            );
             return Err(Diagnostic::error("configurations::mimic", message)
-                .with_help("leave mimic joints out, or give what follows from their master"));
+                .with_help("leave mimic joints out, or give the value that their master implies"));
         }
     }
     Ok(vector)

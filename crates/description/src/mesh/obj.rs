@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::{MeshError, MeshFile};
+use super::mesh_file::{MeshError, MeshFile};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
     let text = String::from_utf8_lossy(bytes);

@@ -1,10 +1,11 @@
-//! STL, binary and ASCII. `stl_io` reads; what it trusts (count, header, encoding) is checked first.
+//! STL, binary and ASCII, by `stl_io`; count, header and encoding, which it takes on trust, are checked
+//! first.
 
 use std::io::Cursor;
 
 use nalgebra::Point3;
 
-use super::{MeshError, MeshFile};
+use super::mesh_file::{MeshError, MeshFile};
 
 /// Free text and the number of triangles.
 const HEADER_BYTES: usize = 84;
@@ -70,7 +71,7 @@ mod tests {
         bytes.extend(promised.to_le_bytes());
         for triangle in corners.chunks(3) {
             bytes.extend([0; 12]);
-            bytes.extend(triangle.iter().flatten().flat_map(|figure| figure.to_le_bytes()));
+            bytes.extend(triangle.iter().flatten().flat_map(|coordinate| coordinate.to_le_bytes()));
             bytes.extend([0; 2]);
         }
         bytes

@@ -4,17 +4,23 @@ use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
 use nalgebra::{Point3, Vector3};
 
-use super::{FURTHEST_M, MeshError, MeshFile, parse};
-use crate::{diagnostic::Diagnostic, file::read_bytes, model::geometry::Mesh, packages::Packages};
+use super::{
+    format::MeshFormat,
+    mesh_file::{FURTHEST_M, MeshError, MeshFile},
+};
+use crate::{diagnostic::Diagnostic, file::read_bytes, model::Mesh, packages::Packages};
 
 /// The largest mesh file that is read.
 const MESH_BYTES: u64 = 256 << 20;
 
-/// A mesh and what is suspicious about it; the latter only where it is read for the first time.
+/// A mesh with its warnings, which come only when its file is read for the first time.
 pub(crate) struct FoundMesh {
     pub(crate) mesh: Arc<Mesh>,
     pub(crate) warnings: Vec<Diagnostic>,
 }
+
+/// Gives the mesh that a URDF names, scaled.
+pub(crate) type FindMesh<'a> = dyn FnMut(&str, Vector3<f64>) -> Result<FoundMesh, Diagnostic> + 'a;
 
 /// Reads meshes inside the folders that `packages` allows.
 pub(crate) struct MeshStore<'a> {
@@ -39,12 +45,10 @@ impl<'a> MeshStore<'a> {
         let refused =
             |error: MeshError| Diagnostic::error("mesh::invalid", format!("mesh \"{uri}\": {error}"));
         // A format that is not read is not opened either.
-        if !["stl", "obj", "dae"].contains(&extension.to_ascii_lowercase().as_str()) {
-            return Err(refused(MeshError::Unsupported { extension: format!(".{extension}") }));
-        }
-        let triangles = parse(&extension, &read_bytes(&path, MESH_BYTES)?).map_err(refused)?;
-        let warnings = self.warnings(uri, &path, &triangles);
-        let mesh = Arc::new(scaled(path, triangles, scale).map_err(refused)?);
+        let format = MeshFormat::of(&extension).map_err(refused)?;
+        let read = format.parse(&read_bytes(&path, MESH_BYTES)?).map_err(refused)?;
+        let warnings = self.warnings(uri, &path, &read);
+        let mesh = Arc::new(scaled(path, read, scale).map_err(refused)?);
         self.read.insert(key, Arc::clone(&mesh));
         Ok(FoundMesh { mesh, warnings })
     }

@@ -1,12 +1,15 @@
-//! The Denavit-Hartenberg table as a robot file declares it: figures only. Its meaning, the two
-//! conventions' equations, is the business of the kinematics crate.
+//! The Denavit-Hartenberg table as a robot file declares it: values only. The kinematics crate computes
+//! with it.
 
 use nalgebra::Isometry3;
+use serde::{Deserialize, Serialize};
 
 use super::joint::JointIndex;
+use crate::written::name::serde_name;
 
 /// Which of the two equations a table stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum DhConvention {
     /// `T = Rz(theta) Tz(d) Tx(a) Rx(alpha)` (Denavit and Hartenberg; Spong).
     Standard,
@@ -14,13 +17,36 @@ pub enum DhConvention {
     Modified,
 }
 
+impl DhConvention {
+    /// The name in files and reports.
+    pub fn name(self) -> &'static str {
+        serde_name(&self)
+    }
+
+    /// The transform of a row as a product.
+    pub fn equation(self) -> &'static str {
+        match self {
+            Self::Standard => "Rz(theta) Tz(d) Tx(a) Rx(alpha)",
+            Self::Modified => "Rx(alpha) Tx(a) Rz(theta) Tz(d)",
+        }
+    }
+}
+
 /// Which of a row's entries the joint coordinate drives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum DhRowKind {
     /// `theta(q) = theta + sign q`.
     Revolute,
     /// `d(q) = d + sign q`.
     Prismatic,
+}
+
+impl DhRowKind {
+    /// The name in files and reports.
+    pub fn name(self) -> &'static str {
+        serde_name(&self)
+    }
 }
 
 /// One row of a table.
@@ -40,7 +66,7 @@ pub struct DhRow {
     pub theta_rad: f64,
     /// `1.0` or `-1.0`.
     pub sign: f64,
-    /// Line of the row in the robot file, from 1.
+    /// Line of the row in the robot file, from 1; 0 if it was not read from one.
     pub line: usize,
 }
 
@@ -49,7 +75,7 @@ pub struct DhRow {
 pub struct DhTable {
     /// Which equation the rows stand for.
     pub convention: DhConvention,
-    /// Where the figures come from.
+    /// Where the values come from.
     pub source: Option<String>,
     /// Pose of the table's frame 0 in link `base`.
     pub base_from_dh0: Isometry3<f64>,

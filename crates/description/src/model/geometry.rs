@@ -11,7 +11,7 @@ pub struct Shape {
     pub link_from_shape: Isometry3<f64>,
     /// The shape in its own frame.
     pub geometry: Geometry,
-    /// Colour, red, green, blue, alpha in 0 to 1, where the description gives one.
+    /// Colour, red, green, blue, alpha in 0 to 1, if the description gives one.
     pub color_rgba: Option<[f32; 4]>,
 }
 

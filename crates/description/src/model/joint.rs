@@ -1,8 +1,10 @@
-//! Joints: what moves, about which axis, how far. Building and checking the tree is `robot.rs`.
+//! Joints: what moves, about which axis, how far. `tree.rs` makes a tree of them.
 
 use nalgebra::{Isometry3, Unit, Vector3};
+use serde::Serialize;
 
 use super::link::LinkIndex;
+use crate::written::name::serde_name;
 
 /// Position of a joint in [`Robot::joints`](crate::Robot::joints).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,7 +18,8 @@ impl JointIndex {
 }
 
 /// How a joint moves its child link.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum JointKind {
     /// The child does not move against the parent.
     Fixed,
@@ -29,6 +32,11 @@ pub enum JointKind {
 }
 
 impl JointKind {
+    /// The name in URDF.
+    pub fn name(self) -> &'static str {
+        serde_name(&self)
+    }
+
     /// Whether the joint has a coordinate.
     pub fn is_movable(self) -> bool {
         self != Self::Fixed
@@ -72,7 +80,7 @@ pub struct Mimic {
     pub master: JointIndex,
     /// Ratio of this joint's position to the master's.
     pub multiplier: f64,
-    /// Position of this joint when the master is at zero.
+    /// Position of this joint if the master is at zero.
     pub offset: f64,
 }
 
@@ -89,22 +97,35 @@ pub struct Joint {
     pub child: LinkIndex,
     /// Pose of the joint frame (and of the child link at position zero) in the parent link.
     pub parent_from_joint: Isometry3<f64>,
-    /// Axis of motion in the joint frame; meaningless for a fixed joint.
+    /// Axis of motion in the joint frame; of no meaning for a fixed joint.
     pub axis_in_joint: Unit<Vector3<f64>>,
-    /// Limits, where the description gives them.
+    /// Limits, if the description gives them.
     pub limit: Option<JointLimit>,
     /// Viscous damping, N m s/rad or N s/m.
     pub damping: f64,
     /// Dry friction, N m or N.
     pub friction: f64,
-    /// Set when the joint follows another.
+    /// Set if the joint follows another.
     pub mimic: Option<Mimic>,
 }
 
 impl Joint {
-    /// The closed range of positions, where the joint has one.
+    /// The closed range of positions, if the joint has one.
     pub fn position_range(&self) -> Option<(f64, f64)> {
         let limit = self.limit.filter(|_| matches!(self.kind, JointKind::Revolute | JointKind::Prismatic))?;
         Some((limit.lower, limit.upper))
     }
+}
+
+/// A joint before its robot exists: links and mimicked joint by name, the rest as in [`Joint`].
+#[derive(Debug, Clone)]
+pub struct JointParts {
+    /// All that needs no other joint or link; its `parent`, `child` and `mimic` are overwritten.
+    pub joint: Joint,
+    /// Name of the parent link.
+    pub parent: String,
+    /// Name of the child link.
+    pub child: String,
+    /// Name of the mimicked joint, multiplier, offset.
+    pub mimic: Option<(String, f64, f64)>,
 }

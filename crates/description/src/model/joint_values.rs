@@ -35,7 +35,7 @@ impl JointValues {
         self.0.iter().map(|(name, value)| (name.as_str(), *value))
     }
 
-    /// All of them in a line, with so many decimals.
+    /// All of them in one line, with this number of decimals.
     pub fn listed(&self, decimals: usize) -> String {
         let each: Vec<String> =
             self.iter().map(|(joint, value)| format!("{joint} {value:.decimals$}")).collect();

@@ -20,8 +20,8 @@ pub struct Link {
     pub name: String,
     /// Mass and rotational inertia; `None` for a link without an `<inertial>`.
     pub inertia: Option<Inertia>,
-    /// Shapes to look at.
+    /// Visual shapes.
     pub visuals: Vec<Shape>,
-    /// Shapes that touch.
+    /// Collision shapes.
     pub collisions: Vec<Shape>,
 }

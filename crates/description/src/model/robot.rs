@@ -1,133 +1,12 @@
 //! The robot: a checked tree of links and joints. Reading it from a file is `urdf/`.
 
 use super::{
-    joint::{Joint, JointIndex, JointKind, Mimic},
+    error::RobotError,
+    joint::{Joint, JointIndex, JointKind, JointParts, Mimic},
     link::{Link, LinkIndex},
     positions::RobotQ,
+    tree,
 };
-
-/// A joint before its robot exists: links and mimicked joint by name, the rest as in [`Joint`].
-#[derive(Debug, Clone)]
-pub struct JointParts {
-    /// All that needs no other joint or link; its `parent`, `child` and `mimic` are overwritten.
-    pub joint: Joint,
-    /// Name of the parent link.
-    pub parent: String,
-    /// Name of the child link.
-    pub child: String,
-    /// Name of the mimicked joint, multiplier, offset.
-    pub mimic: Option<(String, f64, f64)>,
-}
-
-/// Why links and joints do not make a robot.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RobotError {
-    /// There is no link at all.
-    #[error("the robot has no link")]
-    NoLink,
-    /// Two links share a name.
-    #[error("duplicate link name \"{link}\"")]
-    DuplicateLink {
-        /// The name.
-        link: String,
-    },
-    /// Two joints share a name.
-    #[error("duplicate joint name \"{joint}\"")]
-    DuplicateJoint {
-        /// The name.
-        joint: String,
-    },
-    /// A joint names a link that does not exist.
-    #[error("joint \"{joint}\": {role} link \"{link}\" not found")]
-    UnknownLink {
-        /// The joint.
-        joint: String,
-        /// `parent` or `child`.
-        role: &'static str,
-        /// The name that is not there.
-        link: String,
-        /// All links.
-        known: Vec<String>,
-    },
-    /// A joint connects a link with itself.
-    #[error("joint \"{joint}\": parent and child are the same link \"{link}\"")]
-    SelfJoint {
-        /// The joint.
-        joint: String,
-        /// The link.
-        link: String,
-    },
-    /// A link hangs on two joints.
-    #[error(
-        "link \"{link}\" already has a parent: it is the child of joint \"{first}\" and of joint \"{second}\""
-    )]
-    TwoParents {
-        /// The link.
-        link: String,
-        /// The first joint.
-        first: String,
-        /// The second joint.
-        second: String,
-    },
-    /// A link is its own ancestor.
-    #[error("kinematic loop {}", .links.join(" -> "))]
-    Loop {
-        /// The links of the loop, the first again at the end.
-        links: Vec<String>,
-        /// The joint that closes it.
-        joint: String,
-    },
-    /// More than one link has no parent.
-    #[error("{} root links: {}; a robot is one connected tree", .roots.len(), .roots.join(", "))]
-    SeveralRoots {
-        /// The links without a parent.
-        roots: Vec<String>,
-    },
-    /// A joint mimics a joint that does not exist or does not move.
-    #[error("joint \"{joint}\": mimicked joint \"{target}\" not found among the moving joints")]
-    UnknownMimic {
-        /// The joint.
-        joint: String,
-        /// The name that is not there.
-        target: String,
-        /// All moving joints.
-        known: Vec<String>,
-    },
-    /// A joint mimics itself, directly or through others.
-    #[error("joint \"{joint}\" mimics itself{}", if .through.is_empty() { String::new() } else { format!(" through {}", .through.join(", ")) })]
-    MimicLoop {
-        /// The joint.
-        joint: String,
-        /// The joints between.
-        through: Vec<String>,
-    },
-}
-
-impl RobotError {
-    /// The joint at fault, where it is a joint.
-    pub fn joint(&self) -> Option<&str> {
-        match self {
-            Self::DuplicateJoint { joint }
-            | Self::UnknownLink { joint, .. }
-            | Self::SelfJoint { joint, .. }
-            | Self::Loop { joint, .. }
-            | Self::UnknownMimic { joint, .. }
-            | Self::MimicLoop { joint, .. } => Some(joint),
-            Self::TwoParents { second, .. } => Some(second),
-            Self::NoLink | Self::DuplicateLink { .. } | Self::SeveralRoots { .. } => None,
-        }
-    }
-
-    /// The link at fault, where it is a link.
-    pub fn link(&self) -> Option<&str> {
-        match self {
-            Self::DuplicateLink { link } => Some(link),
-            Self::SeveralRoots { roots } => roots.last().map(String::as_str),
-            _ => None,
-        }
-    }
-}
 
 /// A robot: one tree of links, joined by joints, parents before children in both lists.
 ///
@@ -147,17 +26,18 @@ impl Robot {
     /// Builds the tree: names are resolved, links and joints sorted depth first in file order.
     ///
     /// # Errors
-    /// [`RobotError`] when names repeat or are unknown, or when the joints are no tree.
+    /// [`RobotError`] if names repeat or are unknown, or if the joints form no tree.
     pub fn new(
         name: impl Into<String>,
         links: Vec<Link>,
         joints: Vec<JointParts>,
     ) -> Result<Self, RobotError> {
-        crate::model::tree::build(name.into(), links, joints)
+        let (links, joints) = tree::sorted(links, joints)?;
+        Ok(Self::from_tree(name.into(), links, joints))
     }
 
-    /// From parts that are already a sorted tree; only `tree.rs` calls it.
-    pub(crate) fn from_tree(name: String, links: Vec<Link>, joints: Vec<Joint>) -> Self {
+    /// From a sorted tree.
+    fn from_tree(name: String, links: Vec<Link>, joints: Vec<Joint>) -> Self {
         let mut parent_joints = vec![None; links.len()];
         let mut coordinates = vec![None; joints.len()];
         let mut movable = Vec::new();
@@ -186,7 +66,7 @@ impl Robot {
         &self.joints
     }
 
-    /// The link that hangs on no joint.
+    /// The link without a joint above it.
     pub fn root(&self) -> LinkIndex {
         LinkIndex(0)
     }
@@ -236,15 +116,16 @@ impl Robot {
         self.movable.len()
     }
 
-    /// Where a joint's position stands in a configuration vector; `None` for a fixed joint.
+    /// Index of a joint's position in a configuration vector; `None` for a fixed joint.
     pub fn coordinate(&self, joint: JointIndex) -> Option<usize> {
         self.coordinates[joint.0]
     }
 
     /// The joints that move link `tip` against link `base`, fixed ones between them included, from
-    /// the first that leaves the body of `base`; `None` where `tip` does not hang below that body.
+    /// the first that leaves the body of `base`; `None` if `tip` does not hang below that body.
     ///
-    /// `base` may stand aside, as the link `base` of a Universal Robots arm does: only its body counts.
+    /// `base` need not be above `tip` itself, as the link `base` of a Universal Robots arm is not: its body
+    /// must be.
     pub fn chain(&self, base: LinkIndex, tip: LinkIndex) -> Option<Vec<JointIndex>> {
         let base_body = self.body(base);
         let mut joints = Vec::new();
@@ -256,6 +137,24 @@ impl Robot {
         }
         joints.reverse();
         Some(joints)
+    }
+
+    /// The deepest link below `base`, counted in moving joints, then in joints: the flange's last frame.
+    /// Of several the first in file order.
+    pub fn tip_of_longest_chain(&self, base: LinkIndex) -> LinkIndex {
+        let mut depths: Vec<Option<(usize, usize)>> = vec![None; self.links.len()];
+        depths[base.0] = Some((0, 0));
+        let mut best = (base, (0, 0));
+        // Parents come first, so a link's depth is known when its children are reached.
+        for joint in &self.joints {
+            let Some((moving, all)) = depths[joint.parent.0] else { continue };
+            let depth = (moving + usize::from(joint.kind.is_movable()), all + 1);
+            depths[joint.child.0] = Some(depth);
+            if depth > best.1 {
+                best = (joint.child, depth);
+            }
+        }
+        best.0
     }
 
     /// The link nearest to the root that `link` is rigidly attached to: links with the same
@@ -274,7 +173,7 @@ impl Robot {
     /// Overwrites the entries of mimic joints in `q` by what their masters imply.
     ///
     /// # Panics
-    /// When `q` is not a configuration vector of this robot.
+    /// If `q` is not a configuration vector of this robot.
     pub fn apply_mimic(&self, q: &mut RobotQ) {
         self.follow_masters(q, |mimic| mimic.offset);
     }
@@ -282,7 +181,7 @@ impl Robot {
     /// The same for speeds, which no offset changes.
     ///
     /// # Panics
-    /// When `qd` is not a configuration vector of this robot.
+    /// If `qd` is not a configuration vector of this robot.
     /// # Examples
     /// ```
     /// let robot = congruent_description::parse_urdf(

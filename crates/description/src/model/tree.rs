@@ -1,14 +1,18 @@
-//! From named parts to a sorted tree: every way in which links and joints are no robot is found here.
+//! From named parts to a sorted tree; whatever keeps links and joints from forming one is found here.
 
 use std::collections::BTreeMap;
 
 use super::{
-    joint::{Joint, JointIndex, Mimic},
+    error::RobotError,
+    joint::{Joint, JointIndex, JointParts, Mimic},
     link::{Link, LinkIndex},
-    robot::{JointParts, Robot, RobotError},
 };
 
-pub(crate) fn build(name: String, links: Vec<Link>, joints: Vec<JointParts>) -> Result<Robot, RobotError> {
+/// Links and joints with names resolved, parents before children, depth first in file order.
+pub(super) fn sorted(
+    links: Vec<Link>,
+    joints: Vec<JointParts>,
+) -> Result<(Vec<Link>, Vec<Joint>), RobotError> {
     let by_name = index_links(&links)?;
     refuse_repeated_joints(&joints)?;
     let ends = resolve_ends(&joints, &links, &by_name)?;
@@ -16,7 +20,7 @@ pub(crate) fn build(name: String, links: Vec<Link>, joints: Vec<JointParts>) -> 
     let root = single_root(&joints, &links, &ends, &parent_joints)?;
     let order = depth_first(root, links.len(), &ends);
     let mimics = resolve_mimics(&joints)?;
-    Ok(assemble(name, links, joints, &Layout { ends, order, root, mimics }))
+    Ok(assemble(links, joints, &Layout { ends, order, root, mimics }))
 }
 
 /// Parent and child of one joint, as indices in file order.
@@ -108,7 +112,7 @@ fn parents(joints: &[JointParts], links: &[Link], ends: &[Ends]) -> Result<Vec<O
     Ok(above)
 }
 
-/// Links from `link` up to `ancestor`, both included, or `None` where `ancestor` is not above it.
+/// Links from `link` up to `ancestor`, both included, or `None` if `ancestor` is not above it.
 fn path_up(link: usize, ancestor: usize, ends: &[Ends], above: &[Option<usize>]) -> Option<Vec<usize>> {
     let mut path = vec![link];
     let mut at = link;
@@ -265,7 +269,7 @@ fn compose(direct: &[Option<Follow>], joints: &[JointParts]) -> Result<Vec<Optio
     Ok(composed)
 }
 
-fn assemble(name: String, mut links: Vec<Link>, joints: Vec<JointParts>, layout: &Layout) -> Robot {
+fn assemble(mut links: Vec<Link>, joints: Vec<JointParts>, layout: &Layout) -> (Vec<Link>, Vec<Joint>) {
     let mut link_at = vec![0; links.len()];
     let mut sorted_links = vec![std::mem::take(&mut links[layout.root])];
     let mut joint_at = vec![0; joints.len()];
@@ -290,5 +294,5 @@ fn assemble(name: String, mut links: Vec<Link>, joints: Vec<JointParts>, layout:
             ..parts[index].take().expect("the order names each joint once").joint
         })
         .collect();
-    Robot::from_tree(name, sorted_links, sorted_joints)
+    (sorted_links, sorted_joints)
 }

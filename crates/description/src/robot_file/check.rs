@@ -1,21 +1,19 @@
-//! A robot file against its robot: names, chain, table, figures.
-
-use std::ops::Range;
+//! A robot file against its robot: names, chain, table, values.
 
 use nalgebra::Isometry3;
 use toml::Spanned;
 
-use super::written::{WrittenDh, WrittenRobot, WrittenTolerance};
-use crate::{
-    Robot,
-    diagnostic::{Diagnostic, known_names},
-    findings::Findings,
-    model::{description::Tolerance, dh_table::DhTable, joint::JointIndex, link::LinkIndex},
-    units::Unit,
-    written_transform::WrittenTransform,
+use super::{
+    rows::{self, ChainContext, first_line},
+    written::{WrittenDh, WrittenRobot, WrittenTolerance},
 };
-
-mod rows;
+use crate::{
+    diagnostic::{Diagnostic, known_names},
+    diagnostics::Diagnostics,
+    model::{DhConvention, DhTable, JointIndex, LinkIndex, Robot, Tolerance},
+    units::Unit,
+    written::transform::WrittenTransform,
+};
 
 /// What a robot file declares about a robot.
 #[derive(Debug)]
@@ -32,57 +30,27 @@ pub(crate) fn check(
     written: &WrittenRobot,
     text: &str,
     robot: &Robot,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Declared> {
-    let tolerance = tolerance(written.tolerance.as_ref(), findings);
+    let tolerance = tolerance(written.tolerance.as_ref(), diagnostics);
     let tcp = written.tcp.as_ref().map(Spanned::get_ref);
-    let tip_from_tcp = tcp.and_then(|tcp| findings.keep(tcp.isometry()));
-    let (base, tip, chain) = chain(written, robot, findings)?;
-    let context = Context { robot, chain: &chain, text };
+    let tip_from_tcp = tcp.and_then(|tcp| diagnostics.keep(tcp.isometry()));
+    let (base, tip, chain) = chain(written, robot, diagnostics)?;
+    let context = ChainContext { robot, chain: &chain, text };
     let dh = match &written.dh {
-        Some(dh) => Some(table(dh, &context, findings)?),
+        Some(dh) => Some(table(dh, &context, diagnostics)?),
         None => None,
     };
     Some(Declared { base, tip, dh, tip_from_tcp, tolerance })
 }
 
-/// What the rows of a table are checked against.
-struct Context<'a> {
-    robot: &'a Robot,
-    /// The moving joints from base to tip.
-    chain: &'a [JointIndex],
-    text: &'a str,
-}
-
-/// Root, and the leaf of the longest chain of moving joints; of several the first in file order.
-pub(crate) fn default_chain(robot: &Robot) -> (LinkIndex, LinkIndex) {
-    (robot.root(), tip_of_longest_chain(robot, robot.root()))
-}
-
-/// The deepest link below `base`, counted in moving joints, then in joints: the flange's last frame.
-pub(crate) fn tip_of_longest_chain(robot: &Robot, base: LinkIndex) -> LinkIndex {
-    let mut depths: Vec<Option<(usize, usize)>> = vec![None; robot.links().len()];
-    depths[base.get()] = Some((0, 0));
-    let mut best = (base, (0, 0));
-    // Parents come first, so a link's depth is known when its children are reached.
-    for joint in robot.joints() {
-        let Some((moving, all)) = depths[joint.parent.get()] else { continue };
-        let depth = (moving + usize::from(joint.kind.is_movable()), all + 1);
-        depths[joint.child.get()] = Some(depth);
-        if depth > best.1 {
-            best = (joint.child, depth);
-        }
-    }
-    best.0
-}
-
 fn chain(
     written: &WrittenRobot,
     robot: &Robot,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> Option<(LinkIndex, LinkIndex, Vec<JointIndex>)> {
     let mut link = |key: &str, name: &Spanned<String>| {
-        findings.keep(robot.find_link(name.get_ref()).ok_or_else(|| {
+        diagnostics.keep(robot.find_link(name.get_ref()).ok_or_else(|| {
             let message = format!("{key} = \"{}\": the robot has no such link", name.get_ref());
             let links = robot.links().iter().map(|link| link.name.as_str());
             Diagnostic::error("robot_file::unknown_link", message).at(name.span()).with_help(known_names(
@@ -96,12 +64,12 @@ fn chain(
     let base = written.base.as_ref().map_or(Some(robot.root()), |name| link("base", name));
     let tip = written.tip.as_ref().map(|name| link("tip", name));
     let base = base?;
-    let tip = tip.unwrap_or_else(|| Some(tip_of_longest_chain(robot, base)))?;
+    let tip = tip.unwrap_or_else(|| Some(robot.tip_of_longest_chain(base)))?;
     let Some(joints) = robot.chain(base, tip) else {
         let (base, tip) = (&robot.link(base).name, &robot.link(tip).name);
         let message = format!("tip \"{tip}\" does not hang below base \"{base}\"");
         let at = written.tip.as_ref().or(written.base.as_ref()).map_or(0..0, Spanned::span);
-        findings.push(
+        diagnostics.push(
             Diagnostic::error("robot_file::chain", message)
                 .at(at)
                 .with_help("no chain of joints leads from base down to tip"),
@@ -112,26 +80,32 @@ fn chain(
     Some((base, tip, moving))
 }
 
-fn table(written: &Spanned<WrittenDh>, context: &Context<'_>, findings: &mut Findings) -> Option<DhTable> {
+fn table(
+    written: &Spanned<WrittenDh>,
+    context: &ChainContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<DhTable> {
     let dh = written.get_ref();
-    let transform = |written: &Option<Spanned<WrittenTransform>>, findings: &mut Findings| match written {
-        Some(written) => findings.keep(written.get_ref().isometry()),
+    let transform = |written: &Option<Spanned<WrittenTransform>>, diagnostics: &mut Diagnostics| match written
+    {
+        Some(written) => diagnostics.keep(written.get_ref().isometry()),
         None => Some(Isometry3::identity()),
     };
-    let base_from_dh0 = transform(&dh.base_from_dh0, findings);
-    let dhn_from_tip = transform(&dh.dhn_from_tip, findings);
-    let rows = rows::check(written, context, findings);
+    let base_from_dh0 = transform(&dh.base_from_dh0, diagnostics);
+    let dhn_from_tip = transform(&dh.dhn_from_tip, diagnostics);
+    let rows = rows::check(written, context, diagnostics);
     let convention =
-        findings.keep(dh.convention.as_ref().map(|written| *written.get_ref()).ok_or_else(|| {
+        diagnostics.keep(dh.convention.as_ref().map(|written| *written.get_ref()).ok_or_else(|| {
             Diagnostic::error("robot_file::convention", "[dh] has no convention")
                 .at(first_line(written.span(), context.text))
-                .with_help(
-                    "convention = \"standard\" is Rz(theta) Tz(d) Tx(a) Rx(alpha); \"modified\" (Craig) is \
-                 Rx(alpha) Tx(a) Rz(theta) Tz(d): the same table means two robots",
-                )
+                .with_help(format!(
+                    "convention = \"standard\" is {}; \"modified\" (Craig) is {}: the same table means two robots",
+                    DhConvention::Standard.equation(),
+                    DhConvention::Modified.equation()
+                ))
         }));
     Some(DhTable {
-        convention: convention?.into(),
+        convention: convention?,
         source: dh.source.clone(),
         base_from_dh0: base_from_dh0?,
         dhn_from_tip: dhn_from_tip?,
@@ -139,18 +113,20 @@ fn table(written: &Spanned<WrittenDh>, context: &Context<'_>, findings: &mut Fin
     })
 }
 
-fn tolerance(written: Option<&WrittenTolerance>, findings: &mut Findings) -> Tolerance {
+fn tolerance(written: Option<&WrittenTolerance>, diagnostics: &mut Diagnostics) -> Tolerance {
     let default = Tolerance::default();
     let Some(written) = written else { return default };
-    let mut positive = |quantity, unit: Unit, plain: &Option<Spanned<f64>>, handy: &Option<Spanned<f64>>| {
-        let value = findings.keep(unit.value(quantity, plain.as_ref(), handy.as_ref())).flatten()?;
-        let span = plain.as_ref().or(handy.as_ref()).map_or(0..0, Spanned::span);
-        if value <= 0.0 {
-            let message = format!("tolerance {quantity} must be greater than 0, it is {value}");
-            findings.push(Diagnostic::error("robot_file::tolerance", message).at(span));
-        }
-        Some(value)
-    };
+    let mut positive =
+        |quantity, unit: Unit, si: &Option<Spanned<f64>>, engineering: &Option<Spanned<f64>>| {
+            let value =
+                diagnostics.keep(unit.value(quantity, si.as_ref(), engineering.as_ref())).flatten()?;
+            let span = si.as_ref().or(engineering.as_ref()).map_or(0..0, Spanned::span);
+            if value <= 0.0 {
+                let message = format!("tolerance {quantity} must be greater than 0, it is {value}");
+                diagnostics.push(Diagnostic::error("robot_file::tolerance", message).at(span));
+            }
+            Some(value)
+        };
     let position_m = positive("position", Unit::Length, &written.position_m, &written.position_mm);
     let orientation_rad =
         positive("orientation", Unit::Angle, &written.orientation_rad, &written.orientation_deg);
@@ -158,12 +134,6 @@ fn tolerance(written: Option<&WrittenTolerance>, findings: &mut Findings) -> Tol
         position_m: position_m.unwrap_or(default.position_m),
         orientation_rad: orientation_rad.unwrap_or(default.orientation_rad),
     }
-}
-
-/// The first line of a table: its whole range may be a hundred lines.
-fn first_line(span: Range<usize>, text: &str) -> Range<usize> {
-    let end = text[span.clone()].find('\n').map_or(span.end, |newline| span.start + newline);
-    span.start..end
 }
 
 #[cfg(test)]

@@ -2,11 +2,12 @@
 
 mod check;
 mod places;
+mod rows;
 mod write;
 mod written;
 
-pub(crate) use check::{Declared, check, default_chain, tip_of_longest_chain};
-pub use places::{ConstantKey, ConstantPart, FigurePlace, RobotFilePlaces, RowKey};
+pub(crate) use check::{Declared, check};
+pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
 pub use write::dh_section;
 pub(crate) use written::WrittenRobot;
 

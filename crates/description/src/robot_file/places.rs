@@ -1,25 +1,21 @@
-//! Where the figures of a robot file stand, and under which keys: for messages that blame one.
+//! Where the values of a robot file stand, and under which keys: for messages about one of them.
 
-use std::{ops::Range, path::Path, sync::Arc};
+use std::{ops::Range, sync::Arc};
 
 use nalgebra::Isometry3;
+use serde::Serialize;
 use toml::Spanned;
 
-use super::{
-    ROBOT_FILE_BYTES,
-    written::{WrittenDh, WrittenRobot, WrittenRow},
-};
+use super::written::{WrittenDh, WrittenRow};
 use crate::{
     diagnostic::SourceFile,
-    file::read_text,
-    findings::Findings,
-    toml_text::parse_toml,
-    units::{Scale, Unit},
-    written_transform::WrittenTransform,
+    units::{Unit, UnitSystem},
+    written::{name::serde_name, transform::WrittenTransform},
 };
 
-/// A figure of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A key of a row of the table; those of lengths and angles without their unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum RowKey {
     /// The joint's name.
     Joint,
@@ -37,8 +33,25 @@ pub enum RowKey {
     Kind,
 }
 
+impl RowKey {
+    /// The key as files write it, without a unit.
+    pub fn name(self) -> &'static str {
+        serde_name(&self)
+    }
+
+    /// What the key measures; `None` if its value has no unit.
+    fn unit(self) -> Option<Unit> {
+        match self {
+            Self::A | Self::D => Some(Unit::Length),
+            Self::Alpha | Self::Theta => Some(Unit::Angle),
+            Self::Joint | Self::Sign | Self::Kind => None,
+        }
+    }
+}
+
 /// One of the two declared transforms of a table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ConstantKey {
     /// `base_from_dh0`.
     BaseFromDh0,
@@ -49,48 +62,43 @@ pub enum ConstantKey {
 /// A part of a declared transform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ConstantPart {
-    /// The translation.
-    Shift,
-    /// The rotation.
-    Turn,
+    /// `xyz_m` or `xyz_mm`.
+    Translation,
+    /// `rpy_rad`, `rpy_deg` or `quaternion_wxyz`.
+    Rotation,
 }
 
 impl ConstantKey {
     /// The key as files write it.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::BaseFromDh0 => "base_from_dh0",
-            Self::DhnFromTip => "dhn_from_tip",
-        }
+        serde_name(&self)
     }
 }
 
-/// A figure where it stands.
+/// A value of a row and its place in the text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FigurePlace {
+pub struct ValuePlace {
     /// The key under which it stands, or would: `alpha_deg`.
     pub key: String,
-    /// In which of its units.
-    pub scale: Scale,
-    /// Whether the file writes the figure; one that it leaves out is zero.
+    /// The units of that key.
+    pub units: UnitSystem,
+    /// Whether the file writes the value; one that it leaves out is zero.
     pub is_written: bool,
-    /// Byte range of the value, or of the row's joint where the figure is left out.
+    /// Byte range of the value, or of the row's joint if the value is left out.
     pub span: Range<usize>,
 }
 
-/// A robot file, read once more for its places.
-#[derive(Debug)]
+/// The table of a robot file as it is written, with the text that it was parsed from.
+#[derive(Debug, PartialEq)]
 pub struct RobotFilePlaces {
     source: Arc<SourceFile>,
     dh: Spanned<WrittenDh>,
 }
 
 impl RobotFilePlaces {
-    /// Reads the file again; `None` where it cannot be read any more or has no table.
-    pub fn read(path: &Path) -> Option<Self> {
-        let source = read_text(path, ROBOT_FILE_BYTES).ok()?;
-        let written: WrittenRobot = parse_toml(&source.text, &mut Findings::default())?;
-        Some(Self { dh: written.dh?, source })
+    /// `dh` has been parsed from the text of `source`.
+    pub(crate) fn new(source: Arc<SourceFile>, dh: Spanned<WrittenDh>) -> Self {
+        Self { source, dh }
     }
 
     /// The file.
@@ -103,42 +111,43 @@ impl RobotFilePlaces {
         self.dh.get_ref().convention.as_ref().map(Spanned::span)
     }
 
-    /// A figure of a row, by the row's number from 0.
-    pub fn figure(&self, row: usize, key: RowKey) -> Option<FigurePlace> {
+    /// A value of a row, by the row's number from 0.
+    pub fn value(&self, row: usize, key: RowKey) -> Option<ValuePlace> {
         let row = self.dh.get_ref().row.get(row)?.get_ref();
-        let place = |key: String, scale, span: Option<Range<usize>>| FigurePlace {
+        let place = |key: String, units, span: Option<Range<usize>>| ValuePlace {
             key,
-            scale,
+            units,
             is_written: span.is_some(),
             span: span.unwrap_or_else(|| row.joint.span()),
         };
-        let (quantity, unit) = match key {
-            RowKey::Joint => return Some(place("joint".to_owned(), Scale::Plain, Some(row.joint.span()))),
-            RowKey::Kind => return Some(place("kind".to_owned(), Scale::Plain, Some(row.kind.span()))),
-            RowKey::Sign => {
-                return Some(place("sign".to_owned(), Scale::Plain, row.sign.as_ref().map(Spanned::span)));
-            }
-            RowKey::A => ("a", Unit::Length),
-            RowKey::Alpha => ("alpha", Unit::Angle),
-            RowKey::D => ("d", Unit::Length),
-            RowKey::Theta => ("theta", Unit::Angle),
+        let Some(unit) = key.unit() else {
+            let span = match key {
+                RowKey::Kind => Some(row.kind.span()),
+                RowKey::Sign => row.sign.as_ref().map(Spanned::span),
+                _ => Some(row.joint.span()),
+            };
+            return Some(place(key.name().to_owned(), UnitSystem::Si, span));
         };
-        let [plain, handy] = figures(row, key);
-        let [plain_key, handy_key] = unit.keys(quantity);
-        let scale = Scale::of(plain, handy, self.scale(unit));
-        let span = plain.or(handy).map(Spanned::span);
-        Some(place(if scale == Scale::Handy { handy_key } else { plain_key }, scale, span))
+        let [si, engineering] = row_values(row, key);
+        let [si_key, engineering_key] = unit.keys(key.name());
+        let units = UnitSystem::of(si, engineering, self.units(unit));
+        let span = si.or(engineering).map(Spanned::span);
+        Some(place(if units == UnitSystem::Engineering { engineering_key } else { si_key }, units, span))
     }
 
-    /// How the rows write a unit, and a new figure should be written.
-    fn scale(&self, unit: Unit) -> Scale {
+    /// The units in which the rows write lengths or angles, and a new value should be written.
+    fn units(&self, unit: Unit) -> UnitSystem {
         let keys = match unit {
             Unit::Length => [RowKey::A, RowKey::D],
             Unit::Angle => [RowKey::Alpha, RowKey::Theta],
         };
         let rows = self.dh.get_ref().row.iter().map(Spanned::get_ref);
-        let mut all = rows.flat_map(|row| keys.map(|key| figures(row, key)));
-        if all.any(|[_, handy]| handy.is_some()) { Scale::Handy } else { Scale::Plain }
+        let mut all = rows.flat_map(|row| keys.map(|key| row_values(row, key)));
+        if all.any(|[_, engineering]| engineering.is_some()) {
+            UnitSystem::Engineering
+        } else {
+            UnitSystem::Si
+        }
     }
 
     /// How the file would write another value of a declared transform, to be put at
@@ -146,8 +155,8 @@ impl RobotFilePlaces {
     pub fn constant_as(&self, key: ConstantKey, pose: &Isometry3<f64>) -> String {
         let name = key.name();
         let (written, default) = (self.written(key), WrittenTransform::default());
-        let scales = [Unit::Length, Unit::Angle].map(|unit| self.scale(unit));
-        let keys = written.map_or(&default, Spanned::get_ref).with_keys(pose, scales);
+        let units = [Unit::Length, Unit::Angle].map(|unit| self.units(unit));
+        let keys = written.map_or(&default, Spanned::get_ref).with_keys(pose, units);
         match written.map(|written| self.source.text[written.span()].trim_start()) {
             Some(text) if text.starts_with('{') => format!("write {name} = {{ {} }}", keys.join(", ")),
             Some(text) if text.starts_with('[') => {
@@ -161,24 +170,24 @@ impl RobotFilePlaces {
         }
     }
 
-    /// Where a declared transform stands: the part that is asked for, or what is given of it; the
-    /// table's first line where it is left out.
+    /// Place of a declared transform: that of the part that is asked for, or else of what is written of
+    /// it; the table's first line if the transform is left out.
     pub fn constant(&self, key: ConstantKey, part: ConstantPart) -> Range<usize> {
         let start = self.dh.span().start;
         let header = self.source.text[start..].find('\n').map_or(self.dh.span().end, |length| start + length);
         let Some(written) = self.written(key) else { return start..header };
         let WrittenTransform { xyz_m, xyz_mm, rpy_rad, rpy_deg, quaternion_wxyz, matrix } = written.get_ref();
-        let shift = xyz_m.as_ref().or(xyz_mm.as_ref()).map(Spanned::span);
-        let turn = rpy_rad.as_ref().or(rpy_deg.as_ref()).map(Spanned::span);
-        let turn = turn.or(quaternion_wxyz.as_ref().map(Spanned::span));
+        let translation = xyz_m.as_ref().or(xyz_mm.as_ref()).map(Spanned::span);
+        let rotation = rpy_rad.as_ref().or(rpy_deg.as_ref()).map(Spanned::span);
+        let rotation = rotation.or(quaternion_wxyz.as_ref().map(Spanned::span));
         let [first, second] = match part {
-            ConstantPart::Shift => [shift, turn],
-            ConstantPart::Turn => [turn, shift],
+            ConstantPart::Translation => [translation, rotation],
+            ConstantPart::Rotation => [rotation, translation],
         };
         first.or(second).or(matrix.as_ref().map(Spanned::span)).unwrap_or(written.span())
     }
 
-    /// Roll, pitch and yaw of a declared transform, where the file writes them.
+    /// Roll, pitch and yaw of a declared transform, if the file writes them.
     pub fn rpy_rad(&self, key: ConstantKey) -> Option<[f64; 3]> {
         let WrittenTransform { rpy_rad, rpy_deg, .. } = self.written(key)?.get_ref();
         Unit::Angle.vector("rpy", rpy_rad.as_ref(), rpy_deg.as_ref()).ok().flatten()
@@ -192,14 +201,14 @@ impl RobotFilePlaces {
     }
 }
 
-/// A figure of a row under its two keys: in the unit of the program, then in the handier one.
-fn figures(row: &WrittenRow, key: RowKey) -> [Option<&Spanned<f64>>; 2] {
-    let [plain, handy] = match key {
+/// A value of a row under its two keys: in SI units, then in engineering units.
+fn row_values(row: &WrittenRow, key: RowKey) -> [Option<&Spanned<f64>>; 2] {
+    let [si, engineering] = match key {
         RowKey::A => [&row.a_m, &row.a_mm],
         RowKey::Alpha => [&row.alpha_rad, &row.alpha_deg],
         RowKey::D => [&row.d_m, &row.d_mm],
         RowKey::Theta => [&row.theta_rad, &row.theta_deg],
         RowKey::Joint | RowKey::Sign | RowKey::Kind => return [None, None],
     };
-    [plain.as_ref(), handy.as_ref()]
+    [si.as_ref(), engineering.as_ref()]
 }

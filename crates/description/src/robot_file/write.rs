@@ -2,34 +2,28 @@
 
 use std::fmt::Write;
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 
 use crate::{
-    Robot,
-    model::dh_table::{DhConvention, DhRowKind, DhTable},
-    written_figure::{is_identity, number, numbers, rpy_fixed_xyz_rad, short_degrees},
+    model::{DhTable, Robot},
+    written::{
+        number::{number, numbers, short_degrees},
+        rpy::rpy_fixed_xyz_rad,
+    },
 };
 
-/// Writes a table as the section `[dh]` of a robot file: lengths in metres, angles in degrees where
-/// a short figure says exactly the same, otherwise in radians with all digits.
+/// Writes a table as the section `[dh]` of a robot file: lengths in metres, angles in degrees if a
+/// short number says exactly the same, otherwise in radians with all digits.
 pub fn dh_section(table: &DhTable, robot: &Robot) -> String {
     let mut text = String::from("[dh]\n");
-    let convention = match table.convention {
-        DhConvention::Standard => "standard",
-        DhConvention::Modified => "modified",
-    };
-    let _ = writeln!(text, "convention = \"{convention}\"");
+    let _ = writeln!(text, "convention = \"{}\"", table.convention.name());
     if let Some(source) = &table.source {
         let _ = writeln!(text, "source = {}", quoted(source));
     }
     let _ = writeln!(text, "base_from_dh0 = {}", transform(&table.base_from_dh0));
     let _ = writeln!(text, "dhn_from_tip = {}", transform(&table.dhn_from_tip));
     for row in &table.rows {
-        let kind = match row.kind {
-            DhRowKind::Revolute => "revolute",
-            DhRowKind::Prismatic => "prismatic",
-        };
-        let joint = quoted(&robot.joint(row.joint).name);
+        let (joint, kind) = (quoted(&robot.joint(row.joint).name), row.kind.name());
         let _ = writeln!(text, "\n[[dh.row]]\njoint = {joint}\nkind = \"{kind}\"");
         let _ = writeln!(text, "a_m = {}\n{}", number(row.a_m), angle("alpha", row.alpha_rad));
         let _ = writeln!(text, "d_m = {}\n{}", number(row.d_m), angle("theta", row.theta_rad));
@@ -61,4 +55,9 @@ fn transform(pose: &Isometry3<f64>) -> String {
         None => format!("rpy_rad = [{}]", numbers(rpy_rad, ", ")),
     };
     format!("{{ xyz_m = [{xyz_m}], {rpy} }}")
+}
+
+/// Whether a pose moves nothing, to the last digit.
+fn is_identity(pose: &Isometry3<f64>) -> bool {
+    pose.translation.vector == Vector3::zeros() && pose.rotation.angle() == 0.0
 }

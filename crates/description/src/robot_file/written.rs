@@ -6,8 +6,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::{
-    model::dh_table::{DhConvention, DhRowKind},
-    written_transform::WrittenTransform,
+    model::{DhConvention, DhRowKind},
+    written::transform::WrittenTransform,
 };
 
 #[derive(Debug, Deserialize)]
@@ -25,11 +25,11 @@ pub(crate) struct WrittenRobot {
     pub(crate) tolerance: Option<WrittenTolerance>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenDh {
-    /// Optional here so that its absence gets a message of its own.
-    pub(crate) convention: Option<Spanned<WrittenConvention>>,
+    /// Optional, so that a missing one gets a message of its own.
+    pub(crate) convention: Option<Spanned<DhConvention>>,
     pub(crate) source: Option<String>,
     pub(crate) base_from_dh0: Option<Spanned<WrittenTransform>>,
     pub(crate) dhn_from_tip: Option<Spanned<WrittenTransform>>,
@@ -37,27 +37,11 @@ pub(crate) struct WrittenDh {
     pub(crate) row: Vec<Spanned<WrittenRow>>,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum WrittenConvention {
-    Standard,
-    Modified,
-}
-
-impl From<WrittenConvention> for DhConvention {
-    fn from(written: WrittenConvention) -> Self {
-        match written {
-            WrittenConvention::Standard => Self::Standard,
-            WrittenConvention::Modified => Self::Modified,
-        }
-    }
-}
-
-#[derive(Debug, Deserialize)]
+#[derive(Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenRow {
     pub(crate) joint: Spanned<String>,
-    pub(crate) kind: Spanned<WrittenKind>,
+    pub(crate) kind: Spanned<DhRowKind>,
     pub(crate) a_m: Option<Spanned<f64>>,
     pub(crate) a_mm: Option<Spanned<f64>>,
     pub(crate) alpha_rad: Option<Spanned<f64>>,
@@ -67,22 +51,6 @@ pub(crate) struct WrittenRow {
     pub(crate) theta_rad: Option<Spanned<f64>>,
     pub(crate) theta_deg: Option<Spanned<f64>>,
     pub(crate) sign: Option<Spanned<f64>>,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum WrittenKind {
-    Revolute,
-    Prismatic,
-}
-
-impl From<WrittenKind> for DhRowKind {
-    fn from(written: WrittenKind) -> Self {
-        match written {
-            WrittenKind::Revolute => Self::Revolute,
-            WrittenKind::Prismatic => Self::Prismatic,
-        }
-    }
 }
 
 #[derive(Debug, Deserialize)]

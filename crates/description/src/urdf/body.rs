@@ -3,10 +3,10 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
-use crate::{Robot, diagnostic::Diagnostic, findings::Findings};
+use crate::{diagnostic::Diagnostic, diagnostics::Diagnostics, model::Robot};
 
 /// Warns of moving bodies without mass.
-pub(super) fn check(robot: &Robot, spans: &BTreeMap<&str, Range<usize>>, findings: &mut Findings) {
+pub(super) fn check(robot: &Robot, spans: &BTreeMap<&str, Range<usize>>, diagnostics: &mut Diagnostics) {
     let mut mass_kg = vec![0.0; robot.links().len()];
     // Parents come first, so a link's body is known when the link is reached.
     let mut bodies: Vec<usize> = Vec::with_capacity(mass_kg.len());
@@ -27,7 +27,7 @@ pub(super) fn check(robot: &Robot, spans: &BTreeMap<&str, Range<usize>>, finding
         let what = if link.inertia.is_some() { "its mass is zero" } else { "has no <inertial>" };
         let message = format!("link \"{}\" moves but {what}: it cannot be simulated with forces", link.name);
         let at = spans.get(link.name.as_str()).cloned().unwrap_or(0..0);
-        findings.push(
+        diagnostics.push(
             Diagnostic::warning("urdf::massless", message)
                 .at(at)
                 .with_help("give it an <inertial> with mass and inertia"),

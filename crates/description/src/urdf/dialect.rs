@@ -1,8 +1,8 @@
-//! Files that are not URDF: SDF, other robot formats, xacro that nobody expanded.
+//! Files that are not URDF: SDF, other robot formats, xacro that has not been expanded.
 
 use roxmltree::{Document, Node};
 
-use super::{label, tag};
+use super::node::{label, tag};
 use crate::{diagnostic::Diagnostic, xml};
 
 /// xacro runs code, so it is never run here.

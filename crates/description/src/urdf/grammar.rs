@@ -22,11 +22,11 @@ pub(super) struct Attribute {
 
 /// What an attribute holds.
 pub(super) enum Value {
-    /// Any text, also none.
+    /// Any text, or none.
     Text,
     /// A name: text that is not empty.
     Name,
-    /// So many figures.
+    /// This many numbers.
     Numbers(usize),
     /// One of these words.
     Word(&'static [&'static str]),
@@ -38,7 +38,7 @@ pub(super) struct Child {
     pub(super) occurs: Occurs,
 }
 
-/// How often.
+/// How often a child occurs.
 #[derive(PartialEq)]
 pub(super) enum Occurs {
     Once,

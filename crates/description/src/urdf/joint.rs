@@ -1,4 +1,4 @@
-//! `<joint>`: what the figures of one joint mean.
+//! `<joint>`: what the values of one joint mean.
 
 use std::f64::consts::TAU;
 
@@ -6,34 +6,33 @@ use nalgebra::{Unit, Vector3};
 use roxmltree::Node;
 use urdf_rs::JointType;
 
-use super::{element, label, place, pose, tag};
+use super::{
+    node::{element, label, place, tag},
+    pose,
+};
 use crate::{
-    JointParts,
     diagnostic::Diagnostic,
-    findings::Findings,
-    model::{
-        joint::{Joint, JointKind, JointLimit},
-        link::LinkIndex,
-    },
+    diagnostics::Diagnostics,
+    model::{Joint, JointKind, JointLimit, JointParts, LinkIndex},
 };
 
-/// How far the length of an axis may be from 1 in silence: six digits in the file.
+/// How far the length of an axis may be from 1 without a warning: six digits in the file.
 const AXIS_LENGTH: f64 = 1e-6;
-/// Limits beyond so many radians are taken for degrees: cables do not stand four turns.
+/// Limits beyond this many radians are taken for degrees: no cable survives four turns.
 const LARGEST_PLAUSIBLE_RAD: f64 = 4.0 * TAU;
 
-/// One joint with what is wrong with it.
-struct Reader<'a, 'f> {
+/// Reads one joint and reports what is wrong with it.
+struct JointReader<'a, 'f> {
     joint: &'a urdf_rs::Joint,
     node: Node<'a, 'a>,
-    findings: &'f mut Findings,
+    diagnostics: &'f mut Diagnostics,
 }
 
-/// Reads a joint. Its links are found by name when the tree is built; where something is wrong
-/// the value is a stand-in that lets the rest be checked.
-pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, findings: &mut Findings) -> JointParts {
-    let parent_from_joint = pose::read(&joint.origin, node, node, findings);
-    let mut reader = Reader { joint, node, findings };
+/// Reads a joint. Its links are found by name when the tree is built; a value that is wrong is replaced
+/// by a valid one, so that the rest can be checked.
+pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, diagnostics: &mut Diagnostics) -> JointParts {
+    let parent_from_joint = pose::read(&joint.origin, node, node, diagnostics);
+    let mut reader = JointReader { joint, node, diagnostics };
     let kind = reader.kind();
     let read = Joint {
         name: joint.name.clone(),
@@ -56,10 +55,10 @@ pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, findings: &mut Fi
     JointParts { joint: read, parent: joint.parent.link.clone(), child: joint.child.link.clone(), mimic }
 }
 
-impl Reader<'_, '_> {
-    fn report(&mut self, finding: Diagnostic, child: &str) {
-        let message = format!("{}: {}", label(self.node), finding.message);
-        self.findings.push(Diagnostic { message, ..finding }.at(place(self.node, child)));
+impl JointReader<'_, '_> {
+    fn report(&mut self, diagnostic: Diagnostic, child: &str) {
+        let message = format!("{}: {}", label(self.node), diagnostic.message);
+        self.diagnostics.push(Diagnostic { message, ..diagnostic }.at(place(self.node, child)));
     }
 
     fn error(&mut self, code: &'static str, what: impl Into<String>, child: &str) {
@@ -98,7 +97,7 @@ impl Reader<'_, '_> {
         let largest = axis.amax();
         let scaled = axis / largest;
         let length = largest * scaled.norm();
-        // Exporters write a zero axis for fixed joints, where it means nothing.
+        // Exporters write a zero axis for fixed joints, for which it means nothing.
         if !kind.is_movable() {
             return Vector3::z_axis();
         }
@@ -111,9 +110,9 @@ impl Reader<'_, '_> {
             return Vector3::z_axis();
         }
         if (length - 1.0).abs() > AXIS_LENGTH {
-            // All digits of 1e300 are hundreds.
-            let is_handy = (1e-6..1e6).contains(&length);
-            let length = if is_handy { length.to_string() } else { format!("{length:e}") };
+            // 1e300 without an exponent has 301 digits.
+            let is_short = (1e-6..1e6).contains(&length);
+            let length = if is_short { length.to_string() } else { format!("{length:e}") };
             self.warn("urdf::axis", format!("axis is normalised from length {length}"), "axis");
         }
         Unit::new_normalize(scaled)
@@ -122,9 +121,8 @@ impl Reader<'_, '_> {
     fn limit(&mut self, kind: JointKind) -> Option<JointLimit> {
         let written = element(self.node, "limit");
         if written.is_none() && matches!(kind, JointKind::Revolute | JointKind::Prismatic) {
-            let name = if kind == JointKind::Revolute { "revolute" } else { "prismatic" };
             let or = if kind == JointKind::Revolute { " (or type \"continuous\")" } else { "" };
-            self.error("urdf::limit", format!("a {name} joint needs <limit>{or}"), "limit");
+            self.error("urdf::limit", format!("a {} joint needs <limit>{or}", kind.name()), "limit");
         }
         let limit = &self.joint.limit;
         let written = written.filter(|_| kind.is_movable())?;
@@ -168,7 +166,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Damping or friction, which take energy away and never give any.
+    /// Damping or friction, which dissipate energy and are never negative.
     fn loss(&mut self, key: &str, value: Option<f64>) -> f64 {
         let value = value.unwrap_or(0.0);
         if value < 0.0 {

@@ -3,16 +3,20 @@
 use nalgebra::{Matrix3, SymmetricEigen};
 use roxmltree::Node;
 
-use super::{element, elements, label, place, pose, shape::ShapeReader};
+use super::{
+    node::{element, elements, label, place},
+    pose,
+    shape::ShapeReader,
+};
 use crate::{
     diagnostic::Diagnostic,
-    model::{inertia::Inertia, link::Link},
+    model::{Inertia, Link},
 };
 
 /// Rounding in files: principal moments may miss a bound by so much of the largest one. Real
-/// robots miss by up to 1e-4 where inertias are written with four digits.
+/// robots miss by up to 1e-4 if inertias are written with four digits.
 const MOMENT: f64 = 1e-3;
-/// A larger radius of gyration is that of a house: the tensor is taken for kg mm^2.
+/// No link of a robot has a larger radius of gyration: the tensor is taken for kg mm^2.
 const LARGEST_GYRATION_M: f64 = 3.0;
 
 pub(super) fn read(link: &urdf_rs::Link, node: Node<'_, '_>, shapes: &mut ShapeReader<'_, '_>) -> Link {
@@ -41,9 +45,9 @@ fn inertia(inertial: &urdf_rs::Inertial, node: Node<'_, '_>, shapes: &mut ShapeR
         m.ixy, m.iyy, m.iyz, //
         m.ixz, m.iyz, m.izz,
     );
-    let mut report = |finding: Diagnostic, child: &str| {
-        let message = format!("{}: {}", label(owner), finding.message);
-        shapes.findings.push(Diagnostic { message, ..finding }.at(place(node, child)));
+    let mut report = |diagnostic: Diagnostic, child: &str| {
+        let message = format!("{}: {}", label(owner), diagnostic.message);
+        shapes.diagnostics.push(Diagnostic { message, ..diagnostic }.at(place(node, child)));
     };
     if mass_kg < 0.0 {
         report(Diagnostic::error("urdf::mass", format!("mass {mass_kg} is negative")), "mass");
@@ -51,7 +55,7 @@ fn inertia(inertial: &urdf_rs::Inertial, node: Node<'_, '_>, shapes: &mut ShapeR
     if let Some(fault) = tensor_fault(mass_kg, &tensor_kg_m2) {
         report(fault, "inertia");
     }
-    let link_from_inertial = pose::read(&inertial.origin, node, owner, shapes.findings);
+    let link_from_inertial = pose::read(&inertial.origin, node, owner, shapes.diagnostics);
     Inertia { mass_kg, link_from_inertial, tensor_kg_m2 }
 }
 

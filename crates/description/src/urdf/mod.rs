@@ -1,13 +1,13 @@
-//! URDF text to a [`Robot`], or to diagnostics that each say where.
+//! URDF text to a [`Robot`], or to diagnostics with their places.
 //!
-//! Four passes, each of which may trust what the one before has checked:
+//! Four passes, each of which relies on what the one before has checked:
 //! 1. `xml`: tokens, then the tree; refuses what would overflow a stack or the memory;
 //! 2. `raw`: the XML with positions against the grammar of URDF, every number token by token;
 //! 3. `urdf-rs`: the structure. It accepts much that is wrong (it drops vector tokens that are no
 //!    numbers, it cannot tell a missing element from its default), which is why pass 2 exists;
-//! 4. `joint`, `link`, `shape`: what the figures mean, then the tree.
+//! 4. `joint`, `link`, `shape`: what the values mean, then the tree.
 //!
-//! Every figure is taken from `urdf-rs`; pass 2 reads the same text but only judges it. The one
+//! Every value is taken from `urdf-rs`; pass 2 reads the same text but only judges it. The one
 //! exception is `quat_xyzw`, which `urdf-rs` turns into angles and loses up to 4 mrad near a pitch
 //! of a quarter turn: it is taken from the XML.
 
@@ -16,6 +16,7 @@ mod dialect;
 mod grammar;
 mod joint;
 mod link;
+mod node;
 mod number;
 mod places;
 mod pose;
@@ -26,17 +27,16 @@ mod write;
 pub use places::UrdfPlaces;
 pub use write::urdf_text;
 
-use std::{collections::BTreeMap, ops::Range};
-
 use nalgebra::Vector3;
 use roxmltree::Node;
 
+use self::node::{elements, last, place, spans, tag};
+
 use crate::{
-    Robot, RobotError,
     diagnostic::{Diagnostic, known_names},
-    findings::Findings,
-    mesh::FoundMesh,
-    model::link::Link,
+    diagnostics::Diagnostics,
+    mesh::{FindMesh, FoundMesh},
+    model::{Link, Robot, RobotError},
     xml,
 };
 
@@ -45,48 +45,52 @@ pub(crate) const URDF_BYTES: u64 = 16 << 20;
 /// The largest number of links: far above any robot, far below what would take minutes.
 const MOST_LINKS: usize = 10_000;
 
-/// Gives the mesh that a URDF names, scaled.
-pub(crate) type FindMesh<'a> = dyn FnMut(&str, Vector3<f64>) -> Result<FoundMesh, Diagnostic> + 'a;
-
-/// Reads a robot; `None` when `findings` holds an error.
-pub(crate) fn parse(text: &str, find_mesh: &mut FindMesh<'_>, findings: &mut Findings) -> Option<Robot> {
-    let document = findings.keep(xml::parse(text).map_err(dialect::explain))?;
+/// Reads a robot; `None` if `diagnostics` holds an error.
+pub(crate) fn parse(
+    text: &str,
+    find_mesh: &mut FindMesh<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<Robot> {
+    let document = diagnostics.keep(xml::parse(text).map_err(dialect::explain))?;
     let root = document.root_element();
-    findings.keep(dialect::check(root))?;
-    raw::check(root, findings);
+    diagnostics.keep(dialect::check(root))?;
+    raw::check(root, diagnostics);
     let links = elements(root, "link").count();
     if links > MOST_LINKS {
         let message = format!("too many links: {links}, the limit is {MOST_LINKS}");
-        findings.push(Diagnostic::error("urdf::too_many_links", message).at(tag(root)));
+        diagnostics.push(Diagnostic::error("urdf::too_many_links", message).at(tag(root)));
     }
-    if findings.has_error() {
+    if diagnostics.has_error() {
         return None;
     }
-    let urdf = findings.keep(urdf_rs::read_from_string(&without_text(root)).map_err(|error| {
+    let urdf = diagnostics.keep(urdf_rs::read_from_string(&without_text(root)).map_err(|error| {
         // Whatever the grammar lets through and urdf-rs does not.
         Diagnostic::error("urdf::structure", format!("not a valid URDF: {error}")).at(tag(root))
     }))?;
-    let robot = build(&urdf, root, find_mesh, findings)?;
-    if findings.has_error() {
+    let robot = build(&urdf, root, find_mesh, diagnostics)?;
+    if diagnostics.has_error() {
         return None;
     }
-    body::check(&robot, &spans(root, "link"), findings);
+    body::check(&robot, &spans(root, "link"), diagnostics);
     Some(robot)
 }
 
 /// Reads a robot from URDF text alone; meshes cannot be found, so it may name none.
 ///
 /// # Errors
-/// Every finding, errors and warnings, when at least one is an error.
+/// Every diagnostic, errors and warnings, if at least one is an error.
 /// # Examples
 /// See [`urdf_text`].
 pub fn parse_urdf(text: &str) -> Result<Robot, Vec<Diagnostic>> {
-    let mut findings = Findings::default();
-    let mut no_mesh = |uri: &str, _| {
-        Err(Diagnostic::error("mesh::no_folder", format!("mesh \"{uri}\" cannot be found from text alone")))
-    };
-    let robot = parse(text, &mut no_mesh, &mut findings);
-    robot.ok_or_else(|| findings.into_vec())
+    let mut diagnostics = Diagnostics::default();
+    let robot = parse(text, &mut no_mesh, &mut diagnostics);
+    robot.ok_or_else(|| diagnostics.into_vec())
+}
+
+/// Refuses every mesh: for texts without a folder.
+pub(crate) fn no_mesh(uri: &str, _: Vector3<f64>) -> Result<FoundMesh, Diagnostic> {
+    let message = format!("mesh \"{uri}\" cannot be found from text alone");
+    Err(Diagnostic::error("mesh::no_folder", message))
 }
 
 /// The document with every text between elements blanked: it means nothing in a URDF, real files
@@ -106,11 +110,11 @@ fn build(
     urdf: &urdf_rs::Robot,
     root: Node<'_, '_>,
     find_mesh: &mut FindMesh<'_>,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Robot> {
     // urdf-rs lists links and joints in file order, as the XML does.
     let colors = shape::named_colors(urdf);
-    let mut reader = shape::ShapeReader { colors, find_mesh, findings };
+    let mut reader = shape::ShapeReader { colors, find_mesh, diagnostics };
     let links: Vec<Link> = urdf
         .links
         .iter()
@@ -121,10 +125,10 @@ fn build(
         .joints
         .iter()
         .zip(elements(root, "joint"))
-        .map(|(joint, node)| joint::read(joint, node, findings))
+        .map(|(joint, node)| joint::read(joint, node, diagnostics))
         .collect();
     let name = urdf.name.clone();
-    findings.keep(Robot::new(name, links, joints).map_err(|error| tree_fault(&error, root)))
+    diagnostics.keep(Robot::new(name, links, joints).map_err(|error| tree_fault(&error, root)))
 }
 
 fn tree_fault(error: &RobotError, root: Node<'_, '_>) -> Diagnostic {
@@ -161,47 +165,6 @@ fn first_at(fault: Diagnostic, root: Node<'_, '_>, tag_name: &str, name: &str) -
         Some(line) => fault.with_help(format!("the first one is at line {line}")),
         None => fault,
     }
-}
-
-/// The last element with this name: of two that share one, the second is at fault.
-fn last<'a, 'i>(root: Node<'a, 'i>, tag_name: &str, name: &str) -> Option<Node<'a, 'i>> {
-    elements(root, tag_name).filter(|node| node.attribute("name") == Some(name)).last()
-}
-
-fn spans<'a>(root: Node<'a, '_>, tag_name: &'a str) -> BTreeMap<&'a str, Range<usize>> {
-    elements(root, tag_name).filter_map(|node| Some((node.attribute("name")?, tag(node)))).collect()
-}
-
-/// The child elements with this name, in file order.
-fn elements<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> impl Iterator<Item = Node<'a, 'i>> {
-    parent.children().filter(move |node| node.is_element() && node.tag_name().name() == name)
-}
-
-/// The child element with this name, where there is one.
-fn element<'a, 'i>(parent: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
-    elements(parent, name).next()
-}
-
-/// The place of a child element, or of the element itself where the child is missing.
-fn place(parent: Node<'_, '_>, child: &str) -> Range<usize> {
-    tag(element(parent, child).unwrap_or(parent))
-}
-
-/// The opening of a start tag, `<name`: an element's whole range may be a thousand lines.
-fn tag(node: Node<'_, '_>) -> Range<usize> {
-    let range = node.range();
-    let text = &node.document().input_text()[range.clone()];
-    let end = text.find(|c: char| c.is_whitespace() || c == '/' || c == '>').unwrap_or(text.len());
-    range.start..range.start + end
-}
-
-/// `link "forearm"`, its name cut where it is longer than a line.
-fn label(node: Node<'_, '_>) -> String {
-    const SHOWN: usize = 60;
-    let name = node.attribute("name").unwrap_or_default();
-    let short: String = name.chars().take(SHOWN).collect();
-    let dots = if short.len() < name.len() { "..." } else { "" };
-    format!("{} \"{short}{dots}\"", node.tag_name().name())
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
-//! Figures in attributes, token by token: `urdf-rs` drops a vector's tokens that are no numbers.
+//! Numbers in attributes, token by token: `urdf-rs` drops a vector's tokens that are no numbers.
 
-/// What is wrong with `text` as `count` figures separated by white space; `None` where it is fine.
+/// What is wrong with `text` as `count` numbers separated by white space; `None` if nothing is.
 ///
-/// Infinities are figures to Rust's parser, and so is `1e400`; to a robot none of them is.
+/// Rust's parser takes infinities and `1e400` for numbers; no robot has such values.
 pub(super) fn fault(text: &str, count: usize) -> Option<String> {
     let tokens: Vec<&str> = text.split_whitespace().collect();
     if let Some(fault) = tokens.iter().find_map(|token| token_fault(token)) {
@@ -15,7 +15,7 @@ pub(super) fn fault(text: &str, count: usize) -> Option<String> {
 
 fn token_fault(token: &str) -> Option<String> {
     match token.parse::<f64>() {
-        Ok(figure) if figure.is_finite() => None,
+        Ok(number) if number.is_finite() => None,
         Ok(_) if token.contains(|c: char| c.is_ascii_digit()) => {
             Some(format!("\"{token}\" is out of range: it is not finite in double precision"))
         }

@@ -1,20 +1,20 @@
-//! Where the joints of a URDF stand: for messages that blame one.
+//! Where the joints of a URDF stand: for messages about one of them.
 
-use std::{ops::Range, path::Path, sync::Arc};
+use std::{ops::Range, sync::Arc};
 
-use super::{URDF_BYTES, last, place};
-use crate::{diagnostic::SourceFile, file::read_text, xml};
+use super::node::{last, place};
+use crate::{diagnostic::SourceFile, xml};
 
-/// A URDF's text, in which joints are found.
-#[derive(Debug, Clone)]
+/// The text of a URDF, in which joints are found.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UrdfPlaces {
     source: Arc<SourceFile>,
 }
 
 impl UrdfPlaces {
-    /// Reads the file again; `None` where it cannot be read any more.
-    pub fn read(path: &Path) -> Option<Self> {
-        Some(Self { source: read_text(path, URDF_BYTES).ok()? })
+    /// Of a text that has been read; it is parsed again when a joint is asked for, which is seldom.
+    pub(crate) fn new(source: Arc<SourceFile>) -> Self {
+        Self { source }
     }
 
     /// The file.
@@ -22,7 +22,7 @@ impl UrdfPlaces {
         &self.source
     }
 
-    /// The origin of a joint, or the joint itself where it is left out; `None` where there is none of
+    /// Place of the `<origin>` of a joint, or of the joint if it has none; `None` if there is no joint of
     /// that name.
     pub fn joint_origin(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
@@ -32,18 +32,14 @@ impl UrdfPlaces {
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use super::*;
 
     #[test]
-    fn a_joint_stands_where_its_origin_does() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("two.urdf");
+    fn the_place_of_a_joint_is_that_of_its_origin() {
         let text =
             "<robot name='two'>\n<joint name='a'>\n<origin xyz='1 0 0'/></joint>\n<joint name='b'/></robot>";
-        fs::write(&path, text).unwrap();
-        let places = UrdfPlaces::read(&path).unwrap();
+        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned() };
+        let places = UrdfPlaces::new(Arc::new(source));
         let at = |name| places.joint_origin(name).map(|span| &text[span]);
         assert_eq!(at("a"), Some("<origin"));
         assert_eq!(at("b"), Some("<joint"));

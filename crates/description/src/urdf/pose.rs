@@ -5,25 +5,25 @@ use std::f64::consts::TAU;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use roxmltree::Node;
 
-use super::{element, label, place, tag};
-use crate::{diagnostic::Diagnostic, findings::Findings, written_transform::rotation_from_rpy_fixed_xyz};
+use super::node::{element, label, place, tag};
+use crate::{diagnostic::Diagnostic, diagnostics::Diagnostics, written::rpy::rotation_from_rpy_fixed_xyz};
 
 /// Longer offsets between the parts of one robot are taken for millimetres.
 pub(super) const LARGEST_PLAUSIBLE_M: f64 = 10.0;
 
-/// The pose that `<origin>` in `parent` gives; identity where there is none.
+/// The pose that `<origin>` in `parent` gives; the identity if there is none.
 ///
 /// `owner` is the link or joint that warnings name.
 pub(super) fn read(
     pose: &urdf_rs::Pose,
     parent: Node<'_, '_>,
     owner: Node<'_, '_>,
-    findings: &mut Findings,
+    diagnostics: &mut Diagnostics,
 ) -> Isometry3<f64> {
     let (xyz, rpy) = (pose.xyz.0, pose.rpy.0);
     if let Some(length) = xyz.into_iter().find(|length| length.abs() > LARGEST_PLAUSIBLE_M) {
         let message = format!("{}: origin {length} is more than {LARGEST_PLAUSIBLE_M} m away", label(owner));
-        findings.push(
+        diagnostics.push(
             Diagnostic::warning("urdf::millimetres", message)
                 .at(place(parent, "origin"))
                 .with_help("millimetres instead of metres?"),
@@ -34,14 +34,14 @@ pub(super) fn read(
     if let Some(quaternion) = origin.and_then(|origin| origin.attribute("quat_xyzw")) {
         let rotation = from_quaternion(quaternion).unwrap_or_else(|| {
             let message = format!("{}: quat_xyzw = \"{quaternion}\" is zero", label(owner));
-            findings.push(Diagnostic::error("urdf::quaternion", message).at(origin.map_or(0..0, tag)));
+            diagnostics.push(Diagnostic::error("urdf::quaternion", message).at(origin.map_or(0..0, tag)));
             UnitQuaternion::identity()
         });
         return Isometry3::from_parts(translation, rotation);
     }
     if let Some(angle) = rpy.into_iter().find(|angle| angle.abs() > TAU) {
         let message = format!("{}: rpy {angle} is more than a full turn in radians", label(owner));
-        findings.push(
+        diagnostics.push(
             Diagnostic::warning("urdf::degrees", message)
                 .at(place(parent, "origin"))
                 .with_help("degrees instead of radians?"),
@@ -50,9 +50,9 @@ pub(super) fn read(
     Isometry3::from_parts(translation, rotation_from_rpy_fixed_xyz(rpy))
 }
 
-/// Normalised as urdfdom does; the raw pass has checked the figures.
+/// Normalised as urdfdom does; the pass against the grammar has checked the numbers.
 fn from_quaternion(text: &str) -> Option<UnitQuaternion<f64>> {
-    let figures: Vec<f64> = text.split_whitespace().filter_map(|token| token.parse().ok()).collect();
-    let [x, y, z, w] = figures[..] else { return None };
+    let numbers: Vec<f64> = text.split_whitespace().filter_map(|token| token.parse().ok()).collect();
+    let [x, y, z, w] = numbers[..] else { return None };
     UnitQuaternion::try_new(Quaternion::new(w, x, y, z), f64::MIN_POSITIVE)
 }

@@ -1,43 +1,43 @@
-//! The XML against the grammar: missing, repeated and misspelt parts, and every figure.
+//! The XML against the grammar: missing, repeated and misspelt parts, and every number.
 //!
-//! What the grammar does not know is a vendor's business and passes in silence, unless its name is
-//! a letter or two away from one that the grammar knows.
+//! Elements and attributes that the grammar does not know are vendors' own and are ignored, unless the
+//! name is a letter or two away from one that the grammar knows.
 
 use std::ops::Range;
 
 use roxmltree::{Attribute as XmlAttribute, Node};
 
 use super::{
-    elements,
     grammar::{Attribute, Child, Element, Occurs, ROBOT, Value},
-    label, number, tag,
+    node::{elements, label, tag},
+    number,
 };
 use crate::{
     diagnostic::{Diagnostic, known_names},
-    findings::Findings,
+    diagnostics::Diagnostics,
 };
 
 /// The longest name without a warning: what a file system allows.
 const LONGEST_NAME: usize = 255;
 
 /// Checks a whole document.
-pub(super) fn check(root: Node<'_, '_>, findings: &mut Findings) {
+pub(super) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) {
     if root.attribute("name").is_none_or(str::is_empty) {
-        findings.push(Diagnostic::warning("urdf::robot_name", "the robot has no name").at(tag(root)));
+        diagnostics.push(Diagnostic::warning("urdf::robot_name", "the robot has no name").at(tag(root)));
     }
-    let mut reader = Reader { version: version(root), owner: "robot".to_owned(), findings };
-    reader.attributes(root, &ROBOT);
-    reader.unknown_children(root, &ROBOT);
+    let mut check = GrammarCheck { version: version(root), owner: "robot".to_owned(), diagnostics };
+    check.attributes(root, &ROBOT);
+    check.unknown_children(root, &ROBOT);
     for child in ROBOT.children {
         for node in elements(root, child.element.name) {
-            reader.owner = label(node);
-            reader.element(node, child.element);
-            reader.name(node);
+            check.owner = label(node);
+            check.element(node, child.element);
+            check.name(node);
         }
     }
 }
 
-/// `version="1.1"` as numbers; 1.0 where it is missing or no version, as urdfdom has it.
+/// `version="1.1"` as numbers; 1.0 if it is missing or no version, as in urdfdom.
 pub(super) fn version(root: Node<'_, '_>) -> (u32, u32) {
     let parse = |text: &str| {
         let (major, minor) = text.trim().split_once('.')?;
@@ -46,16 +46,16 @@ pub(super) fn version(root: Node<'_, '_>) -> (u32, u32) {
     root.attribute("version").and_then(parse).unwrap_or((1, 0))
 }
 
-struct Reader<'f> {
+struct GrammarCheck<'f> {
     version: (u32, u32),
-    /// The link, joint or material that is read: every finding begins with it.
+    /// The link, joint or material that is read: every diagnostic begins with it.
     owner: String,
-    findings: &'f mut Findings,
+    diagnostics: &'f mut Diagnostics,
 }
 
-impl Reader<'_> {
+impl GrammarCheck<'_> {
     fn report(&mut self, code: &'static str, what: &str, at: Range<usize>) {
-        self.findings.push(Diagnostic::error(code, format!("{}: {what}", self.owner)).at(at));
+        self.diagnostics.push(Diagnostic::error(code, format!("{}: {what}", self.owner)).at(at));
     }
 
     /// Recursion ends with the grammar, whose deepest path has six elements.
@@ -167,7 +167,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Names become file names, entity paths and table cells: odd ones are legal but worth a word.
+    /// Names become file names, entity paths and table cells: unusual ones are legal but get a warning.
     fn name(&mut self, node: Node<'_, '_>) {
         let name = node.attribute("name").unwrap_or_default();
         let length = name.chars().count();
@@ -178,12 +178,12 @@ impl Reader<'_> {
         } else {
             return;
         };
-        self.findings
+        self.diagnostics
             .push(Diagnostic::warning("urdf::name", format!("{}: {what}", self.owner)).at(tag(node)));
     }
 }
 
-/// The known name that `name` is a slip of: other case, or at most one letter in three wrong.
+/// The known name that `name` is a misspelling of: other case, or at most one letter in three wrong.
 fn misspelt<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     const MOST_WRONG: usize = 2;
     known
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn slips_are_told_from_vendor_names() {
+    fn misspellings_are_told_from_vendor_names() {
         check("limits", Some("limit"));
         check("Limit", Some("limit"));
         check("orgin", Some("origin"));

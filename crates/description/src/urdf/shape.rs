@@ -5,11 +5,15 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 use roxmltree::Node;
 
-use super::{FindMesh, element, label, pose, tag};
+use super::{
+    node::{element, label, tag},
+    pose,
+};
 use crate::{
     diagnostic::Diagnostic,
-    findings::Findings,
-    model::geometry::{Geometry, Mesh, Shape},
+    diagnostics::Diagnostics,
+    mesh::FindMesh,
+    model::{Geometry, Mesh, Shape},
 };
 
 /// Colours of the materials that the document defines at its top, by name.
@@ -25,15 +29,15 @@ fn own_color(material: &urdf_rs::Material) -> Option<[f32; 4]> {
     material.color.as_ref().map(|color| color.rgba.0.map(|channel| channel.clamp(0.0, 1.0) as f32))
 }
 
-/// Reads shapes: what they need from outside their own element.
+/// Reads shapes, with what is defined outside their own element: named colours and meshes.
 pub(super) struct ShapeReader<'a, 'm> {
     pub(super) colors: BTreeMap<&'a str, [f32; 4]>,
     pub(super) find_mesh: &'a mut FindMesh<'m>,
-    pub(super) findings: &'a mut Findings,
+    pub(super) diagnostics: &'a mut Diagnostics,
 }
 
 impl ShapeReader<'_, '_> {
-    /// A shape to look at; `None` where something is wrong with it.
+    /// A visual shape; `None` if something is wrong with it.
     pub(super) fn visual(&mut self, visual: &urdf_rs::Visual, node: Node<'_, '_>) -> Option<Shape> {
         let color = |material: &urdf_rs::Material| {
             own_color(material).or_else(|| self.colors.get(material.name.as_str()).copied())
@@ -43,7 +47,7 @@ impl ShapeReader<'_, '_> {
         Some(Shape { color_rgba, ..shape })
     }
 
-    /// A shape that touches; `None` where something is wrong with it.
+    /// A collision shape; `None` if something is wrong with it.
     pub(super) fn collision(&mut self, collision: &urdf_rs::Collision, node: Node<'_, '_>) -> Option<Shape> {
         self.shape(&collision.origin, &collision.geometry, node)
     }
@@ -55,16 +59,16 @@ impl ShapeReader<'_, '_> {
         node: Node<'_, '_>,
     ) -> Option<Shape> {
         let owner = node.parent_element().unwrap_or(node);
-        let link_from_shape = pose::read(origin, node, owner, self.findings);
+        let link_from_shape = pose::read(origin, node, owner, self.diagnostics);
         let place =
             element(node, "geometry").and_then(|geometry| geometry.first_element_child()).unwrap_or(node);
         let geometry = match self.geometry(geometry) {
             Ok((geometry, warnings)) => {
-                self.findings.extend(warnings.into_iter().map(|warning| placed(warning, owner, place)));
+                self.diagnostics.extend(warnings.into_iter().map(|warning| placed(warning, owner, place)));
                 geometry
             }
             Err(fault) => {
-                self.findings.push(placed(fault, owner, place));
+                self.diagnostics.push(placed(fault, owner, place));
                 return None;
             }
         };
@@ -97,7 +101,7 @@ impl ShapeReader<'_, '_> {
             }
         };
         let (geometry, smallest_m) = geometry;
-        // The smallest side, so that a wide floor is no fault.
+        // The smallest side, so that a wide floor raises no warning.
         let warnings = too_large("shape", smallest_m).into_iter().collect();
         Ok((geometry, warnings))
     }
@@ -115,9 +119,9 @@ impl ShapeReader<'_, '_> {
     }
 }
 
-fn placed(finding: Diagnostic, owner: Node<'_, '_>, place: Node<'_, '_>) -> Diagnostic {
-    let message = format!("{}: {}", label(owner), finding.message);
-    Diagnostic { message, ..finding }.at(tag(place))
+fn placed(diagnostic: Diagnostic, owner: Node<'_, '_>, place: Node<'_, '_>) -> Diagnostic {
+    let message = format!("{}: {}", label(owner), diagnostic.message);
+    Diagnostic { message, ..diagnostic }.at(tag(place))
 }
 
 /// The smallest of the sizes, all of which must be positive.

@@ -1,6 +1,6 @@
-//! URDF documents with one fault each, and good ones that must not be blamed.
+//! URDF documents with one fault each, and good ones that must not be refused.
 
-#![expect(clippy::float_cmp, reason = "figures must arrive as they are written")]
+#![expect(clippy::float_cmp, reason = "values must arrive as they are written")]
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,9 +8,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::*;
 use crate::{
-    JointKind,
     diagnostic::{Severity, line_column},
-    model::geometry::Geometry,
+    model::{Geometry, JointKind},
 };
 
 /// Two links and a joint, each with a place for more.
@@ -34,24 +33,24 @@ const INERTIAL: &str =
     r#"<inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>"#;
 
 fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>) {
-    let mut findings = Findings::default();
+    let mut diagnostics = Diagnostics::default();
     let mut no_mesh = |uri: &str, _| Err(Diagnostic::error("mesh::none", format!("no mesh {uri}")));
-    let robot = parse(text, &mut no_mesh, &mut findings);
-    (robot, findings.into_vec())
+    let robot = parse(text, &mut no_mesh, &mut diagnostics);
+    (robot, diagnostics.into_vec())
 }
 
 #[track_caller]
 fn good(text: &str) -> Robot {
-    let (robot, findings) = read(text);
-    assert_eq!(findings, []);
+    let (robot, diagnostics) = read(text);
+    assert_eq!(diagnostics, []);
     robot.unwrap()
 }
 
-/// The text has exactly this finding, on this line.
+/// The text has exactly this diagnostic, on this line.
 #[track_caller]
 fn one(text: &str, severity: Severity, line: usize, code: &str, message: &str) {
-    let (robot, findings) = read(text);
-    let [found] = &findings[..] else { panic!("{findings:#?}") };
+    let (robot, diagnostics) = read(text);
+    let [found] = &diagnostics[..] else { panic!("{diagnostics:#?}") };
     assert_eq!((found.severity, found.code), (severity, code), "{}", found.message);
     assert!(found.message.contains(message), "{}", found.message);
     assert_eq!(line_column(text, found.span.as_ref().unwrap().start).0, line);
@@ -75,7 +74,7 @@ fn link_error(link: &str, code: &str, message: &str) {
 }
 
 #[test]
-fn every_figure_arrives() {
+fn every_value_arrives() {
     let joint = format!(
         r#"{LIMIT}<origin rpy="0 0 {FRAC_PI_2}" xyz="1 2 3"/><axis xyz="0 -1 0"/><dynamics damping="0.5" friction="0.25"/>"#
     );
@@ -200,8 +199,8 @@ fn suspicious_joints_are_warned_of() {
 #[test]
 fn an_axis_of_any_length_keeps_its_direction() {
     for axis in ["3e307 4e307 0", "3e160 4e160 0", "3e-170 4e-170 0", "3e-310 4e-310 0"] {
-        let (robot, findings) = read(&arm(&format!("{LIMIT}<axis xyz='{axis}'/>"), INERTIAL));
-        assert!(findings.iter().all(|finding| finding.message.contains("normalised from length")));
+        let (robot, diagnostics) = read(&arm(&format!("{LIMIT}<axis xyz='{axis}'/>"), INERTIAL));
+        assert!(diagnostics.iter().all(|diagnostic| diagnostic.message.contains("normalised from length")));
         let axis = robot.unwrap().joints()[0].axis_in_joint;
         assert!((axis.into_inner() - Vector3::new(0.6, 0.8, 0.0)).norm() < 1e-12, "{axis:?}");
     }
@@ -240,8 +239,9 @@ fn shapes_are_checked() {
 
 #[test]
 fn all_faults_of_a_pass_are_found_at_once() {
-    let (_, findings) = read(&arm("<limit lower='a' upper='1e400' effort='nan' velocity='1,5'/>", "<mass/>"));
-    assert_eq!(findings.len(), 4, "{findings:#?}");
+    let (_, diagnostics) =
+        read(&arm("<limit lower='a' upper='1e400' effort='nan' velocity='1,5'/>", "<mass/>"));
+    assert_eq!(diagnostics.len(), 4, "{diagnostics:#?}");
 }
 
 #[test]

@@ -3,9 +3,11 @@
 use std::fmt::Write;
 
 use crate::{
-    Robot,
-    model::joint::{Joint, JointKind},
-    written_figure::{number, numbers, rpy_fixed_xyz_rad},
+    model::{Joint, Robot},
+    written::{
+        number::{number, numbers},
+        rpy::rpy_fixed_xyz_rad,
+    },
 };
 
 /// Writes the joints of a robot as URDF; links have their names and nothing else.
@@ -31,12 +33,7 @@ pub fn urdf_text(robot: &Robot) -> String {
 }
 
 fn write_joint(text: &mut String, joint: &Joint, robot: &Robot) {
-    let kind = match joint.kind {
-        JointKind::Fixed => "fixed",
-        JointKind::Revolute => "revolute",
-        JointKind::Continuous => "continuous",
-        JointKind::Prismatic => "prismatic",
-    };
+    let kind = joint.kind.name();
     let link = |index| escaped(&robot.link(index).name);
     let _ = writeln!(text, "  <joint name=\"{}\" type=\"{kind}\">", escaped(&joint.name));
     let _ = writeln!(text, "    <parent link=\"{}\"/>", link(joint.parent));

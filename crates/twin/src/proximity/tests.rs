@@ -61,6 +61,7 @@ fn description() -> RobotDescription {
         tolerance: congruent_description::Tolerance::default(),
         disabled_collisions: BTreeSet::new(),
         warnings: Vec::new(),
+        places: congruent_description::Places::default(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! `[[check]]`: what is looked at in a run, and the limits it is held against.
 
+use congruent_description::serde_name;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -47,13 +48,7 @@ impl CheckKind {
 
     /// The word of files and reports.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Agreement => "agreement",
-            Self::Clearance => "clearance",
-            Self::Goal => "goal",
-            Self::Limits => "limits",
-            Self::Zone => "zone",
-        }
+        serde_name(&self)
     }
 }
 

@@ -6,7 +6,7 @@ use std::{
     sync::Arc,
 };
 
-use congruent_description::{Diagnostic, Findings, SourceFile, known_names, read_text, toml_text};
+use congruent_description::{Diagnostic, Diagnostics, SourceFile, known_names, read_text, toml_text};
 use congruent_simulation::controller_names;
 use serde::Deserialize;
 use toml::{Spanned, de::DeTable};
@@ -66,7 +66,7 @@ impl ScenarioFile {
         let set: Result<Vec<Range<usize>>, Diagnostic> =
             overrides.iter().map(|change| change.apply(&mut document)).collect();
         let set = set.map_err(|error| vec![error])?;
-        let mut findings = Findings::default();
+        let mut findings = Diagnostics::default();
         let scenario = read(Section::new(document), &mut findings);
         let findings = in_file(findings.map(|finding| name_override(finding, overrides, &set)).into_vec());
         match scenario {
@@ -122,7 +122,7 @@ fn with_more_help(finding: Diagnostic, more: &str) -> Diagnostic {
 }
 
 /// Reads all sections, also after a fault, so that one reading names all of them.
-fn read(mut document: Section<'_>, findings: &mut Findings) -> Option<Scenario> {
+fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenario> {
     let simulation = one(&mut document, "simulation", findings);
     let start = one(&mut document, "start", findings);
     let controller = take(&mut document, "controller", findings);
@@ -139,7 +139,7 @@ fn read(mut document: Section<'_>, findings: &mut Findings) -> Option<Scenario> 
     let check = all(&mut document, "check", findings, read_check);
     let expect = take(&mut document, "expect", findings).ok().flatten();
     let expect = keep_all(findings, expect.map_or(Ok(Expectation::default()), read_expect));
-    let mut at_top = Findings::default();
+    let mut at_top = Diagnostics::default();
     let top: Option<Top> = document.read_into(&mut at_top);
     findings.extend(at_top.map(name_sections).into_vec());
     let top = top?;
@@ -161,14 +161,14 @@ fn read(mut document: Section<'_>, findings: &mut Findings) -> Option<Scenario> 
 }
 
 /// The value of `result`; its faults are kept in `findings`.
-fn keep_all<T>(findings: &mut Findings, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
+fn keep_all<T>(findings: &mut Diagnostics, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
     result.map_err(|errors| findings.extend(errors)).ok()
 }
 
 fn take<'a>(
     document: &mut Section<'a>,
     key: &str,
-    findings: &mut Findings,
+    findings: &mut Diagnostics,
 ) -> Result<Option<Section<'a>>, Vec<Diagnostic>> {
     let found = document.take_table(key);
     if let Err(error) = &found {
@@ -181,7 +181,7 @@ fn take<'a>(
 fn one<T: serde::de::DeserializeOwned + Default>(
     document: &mut Section<'_>,
     key: &str,
-    findings: &mut Findings,
+    findings: &mut Diagnostics,
 ) -> Option<T> {
     match take(document, key, findings).ok()? {
         Some(section) => section.read_into(findings),
@@ -193,8 +193,8 @@ fn one<T: serde::de::DeserializeOwned + Default>(
 fn all<'a, T>(
     document: &mut Section<'a>,
     key: &str,
-    findings: &mut Findings,
-    read: impl Fn(Section<'a>, &mut Findings) -> Option<T>,
+    findings: &mut Diagnostics,
+    read: impl Fn(Section<'a>, &mut Diagnostics) -> Option<T>,
 ) -> Option<Vec<T>> {
     let sections = findings.keep(document.take_tables(key))?;
     // Each is read, whatever became of the one before.
@@ -202,7 +202,7 @@ fn all<'a, T>(
     read.into_iter().collect()
 }
 
-fn read_motion(section: Section<'_>, findings: &mut Findings) -> Option<MotionSettings> {
+fn read_motion(section: Section<'_>, findings: &mut Diagnostics) -> Option<MotionSettings> {
     if JOINT_KEYS.iter().any(|key| section.has(key)) {
         section.read_into::<JointMotion>(findings).map(MotionSettings::Joints)
     } else if section.has(TCP_KEY) {
@@ -220,9 +220,9 @@ fn read_motion(section: Section<'_>, findings: &mut Findings) -> Option<MotionSe
     }
 }
 
-fn read_check(mut section: Section<'_>, findings: &mut Findings) -> Option<Check> {
+fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Check> {
     let kind = *findings.keep(section.select("kind", "check", &CheckKind::ALL, |kind| kind.word()))?;
-    let mut found = Findings::default();
+    let mut found = Diagnostics::default();
     let check = match kind {
         CheckKind::Agreement => section.read_into::<AgreementCheck>(&mut found).map(Check::Agreement),
         CheckKind::Clearance => section.read_into::<ClearanceCheck>(&mut found).map(Check::Clearance),

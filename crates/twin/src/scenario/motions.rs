@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use congruent_description::serde_name;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -93,10 +94,7 @@ pub enum ServoMethod {
 impl ServoMethod {
     /// The word of files and reports.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::PseudoInverse => "pseudo_inverse",
-            Self::Transpose => "transpose",
-        }
+        serde_name(&self)
     }
 }
 

@@ -1,6 +1,6 @@
 //! One table of a scenario file, on its way to the module that knows what it means.
 
-use congruent_description::{Diagnostic, Findings, known_names, toml_text};
+use congruent_description::{Diagnostic, Diagnostics, known_names, toml_text};
 use serde::de::DeserializeOwned;
 use toml::{
     Spanned,
@@ -97,7 +97,7 @@ impl<'a> Section<'a> {
     /// # Errors
     /// A diagnostic at every unknown key and at the first value that is wrong.
     pub(super) fn read<T: DeserializeOwned>(self) -> Result<T, Vec<Diagnostic>> {
-        let mut findings = Findings::default();
+        let mut findings = Diagnostics::default();
         match self.read_into(&mut findings) {
             Some(value) if !findings.has_error() => Ok(value),
             _ => Err(findings.into_vec()),
@@ -105,7 +105,7 @@ impl<'a> Section<'a> {
     }
 
     /// Like [`Section::read`], but gives a value as well where the only faults are unknown keys.
-    pub(super) fn read_into<T: DeserializeOwned>(self, findings: &mut Findings) -> Option<T> {
+    pub(super) fn read_into<T: DeserializeOwned>(self, findings: &mut Diagnostics) -> Option<T> {
         toml_text::read_table(self.table, findings)
     }
 

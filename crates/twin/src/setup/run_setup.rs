@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use congruent_description::{Diagnostic, Findings, JointKind, Robot, RobotDescription, RobotQ, load_robot};
+use congruent_description::{
+    Diagnostic, Diagnostics, JointKind, Robot, RobotDescription, RobotQ, load_robot,
+};
 use congruent_kinematics::move_inside_limits;
 use congruent_simulation::{Gains, Obstacle, controller_names};
 
@@ -68,7 +70,7 @@ impl RunSetup {
             Ok(setup) if file.findings().is_empty() => setup,
             Ok(_) => return Err(file.findings().to_vec()),
             Err(findings) => {
-                let mut all = Findings::default();
+                let mut all = Diagnostics::default();
                 all.extend(file.findings().iter().cloned().chain(in_file(findings)));
                 return Err(all.into_vec());
             }
@@ -95,7 +97,7 @@ impl RunSetup {
         description: RobotDescription,
         place: Place<'_>,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let (mut found, mut warnings) = (Findings::default(), Vec::new());
+        let (mut found, mut warnings) = (Diagnostics::default(), Vec::new());
         let robot = &description.robot;
         found.keep(check_head(&scenario, place));
         let start = keep_all(&mut found, start(&scenario.start, place.key("start"), robot));
@@ -155,7 +157,7 @@ impl RunSetup {
 }
 
 /// The value of `result`; its faults are kept in `findings`.
-fn keep_all<T>(findings: &mut Findings, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
+fn keep_all<T>(findings: &mut Diagnostics, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
     result.map_err(|errors| findings.extend(errors)).ok()
 }
 

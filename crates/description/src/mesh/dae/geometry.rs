@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Point3;
 use roxmltree::Node;
 
-use super::{MeshError, Reader, child, children, fault, figures};
-use crate::mesh::fan;
+use super::node::{Ids, child, children, fault, numbers};
+use crate::mesh::mesh_file::{MeshError, fan};
 
 /// One geometry in its own frame.
 #[derive(Debug, Default)]
@@ -32,67 +32,64 @@ impl Part {
     }
 }
 
-/// Where a list of positions stands among the vertices of a part.
+/// The range of a list of positions among the vertices of a part.
 #[derive(Clone, Copy)]
 struct Positions {
     first: usize,
     count: usize,
 }
 
-impl<'a, 'i> Reader<'a, 'i> {
-    pub(super) fn read_geometry(&self, geometry: Node<'a, 'i>) -> Result<Part, MeshError> {
-        let mut part = Part::default();
-        // Splines and convex hulls of other geometries hold no triangles of their own.
-        let Some(mesh) = child(geometry, "mesh") else { return Ok(part) };
-        let mut known: BTreeMap<&str, Positions> = BTreeMap::new();
-        for primitive in mesh.children().filter(Node::is_element) {
-            let name = primitive.tag_name().name();
-            if !["triangles", "polylist", "polygons", "tristrips", "trifans"].contains(&name) {
-                continue;
-            }
-            let vertex = input(primitive, "VERTEX")?;
-            let (id, vertices) = self.target(vertex, "source", "vertices")?;
-            let positions = if let Some(positions) = known.get(id) {
-                *positions
-            } else {
-                let found = self.positions(vertices)?;
-                let positions = Positions { first: part.vertices.len(), count: found.len() };
-                part.vertices.extend(found);
-                known.insert(id, positions);
-                positions
-            };
-            add_triangles(&mut part, primitive, &Corners::new(primitive, vertex, positions)?)?;
+/// Reads a geometry, whose sources `ids` finds.
+pub(super) fn read_geometry<'a, 'i>(geometry: Node<'a, 'i>, ids: &Ids<'a, 'i>) -> Result<Part, MeshError> {
+    let mut part = Part::default();
+    // Splines and convex hulls of other geometries hold no triangles of their own.
+    let Some(mesh) = child(geometry, "mesh") else { return Ok(part) };
+    let mut known: BTreeMap<&str, Positions> = BTreeMap::new();
+    for primitive in mesh.children().filter(Node::is_element) {
+        let name = primitive.tag_name().name();
+        if !["triangles", "polylist", "polygons", "tristrips", "trifans"].contains(&name) {
+            continue;
         }
-        Ok(part.without_unused())
+        let vertex = input(primitive, "VERTEX")?;
+        let (id, vertices) = ids.target(vertex, "source", "vertices")?;
+        let positions = if let Some(positions) = known.get(id) {
+            *positions
+        } else {
+            let found = self::positions(vertices, ids)?;
+            let positions = Positions { first: part.vertices.len(), count: found.len() };
+            part.vertices.extend(found);
+            known.insert(id, positions);
+            positions
+        };
+        add_triangles(&mut part, primitive, &Corners::new(primitive, vertex, positions)?)?;
     }
-
-    fn positions(&self, vertices: Node<'a, 'i>) -> Result<Vec<Point3<f64>>, MeshError> {
-        let (_, source) = self.target(input(vertices, "POSITION")?, "source", "source")?;
-        let accessor = child(source, "technique_common").and_then(|common| child(common, "accessor"));
-        let Some(accessor) = accessor else { return Err(fault(source, "<source> has no <accessor>")) };
-        let (_, array) = self.target(accessor, "source", "float_array")?;
-        let [count, stride, offset] = [
-            number(accessor, "count", None)?,
-            number(accessor, "stride", Some(1))?,
-            number(accessor, "offset", Some(0))?,
-        ];
-        if stride < 3 {
-            return Err(fault(accessor, format!("positions of {stride} numbers, 3 are needed")));
-        }
-        let values: Vec<f64> = figures(array)?;
-        let needed = count.checked_mul(stride).and_then(|needed| needed.checked_add(offset));
-        if needed.is_none_or(|needed| needed > values.len()) {
-            let what = format!(
-                "{count} positions of {stride} numbers are promised, {} numbers are there",
-                values.len()
-            );
-            return Err(fault(array, what));
-        }
-        Ok(values[offset..].chunks_exact(stride).take(count).map(|p| Point3::new(p[0], p[1], p[2])).collect())
-    }
+    Ok(part.without_unused())
 }
 
-/// The input of this meaning.
+fn positions<'a, 'i>(vertices: Node<'a, 'i>, ids: &Ids<'a, 'i>) -> Result<Vec<Point3<f64>>, MeshError> {
+    let (_, source) = ids.target(input(vertices, "POSITION")?, "source", "source")?;
+    let accessor = child(source, "technique_common").and_then(|common| child(common, "accessor"));
+    let Some(accessor) = accessor else { return Err(fault(source, "<source> has no <accessor>")) };
+    let (_, array) = ids.target(accessor, "source", "float_array")?;
+    let [count, stride, offset] = [
+        number(accessor, "count", None)?,
+        number(accessor, "stride", Some(1))?,
+        number(accessor, "offset", Some(0))?,
+    ];
+    if stride < 3 {
+        return Err(fault(accessor, format!("positions of {stride} numbers, 3 are needed")));
+    }
+    let values: Vec<f64> = numbers(array)?;
+    let needed = count.checked_mul(stride).and_then(|needed| needed.checked_add(offset));
+    if needed.is_none_or(|needed| needed > values.len()) {
+        let what =
+            format!("{count} positions of {stride} numbers are promised, the array holds {}", values.len());
+        return Err(fault(array, what));
+    }
+    Ok(values[offset..].chunks_exact(stride).take(count).map(|p| Point3::new(p[0], p[1], p[2])).collect())
+}
+
+/// The input with this semantic.
 fn input<'a, 'i>(parent: Node<'a, 'i>, semantic: &str) -> Result<Node<'a, 'i>, MeshError> {
     let found = children(parent, "input").find(|input| input.attribute("semantic") == Some(semantic));
     found.ok_or_else(|| fault(parent, format!("<{}> has no input {semantic}", parent.tag_name().name())))
@@ -128,7 +125,7 @@ impl Corners {
 
     /// The vertices of the corners that a `<p>` lists.
     fn read(&self, p: Node<'_, '_>) -> Result<Vec<u32>, MeshError> {
-        let indices: Vec<usize> = figures(p)?;
+        let indices: Vec<usize> = numbers(p)?;
         if !indices.len().is_multiple_of(self.stride) {
             let what =
                 format!("<p> holds {} indices, which is no multiple of {}", indices.len(), self.stride);
@@ -149,7 +146,7 @@ impl Corners {
 fn add_triangles(part: &mut Part, primitive: Node<'_, '_>, corners: &Corners) -> Result<(), MeshError> {
     let name = primitive.tag_name().name();
     let mut sizes = match child(primitive, "vcount") {
-        Some(vcount) if name == "polylist" => figures::<usize>(vcount)?.into_iter(),
+        Some(vcount) if name == "polylist" => numbers::<usize>(vcount)?.into_iter(),
         _ => Vec::new().into_iter(),
     };
     for p in children(primitive, "p") {

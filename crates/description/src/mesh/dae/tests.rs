@@ -1,6 +1,9 @@
 //! Small COLLADA documents, written out in each test.
 
-use super::*;
+use nalgebra::Point3;
+
+use super::parse;
+use crate::mesh::mesh_file::MeshFile;
 
 /// A right triangle with legs of one unit along x and y, inside `scene`.
 fn document(asset: &str, primitive: &str, scene: &str) -> String {
@@ -99,7 +102,10 @@ fn faults_are_named() {
     refused(&good.replace("source=\"#s\"", "source=\"#nowhere\""), "line 5: <source> \"#nowhere\" not found");
     refused(&good.replace("0 1 2<", "0 1 4<"), "vertex index 4 is out of range: there are 4 vertices");
     refused(&good.replace("0 1 2<", "0 1<"), "2 corners make no whole number");
-    refused(&good.replace("count=\"4\"", "count=\"5\""), "5 positions of 3 numbers are promised, 12");
+    refused(
+        &good.replace("count=\"4\"", "count=\"5\""),
+        "5 positions of 3 numbers are promised, the array holds 12",
+    );
     refused(&good.replace("count=\"4\"", "count=\"18446744073709551615\""), "are promised");
     refused(&good.replace("0 0 1<", "0 0 x<"), "\"x\" is not a number");
     refused(&document("<unit meter=\"0\"/>", "", PLAIN), "not a positive number");

@@ -3,7 +3,12 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::*;
-use crate::{DhRowKind, JointKind, Severity, diagnostic::line_column, toml_text::parse_toml, urdf};
+use crate::{
+    diagnostic::{Severity, line_column},
+    model::{DhRowKind, JointKind},
+    urdf,
+    written::toml_text::parse_toml,
+};
 
 /// base -(fixed)- root -a- one -b- two -(fixed)- tip, and a joint c that follows b beside it.
 fn robot() -> Robot {
@@ -21,7 +26,7 @@ fn robot() -> Robot {
         joint("b", "prismatic", "one", "two", ""),
         joint("flange", "fixed", "two", "tip", ""),
     );
-    urdf::parse(&text, &mut |_, _| unreachable!("no mesh"), &mut Findings::default()).unwrap()
+    urdf::parse(&text, &mut |_, _| unreachable!("no mesh"), &mut Diagnostics::default()).unwrap()
 }
 
 const GOOD: &str = "\
@@ -49,19 +54,19 @@ d_m = 0
 ";
 
 fn read(text: &str) -> (Option<Declared>, Vec<Diagnostic>) {
-    let mut findings = Findings::default();
-    let declared =
-        parse_toml(text, &mut findings).and_then(|written| check(&written, text, &robot(), &mut findings));
-    (declared, findings.into_vec())
+    let mut diagnostics = Diagnostics::default();
+    let declared = parse_toml(text, &mut diagnostics)
+        .and_then(|written| check(&written, text, &robot(), &mut diagnostics));
+    (declared, diagnostics.into_vec())
 }
 
-/// The good file with one change has exactly this finding, on this line.
+/// The good file with one change has exactly this diagnostic, on this line.
 #[track_caller]
 fn one(from: &str, to: &str, severity: Severity, line: usize, message: &str) {
     assert!(GOOD.contains(from));
     let text = GOOD.replacen(from, to, 1);
-    let (_, findings) = read(&text);
-    let [found] = &findings[..] else { panic!("{findings:#?}") };
+    let (_, diagnostics) = read(&text);
+    let [found] = &diagnostics[..] else { panic!("{diagnostics:#?}") };
     assert!(found.message.contains(message), "{}", found.message);
     assert_eq!(found.severity, severity);
     assert_eq!(line_column(&text, found.span.as_ref().unwrap().start).0, line, "{found:?}");
@@ -79,8 +84,8 @@ fn warning(from: &str, to: &str, line: usize, message: &str) {
 
 #[test]
 fn a_good_file_gives_si_units() {
-    let (declared, findings) = read(GOOD);
-    assert_eq!(findings, []);
+    let (declared, diagnostics) = read(GOOD);
+    assert_eq!(diagnostics, []);
     let (declared, robot) = (declared.unwrap(), robot());
     assert_eq!(
         (robot.link(declared.base).name.as_str(), robot.link(declared.tip).name.as_str()),
@@ -138,7 +143,7 @@ fn the_table_must_fit_the_chain() {
 }
 
 #[test]
-fn figures_are_checked() {
+fn values_are_checked() {
     error("convention = 'modified'\n", "", 5, "[dh] has no convention");
     error("d_m = 0.2", "d_m = nan", 13, "d_m is NaN");
     error("d_m = 0.2\n", "", 8, "row of joint \"a\" has no d_m or d_mm");

@@ -65,9 +65,10 @@ impl NotADhTransform {
 
 impl fmt::Display for NotADhTransform {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (convention, x, z) = match self.convention {
-            DhConvention::Standard => ("standard", "x1", "z0"),
-            DhConvention::Modified => ("modified", "x0", "z1"),
+        let convention = self.convention.name();
+        let (x, z) = match self.convention {
+            DhConvention::Standard => ("x1", "z0"),
+            DhConvention::Modified => ("x0", "z1"),
         };
         write!(f, "no {convention} DH transform: ")?;
         if self.is_oblique() {

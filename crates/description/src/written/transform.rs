@@ -5,20 +5,23 @@ use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuat
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::{
+    array::{fixed_array, fixed_matrix},
+    number::fitted_list,
+    rpy::{fitted_rpy_fixed_xyz_rad, rotation_from_rpy_fixed_xyz},
+};
 use crate::{
     diagnostic::Diagnostic,
-    fixed_array::{fixed_array, fixed_matrix},
-    units::{Scale, Unit, check_finite},
-    written_figure::{fitted_list, fitted_rpy_fixed_xyz_rad},
+    units::{Unit, UnitSystem, check_finite},
 };
 
 /// How far the norm of a written quaternion may be from 1: six digits in the file, rounding of
-/// four components. A larger fault is a slip of the pen, and normalising would hide it.
+/// four components. A larger deviation is an error in the file, which normalising would hide.
 const QUATERNION_NORM: f64 = 1e-6;
 /// How far `R^T R` of a written matrix may be from the identity, per entry: ten digits in the file.
 const ORTHONORMAL: f64 = 1e-9;
 
-/// A transform as written; identity where nothing is given.
+/// A transform as written; the identity if nothing is given.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WrittenTransform {
@@ -74,9 +77,9 @@ impl WrittenTransform {
         vectors.into_iter().chain([quaternion, matrix]).flatten().collect()
     }
 
-    /// The keys with which another transform is written as this one is: in its units and by its kind
-    /// of rotation. `others` are the scales of lengths and of angles that a new key has.
-    pub(crate) fn with_keys(&self, pose: &Isometry3<f64>, others: [Scale; 2]) -> Vec<String> {
+    /// The keys that write another transform as this one is written: in its units and by its kind of
+    /// rotation. A key that this one lacks is written in the units `default`, of lengths and of angles.
+    pub(crate) fn with_keys(&self, pose: &Isometry3<f64>, default: [UnitSystem; 2]) -> Vec<String> {
         if self.matrix.is_some() {
             let matrix = pose.to_homogeneous();
             let rows = (0..4).map(|row| fitted_list(matrix.row(row).iter().copied()));
@@ -84,17 +87,17 @@ impl WrittenTransform {
         }
         let shift = (pose.translation.vector.norm() > 0.0 || self.xyz_m.is_some() || self.xyz_mm.is_some())
             .then(|| {
-                let scale = Scale::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), others[0]);
-                Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), scale)
+                let units = UnitSystem::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), default[0]);
+                Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), units)
             });
         let turn = if self.quaternion_wxyz.is_some() {
             let Quaternion { coords } = *pose.rotation.quaternion();
             Some(format!("quaternion_wxyz = {}", fitted_list([coords.w, coords.x, coords.y, coords.z])))
         } else {
-            let scale = Scale::of(self.rpy_rad.as_ref(), self.rpy_deg.as_ref(), others[1]);
+            let units = UnitSystem::of(self.rpy_rad.as_ref(), self.rpy_deg.as_ref(), default[1]);
             let rpy_rad = fitted_rpy_fixed_xyz_rad(pose);
             let has_turn = self.has_rotation() || rpy_rad.iter().any(|angle| angle.abs() > 0.0);
-            has_turn.then(|| Unit::Angle.fitted_vector("rpy", rpy_rad, scale))
+            has_turn.then(|| Unit::Angle.fitted_vector("rpy", rpy_rad, units))
         };
         shift.into_iter().chain(turn).collect()
     }
@@ -102,7 +105,7 @@ impl WrittenTransform {
     /// The transform.
     ///
     /// # Errors
-    /// Two keys for one thing, a figure that is not finite, a quaternion whose norm is not 1, or
+    /// Two keys for one part, a value that is not finite, a quaternion whose norm is not 1, or
     /// a matrix that is no rigid motion.
     pub fn isometry(&self) -> Result<Isometry3<f64>, Diagnostic> {
         let translation = Unit::Length.vector("xyz", self.xyz_m.as_ref(), self.xyz_mm.as_ref())?;
@@ -127,14 +130,9 @@ impl WrittenTransform {
 
 /// A fitted transform in metres and radians, as a robot file could write it.
 pub fn fitted_transform(pose: &Isometry3<f64>) -> String {
-    let xyz = Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), Scale::Plain);
-    let rpy = Unit::Angle.fitted_vector("rpy", fitted_rpy_fixed_xyz_rad(pose), Scale::Plain);
+    let xyz = Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), UnitSystem::Si);
+    let rpy = Unit::Angle.fitted_vector("rpy", fitted_rpy_fixed_xyz_rad(pose), UnitSystem::Si);
     format!("{{ {xyz}, {rpy} }}")
-}
-
-/// The rotation that turns about the fixed axes x, then y, then z: `Rz(yaw) Ry(pitch) Rx(roll)`.
-pub(crate) fn rotation_from_rpy_fixed_xyz([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
-    UnitQuaternion::from_euler_angles(roll, pitch, yaw)
 }
 
 fn conflict(message: &str, span: std::ops::Range<usize>) -> Diagnostic {
@@ -143,8 +141,8 @@ fn conflict(message: &str, span: std::ops::Range<usize>) -> Diagnostic {
 
 fn from_quaternion(written: &Spanned<[f64; 4]>) -> Result<UnitQuaternion<f64>, Diagnostic> {
     let [w, x, y, z] = *written.get_ref();
-    for figure in [w, x, y, z] {
-        check_finite("quaternion_wxyz", figure, written.span())?;
+    for value in [w, x, y, z] {
+        check_finite("quaternion_wxyz", value, written.span())?;
     }
     let quaternion = Quaternion::new(w, x, y, z);
     let norm = quaternion.norm();
@@ -159,8 +157,8 @@ fn from_quaternion(written: &Spanned<[f64; 4]>) -> Result<UnitQuaternion<f64>, D
 
 fn from_matrix(written: &Spanned<[[f64; 4]; 4]>) -> Result<Isometry3<f64>, Diagnostic> {
     let rows = written.get_ref();
-    for &figure in rows.iter().flatten() {
-        check_finite("matrix", figure, written.span())?;
+    for &value in rows.iter().flatten() {
+        check_finite("matrix", value, written.span())?;
     }
     let refused = |message: String| {
         Err(Diagnostic::error("transform::matrix", message)
@@ -192,11 +190,11 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
-    use crate::{findings::Findings, toml_text::parse_toml};
+    use crate::{diagnostics::Diagnostics, written::toml_text::parse_toml};
 
     fn read(text: &str) -> Result<Isometry3<f64>, Diagnostic> {
-        let mut findings = Findings::default();
-        parse_toml::<WrittenTransform>(text, &mut findings).expect(text).isometry()
+        let mut diagnostics = Diagnostics::default();
+        parse_toml::<WrittenTransform>(text, &mut diagnostics).expect(text).isometry()
     }
 
     /// Rounding of a handful of products of numbers near 1; worst seen 2.3e-16.
@@ -238,13 +236,13 @@ mod tests {
             "quaternion_wxyz = [1.0, 0.0, 0.0, 0.0]\n",
             "matrix = [[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 2.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]\n",
         ] {
-            let mut findings = Findings::default();
-            let written = parse_toml::<WrittenTransform>(text, &mut findings).unwrap();
+            let mut diagnostics = Diagnostics::default();
+            let written = parse_toml::<WrittenTransform>(text, &mut diagnostics).unwrap();
             assert_eq!(written.to_table().to_string(), text);
             assert_eq!(written.has_rotation(), !text.is_empty());
         }
-        let mut findings = Findings::default();
-        let place = parse_toml::<WrittenTransform>("xyz_m = [1, 2, 3]", &mut findings).unwrap();
+        let mut diagnostics = Diagnostics::default();
+        let place = parse_toml::<WrittenTransform>("xyz_m = [1, 2, 3]", &mut diagnostics).unwrap();
         assert!(!place.has_rotation());
     }
 
@@ -257,9 +255,9 @@ mod tests {
 
     #[track_caller]
     fn unreadable(text: &str, message: &str) {
-        let mut findings = Findings::default();
-        assert!(parse_toml::<WrittenTransform>(text, &mut findings).is_none(), "{text}");
-        let found = findings.into_vec();
+        let mut diagnostics = Diagnostics::default();
+        assert!(parse_toml::<WrittenTransform>(text, &mut diagnostics).is_none(), "{text}");
+        let found = diagnostics.into_vec();
         assert!(found[0].message.contains(message), "{}", found[0].message);
         let span = found[0].span.clone().unwrap();
         assert!(text[span.clone()].starts_with('['), "{text}: {span:?}");
@@ -289,7 +287,7 @@ mod tests {
         );
     }
 
-    /// How far a suggested transform may be from what it stands for. Kind: figures within 5e-14 of six
+    /// How far a suggested transform may be from what it stands for. Kind: six values within 5e-14
     /// that move a pose, and a quaternion on the way; worst seen 1.8e-13.
     const SUGGESTED: f64 = 5e-13;
 
@@ -297,10 +295,10 @@ mod tests {
 
     /// Writes a pose as `like` is written and reads it again.
     fn read_again(like: &str, pose: &Isometry3<f64>) -> Isometry3<f64> {
-        let mut findings = Findings::default();
-        let like = parse_toml::<WrittenTransform>(like, &mut findings).unwrap();
-        let keys = like.with_keys(pose, [Scale::Plain, Scale::Handy]).join("\n");
-        parse_toml::<WrittenTransform>(&keys, &mut findings).expect(&keys).isometry().unwrap()
+        let mut diagnostics = Diagnostics::default();
+        let like = parse_toml::<WrittenTransform>(like, &mut diagnostics).unwrap();
+        let keys = like.with_keys(pose, [UnitSystem::Si, UnitSystem::Engineering]).join("\n");
+        parse_toml::<WrittenTransform>(&keys, &mut diagnostics).expect(&keys).isometry().unwrap()
     }
 
     #[test]
@@ -329,14 +327,14 @@ mod tests {
     #[test]
     fn a_transform_is_written_as_the_file_writes_it() {
         let written = |like: &str, pose: &Isometry3<f64>| {
-            let like = parse_toml::<WrittenTransform>(like, &mut Findings::default()).unwrap();
-            like.with_keys(pose, [Scale::Handy; 2]).join(", ")
+            let like = parse_toml::<WrittenTransform>(like, &mut Diagnostics::default()).unwrap();
+            like.with_keys(pose, [UnitSystem::Engineering; 2]).join(", ")
         };
         let down = Isometry3::from_parts(
             Translation3::new(0.0, 0.0, 0.12),
             rotation_from_rpy_fixed_xyz([0.3, -FRAC_PI_2, 0.2]),
         );
-        // Where only roll plus yaw counts, there is no yaw.
+        // If only roll plus yaw counts, there is no yaw.
         let angle = "28.64788975654";
         assert_eq!(written("", &down), format!("xyz_mm = [0, 0, 120], rpy_deg = [{angle}, -90, 0]"));
         assert_eq!(

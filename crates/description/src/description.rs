@@ -1,35 +1,30 @@
 //! Everything that a robot file declares, loaded and checked: what every command starts from.
 
-use std::{collections::BTreeSet, path::PathBuf};
+use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 
 use nalgebra::Isometry3;
 
-use super::{dh_table::DhTable, joint::JointIndex, link::LinkIndex, robot::Robot};
 use crate::{
     diagnostic::{Diagnostic, known_names},
-    robot_file::tip_of_longest_chain,
+    model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance},
+    robot_file::RobotFilePlaces,
+    urdf::UrdfPlaces,
 };
 
-/// How far two poses may be apart and still count as the same.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
-pub struct Tolerance {
-    /// Distance of the origins.
-    pub position_m: f64,
-    /// Angle between the orientations.
-    pub orientation_rad: f64,
-}
-
-impl Default for Tolerance {
-    /// What files allow that write pi/2 with ten digits: a nanometre and a nanoradian.
-    fn default() -> Self {
-        Self { position_m: 1e-9, orientation_rad: 1e-9 }
-    }
+/// The texts that a description was read from: messages show lines of these, whatever stands in the
+/// files by now.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Places {
+    /// The robot file with its table; `None` if there is no table, or none of this chain.
+    pub robot_file: Option<Arc<RobotFilePlaces>>,
+    /// The URDF; `None` if the robot was made without one.
+    pub urdf: Option<UrdfPlaces>,
 }
 
 /// A robot with its analytical model, as a robot file (or a bare URDF) declares them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotDescription {
-    /// The robot file, or the URDF where there is no robot file.
+    /// The robot file, or the URDF if there is no robot file.
     pub path: PathBuf,
     /// The name that the robot file gives, or the URDF's.
     pub name: String,
@@ -43,27 +38,29 @@ pub struct RobotDescription {
     pub tip: LinkIndex,
     /// The Denavit-Hartenberg table; `None` for a bare URDF.
     pub dh: Option<DhTable>,
-    /// Pose of the tool centre point in link `tip`; `None` where no tool is declared.
+    /// Pose of the tool centre point in link `tip`; `None` if no tool is declared.
     pub tip_from_tcp: Option<Isometry3<f64>>,
-    /// When model and twin count as the same.
+    /// How far model and twin may be apart and still count as the same.
     pub tolerance: Tolerance,
     /// Link pairs that an SRDF excludes from clearance, the smaller index first.
     pub disabled_collisions: BTreeSet<(LinkIndex, LinkIndex)>,
     /// What is suspicious but does not stop the work.
     pub warnings: Vec<Diagnostic>,
+    /// The texts of robot file and URDF.
+    pub places: Places,
 }
 
 impl RobotDescription {
-    /// The same robot seen along another chain; a name that is left out keeps its link, but a new base
-    /// alone has the tip of its own longest chain. The table is dropped where the chain is another.
+    /// The same robot with another chain; a name that is left out keeps its link, but a new base alone
+    /// has the tip of its own longest chain. The table is dropped if the chain is another one.
     ///
     /// # Errors
-    /// Where a link is unknown, or `tip` does not hang below `base`.
+    /// A link is unknown, or `tip` does not hang below `base`.
     pub fn with_chain(mut self, base: Option<&str>, tip: Option<&str>) -> Result<Self, Diagnostic> {
         let before = (self.base, self.tip);
         if let Some(base) = base {
             self.base = self.link("base", base)?;
-            self.tip = tip_of_longest_chain(&self.robot, self.base);
+            self.tip = self.robot.tip_of_longest_chain(self.base);
         }
         if let Some(tip) = tip {
             self.tip = self.link("tip", tip)?;
@@ -78,6 +75,7 @@ impl RobotDescription {
         if before != (self.base, self.tip) {
             self.dh = None;
             self.tip_from_tcp = None;
+            self.places.robot_file = None;
         }
         Ok(self)
     }

@@ -1,7 +1,7 @@
-//! TOML text to a `Written` struct, every fault a diagnostic with its place in the text.
+//! TOML text to a struct that holds what is written; every fault is a diagnostic with its place in the text.
 //!
 //! serde stops at the first unknown key. Here that key is reported and taken out, and the rest is
-//! tried again, so that one run names every misspelt key.
+//! read again, so that one run names every misspelt key.
 
 use std::ops::Range;
 
@@ -13,20 +13,23 @@ use toml::{
 
 use crate::{
     diagnostic::{Diagnostic, known_names},
-    findings::Findings,
+    diagnostics::Diagnostics,
 };
 
-/// Parses `text`; faults go to `findings`.
+/// Parses `text`; faults go to `diagnostics`.
 ///
-/// A value is returned as well when the only faults are unknown keys, so that the caller can
+/// A value is returned as well if the only faults are unknown keys, so that the caller can
 /// check the rest and report everything at once.
-pub fn parse_toml<T: DeserializeOwned>(text: &str, findings: &mut Findings) -> Option<T> {
-    let root = findings.keep(DeTable::parse(text).map_err(|error| diagnostic(&error)))?;
-    read_table(root, findings)
+pub fn parse_toml<T: DeserializeOwned>(text: &str, diagnostics: &mut Diagnostics) -> Option<T> {
+    let root = diagnostics.keep(DeTable::parse(text).map_err(|error| diagnostic(&error)))?;
+    read_table(root, diagnostics)
 }
 
 /// The same for a table that is parsed already.
-pub fn read_table<T: DeserializeOwned>(table: Spanned<DeTable<'_>>, findings: &mut Findings) -> Option<T> {
+pub fn read_table<T: DeserializeOwned>(
+    table: Spanned<DeTable<'_>>,
+    diagnostics: &mut Diagnostics,
+) -> Option<T> {
     let (span, mut root) = (table.span(), table.into_inner());
     for _ in 0..MOST_UNKNOWN_KEYS {
         let attempt = Spanned::new(span.clone(), root.clone());
@@ -34,7 +37,7 @@ pub fn read_table<T: DeserializeOwned>(table: Spanned<DeTable<'_>>, findings: &m
             Ok(value) => return Some(value),
             Err(error) => error,
         };
-        findings.push(diagnostic(&error));
+        diagnostics.push(diagnostic(&error));
         let unknown = error.span().filter(|_| error.message().starts_with(UNKNOWN_KEY))?;
         if !take_out(&mut root, &unknown) {
             return None;
@@ -43,10 +46,10 @@ pub fn read_table<T: DeserializeOwned>(table: Spanned<DeTable<'_>>, findings: &m
     None
 }
 
-/// So many are named in one run: every one costs another turn through the text.
+/// Most unknown keys that are named in one run: each costs another pass over the text.
 const MOST_UNKNOWN_KEYS: usize = 100;
 
-/// The code of a finding about a key that no field has.
+/// The code of a diagnostic about a key that no field has.
 pub const UNKNOWN_KEY_CODE: &str = "toml::unknown_key";
 
 /// How serde begins its message about a key that no field has.
@@ -117,31 +120,31 @@ mod tests {
     }
 
     fn read(text: &str) -> (Option<Written>, Vec<String>) {
-        let mut findings = Findings::default();
-        let value = parse_toml(text, &mut findings);
+        let mut diagnostics = Diagnostics::default();
+        let value = parse_toml(text, &mut diagnostics);
         let source = SourceFile { path: "x.toml".into(), text: text.to_owned() };
         let line = |found: Diagnostic| {
             let (line, column) = found.line_column().unwrap();
             let help = found.help.map_or(String::new(), |help| format!(" ({help})"));
             format!("{line}:{column}: {}{help}", found.message)
         };
-        (value, findings.in_file(&source.into()).into_iter().map(line).collect())
+        (value, diagnostics.in_file(&source.into()).into_iter().map(line).collect())
     }
 
     #[test]
     fn a_good_text_gives_the_value() {
-        let (value, findings) = read("duration = 2\n[[row]]\nkind = \"prismatic\"");
+        let (value, diagnostics) = read("duration = 2\n[[row]]\nkind = \"prismatic\"");
         let value = value.unwrap();
-        assert_eq!(findings, Vec::<String>::new());
+        assert_eq!(diagnostics, Vec::<String>::new());
         assert_eq!((value.duration, &value.row[0].kind), (Some(2.0), &Kind::Prismatic));
     }
 
     #[test]
     fn every_unknown_key_is_named_in_one_run() {
-        let (value, findings) = read("durration = 2\nseed = 1\n[[row]]\nkind = \"revolute\"\nkinds = 3\n");
+        let (value, diagnostics) = read("durration = 2\nseed = 1\n[[row]]\nkind = \"revolute\"\nkinds = 3\n");
         assert!(value.is_some());
         assert_eq!(
-            findings,
+            diagnostics,
             [
                 "1:1: unknown key \"durration\" (did you mean \"duration\"? known keys: duration, row)",
                 "2:1: unknown key \"seed\" (known keys: duration, row)",
@@ -158,9 +161,9 @@ mod tests {
 
     #[test]
     fn other_faults_say_where() {
-        let (_, findings) = read("[[row]]\nkind = \"revolut\"");
+        let (_, diagnostics) = read("[[row]]\nkind = \"revolut\"");
         assert_eq!(
-            findings,
+            diagnostics,
             ["2:8: unknown value \"revolut\" (did you mean \"revolute\"? known values: revolute, prismatic)"]
         );
         assert_eq!(read("\n[[row]]").1, ["2:1: missing key \"kind\""]);

@@ -1,49 +1,57 @@
 //! The rows of a Denavit-Hartenberg table against the chain that they stand for.
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, ops::Range};
 
 use toml::Spanned;
 
-use super::{Context, first_line};
+use super::written::{WrittenDh, WrittenRow};
 use crate::{
     diagnostic::{Diagnostic, known_names, line_column},
-    findings::Findings,
-    model::{
-        dh_table::{DhRow, DhRowKind},
-        joint::JointIndex,
-    },
-    robot_file::written::{WrittenDh, WrittenRow},
+    diagnostics::Diagnostics,
+    model::{DhRow, DhRowKind, JointIndex, Robot},
     units::Unit,
 };
 
+/// What the rows of a table are checked against.
+pub(super) struct ChainContext<'a> {
+    pub(super) robot: &'a Robot,
+    /// The moving joints from base to tip.
+    pub(super) chain: &'a [JointIndex],
+    pub(super) text: &'a str,
+}
+
 pub(super) fn check(
     dh: &Spanned<WrittenDh>,
-    context: &Context<'_>,
-    findings: &mut Findings,
+    context: &ChainContext<'_>,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Vec<DhRow>> {
     let written = &dh.get_ref().row;
-    let rows: Vec<Option<DhRow>> = written.iter().map(|row| self::row(row, context, findings)).collect();
+    let rows: Vec<Option<DhRow>> = written.iter().map(|row| self::row(row, context, diagnostics)).collect();
     let rows: Vec<DhRow> = rows.into_iter().collect::<Option<_>>()?;
-    no_joint_twice(written, &rows, findings);
-    every_joint_has_a_row(dh, &rows, context, findings);
-    order(written, &rows, context, findings);
+    no_joint_twice(written, &rows, diagnostics);
+    every_joint_has_a_row(dh, &rows, context, diagnostics);
+    order(written, &rows, context, diagnostics);
     (!rows.is_empty()).then_some(rows)
 }
 
-fn row(written: &Spanned<WrittenRow>, context: &Context<'_>, findings: &mut Findings) -> Option<DhRow> {
+fn row(
+    written: &Spanned<WrittenRow>,
+    context: &ChainContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<DhRow> {
     let row = written.get_ref();
     let at = || first_line(written.span(), context.text);
-    let mut figure = |quantity, unit: Unit, plain: &Option<Spanned<f64>>, handy: &Option<Spanned<f64>>| {
-        findings.keep(unit.value(quantity, plain.as_ref(), handy.as_ref()))
+    let mut value = |quantity, unit: Unit, si: &Option<Spanned<f64>>, engineering: &Option<Spanned<f64>>| {
+        diagnostics.keep(unit.value(quantity, si.as_ref(), engineering.as_ref()))
     };
-    let a_m = figure("a", Unit::Length, &row.a_m, &row.a_mm);
-    let alpha_rad = figure("alpha", Unit::Angle, &row.alpha_rad, &row.alpha_deg);
-    let d_m = figure("d", Unit::Length, &row.d_m, &row.d_mm);
-    let theta_rad = figure("theta", Unit::Angle, &row.theta_rad, &row.theta_deg);
+    let a_m = value("a", Unit::Length, &row.a_m, &row.a_mm);
+    let alpha_rad = value("alpha", Unit::Angle, &row.alpha_rad, &row.alpha_deg);
+    let d_m = value("d", Unit::Length, &row.d_m, &row.d_mm);
+    let theta_rad = value("theta", Unit::Angle, &row.theta_rad, &row.theta_deg);
     let mut needed = |quantity, unit: Unit, value: Option<Option<f64>>| {
-        findings.keep(value?.ok_or_else(|| {
-            let [plain, handy] = unit.keys(quantity);
-            let message = format!("row of joint \"{}\" has no {plain} or {handy}", row.joint.get_ref());
+        diagnostics.keep(value?.ok_or_else(|| {
+            let [si, engineering] = unit.keys(quantity);
+            let message = format!("row of joint \"{}\" has no {si} or {engineering}", row.joint.get_ref());
             Diagnostic::error("robot_file::missing_figure", message).at(at())
         }))
     };
@@ -58,18 +66,18 @@ fn row(written: &Spanned<WrittenRow>, context: &Context<'_>, findings: &mut Find
             && value.abs() > TAU
         {
             let message = format!("{quantity}_rad = {value} is more than a full turn");
-            findings.push(
+            diagnostics.push(
                 Diagnostic::warning("robot_file::degrees", message)
                     .at(span)
                     .with_help(format!("degrees? then the key is {quantity}_deg")),
             );
         }
     }
-    let sign = sign(row, findings);
-    let joint = joint(row, context, findings);
+    let sign = sign(row, diagnostics);
+    let joint = joint(row, context, diagnostics);
     Some(DhRow {
         joint: joint?,
-        kind: (*row.kind.get_ref()).into(),
+        kind: *row.kind.get_ref(),
         a_m: a_m?,
         alpha_rad: alpha_rad?,
         d_m: d_m?,
@@ -79,20 +87,20 @@ fn row(written: &Spanned<WrittenRow>, context: &Context<'_>, findings: &mut Find
     })
 }
 
-fn sign(row: &WrittenRow, findings: &mut Findings) -> Option<f64> {
+fn sign(row: &WrittenRow, diagnostics: &mut Diagnostics) -> Option<f64> {
     let Some(sign) = &row.sign else { return Some(1.0) };
     match *sign.get_ref() {
         value @ (1.0 | -1.0) => Some(value),
         value => {
             let message = format!("sign = {value} must be 1 or -1");
-            findings.push(Diagnostic::error("robot_file::sign", message).at(sign.span()));
+            diagnostics.push(Diagnostic::error("robot_file::sign", message).at(sign.span()));
             None
         }
     }
 }
 
 /// The joint of a row, which must be a moving one of the chain.
-fn joint(row: &WrittenRow, context: &Context<'_>, findings: &mut Findings) -> Option<JointIndex> {
+fn joint(row: &WrittenRow, context: &ChainContext<'_>, diagnostics: &mut Diagnostics) -> Option<JointIndex> {
     let (name, robot) = (row.joint.get_ref(), context.robot);
     let names = || context.chain.iter().map(|&joint| robot.joint(joint).name.as_str());
     let found = robot.find_joint(name).filter(|joint| context.chain.contains(joint));
@@ -104,30 +112,27 @@ fn joint(row: &WrittenRow, context: &Context<'_>, findings: &mut Findings) -> Op
         };
         let message = format!("joint \"{name}\" {what}");
         let help = known_names(name, "moving joints of the chain", names().collect::<Vec<_>>());
-        findings.push(
+        diagnostics.push(
             Diagnostic::error("robot_file::unknown_joint", message).at(row.joint.span()).with_help(help),
         );
         return None;
     };
-    let kind: DhRowKind = (*row.kind.get_ref()).into();
+    let kind = *row.kind.get_ref();
     let is_angular = robot.joint(joint).kind.is_angular();
     if is_angular != (kind == DhRowKind::Revolute) {
-        let (row_kind, unit) = match kind {
-            DhRowKind::Revolute => ("revolute", "metres"),
-            DhRowKind::Prismatic => ("prismatic", "radians"),
-        };
-        let message = format!("the row is {row_kind}, joint \"{name}\" of the URDF moves in {unit}");
-        findings.push(Diagnostic::warning("robot_file::row_kind", message).at(row.kind.span()));
+        let unit = if is_angular { "radians" } else { "metres" };
+        let message = format!("the row is {}, joint \"{name}\" of the URDF moves in {unit}", kind.name());
+        diagnostics.push(Diagnostic::warning("robot_file::row_kind", message).at(row.kind.span()));
     }
     Some(joint)
 }
 
-fn no_joint_twice(written: &[Spanned<WrittenRow>], rows: &[DhRow], findings: &mut Findings) {
+fn no_joint_twice(written: &[Spanned<WrittenRow>], rows: &[DhRow], diagnostics: &mut Diagnostics) {
     for (index, row) in rows.iter().enumerate() {
         if let Some(first) = rows[..index].iter().find(|first| first.joint == row.joint) {
             let name = &written[index].get_ref().joint;
             let message = format!("joint \"{}\" has a row already, at line {}", name.get_ref(), first.line);
-            findings.push(Diagnostic::error("robot_file::joint_twice", message).at(name.span()));
+            diagnostics.push(Diagnostic::error("robot_file::joint_twice", message).at(name.span()));
         }
     }
 }
@@ -135,8 +140,8 @@ fn no_joint_twice(written: &[Spanned<WrittenRow>], rows: &[DhRow], findings: &mu
 fn every_joint_has_a_row(
     dh: &Spanned<WrittenDh>,
     rows: &[DhRow],
-    context: &Context<'_>,
-    findings: &mut Findings,
+    context: &ChainContext<'_>,
+    diagnostics: &mut Diagnostics,
 ) {
     let robot = context.robot;
     // A mimic joint is driven by its master, in the model as in the machine.
@@ -157,16 +162,27 @@ fn every_joint_has_a_row(
         count(context.chain.len(), "moving joint"),
         if missing.is_empty() { "any".to_owned() } else { missing.join(", ") }
     );
-    findings
+    diagnostics
         .push(Diagnostic::error("robot_file::missing_row", message).at(first_line(dh.span(), context.text)));
 }
 
-fn order(written: &[Spanned<WrittenRow>], rows: &[DhRow], context: &Context<'_>, findings: &mut Findings) {
+fn order(
+    written: &[Spanned<WrittenRow>],
+    rows: &[DhRow],
+    context: &ChainContext<'_>,
+    diagnostics: &mut Diagnostics,
+) {
     let place = |row: &DhRow| context.chain.iter().position(|&joint| joint == row.joint);
     if let Some(later) = rows.windows(2).position(|pair| place(&pair[0]) > place(&pair[1])) {
         let name = &written[later + 1].get_ref().joint;
         let message =
             format!("row of joint \"{}\" is in another order than the chain base -> tip", name.get_ref());
-        findings.push(Diagnostic::warning("robot_file::row_order", message).at(name.span()));
+        diagnostics.push(Diagnostic::warning("robot_file::row_order", message).at(name.span()));
     }
+}
+
+/// The first line of a table: its whole range may be a hundred lines.
+pub(super) fn first_line(span: Range<usize>, text: &str) -> Range<usize> {
+    let end = text[span.clone()].find('\n').map_or(span.end, |newline| span.start + newline);
+    span.start..end
 }

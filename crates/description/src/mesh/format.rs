@@ -1,0 +1,58 @@
+//! The formats of mesh files: a new one is a file beside this one and a line in each match.
+
+use super::{
+    dae,
+    mesh_file::{MeshError, MeshFile},
+    obj, stl,
+};
+
+/// A format that is read.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum MeshFormat {
+    Stl,
+    Obj,
+    Collada,
+}
+
+impl MeshFormat {
+    /// The format that the extension of a file name says, in capitals or not.
+    pub(super) fn of(extension: &str) -> Result<Self, MeshError> {
+        match extension.to_ascii_lowercase().as_str() {
+            "stl" => Ok(Self::Stl),
+            "obj" => Ok(Self::Obj),
+            "dae" => Ok(Self::Collada),
+            _ => Err(MeshError::Unsupported { extension: format!(".{extension}") }),
+        }
+    }
+
+    /// Reads a mesh.
+    ///
+    /// An empty result is an empty COLLADA scene, which real robots hold; every other mesh without a
+    /// triangle that has area is refused.
+    pub(super) fn parse(self, bytes: &[u8]) -> Result<MeshFile, MeshError> {
+        let mesh = match self {
+            Self::Stl => stl::parse(bytes)?,
+            Self::Obj => obj::parse(bytes)?,
+            Self::Collada => {
+                let mesh = dae::parse(bytes)?;
+                if mesh.triangles.is_empty() {
+                    return Ok(mesh);
+                }
+                mesh
+            }
+        };
+        mesh.check()?;
+        Ok(mesh)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_formats_are_refused_by_name() {
+        let message = MeshFormat::of("step").unwrap_err().to_string();
+        assert_eq!(message, "mesh format \".step\" is not supported (use STL, OBJ or DAE)");
+    }
+}

@@ -1,0 +1,102 @@
+//! Numbers as they are written into files: short if that loses nothing, with all digits otherwise.
+
+use crate::units::{Unit, UnitSystem};
+
+/// How far an angle written in degrees may be from the one in memory. Kind: rounding of the unit
+/// change, two operations on numbers up to pi.
+const WRITTEN_RAD: f64 = 1e-15;
+/// Steps per degree that count as a short number.
+const DEGREE_STEPS: f64 = 1e6;
+
+/// A number with all its digits, without a negative zero.
+pub(crate) fn number(value: f64) -> String {
+    format!("{:?}", value + 0.0)
+}
+
+/// How far a fitted value may be from the one that is written for it, in m or rad, relative above 1.
+/// Kind: rounding of a fit on some hundred numbers, two digits above eps.
+pub(super) const FITTED: f64 = 5e-14;
+
+/// A fitted number (m, rad, or without unit) by the fewest decimals that say the same: a fit fills all
+/// digits with its rounding.
+pub fn fitted_number(value: f64) -> String {
+    fitted_in(value, 1.0)
+}
+
+/// The same in a unit of which `one` make a metre or a radian.
+fn fitted_in(value: f64, one: f64) -> String {
+    /// More decimals than any number within [`FITTED`] needs.
+    const MOST_DECIMALS: usize = 15;
+    let is_near = |text: &String| {
+        let off = text.parse::<f64>().map_or(f64::INFINITY, |written| (written - value).abs());
+        off <= FITTED * value.abs().max(one)
+    };
+    let near = (0..MOST_DECIMALS).map(|decimals| format!("{value:.decimals$}")).find(is_near);
+    match near.unwrap_or_else(|| format!("{value:?}")) {
+        negative if negative == "-0" => "0".to_owned(),
+        shortest => shortest,
+    }
+}
+
+impl Unit {
+    /// A fitted value (m, rad) as it is written in SI units or in engineering units.
+    pub fn fitted(self, value: f64, units: UnitSystem) -> String {
+        match (units, self) {
+            (UnitSystem::Si, _) => fitted_in(value, 1.0),
+            (UnitSystem::Engineering, Self::Length) => fitted_in(value * 1000.0, 1000.0),
+            (UnitSystem::Engineering, Self::Angle) => fitted_in(value.to_degrees(), 1_f64.to_degrees()),
+        }
+    }
+
+    /// A fitted vector under the key that says its unit.
+    pub(crate) fn fitted_vector(self, quantity: &str, values: [f64; 3], units: UnitSystem) -> String {
+        let [si_key, engineering_key] = self.keys(quantity);
+        let key = if units == UnitSystem::Engineering { engineering_key } else { si_key };
+        format!("{key} = [{}]", values.map(|value| self.fitted(value, units)).join(", "))
+    }
+}
+
+/// Fitted numbers without unit as a list.
+pub(crate) fn fitted_list(values: impl IntoIterator<Item = f64>) -> String {
+    format!("[{}]", values.into_iter().map(fitted_number).collect::<Vec<_>>().join(", "))
+}
+
+/// Numbers with all their digits, joined by `separator`.
+pub(crate) fn numbers(values: impl IntoIterator<Item = f64>, separator: &str) -> String {
+    values.into_iter().map(number).collect::<Vec<_>>().join(separator)
+}
+
+/// The same angle in degrees; `None` if few digits do not say it.
+pub(crate) fn short_degrees(angle_rad: f64) -> Option<f64> {
+    let degrees = (angle_rad.to_degrees() * DEGREE_STEPS).round() / DEGREE_STEPS;
+    ((degrees.to_radians() - angle_rad).abs() <= WRITTEN_RAD).then_some(degrees)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use super::*;
+
+    #[test]
+    fn angles_are_short_only_if_nothing_is_lost() {
+        assert_eq!(short_degrees(FRAC_PI_2), Some(90.0));
+        assert_eq!(short_degrees(FRAC_PI_2 + 2.05e-10), None);
+        assert_eq!(number(-0.0), "0.0");
+    }
+
+    #[test]
+    fn fitted_numbers_are_as_short_as_they_may_be() {
+        for (value, written) in [
+            (0.1 - 1e-16, "0.1"),
+            (-1e-14, "0"),
+            (-0.392_200_000_000_000_3, "-0.3922"),
+            (90.0 + 1e-12, "90"),
+            (FRAC_PI_2, "1.5707963267949"),
+            (1e-12, "0.000000000001"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(fitted_number(value), written);
+        }
+    }
+}
