@@ -49,11 +49,12 @@ impl DhRowKind {
     }
 }
 
-/// One row of a table.
+/// One row of a table, and what drives it: a joint of a robot in a declared table, `()` in a table of a chain
+/// that belongs to no robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DhRow {
+pub struct DhRow<J = JointIndex> {
     /// The joint whose position drives the row.
-    pub joint: JointIndex,
+    pub joint: J,
     /// Which entry it drives.
     pub kind: DhRowKind,
     /// Link length.
