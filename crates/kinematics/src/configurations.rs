@@ -1,4 +1,4 @@
-//! Configurations at which two models are held against each other without motion.
+//! Configurations at which two models are compared without motion.
 
 use congruent_description::{Joint, JointIndex, JointKind, Robot, RobotQ};
 
@@ -69,12 +69,12 @@ pub fn random_configurations(robot: &Robot, seed: u64, count: usize) -> Vec<Robo
     (0..count).map(|_| configuration()).collect()
 }
 
-/// The limits of a joint, or one turn where it has none.
+/// The limits of a joint, or one turn if it has none.
 pub fn range(joint: &Joint) -> (f64, f64) {
     joint.position_range().unwrap_or((-std::f64::consts::PI, std::f64::consts::PI))
 }
 
-/// Moves each position to the limit nearest to it where it is outside; mimic joints follow.
+/// Moves each position that is outside its limits to the nearest limit; mimic joints follow.
 pub fn move_inside_limits(q: &mut RobotQ, robot: &Robot) {
     for (&joint, q) in robot.movable_joints().iter().zip(q.iter_mut()) {
         if let Some((lower, upper)) = robot.joint(joint).position_range() {

@@ -1,8 +1,6 @@
-//! What a caller of the kinematics can get wrong. Wrong robots are refused where they are read.
+//! What a caller of the kinematics can get wrong. Wrong robots are refused by their reader.
 
-use crate::spatial::euler::EulerSet;
-
-/// Why figures were refused.
+/// Why values were refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KinematicsError {
@@ -59,14 +57,6 @@ pub enum KinematicsError {
         /// Where it ends.
         upper: f64,
     },
-    /// No set of Euler angles has this name.
-    #[error("no set of Euler angles \"{name}\": there are {}", names(known))]
-    EulerSet {
-        /// The name.
-        name: String,
-        /// All sets, nearest first.
-        known: [EulerSet; 12],
-    },
 }
 
 impl KinematicsError {
@@ -95,16 +85,12 @@ impl KinematicsError {
     }
 }
 
-fn names(sets: &[EulerSet]) -> String {
-    sets.iter().map(|set| set.name()).collect::<Vec<_>>().join(", ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn messages_hold_both_figures() {
+    fn messages_hold_both_numbers() {
         assert_eq!(
             KinematicsError::check_joints(6, &[0.0; 5]).unwrap_err().to_string(),
             "5 joint positions for 6 moving joints"
@@ -124,10 +110,6 @@ mod tests {
         assert_eq!(
             KinematicsError::FrameIndex { index: 9, last: 6 }.to_string(),
             "no frame dh9: the table's last is dh6"
-        );
-        assert_eq!(
-            "zyw".parse::<EulerSet>().unwrap_err().to_string(),
-            "no set of Euler angles \"zyw\": there are zyx, zyz, xyz, zxy, xyx, zxz, xzy, yxz, yzx, xzx, yxy, yzy"
         );
     }
 }

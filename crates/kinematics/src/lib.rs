@@ -1,6 +1,6 @@
 //! Analytical kinematics: Denavit-Hartenberg tables, screws and URDF chains.
 //!
-//! Three forward kinematics of one robot, each by its own path, so that they can be held against
+//! Three forward kinematics of one robot, each by its own path, so that they can be compared with
 //! each other: [`DhChain`] (a table), [`UrdfTree`] (joint after joint) and [`ScrewTree`] (products
 //! of exponentials). Nothing here reads a file, a clock or a random number, and calls that are
 //! made per sample allocate nothing.
@@ -11,6 +11,7 @@ mod arm;
 mod chain;
 mod configurations;
 mod error;
+pub mod least_squares;
 mod link_poses;
 mod spatial;
 mod uniform;
@@ -26,7 +27,7 @@ pub use arm::{
 pub use chain::{
     Axes, AxisPair, AxisRelation, Choice, DeriveError, DhChain, DhDerivation, DhDerivatives, DhFrames,
     DhRowTwists, FreeChoice, Jacobian, JacobianKind, ModifiedDh, NotADhTransform, Proof, ScrewChain,
-    ScrewDerivatives, ScrewTree, SerialChain, SerialDh, SerialDhRow, SinCos, StandardDh, UrdfTree, derive_dh,
+    ScrewDerivatives, ScrewTree, SerialChain, SerialDh, SinCos, StandardDh, UrdfTree, derive_dh,
 };
 pub use configurations::{
     AxisStep, axis_steps, move_inside_limits, random_configurations, range, sample_configurations,
@@ -35,5 +36,5 @@ pub use error::KinematicsError;
 pub use link_poses::{LinkPoses, LinkPosesError};
 pub use spatial::{
     DeterminedAngles, EulerAngles, EulerSet, Pose, PoseError, ReportedPose, Screw, ToolAxes, ToolAxesError,
-    Twist, Wrench, hat, larger, log_ratio, quaternion_of, rotation_exp, rotation_log, vee,
+    Twist, UnknownEulerSet, Wrench, hat, larger, log_ratio, quaternion_of, rotation_exp, rotation_log, vee,
 };

@@ -11,7 +11,7 @@ use crate::{
 
 /// A source of link poses: given a configuration, it says where every link is.
 ///
-/// An analytical model is one, a physics engine that is only asked where its bodies are is another, and so
+/// An analytical model is one, a physics engine that is only asked for the poses of its bodies is another, and so
 /// is a second description of the robot. Whoever compares two sources sees nothing else of them.
 pub trait LinkPoses {
     /// Writes the poses of all links at configuration `q`, in the root link's frame and the robot's order.

@@ -3,7 +3,7 @@
 #![expect(
     clippy::unwrap_used,
     clippy::float_cmp,
-    reason = "helpers of tests panic; figures are tidied, so they are exact"
+    reason = "helpers of tests panic; values are tidied, so they are exact"
 )]
 
 #[path = "support/mod.rs"]
@@ -36,7 +36,7 @@ fn prove(dh: &SerialDh, chain: &ScrewChain) {
         .collect();
     let found = &mut |q: &ChainQ| dh.base_from_tip(q).unwrap();
     let proof = Proof::of(n, &configurations, found, &mut |q| chain.base_from_tip(q).unwrap());
-    // Axes that a random draw leaves nearly parallel have their normal far away, and pay for it.
+    // Axes that a random draw leaves nearly parallel have their normal far away, which costs accuracy.
     let furthest_m = dh.rows.iter().map(|row| row.d_m.abs()).fold(0.0, f64::max);
     let bound = ACCURACY.max(FAR_NORMAL * furthest_m);
     assert!(within(proof.worst() / bound, 1.0), "{proof:?}\n{dh:?}\n{chain:?}");
@@ -67,7 +67,7 @@ fn chain(twists_in_base: &[Twist]) -> ScrewChain {
     ScrewChain { twists_in_base: twists_in_base.to_vec(), base_from_tip_at_zero: crooked_tip() }
 }
 
-/// Two axes: how they lie, and the figures between them.
+/// Two axes: how they lie, and the parameters between them.
 #[track_caller]
 fn assert_pair(second: Twist, relation: AxisRelation, [a_m, alpha_rad]: [f64; 2]) {
     let first = turn([0., 0., 1.], [0.; 3]);
@@ -132,7 +132,7 @@ fn case_17_a_transform_of_a_row_is_one() {
         found.d_m - row.d_m,
         found.theta_rad - row.theta_rad,
     ];
-    assert!(difference.into_iter().all(|figure| within(figure.abs(), f64::EPSILON)));
+    assert!(difference.into_iter().all(|value| within(value.abs(), f64::EPSILON)));
     // The same matrix is no row of the other convention: x0 is 30 degrees off z1's perpendicular.
     let refused = ModifiedDh::from_transform(&row.transform()).unwrap_err();
     assert!(within((refused.off_perpendicular_rad - PI / 6.0).abs(), ACCURACY), "{refused}");
@@ -247,7 +247,7 @@ fn joints_that_fit_no_row_are_named() {
     assert_eq!(derive(&[helical]).joint(), Some(0));
 }
 
-/// Figures of which most are 0 or a quarter turn: every degenerate position of axes comes up.
+/// Parameters of which most are 0 or a quarter turn: every degenerate position of axes comes up.
 fn square_figures() -> impl Strategy<Value = TableFigures> {
     let angle = || prop_oneof![3 => Just(0.0), 1 => Just(FRAC_PI_2), 1 => Just(-FRAC_PI_2), 1 => Just(PI), 1 => -PI..PI];
     let length = || prop_oneof![2 => Just(0.0), 1 => -1.0..1.0];

@@ -14,13 +14,13 @@ use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector
 use serde_json::Value;
 use support::{RowFigures, TableFigures, within};
 
-/// Rounding, ours and the witness's, over up to nine rows within 3 m; worst seen 5.3e-16.
+/// Rounding, ours and the other program's, over up to nine rows within 3 m; worst seen 5.3e-16.
 const TABLE_M: f64 = 1e-14;
-/// Rounding, ours and the witness's, over up to nine rows; worst seen 5.3e-16.
+/// Rounding, ours and the other program's, over up to nine rows; worst seen 5.3e-16.
 const TABLE_RAD: f64 = 1e-14;
-/// Rounding, ours and the witness's, over chains of up to 15 joints within 2 m; worst seen 2.8e-15.
+/// Rounding, ours and the other program's, over chains of up to 15 joints within 2 m; worst seen 2.8e-15.
 const TREE_M: f64 = 2e-14;
-/// Rounding, ours and the witness's, over chains of up to 15 joints; worst seen 5.7e-15.
+/// Rounding, ours and the other program's, over chains of up to 15 joints; worst seen 5.7e-15.
 const TREE_RAD: f64 = 2e-14;
 
 const ROBOTS: [&str; 9] =

@@ -81,7 +81,7 @@ fn case_23_with_orientation() {
         let found = solver.solve(&target, &CASE_23_START.into(), &options, || true).unwrap();
         assert!(found.converged, "{method:?}: {found:?}");
     }
-    // The same position, a quarter turn away: four joints cannot, and the result says what is left.
+    // The same position, a quarter turn away: four joints cannot, and the result gives the residual.
     let turned = base_from_tcp.rotation * rotation_exp(&(Vector3::x() * std::f64::consts::FRAC_PI_2));
     let target = IkTarget { base_from_tcp: Pose::from_parts(turned, base_from_tcp.translation), ..target };
     let options = IkOptions { method: IkMethod::PseudoInverse, ..IkOptions::default() };

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use support::within;
 
 /// Rounding over up to eight joints within 10 m, by two paths; worst seen 4.4e-15, and 6.3e-14 where
-/// the screws were probed.
+/// the screws were identified.
 const ROUNDING: f64 = 1e-13;
 /// Central difference, h = 2^-10 and Richardson's fourth order: h^4/30 on 10 m is 3e-13, rounding
 /// 10 eps/h is 2e-12; worst seen 2.6e-12.

@@ -179,27 +179,27 @@ fn case_12_orthonormality_kept_over_long_products() {
     /// Drift: a step is off by eps and a product rounds by as much, all to one side at worst, so n times
     /// 4 eps; worst seen 1e-10.
     const DRIFT: f64 = 1e-9;
-    /// The same over the thousand products between two mendings; worst seen 1.1e-13.
+    /// The same over the thousand products between two corrections; worst seen 1.1e-13.
     const KEPT: f64 = 1e-12;
     let axis = Unit::new_normalize(Vector3::new(0.3, -0.5, 0.8));
     let screw = Screw::revolute(axis, &Point3::new(0.4, 0.1, -0.2));
     let step = screw.exp(0.7);
-    let (mut left_alone, mut mended, mut worst_mended) = (Pose::identity(), Pose::identity(), 0.0_f64);
+    let (mut left_alone, mut corrected, mut worst_corrected) = (Pose::identity(), Pose::identity(), 0.0_f64);
     for at in 1..=PRODUCTS {
-        (left_alone, mended) = (left_alone * step, mended * step);
-        worst_mended = worst_mended.max(mended.orthonormality_error());
+        (left_alone, corrected) = (left_alone * step, corrected * step);
+        worst_corrected = worst_corrected.max(corrected.orthonormality_error());
         if at % 1000 == 0 {
-            mended = mended.orthonormalized().unwrap();
+            corrected = corrected.orthonormalized().unwrap();
         }
     }
     assert!(within(left_alone.orthonormality_error(), DRIFT));
     assert!(within((left_alone.determinant() - 1.0).abs(), DRIFT));
-    assert!(within(worst_mended, KEPT));
-    // Mending takes the drift out and leaves the pose where it is.
+    assert!(within(worst_corrected, KEPT));
+    // The correction takes the drift out and does not move the pose.
     let at_last = left_alone.orthonormalized().unwrap();
     assert!(within(at_last.orthonormality_error(), ROUNDING));
     assert!(left_alone.orthonormality_error() > 100.0 * at_last.orthonormality_error());
-    for pose in [left_alone, at_last, mended] {
+    for pose in [left_alone, at_last, corrected] {
         let expected = screw.exp(0.7 * f64::from(PRODUCTS));
         assert!(within(pose.distance_m(&expected), DRIFT));
         assert!(within(pose.angle_rad(&expected), DRIFT));

@@ -55,7 +55,7 @@ pub(crate) fn x_onto(axis: &Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
     UnitQuaternion::from_quaternion(arc) * turn
 }
 
-/// Mass properties by our own diagonalisation: rapier's returns arbitrary axes where the
+/// Mass properties by our own diagonalisation: rapier's returns arbitrary axes if the
 /// principal inertias differ by less than about 1e-5 kg m^2.
 pub(crate) fn mass_properties(inertia: &BodyInertia) -> MassProperties {
     let eigen = inertia.tensor_kg_m2.symmetric_eigen();

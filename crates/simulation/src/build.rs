@@ -14,17 +14,17 @@ use rapier3d_f64::{
 
 use crate::{
     adapter, contact,
-    engine::{Sets, Slot},
     error::SimulationError,
     lumping::{Bodies, BodyInertia},
+    sets::{EngineSets, EngineSlot},
     settings::{Obstacle, WorldSettings},
 };
 
 /// A robot in rapier's sets.
 pub(crate) struct Built {
-    pub sets: Sets,
+    pub sets: EngineSets,
     pub handles: Vec<RigidBodyHandle>,
-    pub slots: Vec<Slot>,
+    pub slots: Vec<EngineSlot>,
     /// `None` for a robot without a movable joint, for which rapier makes no multibody.
     pub multibody: Option<MultibodyIndex>,
 }
@@ -34,7 +34,7 @@ pub(crate) fn build(
     bodies: &Bodies,
     settings: &WorldSettings,
 ) -> Result<Built, SimulationError> {
-    let mut sets = Sets::default();
+    let mut sets = EngineSets::default();
     let handles: Vec<RigidBodyHandle> = bodies
         .inertias
         .iter()
@@ -73,7 +73,7 @@ fn rigid_body(body: usize, inertia: &BodyInertia) -> RigidBodyBuilder {
 }
 
 fn add_colliders(
-    sets: &mut Sets,
+    sets: &mut EngineSets,
     handles: &[RigidBodyHandle],
     robot: &Robot,
     bodies: &Bodies,
@@ -90,7 +90,7 @@ fn add_colliders(
     Ok(())
 }
 
-fn slots(robot: &Robot) -> Result<Vec<Slot>, SimulationError> {
+fn slots(robot: &Robot) -> Result<Vec<EngineSlot>, SimulationError> {
     let mut slots =
         robot.movable_joints().iter().map(|&joint| slot(robot, joint)).collect::<Result<Vec<_>, _>>()?;
     for (row, &joint) in robot.movable_joints().iter().enumerate() {
@@ -104,8 +104,8 @@ fn slots(robot: &Robot) -> Result<Vec<Slot>, SimulationError> {
     Ok(slots)
 }
 
-impl Slot {
-    /// Makes a master stop where one of its followers has to. Two limits on coupled joints would
+impl EngineSlot {
+    /// Makes a master stop if one of its followers has to. Two limits on coupled joints would
     /// be one constraint twice, which the solver settles slowly: 1e-12 instead of 1e-15.
     fn narrow(&mut self, (lower, upper): (f64, f64), mimic: &Mimic) {
         let [a, b] = [lower, upper].map(|end| (end - mimic.offset) / mimic.multiplier);
@@ -117,7 +117,7 @@ impl Slot {
     }
 }
 
-fn slot(robot: &Robot, index: JointIndex) -> Result<Slot, SimulationError> {
+fn slot(robot: &Robot, index: JointIndex) -> Result<EngineSlot, SimulationError> {
     let joint = robot.joint(index);
     let (lower, upper) = joint.position_range().unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
     let ordered = lower <= upper;
@@ -126,7 +126,7 @@ fn slot(robot: &Robot, index: JointIndex) -> Result<Slot, SimulationError> {
         return Err(SimulationError::Limits { joint: joint_name, lower, upper, unit });
     }
     let effort = joint.limit.map_or(0.0, |limit| limit.effort);
-    Ok(Slot {
+    Ok(EngineSlot {
         axis: if joint.kind.is_angular() { JointAxis::AngX } else { JointAxis::LinX },
         lower,
         upper,
@@ -137,7 +137,7 @@ fn slot(robot: &Robot, index: JointIndex) -> Result<Slot, SimulationError> {
 }
 
 /// Joint frames whose x axis is the axis of motion, at the origin of the child link.
-fn generic_joint(joint: &Joint, bodies: &Bodies, slot: &Slot) -> GenericJoint {
+fn generic_joint(joint: &Joint, bodies: &Bodies, slot: &EngineSlot) -> GenericJoint {
     let locked = match slot.axis {
         JointAxis::AngX => JointAxesMask::LOCKED_REVOLUTE_AXES,
         _ => JointAxesMask::LOCKED_PRISMATIC_AXES,
@@ -156,7 +156,7 @@ fn generic_joint(joint: &Joint, bodies: &Bodies, slot: &Slot) -> GenericJoint {
 
 /// Damping, friction and couplings, and the first forward kinematics, which also turns the root
 /// from free to fixed and so gives the rows their final numbers.
-fn finish_multibody(sets: &mut Sets, index: MultibodyIndex, robot: &Robot, slots: &[Slot]) {
+fn finish_multibody(sets: &mut EngineSets, index: MultibodyIndex, robot: &Robot, slots: &[EngineSlot]) {
     let multibody = sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
     multibody.set_self_contacts_enabled(false);
     multibody.forward_kinematics(&sets.bodies, true);

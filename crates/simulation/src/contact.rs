@@ -48,7 +48,7 @@ fn groups(member: Group, meets: Group) -> InteractionGroups {
     InteractionGroups::new(member, meets, InteractionTestMode::And)
 }
 
-/// A collider of the shape, or `None` where a mesh is empty, which touches nothing.
+/// A collider of the shape, or `None` if a mesh is empty, which touches nothing.
 fn shaped(
     geometry: &Geometry,
     pose: Pose,

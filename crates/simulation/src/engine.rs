@@ -3,15 +3,15 @@
 
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::{
-    BroadPhaseBvh, CCDSolver, ColliderSet, ImpulseJointSet, IntegrationParameters, IslandManager, JointAxis,
-    MotorModel, Multibody, MultibodyIndex, MultibodyJoint, MultibodyJointSet, MultibodyLink, NarrowPhase,
-    PhysicsPipeline, RigidBodyHandle, RigidBodySet, SoftBodySet, Vector,
+    IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint, MultibodyLink,
+    PhysicsPipeline, RigidBodyHandle, Vector,
 };
 
 use crate::{
-    actuation::{Commands, Motor},
+    actuation::commands::{Commands, Motor},
     adapter,
     build::Built,
+    sets::{EngineSets, EngineSlot},
     settings::WorldSettings,
 };
 
@@ -29,36 +29,11 @@ const SWEEPS_PER_MIMIC: usize = 25;
 /// rapier by itself returns within one step: a robot placed 1 rad outside would get 1000 rad/s.
 const RETURN_SPEED: f64 = 1.0;
 
-/// Everything that a step changes; a clone is a snapshot.
-#[derive(Clone, Default)]
-pub(crate) struct Sets {
-    pub bodies: RigidBodySet,
-    pub colliders: ColliderSet,
-    pub multibody_joints: MultibodyJointSet,
-    impulse_joints: ImpulseJointSet,
-    soft_bodies: SoftBodySet,
-    islands: IslandManager,
-    broad_phase: BroadPhaseBvh,
-    narrow_phase: NarrowPhase,
-    ccd: CCDSolver,
-}
-
-/// What one movable joint can do; unit of the coordinate, N m or N.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Slot {
-    pub axis: JointAxis,
-    pub lower: f64,
-    pub upper: f64,
-    /// Largest force or torque; `f64::MAX` where there is no limit.
-    pub effort: f64,
-    pub is_mimic: bool,
-}
-
 /// The robot in rapier, and how it is stepped.
 pub(crate) struct Engine {
-    sets: Sets,
+    sets: EngineSets,
     handles: Vec<RigidBodyHandle>,
-    slots: Vec<Slot>,
+    slots: Vec<EngineSlot>,
     multibody: Option<MultibodyIndex>,
     pipeline: PhysicsPipeline,
     parameters: IntegrationParameters,
@@ -115,7 +90,7 @@ impl Engine {
         link.map_or_else(Isometry3::identity, |link| adapter::isometry(link.local_to_world()))
     }
 
-    /// Puts the joints where they shall be, and all bodies with them.
+    /// Moves the joints to these positions, and all bodies with them.
     pub(crate) fn place(&mut self, q: &[f64], qd: &[f64]) {
         self.clear_forces();
         let Some(index) = self.multibody else { return };
@@ -283,20 +258,20 @@ impl Engine {
         matrix
     }
 
-    pub(crate) fn sets(&self) -> &Sets {
+    pub(crate) fn sets(&self) -> &EngineSets {
         &self.sets
     }
 
-    pub(crate) fn restore(&mut self, sets: &Sets) {
+    pub(crate) fn restore(&mut self, sets: &EngineSets) {
         self.sets.clone_from(sets);
-        // Its memory is of the state that was left.
+        // Its memory is of the state before.
         self.pipeline = new_pipeline();
         self.is_forced = true;
     }
 }
 
-impl Slot {
-    /// The limits to enforce in a step that begins at `q`; `None` inside the range, where a limit
+impl EngineSlot {
+    /// The limits to enforce in a step that begins at `q`; `None` inside the range, in which a limit
     /// does nothing but costs a solve.
     fn passed_limits(&self, q: f64, step_s: f64) -> Option<[f64; 2]> {
         let way = RETURN_SPEED * step_s;
@@ -304,7 +279,7 @@ impl Slot {
         (!is_inside).then(|| [self.lower.min(q + way), self.upper.max(q - way)])
     }
 
-    /// What the joint's effort limit leaves to a servo beside a torque.
+    /// The effort that the joint's limit allows a servo beside a torque.
     fn servo_effort(&self, torque: f64) -> f64 {
         (self.effort - torque.abs()).max(0.0)
     }

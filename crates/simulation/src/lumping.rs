@@ -3,7 +3,7 @@
 use congruent_description::{Inertia, JointKind, LinkIndex, Robot};
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
-/// Inertia of a body; zero where none of its links has any.
+/// Inertia of a body; zero if none of its links has any.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BodyInertia {
     pub mass_kg: f64,

@@ -6,14 +6,15 @@ use nalgebra::{DMatrix, DVector, Isometry3};
 use crate::{
     actuation::{Commands, Controller, JointsView, Motor, Setpoint},
     build,
-    engine::{Engine, Sets},
+    engine::Engine,
     error::SimulationError,
     lumping::{Bodies, LinkOnBody},
+    sets::EngineSets,
     settings::WorldSettings,
 };
 
 /// Diagonal entries of the mass matrix below this part of the largest count as zero: rounding of
-/// products and sums leaves about 1e-16. Dimensionless.
+/// products and sums is about 1e-16. Dimensionless.
 const NO_INERTIA_RATIO: f64 = 1e-15;
 
 /// Numbers from here on count as infinite, whether they come in or out. Below, no product that
@@ -68,12 +69,12 @@ pub struct World {
     /// The first link that no dynamics can move.
     massless: Option<String>,
     commands: Commands,
-    state: State,
+    state: WorldState,
 }
 
-/// What is ours of the state; rapier's part is [`Sets`].
+/// What is ours of the state; rapier's part is [`EngineSets`].
 #[derive(Debug, Clone)]
-struct State {
+struct WorldState {
     q: RobotQ,
     qd: Vec<f64>,
     torque: Vec<f64>,
@@ -82,9 +83,9 @@ struct State {
 
 /// The whole state of a [`World`] at one moment.
 #[derive(Clone)]
-pub struct Snapshot {
-    state: State,
-    sets: Sets,
+pub struct WorldSnapshot {
+    state: WorldState,
+    sets: EngineSets,
 }
 
 impl World {
@@ -109,12 +110,16 @@ impl World {
             joint_names: movable().map(|joint| joint.name.clone()).collect(),
             links: bodies.links,
             commands: Commands::new(dof),
-            state: State { q: RobotQ::zeros(dof), qd: vec![0.0; dof], torque: vec![0.0; dof], step_count: 0 },
+            state: WorldState {
+                q: RobotQ::zeros(dof),
+                qd: vec![0.0; dof],
+                torque: vec![0.0; dof],
+                step_count: 0,
+            },
         })
     }
 
-    /// Puts the robot at `q` with velocities `qd`, inside the limits or outside; time goes on
-    /// from where it was.
+    /// Puts the robot at `q` with velocities `qd`, inside the limits or outside; time goes on.
     ///
     /// # Errors
     /// [`SimulationError::Length`], and [`SimulationError::NotFinite`] for an entry that is no
@@ -183,26 +188,26 @@ impl World {
         if link.is_first { root_from_body } else { root_from_body * link.body_from_link }
     }
 
-    /// Goes one step ahead under a controller, towards the reference for the step's end.
+    /// Goes one step ahead under a controller, towards the setpoint for the step's end.
     ///
     /// # Errors
-    /// [`SimulationError::Length`] for a reference of another length;
+    /// [`SimulationError::Length`] for a setpoint of another length;
     /// [`SimulationError::Massless`] for dynamics of a robot without mass;
-    /// [`SimulationError::NotFinite`] when the reference, the controller or the physics give no
+    /// [`SimulationError::NotFinite`] when the setpoint, the controller or the physics give no
     /// number. After the last, the world needs [`World::set_state`] or [`World::restore`].
     pub fn step(
         &mut self,
         controller: &mut dyn Controller,
-        reference: &Setpoint<'_>,
+        setpoint: &Setpoint<'_>,
     ) -> Result<(), SimulationError> {
-        self.check_vector("reference position", reference.q)?;
-        self.check_vector("reference velocity", reference.qd)?;
+        self.check_vector("setpoint position", setpoint.q)?;
+        self.check_vector("setpoint velocity", setpoint.qd)?;
         self.commands.clear();
         let joints = JointsView { q: &self.state.q, qd: &self.state.qd, engine: &self.engine };
-        controller.command(&joints, reference, &mut self.commands);
+        controller.command(&joints, setpoint, &mut self.commands);
         if self.commands.placed {
             self.state.step_count += 1;
-            return self.set_state(reference.q, reference.qd);
+            return self.set_state(setpoint.q, setpoint.qd);
         }
         if let Some(link) = &self.massless {
             return Err(SimulationError::Massless { link: link.clone() });
@@ -227,22 +232,22 @@ impl World {
     }
 
     /// The whole state: after [`World::restore`], all goes on bit by bit as it would have.
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot { state: self.state.clone(), sets: self.engine.sets().clone() }
+    pub fn snapshot(&self) -> WorldSnapshot {
+        WorldSnapshot { state: self.state.clone(), sets: self.engine.sets().clone() }
     }
 
     /// Goes back to a snapshot of this world.
     ///
     /// # Panics
     /// When the snapshot is of a robot with another number of joints.
-    pub fn restore(&mut self, snapshot: &Snapshot) {
+    pub fn restore(&mut self, snapshot: &WorldSnapshot) {
         assert_eq!(snapshot.state.q.len(), self.state.q.len(), "the snapshot is of another robot");
         self.engine.restore(&snapshot.sets);
         self.state.clone_from(&snapshot.state);
     }
 
     fn finish_step(&mut self) -> Result<(), SimulationError> {
-        let State { q, qd, torque, .. } = &mut self.state;
+        let WorldState { q, qd, torque, .. } = &mut self.state;
         self.engine.read(q, qd);
         self.engine.exerted(&self.commands, q, qd, torque);
         self.check_finite("position", &self.state.q)?;

@@ -60,7 +60,7 @@ fn vectors_of_another_length() {
     assert_eq!(error.to_string(), "position: 5 entries, but the robot has 6 movable joints");
     let setpoint = Setpoint { q: &RobotQ::zeros(6), qd: &[] };
     let error = world.step(make("passive", 0.0, 0.0).as_mut(), &setpoint).unwrap_err();
-    assert_eq!(error, SimulationError::Length { what: "reference velocity", found: 0, expected: 6 });
+    assert_eq!(error, SimulationError::Length { what: "setpoint velocity", found: 0, expected: 6 });
     assert_eq!(world.step_count(), 0);
 }
 

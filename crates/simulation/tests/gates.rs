@@ -1,7 +1,7 @@
 //! The gates on the corpus of real robots, against numbers from Pinocchio and `MuJoCo`. Numbers (a01
 //! and so on) are those of the table of gates; the part that needs no file is `physics.rs`.
 
-#![expect(clippy::print_stdout, reason = "the worst figures, for those who run with --nocapture")]
+#![expect(clippy::print_stdout, reason = "the worst values, for those who run with --nocapture")]
 
 #[path = "../../../tests/corpus.rs"]
 mod corpus;

@@ -1,7 +1,7 @@
 //! The gates on robots built in code: what a correct twin does, without any file.
 //! Numbers (a06 and so on) are those of the table of gates; the corpus part is `gates.rs`.
 
-#![expect(clippy::print_stdout, reason = "the worst figures, for those who run with --nocapture")]
+#![expect(clippy::print_stdout, reason = "the worst values, for those who run with --nocapture")]
 
 mod support;
 
@@ -89,8 +89,8 @@ fn a07_gravity_compensation_holds_slides_and_followers() {
     assert!(worst(world.q(), &q0) < DRIFT_RAD, "{:?}", world.q());
 }
 
-/// Sag of a servo against gravity torque / stiffness, rad; solver stop of 40 sweeps and what is
-/// left of the settling after 5 s; worst seen 5.5e-15.
+/// Sag of a servo against gravity torque / stiffness, rad; solver stop of 40 sweeps and the
+/// settling not yet done after 5 s; worst seen 5.5e-15.
 const SAG_RAD: f64 = 1e-8;
 
 #[test]
@@ -286,7 +286,7 @@ fn a_robot_placed_on_an_obstacle_rests_there() {
 }
 
 #[test]
-fn kinematic_is_exactly_where_the_reference_is() {
+fn kinematic_is_exactly_at_the_setpoint() {
     let robot = arm_with(|parts| limited(parts, (-0.1, 0.1), 1.0));
     let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
     let mut kinematic = make("kinematic", 0.0, 0.0);
@@ -334,10 +334,10 @@ impl Controller for OneServo {
         "one_servo"
     }
 
-    fn command(&mut self, joints: &JointsView<'_>, reference: &Setpoint<'_>, commands: &mut Commands) {
+    fn command(&mut self, joints: &JointsView<'_>, setpoint: &Setpoint<'_>, commands: &mut Commands) {
         joints.add_gravity_torque(commands.torque_mut());
         let gains = Gains { stiffness: 500.0, damping: 100.0 };
-        commands.drive(5, Motor { gains, q: reference.q[5], qd: reference.qd[5] });
+        commands.drive(5, Motor { gains, q: setpoint.q[5], qd: setpoint.qd[5] });
     }
 }
 
@@ -352,5 +352,5 @@ fn controllers_can_come_from_outside() {
 fn a_world_may_move_to_another_thread() {
     fn is_send<T: Send>() {}
     is_send::<World>();
-    is_send::<congruent_simulation::Snapshot>();
+    is_send::<congruent_simulation::WorldSnapshot>();
 }

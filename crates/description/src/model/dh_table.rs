@@ -23,11 +23,12 @@ pub enum DhRowKind {
     Prismatic,
 }
 
-/// One row of a table.
+/// One row of a table, and what drives it: a joint of a robot in a declared table, `()` in a table of a chain
+/// that belongs to no robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DhRow {
+pub struct DhRow<J = JointIndex> {
     /// The joint whose position drives the row.
-    pub joint: JointIndex,
+    pub joint: J,
     /// Which entry it drives.
     pub kind: DhRowKind,
     /// Link length.
@@ -40,7 +41,7 @@ pub struct DhRow {
     pub theta_rad: f64,
     /// `1.0` or `-1.0`.
     pub sign: f64,
-    /// Line of the row in the robot file, from 1.
+    /// Line of the row in the robot file, from 1; 0 for a row that was not read from a file.
     pub line: usize,
 }
 

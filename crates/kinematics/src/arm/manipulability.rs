@@ -3,16 +3,16 @@
 use congruent_description::ArmQ;
 use nalgebra::{DMatrix, Matrix3};
 
-use super::Arm;
-use crate::{error::KinematicsError, spatial::twist::Twist, uniform::Uniform};
+use super::{model::Arm, spread::spread};
+use crate::{error::KinematicsError, spatial::twist::Twist};
 
 /// Singular values below this share of the largest are zero. Kind: rounding of a dozen products.
 const RANK_SHARE: f64 = 1e-9;
 /// Configurations that tell what an arm can span at all.
-const RANK_SAMPLES: usize = 16;
+const RANK_SAMPLES: u32 = 16;
 
-/// What the singular values of a Jacobian say; those that no configuration of the arm has are left
-/// out, so a planar arm is not called singular for staying in its plane.
+/// What the singular values of a Jacobian say; those that no configuration of the arm has are not
+/// counted, so a planar arm is not called singular for staying in its plane.
 ///
 /// Source: Yoshikawa, *Manipulability of Robotic Mechanisms* (1985), eq. 8 and section 3.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Dexterity {
     pub singular_values: Vec<f64>,
     /// Their product, Yoshikawa's measure.
     pub yoshikawa: f64,
-    /// Largest over smallest; infinite where the arm is singular.
+    /// Largest over smallest; infinite if the arm is singular.
     pub condition: f64,
     /// The smallest: the distance to the nearest singular matrix.
     pub distance_to_singularity: f64,
@@ -34,7 +34,7 @@ pub struct VelocityEllipsoid {
     pub axes_in_base: Matrix3<f64>,
     /// Their lengths, in m or rad per unit of joint speed.
     pub semi_axes: [f64; 3],
-    /// Its figures.
+    /// What its semi-axes say.
     pub dexterity: Dexterity,
 }
 
@@ -79,13 +79,10 @@ impl Arm {
         Ok([linear, angular, whole])
     }
 
-    /// The most directions that each of the three spans at a few configurations.
+    /// The most directions that each of the three spans at a few fixed configurations.
     fn attainable_ranks(&mut self) -> [usize; 3] {
-        let mut random = Uniform::seeded(0);
-        let mut q = self.middle();
         let mut ranks = [0; 3];
-        for _ in 0..RANK_SAMPLES {
-            self.draw(&mut random, &mut q);
+        for q in spread(self.joints(), RANK_SAMPLES) {
             let jacobians = self.jacobians(&q).expect("q is a configuration of this arm");
             for (rank, jacobian) in ranks.iter_mut().zip(jacobians) {
                 let values = sorted(&jacobian.singular_values());
@@ -114,8 +111,8 @@ fn dexterity(values: &[f64], rank: usize) -> Dexterity {
     }
 }
 
-/// From `J J^T` for the axes, which three columns always have, and from `J` for the figures, whose
-/// small values its square would lose.
+/// From `J J^T` for the axes, which three columns always have, and from `J` for the singular values, of which
+/// its square would lose the small ones.
 fn ellipsoid(jacobian: &DMatrix<f64>, rank: usize) -> VelocityEllipsoid {
     let gram = Matrix3::from_fn(|row, column| jacobian.row(row).dot(&jacobian.row(column)));
     let eigen = gram.symmetric_eigen();

@@ -6,6 +6,7 @@ pub(crate) mod manipulability;
 pub(crate) mod model;
 pub(crate) mod pattern_search;
 pub(crate) mod sensitivity;
+mod spread;
 pub(crate) mod workspace;
 
 pub use ik::{DifferentialMethod, IkChange, IkMethod, IkOptions, IkResult, IkSolver, IkTarget, TargetPart};

@@ -5,8 +5,9 @@ use std::f64::consts::{PI, TAU};
 
 use congruent_description::{ArmQ, ChainQ, JointIndex, LinkIndex, Mimic, Robot, RobotDescription, RobotQ};
 
+use super::spread::spread;
 use crate::{
-    chain::{jacobian::JacobianKind, serial::chain::SerialChain},
+    chain::{jacobian::kind::JacobianKind, serial::chain::SerialChain},
     error::KinematicsError,
     spatial::{pose::Pose, twist::Twist},
     uniform::Uniform,
@@ -21,16 +22,16 @@ pub struct ArmJoint {
     pub coordinate: usize,
     /// Whether it turns, in rad; otherwise it slides, in m.
     pub turns: bool,
-    /// Smallest position; minus infinity where there is none.
+    /// Smallest position; minus infinity if there is none.
     pub lower: f64,
-    /// Largest position; infinity where there is none.
+    /// Largest position; infinity if there is none.
     pub upper: f64,
-    /// Whether a full turn of it leaves the pose as it is.
+    /// Whether a full turn of it changes no pose.
     wraps: bool,
 }
 
 impl ArmJoint {
-    /// The range from which positions are drawn: the limits, or one turn where there are none.
+    /// The range from which positions are drawn: the limits, or one turn if there are none.
     pub fn sampled_range(&self) -> (f64, f64) {
         let (low, high) = if self.turns { (-PI, PI) } else { (-1.0, 1.0) };
         match (self.lower.is_finite(), self.upper.is_finite()) {
@@ -41,7 +42,7 @@ impl ArmJoint {
         }
     }
 
-    /// `q` within the limits: a full turn further where that is inside, since it is the same pose,
+    /// `q` within the limits: a full turn further if that is inside, since it is the same pose,
     /// otherwise the nearest limit.
     #[inline]
     pub(crate) fn inside(&self, q: f64) -> f64 {
@@ -56,13 +57,13 @@ impl ArmJoint {
         }
     }
 
-    /// `q` moved by whole turns as near to `reference` as the limits allow.
-    pub(crate) fn nearest_turn(&self, q: f64, reference: f64) -> f64 {
+    /// `q` moved by whole turns as near to `target` as the limits allow.
+    pub(crate) fn nearest_turn(&self, q: f64, target: f64) -> f64 {
         if !self.wraps {
             return q;
         }
-        let turns = ((reference - q) / TAU).round();
-        // One turn less where the nearest is outside.
+        let turns = ((target - q) / TAU).round();
+        // One turn less if the nearest is outside.
         [turns, turns - turns.signum()]
             .map(|turns| q + TAU * turns)
             .into_iter()
@@ -96,10 +97,10 @@ pub struct Arm {
 }
 
 impl Arm {
-    /// The arm of a loaded robot: its URDF chain from base to tip, and the tool where one is declared.
+    /// The arm of a loaded robot: its URDF chain from base to tip, and the tool if one is declared.
     ///
     /// # Errors
-    /// [`KinematicsError::NoJoint`] where nothing moves between base and tip.
+    /// [`KinematicsError::NoJoint`] if nothing moves between base and tip.
     pub fn of(description: &RobotDescription) -> Result<Self, KinematicsError> {
         let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
         Self::new(&description.robot, (description.base, description.tip), tip_from_tcp)
@@ -108,7 +109,7 @@ impl Arm {
     /// The arm from link `base` to a tool in link `tip`.
     ///
     /// # Errors
-    /// [`KinematicsError::NoJoint`] where nothing moves between the two.
+    /// [`KinematicsError::NoJoint`] if nothing moves between the two.
     pub fn new(
         robot: &Robot,
         (base, tip): (LinkIndex, LinkIndex),
@@ -142,7 +143,7 @@ impl Arm {
     }
 
     /// How far the tool typically moves when a joint turns: the length that makes metres and radians
-    /// comparable for this arm. 1 where nothing turns.
+    /// comparable for this arm. 1 if nothing turns.
     pub fn metres_per_rad(&self) -> f64 {
         self.metres_per_rad
     }
@@ -216,15 +217,12 @@ impl Arm {
         Ok(())
     }
 
-    /// Root mean square over turning joints and a few configurations.
+    /// Root mean square over turning joints and a few fixed configurations.
     fn typical_metres_per_rad(&mut self) -> f64 {
         /// Enough for a length that is only a scale.
-        const CONFIGURATIONS: usize = 16;
+        const CONFIGURATIONS: u32 = 16;
         let (mut sum, mut turning) = (0.0, 0.0);
-        let mut random = Uniform::seeded(0);
-        let mut q = self.middle();
-        for _ in 0..CONFIGURATIONS {
-            self.draw(&mut random, &mut q);
+        for q in spread(&self.joints, CONFIGURATIONS) {
             let (_, columns) = self.pose_and_jacobian(&q).expect("q is a configuration of this arm");
             for column in columns {
                 let rate = column.angular.norm();
@@ -238,7 +236,7 @@ impl Arm {
     }
 }
 
-/// Adds a joint of the chain, and the independent one that it follows where that is new.
+/// Adds a joint of the chain, and the independent one that it follows if that is new.
 fn follow(robot: &Robot, index: JointIndex, joints: &mut Vec<ArmJoint>, follows: &mut Vec<Follows>) {
     let joint = robot.joint(index);
     let alone = Mimic { master: index, multiplier: 1.0, offset: 0.0 };

@@ -1,8 +1,8 @@
-//! Local search for the largest value of a figure over an arm's ranges.
+//! Local search for the largest value of a function over an arm's ranges.
 
 use congruent_description::ArmQ;
 
-use super::ArmJoint;
+use super::model::ArmJoint;
 
 /// First step of each joint as a share of its range.
 const FIRST_SHARE: f64 = 0.1;
@@ -11,8 +11,8 @@ const LAST_SHARE: f64 = 1e-7;
 /// Steps in all, so that the search ends on any function.
 const MOST_SWEEPS: usize = 400;
 
-/// Raises `value` by moving one joint at a time, with halved steps where none helps; leaves the best
-/// configuration in `q` and gives its value.
+/// Raises `value` by moving one joint at a time, with halved steps if none helps; `q` is then the best
+/// configuration, and the result its value.
 ///
 /// Source: Hooke & Jeeves, *Direct Search* (1961), without the pattern moves.
 pub(crate) fn maximize(joints: &[ArmJoint], q: &mut ArmQ, mut value: impl FnMut(&ArmQ) -> f64) -> f64 {

@@ -2,10 +2,10 @@
 
 use congruent_description::ArmQ;
 
-use super::{ArmJoint, pattern_search::maximize};
+use super::{model::ArmJoint, pattern_search::maximize};
 use crate::{spatial::pose::Pose, uniform::Uniform};
 
-/// How the joint range is looked at.
+/// How the joint range is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sampling {
     /// Random configurations within the limits.
@@ -27,8 +27,8 @@ pub struct Displacement {
     pub worst_at: ArmQ,
 }
 
-/// Samples from which the worst case is looked for.
-const CLIMBS: usize = 4;
+/// Samples from which the worst case is searched for.
+const SEARCHES: usize = 4;
 
 /// The displacement between an arm as it is meant and as it is.
 ///
@@ -69,7 +69,7 @@ pub fn displacement(
     let mut random = Uniform::seeded(sampling.seed);
     let mut q = ArmQ::zeros(joints.len());
     let (mut sum_m, mut worst_rad) = (0.0, 0.0_f64);
-    let mut worst: Vec<(f64, ArmQ)> = Vec::with_capacity(CLIMBS + 1);
+    let mut worst: Vec<(f64, ArmQ)> = Vec::with_capacity(SEARCHES + 1);
     for _ in 0..sampling.samples {
         for (q, joint) in q.iter_mut().zip(joints) {
             *q = random.between(joint.sampled_range());
@@ -78,10 +78,10 @@ pub fn displacement(
         let distance_m = meant.distance_m(&built);
         sum_m += distance_m;
         worst_rad = worst_rad.max(meant.angle_rad(&built));
-        if worst.len() < CLIMBS || worst.last().is_some_and(|last| distance_m > last.0) {
+        if worst.len() < SEARCHES || worst.last().is_some_and(|last| distance_m > last.0) {
             let at = worst.partition_point(|known| known.0 >= distance_m);
             worst.insert(at, (distance_m, q.clone()));
-            worst.truncate(CLIMBS);
+            worst.truncate(SEARCHES);
         }
     }
     let mut distance_m = |q: &ArmQ| {

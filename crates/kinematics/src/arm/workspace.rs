@@ -1,11 +1,11 @@
-//! Where the tool can be within the joint limits: by seeded samples, with the extremes refined.
+//! The positions of the tool within the joint limits: by seeded samples, with the extremes refined.
 
 use std::{array::from_fn, collections::BTreeSet};
 
 use congruent_description::ArmQ;
 use nalgebra::Vector3;
 
-use super::{Arm, pattern_search::maximize, sensitivity::Sampling};
+use super::{model::Arm, pattern_search::maximize, sensitivity::Sampling};
 use crate::uniform::Uniform;
 
 /// Below this extent the tool does not leave a plane. Kind: rounding of a dozen products within 10 m.
@@ -68,7 +68,7 @@ impl Arm {
         let joints = self.joints().to_vec();
         let mut value = values.into_iter();
         let [nearest, farthest, ends @ ..] = starts.map(|starts| {
-            let value = value.next().expect("a figure for each of the extremes");
+            let value = value.next().expect("a value for each of the extremes");
             starts.into_iter().fold((f64::NEG_INFINITY, self.middle()), |best, (_, mut q)| {
                 let top = maximize(&joints, &mut q, |q| value(&self.tcp_in_base(q)));
                 if top > best.0 { (top, q) } else { best }

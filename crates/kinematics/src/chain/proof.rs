@@ -1,5 +1,4 @@
-//! Two forward kinematics of one serial chain held against each other: the proof that a conversion
-//! carries with it.
+//! Two forward kinematics of one serial chain compared: the proof that comes with a conversion.
 
 use congruent_description::ChainQ;
 
@@ -41,15 +40,15 @@ pub struct Proof {
 }
 
 /// A forward kinematics as a black box: `base_from_tip` at the positions of the chain's joints.
-type Forward<'a> = dyn FnMut(&ChainQ) -> Pose + 'a;
+type BaseFromTip<'a> = dyn FnMut(&ChainQ) -> Pose + 'a;
 
 impl Proof {
-    /// Probes both models of `n` joints and compares them at the configurations too.
+    /// Identifies both models of `n` joints and compares them at the configurations too.
     pub fn of(
         n: usize,
         configurations: &[ChainQ],
-        found: &mut Forward<'_>,
-        expected: &mut Forward<'_>,
+        found: &mut BaseFromTip<'_>,
+        expected: &mut BaseFromTip<'_>,
     ) -> Self {
         let mut proof = Self { configurations: configurations.len(), ..Self::default() };
         let (by_found, by_expected) =

@@ -4,7 +4,7 @@ use congruent_description::{Joint, JointKind, LinkIndex, Robot, RobotQ};
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
-    jacobian::{Jacobian, JacobianKind},
+    jacobian::{columns::Jacobian, kind::JacobianKind},
     sin_cos::{BLOCK, SinCos, SinesCosines},
 };
 use crate::{
@@ -61,12 +61,12 @@ struct TreeJoint {
     parent: usize,
     child: usize,
     parent_from_joint: Pose,
-    motion: Motion,
+    motion: JointMotion,
 }
 
 /// How the child moves, in the axes of the parent.
 #[derive(Debug, Clone)]
-enum Motion {
+enum JointMotion {
     Fixed,
     /// `R(q) = R(0) + sin q R(0) [w] + (1 - cos q) R(0) [w]^2`: Rodrigues with the joint's own
     /// rotation multiplied in.
@@ -228,7 +228,7 @@ impl UrdfTree {
         Ok(Jacobian::from_columns(kind, columns))
     }
 
-    /// Climbs from a link to the root, the sines of a block first, so that they are computed
+    /// Goes from a link up to the root, the sines of a block first, so that they are computed
     /// together; `each` sees a joint and the link's pose in its child. Gives the pose in the root.
     #[inline]
     fn visit_up(&self, q: &RobotQ, link: LinkIndex, mut each: impl FnMut(&TreeJoint, &Pose)) -> Pose {
@@ -253,8 +253,8 @@ impl UrdfTree {
     }
 }
 
-impl Motion {
-    /// The angle whose sine and cosine the motion needs; 0 where it needs none.
+impl JointMotion {
+    /// The angle whose sine and cosine the motion needs; 0 if it needs none.
     #[inline]
     fn angle_rad(&self, q: &RobotQ) -> f64 {
         if let Self::Turn { coordinate, .. } = self { q[*coordinate] } else { 0.0 }
@@ -285,13 +285,13 @@ impl TreeJoint {
                 let axis_hat = hat(&joint.axis_in_joint);
                 let by_sine = parent_from_joint.rotation * axis_hat;
                 let axis_in_child = joint.axis_in_joint.into_inner();
-                Motion::Turn { coordinate, by_sine, by_versine: by_sine * axis_hat, axis_in_child }
+                JointMotion::Turn { coordinate, by_sine, by_versine: by_sine * axis_hat, axis_in_child }
             }
             (JointKind::Prismatic, Some(coordinate)) => {
                 let axis_in_child = joint.axis_in_joint.into_inner();
-                Motion::Shift { coordinate, axis_in_parent, axis_in_child }
+                JointMotion::Shift { coordinate, axis_in_parent, axis_in_child }
             }
-            (JointKind::Fixed, _) | (_, None) => Motion::Fixed,
+            (JointKind::Fixed, _) | (_, None) => JointMotion::Fixed,
         };
         Self { parent: joint.parent.get(), child: joint.child.get(), parent_from_joint, motion }
     }
@@ -300,12 +300,12 @@ impl TreeJoint {
     fn parent_from_child(&self, q: &RobotQ, turn: SinCos) -> Pose {
         let Pose { rotation, translation } = self.parent_from_joint;
         match &self.motion {
-            Motion::Fixed => self.parent_from_joint,
-            Motion::Turn { by_sine, by_versine, .. } => {
+            JointMotion::Fixed => self.parent_from_joint,
+            JointMotion::Turn { by_sine, by_versine, .. } => {
                 let rotation = rotation + by_sine * turn.sin + by_versine * (1.0 - turn.cos);
                 Pose { rotation, translation }
             }
-            Motion::Shift { coordinate, axis_in_parent, .. } => {
+            JointMotion::Shift { coordinate, axis_in_parent, .. } => {
                 Pose { rotation, translation: translation + axis_in_parent * q[*coordinate] }
             }
         }

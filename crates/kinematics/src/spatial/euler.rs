@@ -4,8 +4,10 @@ use std::{f64::consts::PI, fmt, str::FromStr};
 
 use nalgebra::Matrix3;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::elementary::turn;
-use crate::error::KinematicsError;
 
 /// Nearer than this to a singular position (radians of the middle angle) the first and the last
 /// angle are no longer told apart. Kind: rounding of a product of some dozen rotations, 64 eps.
@@ -18,7 +20,8 @@ const SINGULAR_BELOW_RAD: f64 = 1.4e-14;
 /// *fixed* axes the same turns come in the reverse order: see [`EulerSet::reversed`].
 ///
 /// Source: Craig, *Introduction to Robotics* (3rd ed. 2005), section 2.8 and appendix B.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum EulerSet {
     /// `Rx Ry Rz`.
     Xyz,
@@ -46,8 +49,19 @@ pub enum EulerSet {
     Zyz,
 }
 
+/// No set of Euler angles has this name.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no set of Euler angles \"{name}\": there are {}", known.map(EulerSet::name).join(", "))]
+pub struct UnknownEulerSet {
+    /// The name.
+    pub name: String,
+    /// All sets, nearest first.
+    pub known: [EulerSet; 12],
+}
+
 /// What a rotation says of the first and the last angle of a set.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum DeterminedAngles {
     /// Each for itself.
     Both,
@@ -61,7 +75,7 @@ pub enum DeterminedAngles {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EulerAngles {
     /// First, middle and last. The middle one is in `-pi/2..=pi/2` of three different axes and in
-    /// `0..=pi` where the first comes again, the others are in `-pi..=pi`.
+    /// `0..=pi` if the first comes again, the others are in `-pi..=pi`.
     pub angles_rad: [f64; 3],
     /// The same rotation with the middle angle in the other half of the circle.
     pub other_rad: [f64; 3],
@@ -148,7 +162,7 @@ impl EulerSet {
     /// use congruent_kinematics::EulerSet;
     /// use nalgebra::Vector3;
     /// use std::f64::consts::FRAC_PI_2;
-    /// // The z axis goes to x by the first two turns of Zyz, and the last leaves it there.
+    /// // The z axis goes to x by the first two turns of Zyz, and the last does not move it.
     /// let rotation = EulerSet::Zyz.rotation([0.0, FRAC_PI_2, 0.7]);
     /// assert!((rotation * Vector3::z() - Vector3::x()).norm() < 1e-15);
     /// ```
@@ -160,7 +174,7 @@ impl EulerSet {
     /// The angles of a rotation, both solutions, and how well the rotation determines them.
     ///
     /// The first angle is found from where the last axis points, the last from what remains when the
-    /// first is undone: so the three together are accurate even where the first alone is not.
+    /// first is undone: so the three together are accurate even if the first alone is not.
     ///
     /// Source: Craig, *Introduction to Robotics* (3rd ed. 2005), eq. 2.66 to 2.75; at a singular
     /// position the first angle is zero, as in eq. 2.67, and the middle one is exactly there.
@@ -242,12 +256,12 @@ impl fmt::Display for EulerSet {
 }
 
 impl FromStr for EulerSet {
-    type Err = KinematicsError;
+    type Err = UnknownEulerSet;
 
     /// From its axes, first to last, in upper or lower case.
     ///
     /// # Errors
-    /// [`KinematicsError::EulerSet`] of another name, with the known ones, nearest first.
+    /// [`UnknownEulerSet`] for another name, with the known ones, nearest first.
     fn from_str(name: &str) -> Result<Self, Self::Err> {
         let lower = name.to_lowercase();
         let known = Self::ALL.into_iter().find(|set| set.name() == lower);
@@ -255,7 +269,7 @@ impl FromStr for EulerSet {
             let mut nearest = Self::ALL;
             let misses = |set: &Self| set.name().chars().zip(lower.chars()).filter(|(a, b)| a != b).count();
             nearest.sort_by_key(misses);
-            KinematicsError::EulerSet { name: name.to_owned(), known: nearest }
+            UnknownEulerSet { name: name.to_owned(), known: nearest }
         })
     }
 }

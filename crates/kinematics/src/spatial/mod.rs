@@ -12,7 +12,7 @@ pub(crate) mod twist;
 pub(crate) mod twist_algebra;
 pub(crate) mod wrench;
 
-pub use euler::{DeterminedAngles, EulerAngles, EulerSet};
+pub use euler::{DeterminedAngles, EulerAngles, EulerSet, UnknownEulerSet};
 pub use pose::Pose;
 pub use pose_error::{PoseError, larger};
 pub use reported_pose::ReportedPose;

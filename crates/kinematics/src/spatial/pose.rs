@@ -114,7 +114,7 @@ impl Pose {
 
     /// Angle of the turn between two orientations, in `0..=pi` radians.
     ///
-    /// `atan2(sin, cos)` keeps full accuracy near 0 and near pi, where an arc cosine or sine alone
+    /// `atan2(sin, cos)` keeps full accuracy near 0 and near pi, at which an arc cosine or sine alone
     /// loses half of the digits.
     ///
     /// # Examples
@@ -151,7 +151,7 @@ impl Pose {
     }
 
     /// The pose with the rotation nearest to its matrix (in the Frobenius norm), for poses that long
-    /// products or written figures have left a little off; `None` where the determinant is not
+    /// products or written values have left a little off; `None` if the determinant is not
     /// positive, for a mirror is no rotation that is off.
     ///
     /// Source: Higham, *Functions of Matrices* (2008), eq. 8.17: Newton's iteration for the polar
@@ -162,10 +162,10 @@ impl Pose {
     /// use congruent_kinematics::Pose;
     /// use nalgebra::{Matrix3, Vector3};
     /// let sheared = Pose::from_parts(Matrix3::identity() + Vector3::x() * Vector3::y().transpose() * 1e-3, Vector3::x());
-    /// let mended = sheared.orthonormalized().unwrap();
-    /// assert!(mended.orthonormality_error() < 4.0 * f64::EPSILON);
+    /// let corrected = sheared.orthonormalized().unwrap();
+    /// assert!(corrected.orthonormality_error() < 4.0 * f64::EPSILON);
     /// // The shear of 1e-3 is half a turn of 1e-3, half a stretch.
-    /// assert!((mended.angle_rad(&Pose::identity()) - 0.5e-3).abs() < 1e-9);
+    /// assert!((corrected.angle_rad(&Pose::identity()) - 0.5e-3).abs() < 1e-9);
     /// assert_eq!(Pose::from_parts(-Matrix3::identity(), Vector3::zeros()).orthonormalized(), None);
     /// ```
     #[must_use]
@@ -179,7 +179,7 @@ impl Pose {
         for _ in 0..MOST_STEPS {
             let step = (rotation.try_inverse()?.transpose() - rotation) / 2.0;
             rotation += step;
-            // What a step leaves is its square.
+            // The error after a step is its square.
             if step.norm() < f64::EPSILON.sqrt() {
                 return Some(Self { rotation, ..*self });
             }
@@ -312,13 +312,13 @@ mod tests {
             let stretch = Vector3::from(exponents).map(|exponent: f64| 10_f64.powf(exponent));
             let symmetric = along * Matrix3::from_diagonal(&stretch) * along.transpose();
             let stretched = Pose { rotation: pose.rotation * symmetric, ..pose };
-            let mended = stretched.orthonormalized().unwrap();
-            prop_assert!(support::within(mended.orthonormality_error(), ROUNDING_RAD));
+            let corrected = stretched.orthonormalized().unwrap();
+            prop_assert!(support::within(corrected.orthonormality_error(), ROUNDING_RAD));
             // A rounding of the largest stretch turns by its share of the smallest two.
             let mut sizes: [f64; 3] = stretch.into();
             sizes.sort_by(f64::total_cmp);
             let condition = sizes[2] / (sizes[0] + sizes[1]);
-            prop_assert!(support::within(mended.angle_rad(&pose) / (1.0 + condition), ROUNDING_RAD));
+            prop_assert!(support::within(corrected.angle_rad(&pose) / (1.0 + condition), ROUNDING_RAD));
         }
 
         #[test]

@@ -8,7 +8,7 @@ use super::pose::Pose;
 /// A pose as programs read it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedPose {
-    /// Origin, in the root link's frame where nothing else is said.
+    /// Origin, in the root link's frame if nothing else is said.
     pub translation_m: [f64; 3],
     /// Orientation in the same frame; the first component that is not zero is positive.
     pub quaternion_wxyz: [f64; 4],

@@ -4,11 +4,11 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::pose::Pose;
 
-/// How far a length may be from 1. Kind: written figures, six digits each (three entries off by
-/// 5e-7 are 8.7e-7 together); what is below is mended.
+/// How far a length may be from 1. Kind: written values, six digits each (three entries off by
+/// 5e-7 are 8.7e-7 together); smaller deviations are corrected.
 const UNIT: f64 = 1e-6;
-/// How far two axes may be from perpendicular, in radians. Kind: written figures, six digits each (twice
-/// 8.7e-7); what is below is mended.
+/// How far two axes may be from perpendicular, in radians. Kind: written values, six digits each (twice
+/// 8.7e-7); smaller deviations are corrected.
 const PERPENDICULAR_RAD: f64 = 2e-6;
 /// At smaller angles than this, approach and sliding fix no third axis: six digits would not tell it.
 const PARALLEL_RAD: f64 = 1e-6;
@@ -75,7 +75,7 @@ pub enum ToolAxesError {
         /// `n . (s x a)`.
         triple_product: f64,
     },
-    /// A direction of no length, or with figures that are not finite.
+    /// A direction of no length, or with entries that are not finite.
     #[error("the {axis} direction has length {length}, which is no direction")]
     NoDirection {
         /// `sliding` or `approach`.
@@ -84,7 +84,7 @@ pub enum ToolAxesError {
         length: f64,
     },
     /// Approach and sliding are one direction.
-    #[error("approach and sliding are {angle_rad:e} rad from parallel, which leaves the normal open")]
+    #[error("approach and sliding are {angle_rad:e} rad from parallel, which does not determine the normal")]
     Parallel {
         /// Their angle, or that of one and the opposite of the other, in radians.
         angle_rad: f64,
@@ -116,7 +116,7 @@ impl ToolAxes {
         Ok(Self { normal, sliding: approach.cross(&normal), approach })
     }
 
-    /// The pose of the tool with these axes and this origin; what six digits leave off is mended.
+    /// The pose of the tool with these axes and this origin; deviations of six digits are corrected.
     ///
     /// | value | shape | unit | frame |
     /// |---|---|---|---|
@@ -142,8 +142,8 @@ impl ToolAxes {
             }
         }
         let written = Matrix3::from_columns(&[self.normal, self.sliding, self.approach]);
-        let mended = Pose::from_parts(written, tool_in_base.coords).orthonormalized();
-        mended.ok_or(ToolAxesError::LeftHanded { triple_product: written.determinant() })
+        let corrected = Pose::from_parts(written, tool_in_base.coords).orthonormalized();
+        corrected.ok_or(ToolAxesError::LeftHanded { triple_product: written.determinant() })
     }
 }
 
@@ -210,7 +210,7 @@ mod tests {
             by([1., 0., 0.], [f64::INFINITY, 0., 0.]),
             "the sliding direction has length inf, which is no direction"
         );
-        let parallel = "approach and sliding are 0e0 rad from parallel, which leaves the normal open";
+        let parallel = "approach and sliding are 0e0 rad from parallel, which does not determine the normal";
         assert_eq!(by([0., 0., 3.], [0., 0., -1.]), parallel);
     }
 
@@ -227,7 +227,7 @@ mod tests {
         }
 
         #[test]
-        fn six_digits_are_enough_and_are_mended(pose in support::isometry()) {
+        fn six_digits_are_enough_and_are_corrected(pose in support::isometry()) {
             let six_digits = |v: Vector3<f64>| v.map(|entry| (entry * 1e6).round() / 1e6);
             let pose = Pose::from(pose);
             let ToolAxes { normal, sliding, approach } = ToolAxes::of(&pose);

@@ -1,4 +1,4 @@
-//! The witness: forward kinematics once more, with elementary matrices alone, on numbers that carry
+//! The independent source: forward kinematics once more, with elementary matrices alone, on numbers that carry
 //! their derivatives along. It shares no step with the crate.
 
 use congruent_description::{DhConvention, DhRowKind, JointKind, LinkIndex, Robot};
@@ -14,47 +14,47 @@ impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 pub(crate) type Second = Dual<Dual64>;
 
 /// A homogeneous matrix.
-pub(crate) type Motion<D> = Matrix4<D>;
+pub(crate) type DualPose<D> = Matrix4<D>;
 
 /// Angular, then linear.
 pub(crate) type Six<D> = [D; 6];
 
-pub(crate) fn constant<D: Number>(isometry: &Isometry3<f64>) -> Motion<D> {
+pub(crate) fn constant<D: Number>(isometry: &Isometry3<f64>) -> DualPose<D> {
     isometry.to_homogeneous().map(D::from)
 }
 
 /// A shift along x, y or z.
-pub(crate) fn along<D: Number>(axis: usize, by: D) -> Motion<D> {
-    let mut motion = Motion::identity();
+pub(crate) fn along<D: Number>(axis: usize, by: D) -> DualPose<D> {
+    let mut motion = DualPose::identity();
     motion[(axis, 3)] = by;
     motion
 }
 
 /// A turn about x, y or z.
-pub(crate) fn about<D: Number>(axis: usize, by: D) -> Motion<D> {
+pub(crate) fn about<D: Number>(axis: usize, by: D) -> DualPose<D> {
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut motion = Motion::identity();
+    let mut motion = DualPose::identity();
     (motion[(next, next)], motion[(last, last)]) = (by.cos(), by.cos());
     (motion[(next, last)], motion[(last, next)]) = (-by.sin(), by.sin());
     motion
 }
 
 /// Rodrigues: a turn about a unit axis.
-fn about_axis<D: Number>(axis: &Vector3<f64>, by: D) -> Motion<D> {
+fn about_axis<D: Number>(axis: &Vector3<f64>, by: D) -> DualPose<D> {
     let zero = D::from(0.0);
     let skew = hat([D::from(axis.x), D::from(axis.y), D::from(axis.z), zero, zero, zero]);
-    Motion::identity() + skew * by.sin() + skew * skew * (D::from(1.0) - by.cos())
+    DualPose::identity() + skew * by.sin() + skew * skew * (D::from(1.0) - by.cos())
 }
 
-fn hat<D: Number>([wx, wy, wz, vx, vy, vz]: Six<D>) -> Motion<D> {
+fn hat<D: Number>([wx, wy, wz, vx, vy, vz]: Six<D>) -> DualPose<D> {
     let zero = D::from(0.0);
-    Motion::new(zero, -wz, wy, vx, wz, zero, -wx, vy, -wy, wx, zero, vz, zero, zero, zero, zero)
+    DualPose::new(zero, -wz, wy, vx, wz, zero, -wx, vy, -wy, wx, zero, vz, zero, zero, zero, zero)
 }
 
 /// The power series of the matrix exponential, far beyond what twists of a few radians need.
-pub(crate) fn exponential<D: Number>(twist: Six<D>) -> Motion<D> {
+pub(crate) fn exponential<D: Number>(twist: Six<D>) -> DualPose<D> {
     let generator = hat(twist);
-    let (mut term, mut sum) = (Motion::identity(), Motion::identity());
+    let (mut term, mut sum) = (DualPose::identity(), DualPose::identity());
     for order in 1..60 {
         term = term * generator * D::from(1.0 / f64::from(order));
         sum += term;
@@ -62,8 +62,8 @@ pub(crate) fn exponential<D: Number>(twist: Six<D>) -> Motion<D> {
     sum
 }
 
-pub(crate) fn inverse<D: Number>(motion: &Motion<D>) -> Motion<D> {
-    let mut inverse = Motion::identity();
+pub(crate) fn inverse<D: Number>(motion: &DualPose<D>) -> DualPose<D> {
+    let mut inverse = DualPose::identity();
     for row in 0..3 {
         let mut shift = D::from(0.0);
         for column in 0..3 {
@@ -75,7 +75,7 @@ pub(crate) fn inverse<D: Number>(motion: &Motion<D>) -> Motion<D> {
     inverse
 }
 
-/// A table whose every figure is a number with derivatives.
+/// A table whose every parameter is a number with derivatives.
 #[derive(Debug, Clone)]
 pub(crate) struct Table<D> {
     pub(crate) convention: DhConvention,
@@ -89,7 +89,7 @@ pub(crate) struct Table<D> {
 }
 
 impl<D: Number> Table<D> {
-    pub(crate) fn base_from_tip(&self, q: &[f64]) -> Motion<D> {
+    pub(crate) fn base_from_tip(&self, q: &[f64]) -> DualPose<D> {
         let mut motion = exponential(self.base.0) * constant(&self.base.1);
         for ((&[a, alpha, mut d, mut theta], (kind, sign)), q) in self.rows.iter().zip(&self.joints).zip(q) {
             match kind {
@@ -107,8 +107,8 @@ impl<D: Number> Table<D> {
 }
 
 /// Pose of a link in the root of a tree.
-pub(crate) fn root_from_link<D: Number>(robot: &Robot, link: LinkIndex, q: &[D]) -> Motion<D> {
-    let Some(index) = robot.parent_joint(link) else { return Motion::identity() };
+pub(crate) fn root_from_link<D: Number>(robot: &Robot, link: LinkIndex, q: &[D]) -> DualPose<D> {
+    let Some(index) = robot.parent_joint(link) else { return DualPose::identity() };
     let joint = robot.joint(index);
     let parent = root_from_link(robot, joint.parent, q) * constant(&joint.parent_from_joint);
     let axis = joint.axis_in_joint.into_inner();
@@ -123,7 +123,7 @@ pub(crate) fn root_from_link<D: Number>(robot: &Robot, link: LinkIndex, q: &[D])
 }
 
 /// The velocity of a pose as a Jacobian of this kind has it.
-pub(crate) fn velocity<D: Number>(kind: JacobianKind, pose: &Motion<D>, rate: &Motion<D>) -> Six<D> {
+pub(crate) fn velocity<D: Number>(kind: JacobianKind, pose: &DualPose<D>, rate: &DualPose<D>) -> Six<D> {
     let in_space = rate * inverse(pose);
     let twist = if kind == JacobianKind::Body { inverse(pose) * rate } else { in_space };
     let linear = if kind == JacobianKind::Geometric { rate } else { &twist };
@@ -133,12 +133,12 @@ pub(crate) fn velocity<D: Number>(kind: JacobianKind, pose: &Motion<D>, rate: &M
 }
 
 /// The space twist of a pose whose numbers carry one derivative.
-pub(crate) fn space_twist(motion: &Motion<Dual64>) -> Twist {
+pub(crate) fn space_twist(motion: &DualPose<Dual64>) -> Twist {
     twist_of(velocity(JacobianKind::Space, &motion.map(|entry| entry.re), &motion.map(|entry| entry.eps)))
 }
 
 /// The velocity of a pose along the outer direction, and the derivative of that along the inner one.
-pub(crate) fn velocity_and_change(kind: JacobianKind, motion: &Motion<Second>) -> (Twist, Twist) {
+pub(crate) fn velocity_and_change(kind: JacobianKind, motion: &DualPose<Second>) -> (Twist, Twist) {
     let velocity = velocity(kind, &motion.map(|entry| entry.re), &motion.map(|entry| entry.eps));
     (twist_of(velocity.map(|entry| entry.re)), twist_of(velocity.map(|entry| entry.eps)))
 }

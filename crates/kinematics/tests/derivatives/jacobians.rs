@@ -14,7 +14,7 @@ use crate::{
     support::{self, within},
 };
 
-/// Rounding, ours and the witness's, of chains of up to fifteen joints within 10 m; of second
+/// Rounding, ours and the dual numbers', of chains of up to fifteen joints within 10 m; of second
 /// derivatives and of speeds of up to 3 rad/s and 3 m/s for each joint; worst seen 1.4e-13.
 const ROUNDING: f64 = 1e-12;
 
@@ -51,7 +51,7 @@ impl<Q: Deref<Target = [f64]>> State<'_, Q> {
 
     /// Holds a Jacobian and everything that follows from it against a pose on dual numbers.
     #[track_caller]
-    fn hold(&self, jacobian: &Jacobian, pose: impl Fn(&[Second]) -> crate::duals::Motion<Second>) {
+    fn hold(&self, jacobian: &Jacobian, pose: impl Fn(&[Second]) -> crate::duals::DualPose<Second>) {
         let kind = jacobian.kind();
         let near = |found: &Twist, expected: &Twist| {
             assert!(within(apart(found, expected), ROUNDING), "{kind:?}: {found:?} {expected:?}");

@@ -1,14 +1,14 @@
 //! Derivatives against dual numbers: Jacobians of every kind, what a Jacobian becomes by one
-//! coordinate and in time, and what every figure of a table and of screws does to the tip. Dual
-//! numbers carry derivatives exactly, so that only rounding is left.
+//! coordinate and in time, and what every parameter of a table and of screws does to the tip. Dual
+//! numbers carry derivatives exactly, so that only rounding remains.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
 
 #[path = "../../../../tests/corpus.rs"]
 mod corpus;
 mod duals;
-mod figures;
 mod jacobians;
+mod parameters;
 #[path = "../support/mod.rs"]
 mod support;
 

@@ -1,6 +1,6 @@
-//! Robots built in code, and random figures, for the tests and benchmarks of this crate.
+//! Robots built in code, and random parameters, for the tests and benchmarks of this crate.
 //!
-//! It uses isometries of nalgebra and nothing of the crate, so that it can serve as its witness.
+//! It uses isometries of nalgebra and nothing of the crate, so that it can serve as an independent source.
 
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
@@ -120,7 +120,7 @@ pub fn robot(joints: Vec<Carried>) -> Robot {
     Robot::new("test", links, joints).expect("the parts are a tree")
 }
 
-/// The figures of one row.
+/// The parameters of one row.
 #[derive(Debug, Clone, Copy)]
 pub struct RowFigures {
     pub kind: DhRowKind,

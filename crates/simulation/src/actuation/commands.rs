@@ -1,62 +1,6 @@
-//! What a controller sees and what it may command.
+//! What a controller may command.
 
-use congruent_description::RobotQ;
-use nalgebra::Vector3;
-
-use super::Gains;
-use crate::engine::Engine;
-
-/// The desired state at the end of the step, one entry for each movable joint, mimic joints
-/// included, in the order of `Robot::movable_joints`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Setpoint<'a> {
-    /// Positions, rad or m.
-    pub q: &'a RobotQ,
-    /// Velocities, rad/s or m/s.
-    pub qd: &'a [f64],
-}
-
-/// The joints at the beginning of the step.
-pub struct JointsView<'a> {
-    pub(crate) q: &'a [f64],
-    pub(crate) qd: &'a [f64],
-    pub(crate) engine: &'a Engine,
-}
-
-impl JointsView<'_> {
-    /// Positions, rad or m.
-    pub fn q(&self) -> &[f64] {
-        self.q
-    }
-
-    /// Velocities, rad/s or m/s.
-    pub fn qd(&self) -> &[f64] {
-        self.qd
-    }
-
-    /// Length of the step, s.
-    pub fn step_s(&self) -> f64 {
-        self.engine.step_s()
-    }
-
-    /// Acceleration of free fall, m/s^2.
-    pub fn gravity_in_world(&self) -> Vector3<f64> {
-        self.engine.gravity_in_world()
-    }
-
-    /// Whether the joint follows another instead of an actuator of its own.
-    pub fn is_mimic(&self, coordinate: usize) -> bool {
-        self.engine.is_mimic(coordinate)
-    }
-
-    /// Adds to `torque` what holds the robot against gravity, N m or N.
-    ///
-    /// # Panics
-    /// When `torque` does not hold one entry for each movable joint.
-    pub fn add_gravity_torque(&self, torque: &mut [f64]) {
-        self.engine.add_gravity_torque(torque);
-    }
-}
+use super::gains::Gains;
 
 /// A servo that rapier integrates implicitly, stable at any gain: it exerts
 /// `stiffness (q - q(t)) + damping (qd - qd(t))`, state and target at the end of the step.
@@ -101,22 +45,8 @@ impl Commands {
         self.motors[coordinate] = drives.then_some(motor);
     }
 
-    /// Puts the robot into the reference's state at the end of the step, without dynamics.
+    /// Puts the robot into the setpoint's state at the end of the step, without dynamics.
     pub fn place(&mut self) {
         self.placed = true;
-    }
-}
-
-/// Drives every joint that has an actuator of its own towards the reference.
-pub(crate) fn drive_all(
-    gains: Gains,
-    joints: &JointsView<'_>,
-    reference: &Setpoint<'_>,
-    commands: &mut Commands,
-) {
-    for (coordinate, (&q, &qd)) in reference.q.iter().zip(reference.qd).enumerate() {
-        if !joints.is_mimic(coordinate) {
-            commands.drive(coordinate, Motor { gains, q, qd });
-        }
     }
 }

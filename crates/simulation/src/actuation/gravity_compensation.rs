@@ -1,11 +1,16 @@
 //! The torque that holds the robot against gravity, at every joint, mimic joints included; with
 //! gains, servos on top.
 
-use super::{Commands, Controller, Gains, JointsView, Setpoint, commands::drive_all};
+use super::{
+    commands::Commands,
+    controller::Controller,
+    gains::Gains,
+    joints_view::{JointsView, Setpoint, drive_all},
+};
 
 pub(super) const NAME: &str = "gravity_compensation";
 
-/// Gravity torque of the present configuration, and servos where the gains are not zero.
+/// Gravity torque of the present configuration, and servos if the gains are not zero.
 pub(super) struct GravityCompensation {
     pub(super) gains: Gains,
 }
@@ -15,8 +20,8 @@ impl Controller for GravityCompensation {
         NAME
     }
 
-    fn command(&mut self, joints: &JointsView<'_>, reference: &Setpoint<'_>, commands: &mut Commands) {
+    fn command(&mut self, joints: &JointsView<'_>, setpoint: &Setpoint<'_>, commands: &mut Commands) {
         joints.add_gravity_torque(commands.torque_mut());
-        drive_all(self.gains, joints, reference, commands);
+        drive_all(self.gains, joints, setpoint, commands);
     }
 }

@@ -1,6 +1,10 @@
-//! Playback: the robot is where the reference says, whatever it weighs.
+//! Playback: the robot is at the setpoint, whatever it weighs.
 
-use super::{Commands, Controller, JointsView, Setpoint};
+use super::{
+    commands::Commands,
+    controller::Controller,
+    joints_view::{JointsView, Setpoint},
+};
 
 pub(super) const NAME: &str = "kinematic";
 

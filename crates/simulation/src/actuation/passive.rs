@@ -1,6 +1,10 @@
 //! No actuation: the robot swings.
 
-use super::{Commands, Controller, JointsView, Setpoint};
+use super::{
+    commands::Commands,
+    controller::Controller,
+    joints_view::{JointsView, Setpoint},
+};
 
 pub(super) const NAME: &str = "passive";
 

@@ -1,7 +1,12 @@
 //! A servo at every joint: stiffness on the position error, damping on the velocity error.
 //! Without gravity compensation, so it sags by gravity torque / stiffness.
 
-use super::{Commands, Controller, Gains, JointsView, Setpoint, commands::drive_all};
+use super::{
+    commands::Commands,
+    controller::Controller,
+    gains::Gains,
+    joints_view::{JointsView, Setpoint, drive_all},
+};
 
 pub(super) const NAME: &str = "pd";
 
@@ -15,7 +20,7 @@ impl Controller for Pd {
         NAME
     }
 
-    fn command(&mut self, joints: &JointsView<'_>, reference: &Setpoint<'_>, commands: &mut Commands) {
-        drive_all(self.gains, joints, reference, commands);
+    fn command(&mut self, joints: &JointsView<'_>, setpoint: &Setpoint<'_>, commands: &mut Commands) {
+        drive_all(self.gains, joints, setpoint, commands);
     }
 }

@@ -1,8 +1,8 @@
-//! Of several solutions the one nearest to where the arm stands.
+//! Of several solutions the one nearest to the arm's configuration.
 
 use congruent_description::ArmQ;
 
-use super::{IkOptions, IkResult, IkSolver, IkTarget};
+use super::{options::IkOptions, residual::IkTarget, result::IkResult, solver::IkSolver};
 use crate::{error::KinematicsError, uniform::Uniform};
 
 impl IkSolver {

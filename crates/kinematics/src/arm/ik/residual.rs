@@ -1,12 +1,15 @@
 //! What is asked for, and how far a pose is from it.
 
 use nalgebra::Vector6;
+use schemars::JsonSchema;
+use serde::Serialize;
 
-use super::{IkMethod, IkOptions};
+use super::options::{IkMethod, IkOptions};
 use crate::spatial::{pose::Pose, rotation::rotation_log, twist::Twist};
 
 /// How much of a pose is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum TargetPart {
     /// The origin alone, in any orientation.
     Position,
@@ -26,14 +29,14 @@ pub struct IkTarget {
 /// What separates a pose from a target: as lengths and angles, and as a task vector in the units
 /// and axes that the method works in.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Residual {
+pub(super) struct IkResidual {
     pub(super) position_m: f64,
     pub(super) orientation_rad: f64,
     /// Angular first, as a [`Twist`].
     pub(super) task: Vector6<f64>,
 }
 
-impl Residual {
+impl IkResidual {
     pub(super) fn of(target: &IkTarget, base_from_tcp: &Pose, frame: &TaskFrame) -> Self {
         let shift = target.base_from_tcp.translation - base_from_tcp.translation;
         let rotation = match target.part {

@@ -4,9 +4,10 @@ use congruent_description::ArmQ;
 use nalgebra::Vector6;
 
 use super::{
-    DifferentialMethod, IkChange, IkMethod, IkOptions, IkResult,
-    residual::{IkTarget, Residual, TaskFrame},
-    step::{self, Task},
+    options::{DifferentialMethod, IkMethod, IkOptions},
+    residual::{IkResidual, IkTarget, TaskFrame},
+    result::{IkChange, IkResult},
+    step::{self, IkTask},
 };
 use crate::{
     arm::model::{Arm, ArmJoint},
@@ -18,7 +19,7 @@ use crate::{
 const PROGRESS: f64 = 0.5;
 /// Steps without progress after which an attempt is given up.
 const PATIENCE: usize = 7;
-/// A method without restarts stops where no joint moves further than this. Kind: rounding.
+/// A method without restarts stops if no joint moves further than this. Kind: rounding.
 const STANDSTILL: f64 = 1e-15;
 
 /// Solves one target after another for an arm, without allocation.
@@ -64,12 +65,12 @@ impl IkSolver {
     /// | `start` | number of joints | rad, m | base to tip |
     ///
     /// The number of steps is bounded by the options; `keep_going` is asked before each and may end
-    /// the search earlier: that is where a caller with a clock puts it.
+    /// the search earlier: a caller with a clock looks at it there.
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `start` is no configuration of the arm.
     /// # Examples
-    /// An arm of two links of 0.6 m and 0.4 m reaches (0.6, 0.4), and says what is left of (2, 0):
+    /// An arm of two links of 0.6 m and 0.4 m reaches (0.6, 0.4), and gives the residual of (2, 0):
     /// ```
     /// # use congruent_description::{Joint, JointKind, JointParts, Link, Robot};
     /// # use nalgebra::{Isometry3, Matrix3, Vector3};
@@ -187,7 +188,7 @@ impl IkSolver {
         KinematicsError::check_joints(self.q.len(), q)?;
         KinematicsError::check_joints(self.q.len(), commanded)?;
         self.q.copy_from_slice(q);
-        let (frame, rule): (_, fn(&Task<'_>, &mut [f64])) = match method {
+        let (frame, rule): (_, fn(&IkTask<'_>, &mut [f64])) = match method {
             DifferentialMethod::PseudoInverse => (IkMethod::PseudoInverse, step::damped_pseudo_inverse),
             DifferentialMethod::Transpose => (IkMethod::Transpose, step::transposed),
         };
@@ -213,7 +214,7 @@ impl IkSolver {
     }
 
     /// Takes whole turns out of the solution, as near to `start` as the limits allow; gives the sum of
-    /// squares of what is left between the two, in radians.
+    /// squares of the difference of the two, in radians.
     pub(super) fn turn_towards(&mut self, start: &ArmQ) -> f64 {
         let rad_per_metre = 1.0 / self.arm.metres_per_rad();
         let mut sum = 0.0;
@@ -225,13 +226,13 @@ impl IkSolver {
         sum
     }
 
-    /// Leaves the best configuration in `best`; gives its residual and the number of steps.
+    /// Writes the best configuration to `best`; gives its residual and the number of steps.
     fn search(
         &mut self,
         target: &IkTarget,
         options: &IkOptions,
         mut keep_going: impl FnMut() -> bool,
-    ) -> Result<(Residual, usize), KinematicsError> {
+    ) -> Result<(IkResidual, usize), KinematicsError> {
         let frame = TaskFrame::of(options.method, target.part, self.arm.metres_per_rad());
         let mut residual = self.look(target, &frame)?;
         let mut best = residual;
@@ -263,17 +264,17 @@ impl IkSolver {
         Ok((best, options.max_iterations))
     }
 
-    /// Residual and columns at `q`.
-    fn look(&mut self, target: &IkTarget, frame: &TaskFrame) -> Result<Residual, KinematicsError> {
+    /// IkResidual and columns at `q`.
+    fn look(&mut self, target: &IkTarget, frame: &TaskFrame) -> Result<IkResidual, KinematicsError> {
         let (base_from_tcp, columns) = self.arm.pose_and_jacobian(&self.q)?;
         for (task, column) in self.columns.iter_mut().zip(columns) {
             *task = frame.column(column, &base_from_tcp, target.part);
         }
-        Ok(Residual::of(target, &base_from_tcp, frame))
+        Ok(IkResidual::of(target, &base_from_tcp, frame))
     }
 
     /// Moves `q` by one step, within the limits; gives the longest change.
-    fn step(&mut self, method: IkMethod, residual: &Residual) -> f64 {
+    fn step(&mut self, method: IkMethod, residual: &IkResidual) -> f64 {
         self.hold(residual);
         let rule = match method {
             IkMethod::LevenbergMarquardt => step::damped,
@@ -290,7 +291,7 @@ impl IkSolver {
     }
 
     /// Marks the joints that stand at a limit in `q` and that the residual pushes against it.
-    fn hold(&mut self, residual: &Residual) {
+    fn hold(&mut self, residual: &IkResidual) {
         for (at, joint) in self.arm.joints().iter().enumerate() {
             let pull = self.columns[at].dot(&residual.task);
             let q = self.q[at];
@@ -298,9 +299,9 @@ impl IkSolver {
         }
     }
 
-    /// Leaves the change of the joints that a rule finds in `change`.
-    fn follow(&mut self, rule: fn(&Task<'_>, &mut [f64]), residual: &Residual) {
-        let task = Task {
+    /// Writes the change of the joints that a rule finds to `change`.
+    fn follow(&mut self, rule: fn(&IkTask<'_>, &mut [f64]), residual: &IkResidual) {
+        let task = IkTask {
             columns: &self.columns,
             held: &self.held,
             residual: &residual.task,

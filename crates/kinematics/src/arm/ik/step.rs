@@ -1,14 +1,18 @@
 //! One step of each method: from the task's columns and residual to changes of the joints.
+//!
+//! The damped step is that of `least_squares.rs` in its other form, `J^T (J J^T + lambda I)^-1 e`: six equations
+//! however many joints there are, in a matrix of fixed size, since a step allocates nothing. The task has one unit
+//! and the damping goes with the cost, so nothing is scaled.
 
 use nalgebra::{Cholesky, Matrix6, Vector6};
 
-/// Share of the cost that is added to the diagonal: large far from the target, where the linear
-/// model is poor, nothing at it, where convergence is quadratic.
+/// Share of the cost that is added to the diagonal: large far from the target, at which the linear
+/// model is poor, nothing at it, so that convergence is quadratic.
 const DAMPING_PER_COST: f64 = 0.5;
-/// Least damping, which keeps the matrix regular where the arm is singular. Kind: rounding; entries
+/// Least damping, which keeps the matrix regular if the arm is singular. Kind: rounding; entries
 /// of the matrix are about 1, its factorisation loses some `eps` of them.
 const LEAST_DAMPING: f64 = 1e-12;
-/// Directions whose singular value is below this share of the largest are left out of the
+/// Directions whose singular value is below this share of the largest are not part of the
 /// pseudo-inverse. Kind: rounding; singular values are found by their squares, to `sqrt(eps)`.
 const SMALLEST_SINGULAR_SHARE: f64 = 1e-6;
 /// Directions whose singular value is below this share of the largest are weak: the damped
@@ -19,7 +23,7 @@ const WEAK_SINGULAR_SHARE: f64 = 0.05;
 const LONGEST_STEP: f64 = 1.0;
 
 /// The arm at one configuration, as the rules see it.
-pub(super) struct Task<'a> {
+pub(super) struct IkTask<'a> {
     pub(super) columns: &'a [Vector6<f64>],
     /// Joints that stand at a limit which the residual pushes them against.
     pub(super) held: &'a [bool],
@@ -27,7 +31,7 @@ pub(super) struct Task<'a> {
     pub(super) cost: f64,
 }
 
-impl Task<'_> {
+impl IkTask<'_> {
     fn free_columns(&self) -> impl Iterator<Item = &Vector6<f64>> {
         self.columns.iter().zip(self.held).filter(|(_, held)| !**held).map(|(column, _)| column)
     }
@@ -50,7 +54,7 @@ impl Task<'_> {
 }
 
 /// `J^T (J J^T + lambda I)^-1 e`, which is the step of least squares `(J^T J + lambda I)^-1 J^T e`.
-pub(super) fn damped(task: &Task<'_>, change: &mut [f64]) {
+pub(super) fn damped(task: &IkTask<'_>, change: &mut [f64]) {
     let mut gram = task.gram();
     let damping = DAMPING_PER_COST * task.cost + LEAST_DAMPING;
     for at in 0..6 {
@@ -69,7 +73,7 @@ pub(super) fn damped(task: &Task<'_>, change: &mut [f64]) {
 }
 
 /// `J^+ e = J^T (J J^T)^+ e`.
-pub(super) fn pseudo_inverse(task: &Task<'_>, change: &mut [f64]) {
+pub(super) fn pseudo_inverse(task: &IkTask<'_>, change: &mut [f64]) {
     through_directions(task, |_| 0.0, change);
 }
 
@@ -81,14 +85,14 @@ pub(super) fn pseudo_inverse(task: &Task<'_>, change: &mut [f64]) {
 /// Source: numerical filtering of Maciejewski & Klein, *Numerical Filtering for the Operation of Robotic
 /// Manipulators through Kinematically Singular Configurations* (1988), with the varying damping of
 /// Siciliano et al., *Robotics* (2009), section 3.5.1.
-pub(super) fn damped_pseudo_inverse(task: &Task<'_>, change: &mut [f64]) {
+pub(super) fn damped_pseudo_inverse(task: &IkTask<'_>, change: &mut [f64]) {
     let square_share = WEAK_SINGULAR_SHARE * WEAK_SINGULAR_SHARE;
     through_directions(task, |of_largest| (square_share - of_largest).max(0.0) / 4.0, change);
 }
 
 /// `J^T sum_i u_i <u_i, e> / (s_i^2 + damping)` over the directions `u_i` of the task, in which the arm
 /// has the singular values `s_i`; `damping` is given from and as a share of the largest square.
-fn through_directions(task: &Task<'_>, damping: impl Fn(f64) -> f64, change: &mut [f64]) {
+fn through_directions(task: &IkTask<'_>, damping: impl Fn(f64) -> f64, change: &mut [f64]) {
     let eigen = task.gram().symmetric_eigen();
     let largest = eigen.eigenvalues.max();
     let smallest = largest * SMALLEST_SINGULAR_SHARE * SMALLEST_SINGULAR_SHARE;
@@ -101,7 +105,7 @@ fn through_directions(task: &Task<'_>, damping: impl Fn(f64) -> f64, change: &mu
 }
 
 /// `alpha J^T e`, `alpha = <e, J J^T e> / |J J^T e|^2`.
-pub(super) fn transposed(task: &Task<'_>, change: &mut [f64]) {
+pub(super) fn transposed(task: &IkTask<'_>, change: &mut [f64]) {
     let moved = task.gram() * task.residual;
     let square = moved.norm_squared();
     let gain = if square > 0.0 { task.residual.dot(&moved) / square } else { 0.0 };
@@ -116,10 +120,10 @@ mod tests {
     const ROUNDING: f64 = 1.1e-14;
 
     /// The change of a joint that moves the second direction by `weak`, beside one that moves the first by 1.
-    fn changed(step: fn(&Task<'_>, &mut [f64]), weak: f64) -> f64 {
+    fn changed(step: fn(&IkTask<'_>, &mut [f64]), weak: f64) -> f64 {
         let columns = [Vector6::x(), Vector6::y() * weak];
         let residual = Vector6::x() + Vector6::y();
-        let task = Task { columns: &columns, held: &[false; 2], residual: &residual, cost: 1.0 };
+        let task = IkTask { columns: &columns, held: &[false; 2], residual: &residual, cost: 1.0 };
         let mut change = [f64::NAN; 2];
         step(&task, &mut change);
         assert!((change[0] - 1.0).abs() < ROUNDING, "the strong direction is as it is: {change:?}");

@@ -3,9 +3,12 @@
 
 use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Robot, RobotQ};
 
-use super::{Axes, DhDerivatives, DhRowTwists};
+use super::derivatives::{DhDerivatives, DhRowTwists};
 use crate::{
-    chain::sin_cos::{BLOCK, SinCos, SinesCosines},
+    chain::{
+        axes::Axes,
+        sin_cos::{BLOCK, SinCos, SinesCosines},
+    },
     error::KinematicsError,
     spatial::{pose::Pose, twist::Twist},
 };
@@ -58,7 +61,7 @@ use crate::{
 #[derive(Debug, Clone)]
 pub struct DhChain {
     convention: DhConvention,
-    rows: Vec<Row>,
+    rows: Vec<PreparedRow>,
     coordinates: Vec<usize>,
     base_from_dh0: Pose,
     dhn_from_tip: Pose,
@@ -68,7 +71,7 @@ pub struct DhChain {
 /// One row with everything computed that no joint position changes. Both entries follow the
 /// coordinate, one of them with the factor 0: a branch for each row would cost more.
 #[derive(Debug, Clone, Copy)]
-struct Row {
+struct PreparedRow {
     coordinate: usize,
     a_m: f64,
     alpha: SinCos,
@@ -84,7 +87,7 @@ impl DhChain {
     /// # Panics
     /// When a row names a joint that does not move, which no loaded description holds.
     pub fn new(table: &DhTable, robot: &Robot) -> Self {
-        let rows: Vec<Row> = table.rows.iter().map(|row| Row::new(row, robot)).collect();
+        let rows: Vec<PreparedRow> = table.rows.iter().map(|row| PreparedRow::new(row, robot)).collect();
         Self {
             convention: table.convention,
             coordinates: rows.iter().map(|row| row.coordinate).collect(),
@@ -184,12 +187,12 @@ impl DhChain {
         Ok(if frames.transformed_by <= frames.of { first_from_last } else { first_from_last.inverse() })
     }
 
-    /// Pose of link `tip`, and its derivative by every figure of the table.
+    /// Pose of link `tip`, and its derivative by every parameter of the table.
     ///
     /// | value | shape | unit | frame |
     /// |---|---|---|---|
     /// | `q` | the robot's dof | rad, m | order of [`Robot::movable_joints`] |
-    /// | `derivatives` | n rows | 1 per unit of the figure | base |
+    /// | `derivatives` | n rows | 1 per unit of the parameter | base |
     ///
     /// It allocates only while `derivatives` is of a shorter table.
     ///
@@ -218,7 +221,13 @@ impl DhChain {
 
     /// Steps along `rows`, the sines of a block first, so that they are computed together.
     #[inline]
-    fn visit(&self, from: Axes, rows: &[Row], q: &RobotQ, mut each: impl FnMut(usize, &Axes)) -> Axes {
+    fn visit(
+        &self,
+        from: Axes,
+        rows: &[PreparedRow],
+        q: &RobotQ,
+        mut each: impl FnMut(usize, &Axes),
+    ) -> Axes {
         let mut axes = from;
         let mut at = 0;
         for block in rows.chunks(BLOCK) {
@@ -252,7 +261,7 @@ pub struct DhFrames {
     pub of: usize,
 }
 
-impl Row {
+impl PreparedRow {
     fn new(row: &DhRow, robot: &Robot) -> Self {
         let (theta_per_q, d_per_q) = match row.kind {
             DhRowKind::Revolute => (row.sign, 0.0),

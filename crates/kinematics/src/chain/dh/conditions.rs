@@ -12,7 +12,7 @@ const PERPENDICULAR_RAD: f64 = 1e-9;
 /// How far the two axes may pass each other. Kind: digits of the file, as above within 2 m.
 const MEETING_M: f64 = 1e-9;
 
-/// Why a transform is no row of a table: four figures cannot hold the six of a rigid motion, so the
+/// Why a transform is no row of a table: four parameters cannot hold the six of a rigid motion, so the
 /// x axis of one frame must be perpendicular to the z axis of the other (DH1) and meet it (DH2).
 ///
 /// Source: Spong, Hutchinson & Vidyasagar, *Robot Modeling and Control* (1st edition, 2006),

@@ -1,11 +1,13 @@
-//! What every figure of a table does to the tip: derivatives of the pose as twists.
+//! What every parameter of a table does to the tip: derivatives of the pose as twists.
 
 use congruent_description::DhConvention;
 
-use super::Axes;
-use crate::spatial::{pose::Pose, twist::Twist};
+use crate::{
+    chain::axes::Axes,
+    spatial::{pose::Pose, twist::Twist},
+};
 
-/// What the figures of one row do to everything behind it: for each figure the twist `(dT/dp) T^-1`
+/// What the parameters of one row do to everything behind it: for each parameter the twist `(dT/dp) T^-1`
 /// of one unit of it, in the frame that the chain is seen from.
 ///
 /// `theta` turns about the row's z axis and `d` shifts along it, `alpha` turns about its x axis and
@@ -40,20 +42,20 @@ impl DhRowTwists {
     }
 }
 
-/// Pose of the tip at one configuration and its derivative by every figure of a table, each as the
+/// Pose of the tip at one configuration and its derivative by every parameter of a table, each as the
 /// twist `(dT/dp) T^-1` in link `base`: to first order, `dp` moves the tip to `exp([V] dp) T`.
 ///
 /// | field | shape | unit | of |
 /// |---|---|---|---|
 /// | `base_from_tip` | SE(3) | m | |
 /// | `by_base_from_dh0` | 6 | 1 per rad, per m | a twist of the constant, in `base`: `exp([V]) base_from_dh0` |
-/// | `by_rows` | n | 1 per rad, per m | the rows' figures |
+/// | `by_rows` | n | 1 per rad, per m | the rows' parameters |
 /// | `by_dhn_from_tip` | 6 | 1 per rad, per m | a twist of the constant, in `dhn`: `exp([V]) dhn_from_tip` |
 ///
 /// The six are in the order of [`Twist::units`]. A space twist is that of every frame fixed to the tip,
 /// a tool's too; [`Twist::transformed_by`] gives it in other frames.
 ///
-/// Source: Lynch & Park, *Modern Robotics* (2017), eq. 5.11, for figures instead of joints.
+/// Source: Lynch & Park, *Modern Robotics* (2017), eq. 5.11, for parameters instead of joints.
 ///
 /// # Examples
 /// A planar arm of two links of 0.6 m and 0.4 m along x: `alpha` of the first row turns what lies
@@ -100,7 +102,7 @@ pub struct DhDerivatives {
     pub base_from_tip: Pose,
     /// By a twist of `base_from_dh0`: itself.
     pub by_base_from_dh0: [Twist; 6],
-    /// By the figures of each row.
+    /// By the parameters of each row.
     pub by_rows: Vec<DhRowTwists>,
     /// By a twist of `dhn_from_tip`.
     pub by_dhn_from_tip: [Twist; 6],

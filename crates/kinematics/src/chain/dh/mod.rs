@@ -1,105 +1,18 @@
 //! Denavit-Hartenberg: the two conventions, and chains of rows. There is no plain `Dh`: the same
 //! table under the other convention is another robot.
 
-mod chain;
-mod conditions;
-mod derivatives;
+pub(crate) mod chain;
+pub(crate) mod conditions;
+pub(crate) mod derivatives;
 mod derive;
-mod modified;
-mod serial;
-mod standard;
+pub(crate) mod modified;
+pub(crate) mod serial;
+pub(crate) mod standard;
 
 pub use chain::{DhChain, DhFrames};
 pub use conditions::NotADhTransform;
 pub use derivatives::{DhDerivatives, DhRowTwists};
 pub use derive::{AxisPair, AxisRelation, Choice, DeriveError, DhDerivation, FreeChoice, derive_dh};
 pub use modified::ModifiedDh;
-pub use serial::{SerialDh, SerialDhRow};
+pub use serial::SerialDh;
 pub use standard::StandardDh;
-
-use nalgebra::{Matrix3, Vector3};
-
-use super::sin_cos::SinCos;
-use crate::spatial::pose::Pose;
-
-/// A pose under way along a chain, as axes and origin: a row turns two axes and shifts the origin,
-/// which is a third of the work of a matrix product.
-#[derive(Debug, Clone, Copy)]
-pub struct Axes {
-    /// Direction of x.
-    pub x: Vector3<f64>,
-    /// Direction of y.
-    pub y: Vector3<f64>,
-    /// Direction of z.
-    pub z: Vector3<f64>,
-    /// Origin, m.
-    pub origin: Vector3<f64>,
-}
-
-impl Axes {
-    /// The axes of a pose.
-    #[inline]
-    pub fn of(pose: &Pose) -> Self {
-        let column = |at: usize| pose.rotation.column(at).into_owned();
-        Self { x: column(0), y: column(1), z: column(2), origin: pose.translation }
-    }
-
-    /// The pose that has these axes.
-    #[inline]
-    pub fn pose(&self) -> Pose {
-        let Self { x, y, z, origin } = self;
-        let rotation = Matrix3::new(x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z);
-        Pose { rotation, translation: *origin }
-    }
-
-    /// Times `Rz(theta)`.
-    #[inline]
-    pub fn turned_about_z(&self, theta: SinCos) -> Self {
-        Self {
-            x: self.x * theta.cos + self.y * theta.sin,
-            y: self.y * theta.cos - self.x * theta.sin,
-            ..*self
-        }
-    }
-
-    /// Times `Rx(alpha)`.
-    #[inline]
-    pub fn turned_about_x(&self, alpha: SinCos) -> Self {
-        Self {
-            y: self.y * alpha.cos + self.z * alpha.sin,
-            z: self.z * alpha.cos - self.y * alpha.sin,
-            ..*self
-        }
-    }
-
-    /// Times `Rz(theta) Tz(d)`.
-    #[inline]
-    pub fn about_z(&self, theta: SinCos, d_m: f64) -> Self {
-        Self { origin: self.origin + self.z * d_m, ..self.turned_about_z(theta) }
-    }
-
-    /// Times `Tx(a) Rx(alpha)`.
-    #[inline]
-    pub fn about_x(&self, alpha: SinCos, a_m: f64) -> Self {
-        Self { origin: self.origin + self.x * a_m, ..self.turned_about_x(alpha) }
-    }
-
-    /// Times `T(shift)`.
-    #[inline]
-    pub fn shifted(&self, shift: &Vector3<f64>) -> Self {
-        let origin = self.x * shift.x + self.y * shift.y + self.z * shift.z + self.origin;
-        Self { origin, ..*self }
-    }
-
-    /// Times any pose.
-    #[inline]
-    pub fn times(&self, here_from_there: &Pose) -> Pose {
-        let Pose { rotation, translation: p } = here_from_there;
-        let turned = |column: usize| {
-            let along = |row: usize| rotation[(row, column)];
-            self.x * along(0) + self.y * along(1) + self.z * along(2)
-        };
-        let origin = self.x * p.x + self.y * p.y + self.z * p.z + self.origin;
-        Self { x: turned(0), y: turned(1), z: turned(2), origin }.pose()
-    }
-}

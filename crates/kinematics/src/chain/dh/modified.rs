@@ -3,7 +3,7 @@
 use congruent_description::DhConvention;
 use nalgebra::{Matrix3, Vector3};
 
-use super::NotADhTransform;
+use super::conditions::NotADhTransform;
 use crate::spatial::pose::Pose;
 
 /// One modified row: `T = Rx(alpha) Tx(a) Rz(theta) Tz(d)`.
@@ -92,7 +92,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        chain::{dh::Axes, sin_cos::SinCos},
+        chain::{axes::Axes, sin_cos::SinCos},
         support,
     };
 

@@ -1,35 +1,16 @@
-//! A table of either convention as figures alone, without a robot that names its joints: what
+//! A table of either convention as parameters alone, without a robot that names its joints: what
 //! conversions read and write. Its forward kinematics multiplies the rows' own transforms and
 //! shares no step with `chain.rs`.
 
 use congruent_description::{ChainQ, DhConvention, DhRow, DhRowKind, DhTable, JointIndex};
 use nalgebra::Vector3;
 
-use super::{ModifiedDh, StandardDh};
+use super::{modified::ModifiedDh, standard::StandardDh};
 use crate::{
     chain::screws::chain::ScrewChain,
     error::KinematicsError,
     spatial::{pose::Pose, twist::Twist},
 };
-
-/// One row; which of the two conventions it belongs to stands in [`SerialDh`].
-///
-/// `theta(q) = theta + sign q` for a revolute row, `d(q) = d + sign q` for a prismatic one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SerialDhRow {
-    /// Which entry the joint drives.
-    pub kind: DhRowKind,
-    /// Link length.
-    pub a_m: f64,
-    /// Link twist.
-    pub alpha_rad: f64,
-    /// Link offset, of a prismatic row at position zero.
-    pub d_m: f64,
-    /// Joint angle, of a revolute row at position zero.
-    pub theta_rad: f64,
-    /// `1.0` or `-1.0`.
-    pub sign: f64,
-}
 
 /// A table with its two constants: `base_from_tip(q) = base_from_dh0 T_1(q_1) ... T_n(q_n) dhn_from_tip`.
 ///
@@ -37,10 +18,10 @@ pub struct SerialDhRow {
 /// The convention is a matter of grouping: a row `Rz Tz Tx Rx` of one is cut in the middle and its
 /// second half leads the next row of the other.
 /// ```
-/// use congruent_description::{ChainQ, DhConvention, DhRowKind};
-/// use congruent_kinematics::{Pose, SerialDh, SerialDhRow};
-/// let row = SerialDhRow {
-///     kind: DhRowKind::Revolute, a_m: 0.3, alpha_rad: 0.5, d_m: 0.1, theta_rad: 0.2, sign: -1.0,
+/// use congruent_description::{ChainQ, DhConvention, DhRow, DhRowKind};
+/// use congruent_kinematics::{Pose, SerialDh};
+/// let row = DhRow {
+///     joint: (), kind: DhRowKind::Revolute, a_m: 0.3, alpha_rad: 0.5, d_m: 0.1, theta_rad: 0.2, sign: -1.0, line: 0,
 /// };
 /// let standard = SerialDh {
 ///     convention: DhConvention::Standard,
@@ -61,38 +42,18 @@ pub struct SerialDh {
     pub convention: DhConvention,
     /// Pose of frame 0 in the base.
     pub base_from_dh0: Pose,
-    /// Base to tip.
-    pub rows: Vec<SerialDhRow>,
+    /// Base to tip; no robot names their joints.
+    pub rows: Vec<DhRow<()>>,
     /// Pose of the tip in the last frame.
     pub dhn_from_tip: Pose,
 }
 
-impl SerialDhRow {
-    /// The row's transform at joint position `q` (rad or m).
-    fn transform(&self, convention: DhConvention, q: f64) -> Pose {
-        let Self { kind, a_m, alpha_rad, mut d_m, mut theta_rad, sign } = *self;
-        match kind {
-            DhRowKind::Revolute => theta_rad += sign * q,
-            DhRowKind::Prismatic => d_m += sign * q,
-        }
-        match convention {
-            DhConvention::Standard => StandardDh { a_m, alpha_rad, d_m, theta_rad }.transform(),
-            DhConvention::Modified => ModifiedDh { a_m, alpha_rad, d_m, theta_rad }.transform(),
-        }
-    }
-
-    /// `Tx(a) Rx(alpha)`: the part of the row that no joint moves.
-    fn link(&self) -> Pose {
-        StandardDh { a_m: self.a_m, alpha_rad: self.alpha_rad, d_m: 0.0, theta_rad: 0.0 }.transform()
-    }
-}
-
 impl SerialDh {
-    /// The figures of a declared table, in the order of its rows.
+    /// The parameters of a declared table, in the order of its rows.
     pub fn from_table(table: &DhTable) -> Self {
         let row = |row: &DhRow| {
             let DhRow { kind, a_m, alpha_rad, d_m, theta_rad, sign, .. } = *row;
-            SerialDhRow { kind, a_m, alpha_rad, d_m, theta_rad, sign }
+            DhRow { joint: (), kind, a_m, alpha_rad, d_m, theta_rad, sign, line: 0 }
         };
         Self {
             convention: table.convention,
@@ -108,8 +69,8 @@ impl SerialDh {
     /// When there are not as many joints as rows.
     pub fn to_table(&self, joints: &[JointIndex]) -> DhTable {
         assert_eq!(joints.len(), self.rows.len(), "one joint for each row");
-        let row = |(row, &joint): (&SerialDhRow, &JointIndex)| {
-            let SerialDhRow { kind, a_m, alpha_rad, d_m, theta_rad, sign } = *row;
+        let row = |(row, &joint): (&DhRow<()>, &JointIndex)| {
+            let DhRow { kind, a_m, alpha_rad, d_m, theta_rad, sign, .. } = *row;
             DhRow { joint, kind, a_m, alpha_rad, d_m, theta_rad, sign, line: 0 }
         };
         DhTable {
@@ -134,7 +95,7 @@ impl SerialDh {
     /// See [`SerialDh`].
     pub fn base_from_tip(&self, q: &ChainQ) -> Result<Pose, KinematicsError> {
         KinematicsError::check_joints(self.rows.len(), q)?;
-        let step = |pose: Pose, (row, &q): (&SerialDhRow, &f64)| pose * row.transform(self.convention, q);
+        let step = |pose: Pose, (row, &q): (&DhRow<()>, &f64)| pose * transform(row, self.convention, q);
         Ok(self.rows.iter().zip(q).fold(self.base_from_dh0, step) * self.dhn_from_tip)
     }
 
@@ -146,14 +107,14 @@ impl SerialDh {
         let (Some(first), Some(last)) = (self.rows.first(), self.rows.last()) else { return other };
         match (self.convention, convention) {
             (DhConvention::Standard, DhConvention::Modified) => {
-                other.dhn_from_tip = last.link() * self.dhn_from_tip;
+                other.dhn_from_tip = link(last) * self.dhn_from_tip;
                 (other.rows[0].a_m, other.rows[0].alpha_rad) = (0.0, 0.0);
                 for (row, before) in other.rows[1..].iter_mut().zip(&self.rows) {
                     (row.a_m, row.alpha_rad) = (before.a_m, before.alpha_rad);
                 }
             }
             (DhConvention::Modified, DhConvention::Standard) => {
-                other.base_from_dh0 = self.base_from_dh0 * first.link();
+                other.base_from_dh0 = self.base_from_dh0 * link(first);
                 for (row, after) in other.rows.iter_mut().zip(&self.rows[1..]) {
                     (row.a_m, row.alpha_rad) = (after.a_m, after.alpha_rad);
                 }
@@ -175,7 +136,7 @@ impl SerialDh {
         for row in &self.rows {
             let before_motion = match self.convention {
                 DhConvention::Standard => base_from_here,
-                DhConvention::Modified => base_from_here * row.link(),
+                DhConvention::Modified => base_from_here * link(row),
             };
             let along = Vector3::z() * row.sign;
             let in_frame = match row.kind {
@@ -183,8 +144,26 @@ impl SerialDh {
                 DhRowKind::Prismatic => Twist { angular: Vector3::zeros(), linear: along },
             };
             twists_in_base.push(in_frame.transformed_by(&before_motion));
-            base_from_here = base_from_here * row.transform(self.convention, 0.0);
+            base_from_here = base_from_here * transform(row, self.convention, 0.0);
         }
         ScrewChain { twists_in_base, base_from_tip_at_zero: base_from_here * self.dhn_from_tip }
     }
+}
+
+/// The transform of a row at joint position `q` (rad or m).
+fn transform(row: &DhRow<()>, convention: DhConvention, q: f64) -> Pose {
+    let DhRow { kind, a_m, alpha_rad, mut d_m, mut theta_rad, sign, .. } = *row;
+    match kind {
+        DhRowKind::Revolute => theta_rad += sign * q,
+        DhRowKind::Prismatic => d_m += sign * q,
+    }
+    match convention {
+        DhConvention::Standard => StandardDh { a_m, alpha_rad, d_m, theta_rad }.transform(),
+        DhConvention::Modified => ModifiedDh { a_m, alpha_rad, d_m, theta_rad }.transform(),
+    }
+}
+
+/// `Tx(a) Rx(alpha)`: the part of a row that no joint moves.
+fn link(row: &DhRow<()>) -> Pose {
+    StandardDh { a_m: row.a_m, alpha_rad: row.alpha_rad, d_m: 0.0, theta_rad: 0.0 }.transform()
 }

@@ -3,7 +3,7 @@
 use congruent_description::DhConvention;
 use nalgebra::{Matrix3, Vector3};
 
-use super::NotADhTransform;
+use super::conditions::NotADhTransform;
 use crate::spatial::pose::Pose;
 
 /// One standard row: `T = Rz(theta) Tz(d) Tx(a) Rx(alpha)`.
@@ -96,7 +96,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        chain::{dh::Axes, sin_cos::SinCos},
+        chain::{axes::Axes, sin_cos::SinCos},
         support,
     };
 

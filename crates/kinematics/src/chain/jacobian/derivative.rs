@@ -12,7 +12,10 @@
 //! Bruyninckx & De Schutter, *Symbolic differentiation of the velocity mapping for a serial kinematic
 //! chain* (1996), for all three.
 
-use super::{Jacobian, JacobianKind, twist_of};
+use super::{
+    columns::{Jacobian, twist_of},
+    kind::JacobianKind,
+};
 use crate::{error::KinematicsError, spatial::twist::Twist};
 
 impl JacobianKind {

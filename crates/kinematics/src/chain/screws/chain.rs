@@ -6,16 +6,16 @@ use std::convert::Infallible;
 use congruent_description::{ChainQ, LinkIndex, Robot, RobotQ};
 
 use crate::{
-    chain::{dh::DhChain, urdf::UrdfTree},
+    chain::{dh::chain::DhChain, urdf::UrdfTree},
     error::KinematicsError,
     spatial::{pose::Pose, twist::Twist},
 };
 
-/// How far each joint is moved when a chain is probed: for a joint that follows a screw the
+/// How far each joint is moved when a chain is identified: for a joint that follows a screw the
 /// recovered twist does not depend on it, and half a unit is far from both rounding and pi.
-const PROBE_STEP: f64 = 0.5;
+const IDENTIFICATION_STEP: f64 = 0.5;
 /// A step so short that a joint must turn 400 times as far as its variable says before the turn
-/// wraps: it is measured first, and where half a unit would wrap, a shorter step is taken.
+/// wraps: it is taken first, and if half a unit would wrap, a shorter step is taken.
 const SHORT_STEP: f64 = 1.0 / 128.0;
 
 /// A serial chain: `base_from_tip(q) = exp([S_1] q_1) ... exp([S_n] q_n) base_from_tip(0)`.
@@ -65,7 +65,11 @@ impl ScrewChain {
             };
             // Half a unit of a joint that moves 57.3 times as far as it says would wrap.
             let rate = twist_by(SHORT_STEP)?.angular.norm();
-            let at_q0 = twist_by(if rate * PROBE_STEP < 1.0 { PROBE_STEP } else { PROBE_STEP / rate })?;
+            let at_q0 = twist_by(if rate * IDENTIFICATION_STEP < 1.0 {
+                IDENTIFICATION_STEP
+            } else {
+                IDENTIFICATION_STEP / rate
+            })?;
             let at_zero = at_q0.transformed_by(&before.inverse());
             before = before * at_zero.exp(q0[joint]);
             twists_in_base.push(at_zero);
@@ -177,12 +181,12 @@ mod tests {
             ],
             base_from_tip_at_zero: twist([0.1, 0.2, 0.3], [1.0, 0.5, 0.2]).exp(1.0),
         };
-        let probed = ScrewChain::identify(4, |q| chain.base_from_tip(q).unwrap());
-        for (found, expected) in probed.twists_in_base.iter().zip(&chain.twists_in_base) {
+        let identified = ScrewChain::identify(4, |q| chain.base_from_tip(q).unwrap());
+        for (found, expected) in identified.twists_in_base.iter().zip(&chain.twists_in_base) {
             assert!((found.angular - expected.angular).norm() < ROUNDING);
             assert!((found.linear - expected.linear).norm() < ROUNDING);
         }
-        assert!(probed.base_from_tip_at_zero.distance_m(&chain.base_from_tip_at_zero) < ROUNDING);
+        assert!(identified.base_from_tip_at_zero.distance_m(&chain.base_from_tip_at_zero) < ROUNDING);
     }
 
     #[test]
@@ -192,8 +196,8 @@ mod tests {
         let turn =
             Twist { angular: Vector3::new(0.0, 180.0 / std::f64::consts::PI, 0.0), linear: Vector3::x() };
         let chain = ScrewChain { twists_in_base: vec![turn], base_from_tip_at_zero: Pose::identity() };
-        let probed = ScrewChain::identify(1, |q| chain.base_from_tip(q).unwrap());
-        assert!((probed.twists_in_base[0].angular - turn.angular).norm() < FAST);
-        assert!((probed.twists_in_base[0].linear - turn.linear).norm() < FAST);
+        let identified = ScrewChain::identify(1, |q| chain.base_from_tip(q).unwrap());
+        assert!((identified.twists_in_base[0].angular - turn.angular).norm() < FAST);
+        assert!((identified.twists_in_base[0].linear - turn.linear).norm() < FAST);
     }
 }

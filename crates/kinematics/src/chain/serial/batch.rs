@@ -1,4 +1,4 @@
-//! Many configurations of one chain at once: the steps of `serial_chain.rs` taken by several
+//! Many configurations of one chain at once: the steps of `chain.rs` taken by several
 //! configurations side by side, in the widest vector instructions that the machine has. Sums and
 //! products are those of one configuration alone, in the same order, so the width changes no bit.
 
@@ -7,10 +7,10 @@
 use nalgebra::Vector3;
 use pulp::{Arch, Simd, WithSimd};
 
-use super::chain::{Row, SerialChain};
+use super::chain::{SerialChain, SerialRow};
 use crate::{
     chain::{
-        dh::Axes,
+        axes::Axes,
         sin_cos::{SinCos, SinesCosines},
     },
     error::KinematicsError,
@@ -116,7 +116,7 @@ impl LaneAxes {
 
     /// Times `Rz(theta) T(shift) Rx(alpha)` of the row at the joint's positions.
     #[inline(always)]
-    fn step(&mut self, row: &Row, q: &Lanes) {
+    fn step(&mut self, row: &SerialRow, q: &Lanes) {
         let SinesCosines { sin, cos } = SinesCosines::of(q.map(|q| row.theta_rad + row.theta_per_q * q));
         let d_m = q.map(|q| row.shift.z + row.d_per_q * q);
         let SinCos { sin: sin_alpha, cos: cos_alpha } = row.alpha;
@@ -143,7 +143,7 @@ mod tests {
     proptest! {
         #![proptest_config(support::cases())]
 
-        /// Also beyond full groups, and where one angle of a group is too large for the quick sine.
+        /// Also beyond full groups, and if one angle of a group is too large for the quick sine.
         #[test]
         fn a_batch_is_its_configurations_one_by_one(
             figures in support::table_figures(), q in proptest::collection::vec(support::positions(), 0..20),

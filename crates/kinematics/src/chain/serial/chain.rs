@@ -1,15 +1,15 @@
 //! A serial chain made ready for speed: pose of the tip and its Jacobian in one pass, whatever the
-//! chain was written as. For use in loops; the forms that are held against each other are
-//! `dh/chain.rs`, `urdf_tree.rs` and `screw_tree.rs`.
+//! chain was written as. For use in loops; the forms that are compared are
+//! `dh/chain.rs`, `urdf.rs` and `screws/tree.rs`.
 
 use congruent_description::{ChainQ, DhTable, LinkIndex, Robot};
 use nalgebra::Vector3;
 
-use super::steps::{Path, Step};
+use super::steps::{ChainPath, PathStep};
 use crate::{
     chain::{
-        dh::Axes,
-        jacobian::JacobianKind,
+        axes::Axes,
+        jacobian::kind::JacobianKind,
         screws::chain::ScrewChain,
         sin_cos::{BLOCK, SinCos, SinesCosines},
     },
@@ -54,7 +54,7 @@ use crate::{
 /// ```
 #[derive(Debug, Clone)]
 pub struct SerialChain {
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Vec<SerialRow>,
     coordinates: Vec<usize>,
     pub(crate) base_from_first: Axes,
     /// The turn about the last row's axis that remains.
@@ -63,7 +63,7 @@ pub struct SerialChain {
 
 /// One joint and what follows it, up to the next joint's axis.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Row {
+pub(crate) struct SerialRow {
     pub(crate) theta_rad: f64,
     pub(crate) theta_per_q: f64,
     pub(crate) d_per_q: f64,
@@ -79,7 +79,7 @@ impl SerialChain {
     /// # Panics
     /// When a link is none of the robot's.
     pub fn from_urdf(robot: &Robot, (base, tip): (LinkIndex, LinkIndex)) -> Self {
-        Self::from_path(&Path::of_urdf(robot, base, tip))
+        Self::from_path(&ChainPath::of_urdf(robot, base, tip))
     }
 
     /// The chain of a table of `robot`, from link `base` to link `tip`; joints are its rows.
@@ -87,30 +87,30 @@ impl SerialChain {
     /// # Panics
     /// When a row names a joint that does not move, which no loaded description holds.
     pub fn from_dh(table: &DhTable, robot: &Robot) -> Self {
-        Self::from_path(&Path::of_table(table, robot))
+        Self::from_path(&ChainPath::of_table(table, robot))
     }
 
     /// The chain of screws, each its own coordinate. A screw that turns and shifts at once keeps its
     /// turn alone: no joint of a description is one.
     pub fn from_screws(chain: &ScrewChain) -> Self {
-        Self::from_path(&Path::of_screws(chain))
+        Self::from_path(&ChainPath::of_screws(chain))
     }
 
-    fn from_path(path: &Path) -> Self {
+    fn from_path(path: &ChainPath) -> Self {
         let after =
             |at: usize| path.steps.get(at).map_or(&path.last_from_here, |step| &step.before_from_axis);
-        let mut leftover_rad = 0.0;
+        let mut remaining_rad = 0.0;
         let mut rows = Vec::with_capacity(path.steps.len());
         for (at, step) in path.steps.iter().enumerate() {
-            let (row, left_rad) = Row::new(step, leftover_rad, after(at + 1));
+            let (row, next_remaining_rad) = SerialRow::new(step, remaining_rad, after(at + 1));
             rows.push(row);
-            leftover_rad = left_rad;
+            remaining_rad = next_remaining_rad;
         }
         Self {
             rows,
             coordinates: path.steps.iter().map(|step| step.coordinate).collect(),
             base_from_first: Axes::of(after(0)),
-            last: SinCos::of(leftover_rad),
+            last: SinCos::of(remaining_rad),
         }
     }
 
@@ -169,11 +169,11 @@ impl SerialChain {
         KinematicsError::check_columns(self.rows.len(), columns)?;
         // On the way: the joint's direction and a point of its axis, in the base frame.
         let tip = self.visit(q, |at, axes| columns[at] = Twist { angular: axes.z, linear: axes.origin });
-        let reference = if kind == JacobianKind::Space { Vector3::zeros() } else { tip.origin };
+        let point_of_twist = if kind == JacobianKind::Space { Vector3::zeros() } else { tip.origin };
         for (column, row) in columns.iter_mut().zip(&self.rows) {
             let Twist { angular: z, linear: point } = *column;
             let angular = z * row.theta_per_q;
-            *column = Twist { angular, linear: angular.cross(&(reference - point)) + z * row.d_per_q };
+            *column = Twist { angular, linear: angular.cross(&(point_of_twist - point)) + z * row.d_per_q };
         }
         let base_from_tip = tip.pose();
         if kind == JacobianKind::Body {
@@ -208,12 +208,12 @@ impl SerialChain {
     }
 }
 
-impl Row {
+impl SerialRow {
     /// The row of a joint that starts turned by `from_rad` and reaches to the next joint's axis, with
-    /// the turn about that axis that it leaves to the next row.
+    /// the turn about that axis that the next row takes over.
     ///
     /// `axis_from_next` is `Rz(first) T Rx(alpha) Rz(second)`: `first` is added to the joint's angle.
-    fn new(step: &Step, from_rad: f64, axis_from_next: &Pose) -> (Self, f64) {
+    fn new(step: &PathStep, from_rad: f64, axis_from_next: &Pose) -> (Self, f64) {
         let Pose { rotation, translation } = axis_from_next;
         let (x, y) = (rotation[(0, 2)], rotation[(1, 2)]);
         let sine = x.hypot(y);

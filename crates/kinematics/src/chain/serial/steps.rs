@@ -1,4 +1,4 @@
-//! A path as a list of joints with constants between them: what `serial_chain.rs` is built from, and
+//! A path as a list of joints with constants between them: what `chain.rs` is built from, and
 //! the one place there that knows URDF trees, tables and screws.
 
 use congruent_description::{DhConvention, DhRowKind, DhTable, JointIndex, JointKind, LinkIndex, Robot};
@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::{
     chain::{
-        dh::{ModifiedDh, StandardDh},
+        dh::{modified::ModifiedDh, standard::StandardDh},
         screws::chain::ScrewChain,
     },
     spatial::pose::Pose,
@@ -14,17 +14,17 @@ use crate::{
 
 /// One joint of a path; its motion is along or about the z axis of a frame of its own.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Step {
+pub(crate) struct PathStep {
     /// Pose of that frame in the one of the joint before, at position zero.
     pub(crate) before_from_axis: Pose,
     pub(crate) turns: bool,
-    /// Motion for one unit of the coordinate.
+    /// AxisMotion for one unit of the coordinate.
     pub(crate) per_q: f64,
     pub(crate) coordinate: usize,
 }
 
-/// How a joint moves, in the frame where the path has arrived.
-struct Motion {
+/// How a joint moves, in the frame that the path has reached.
+struct AxisMotion {
     axis: Vector3<f64>,
     turns: bool,
     per_q: f64,
@@ -32,12 +32,12 @@ struct Motion {
 
 /// A path: its joints, and what follows the last.
 #[derive(Debug, Clone)]
-pub(crate) struct Path {
-    pub(crate) steps: Vec<Step>,
+pub(crate) struct ChainPath {
+    pub(crate) steps: Vec<PathStep>,
     pub(crate) last_from_here: Pose,
 }
 
-impl Path {
+impl ChainPath {
     fn new() -> Self {
         Self { steps: Vec::new(), last_from_here: Pose::identity() }
     }
@@ -46,11 +46,11 @@ impl Path {
         self.last_from_here = self.last_from_here * here_from_there;
     }
 
-    /// A joint at the origin of the frame where the path has arrived, which it leaves turned or shifted.
-    fn joint(&mut self, coordinate: usize, Motion { axis, turns, per_q }: Motion) {
+    /// A joint at the origin of the frame that the path has reached; the joint turns or shifts that frame.
+    fn joint(&mut self, coordinate: usize, AxisMotion { axis, turns, per_q }: AxisMotion) {
         let here_from_axis = Pose::from_parts(frame_about(&axis), Vector3::zeros());
         let before_from_axis = self.last_from_here * here_from_axis;
-        self.steps.push(Step { before_from_axis, turns, per_q, coordinate });
+        self.steps.push(PathStep { before_from_axis, turns, per_q, coordinate });
         self.last_from_here = here_from_axis.inverse();
     }
 
@@ -78,7 +78,7 @@ impl Path {
         let joint = robot.joint(index);
         if let Some(coordinate) = robot.coordinate(index) {
             let (axis, turns) = (joint.axis_in_joint.into_inner(), joint.kind != JointKind::Prismatic);
-            self.joint(coordinate, Motion { axis, turns, per_q });
+            self.joint(coordinate, AxisMotion { axis, turns, per_q });
         }
     }
 
@@ -100,7 +100,7 @@ impl Path {
             let coordinate = robot.coordinate(row.joint).expect("a row of a table drives a moving joint");
             let turns = row.kind == DhRowKind::Revolute;
             path.constant(before);
-            path.joint(coordinate, Motion { axis: Vector3::z(), turns, per_q: row.sign });
+            path.joint(coordinate, AxisMotion { axis: Vector3::z(), turns, per_q: row.sign });
             path.constant(after);
         }
         path.constant(table.dhn_from_tip.into());
@@ -118,11 +118,11 @@ impl Path {
                 let point_in_base = twist.angular.cross(&twist.linear) / (rate * rate);
                 path.constant(Pose::from_parts(Matrix3::identity(), point_in_base - here_in_base));
                 here_in_base = point_in_base;
-                Motion { axis: twist.angular / rate, turns: true, per_q: rate }
+                AxisMotion { axis: twist.angular / rate, turns: true, per_q: rate }
             } else {
                 let rate = twist.linear.norm();
                 let axis = if rate > 0.0 { twist.linear / rate } else { Vector3::z() };
-                Motion { axis, turns: false, per_q: rate }
+                AxisMotion { axis, turns: false, per_q: rate }
             };
             path.joint(coordinate, motion);
         }
@@ -142,7 +142,7 @@ fn to_root(robot: &Robot, mut link: LinkIndex) -> Vec<JointIndex> {
     joints
 }
 
-/// A rotation whose third column is a unit vector; exact where that is along an axis.
+/// A rotation whose third column is a unit vector; exact if that is along an axis.
 fn frame_about(z: &Vector3<f64>) -> Matrix3<f64> {
     let mut least = Vector3::zeros();
     least[z.iamin()] = 1.0;

@@ -36,7 +36,7 @@ pub enum DeriveError {
 }
 
 impl DeriveError {
-    /// The joint at fault, where it is a joint.
+    /// The joint at fault, if it is a joint.
     pub fn joint(&self) -> Option<usize> {
         match *self {
             Self::NoJoint => None,
@@ -49,12 +49,12 @@ impl DeriveError {
 
 /// A directed line in the base frame.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Line {
+pub(super) struct AxisLine {
     pub(super) point: Vector3<f64>,
     pub(super) direction: Vector3<f64>,
 }
 
-impl Line {
+impl AxisLine {
     /// The point of the line nearest to another one.
     pub(super) fn nearest_to(&self, point: &Vector3<f64>) -> Vector3<f64> {
         self.point + self.direction * (point - self.point).dot(&self.direction)
@@ -63,22 +63,22 @@ impl Line {
 
 /// What moves a frame.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Axis {
+pub(super) enum MotionAxis {
     /// A turn about a line.
-    Turn(Line),
-    /// A shift along a direction; where the line lies is free.
+    Turn(AxisLine),
+    /// A shift along a direction; its line may lie anywhere.
     Slide(Vector3<f64>),
 }
 
 /// All axes of a chain at position zero; `accuracy` is how far a joint may be from a plain turn or shift.
-pub(super) fn axes(chain: &ScrewChain, accuracy: f64) -> Result<Vec<Axis>, DeriveError> {
+pub(super) fn axes(chain: &ScrewChain, accuracy: f64) -> Result<Vec<MotionAxis>, DeriveError> {
     if chain.twists_in_base.is_empty() {
         return Err(DeriveError::NoJoint);
     }
     chain.twists_in_base.iter().enumerate().map(|(joint, twist)| axis(joint, twist, accuracy)).collect()
 }
 
-fn axis(joint: usize, twist: &Twist, accuracy: f64) -> Result<Axis, DeriveError> {
+fn axis(joint: usize, twist: &Twist, accuracy: f64) -> Result<MotionAxis, DeriveError> {
     let (turn, shift) = (twist.angular.norm(), twist.linear.norm());
     let ratio = if turn > accuracy { turn } else { shift };
     if ratio <= accuracy {
@@ -88,12 +88,12 @@ fn axis(joint: usize, twist: &Twist, accuracy: f64) -> Result<Axis, DeriveError>
         return Err(DeriveError::Ratio { joint, ratio });
     }
     if turn <= accuracy {
-        return Ok(Axis::Slide(twist.linear / shift));
+        return Ok(MotionAxis::Slide(twist.linear / shift));
     }
     let direction = twist.angular / turn;
     let pitch_m_per_rad = direction.dot(&twist.linear) / turn;
     if pitch_m_per_rad.abs() > accuracy {
         return Err(DeriveError::Helical { joint, pitch_m_per_rad });
     }
-    Ok(Axis::Turn(Line { point: direction.cross(&twist.linear) / turn, direction }))
+    Ok(MotionAxis::Turn(AxisLine { point: direction.cross(&twist.linear) / turn, direction }))
 }

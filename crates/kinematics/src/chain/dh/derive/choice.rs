@@ -1,22 +1,26 @@
-//! What the axes leave open, and what was taken.
+//! What the axes do not determine, and what was taken.
 
 use std::fmt;
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::{
-    axis::Axis,
-    normal::{AxisRelation, Normal},
+    axis::MotionAxis,
+    normal::{AxisRelation, CommonNormal},
 };
 
 /// One thing that the axes of a chain do not determine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Choice {
     /// Origin and x axis of frame 0.
     FirstFrame,
     /// Where the common normal of parallel axes lies.
     ParallelOrigin,
-    /// The sense of the x axis where axes meet.
+    /// The sense of the x axis if axes meet.
     NormalSense,
-    /// Origin and x axis where two axes are one line.
+    /// Origin and x axis if two axes are one line.
     CoincidentFrame,
     /// Where the line of a prismatic joint lies.
     PrismaticLine,
@@ -63,15 +67,15 @@ pub struct FreeChoice {
     pub choice: Choice,
 }
 
-/// What is open between the axis of `joint` and the next one.
-pub(super) fn left_open(joint: usize, normal: &Normal, next: &Axis) -> Vec<FreeChoice> {
+/// What is not determined between the axis of `joint` and the next one.
+pub(super) fn undetermined(joint: usize, normal: &CommonNormal, next: &MotionAxis) -> Vec<FreeChoice> {
     let by_relation = match normal.relation {
         AxisRelation::Skew => None,
         AxisRelation::Intersecting => Some(Choice::NormalSense),
         AxisRelation::Parallel | AxisRelation::AntiParallel => Some(Choice::ParallelOrigin),
         AxisRelation::Coincident => Some(Choice::CoincidentFrame),
     };
-    let by_kind = matches!(next, Axis::Slide(_))
+    let by_kind = matches!(next, MotionAxis::Slide(_))
         .then_some(FreeChoice { joint: joint + 1, choice: Choice::PrismaticLine });
     by_relation.map(|choice| FreeChoice { joint, choice }).into_iter().chain(by_kind).collect()
 }

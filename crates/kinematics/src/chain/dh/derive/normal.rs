@@ -3,17 +3,20 @@
 use std::f64::consts::PI;
 
 use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::Serialize;
 
-use super::axis::Line;
+use super::axis::AxisLine;
 use crate::spatial::pose::Pose;
 
 /// Below this offset the sense of the normal is chosen as if the axes met: smaller offsets come
-/// from the digits of a file (1.5708 for a quarter turn leaves 3.7e-6 rad), and their sign is noise.
+/// from the digits of a file (1.5708 for a quarter turn is 3.7e-6 rad off), and their sign is noise.
 /// The offset itself is kept.
 const SENSE_M: f64 = 1e-6;
 
 /// How two axes lie to each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum AxisRelation {
     /// Neither parallel nor meeting.
     Skew,
@@ -27,9 +30,9 @@ pub enum AxisRelation {
     Coincident,
 }
 
-/// The common normal from one axis to the next, with the four figures that it gives.
+/// The common normal from one axis to the next, with the four parameters that it gives.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Normal {
+pub(super) struct CommonNormal {
     pub(super) relation: AxisRelation,
     pub(super) theta_rad: f64,
     pub(super) d_m: f64,
@@ -46,7 +49,7 @@ pub(super) struct Normal {
 /// | `parallel_rad` | 1 | rad, m | sine of the angle, and offset, below which axes count as parallel, as one |
 ///
 /// Source: Spong, Hutchinson & Vidyasagar, *Robot Modeling and Control* (1st edition, 2006), section 3.2.2.
-pub(super) fn between(base_from_here: &Pose, next: &Line, parallel_rad: f64) -> Normal {
+pub(super) fn between(base_from_here: &Pose, next: &AxisLine, parallel_rad: f64) -> CommonNormal {
     // In the frame itself the axis is z and the normal before is x: half of the terms are gone.
     let here_from_base = base_from_here.inverse();
     let direction = here_from_base.transform_vector(&next.direction);
@@ -63,7 +66,7 @@ pub(super) fn between(base_from_here: &Pose, next: &Line, parallel_rad: f64) -> 
     let x = unit * sense;
     let relation =
         if offset_m.abs() <= parallel_rad { AxisRelation::Intersecting } else { AxisRelation::Skew };
-    Normal {
+    CommonNormal {
         relation,
         theta_rad: x.y.atan2(x.x),
         d_m: point.cross(&direction).dot(&across) / (sine * sine),
@@ -73,13 +76,19 @@ pub(super) fn between(base_from_here: &Pose, next: &Line, parallel_rad: f64) -> 
 }
 
 /// Every normal of parallel axes is common: the one at the origin is taken, so that `d = 0`.
-fn parallel(direction: &Vector3<f64>, point: &Vector3<f64>, parallel_m: f64) -> Normal {
+fn parallel(direction: &Vector3<f64>, point: &Vector3<f64>, parallel_m: f64) -> CommonNormal {
     let is_same_sense = direction.z > 0.0;
     let alpha_rad = if is_same_sense { 0.0 } else { PI };
     let a_m = point.x.hypot(point.y);
     if a_m <= parallel_m {
-        return Normal { relation: AxisRelation::Coincident, theta_rad: 0.0, d_m: 0.0, a_m: 0.0, alpha_rad };
+        return CommonNormal {
+            relation: AxisRelation::Coincident,
+            theta_rad: 0.0,
+            d_m: 0.0,
+            a_m: 0.0,
+            alpha_rad,
+        };
     }
     let relation = if is_same_sense { AxisRelation::Parallel } else { AxisRelation::AntiParallel };
-    Normal { relation, theta_rad: point.y.atan2(point.x), d_m: 0.0, a_m, alpha_rad }
+    CommonNormal { relation, theta_rad: point.y.atan2(point.x), d_m: 0.0, a_m, alpha_rad }
 }

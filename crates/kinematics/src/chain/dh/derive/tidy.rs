@@ -1,4 +1,4 @@
-//! Figures as a reader would write them: rounding noise taken off where it is nothing but that.
+//! Values as a reader would write them: rounding noise taken off where it is nothing but that.
 
 use std::f64::consts::PI;
 
@@ -6,10 +6,10 @@ use nalgebra::Matrix3;
 
 use crate::spatial::pose::Pose;
 
-/// Steps per metre, radian and degree that a written figure may have: ten digits after the point.
+/// Steps per metre, radian and degree that a written value may have: ten digits after the point.
 const STEPS: f64 = 1e10;
 
-/// The nearest figure with ten digits, where it is within `tolerance`; otherwise the figure itself.
+/// The nearest value with ten digits if it is within `tolerance`; otherwise the value itself.
 pub(super) fn number(value: f64, tolerance: f64) -> f64 {
     let short = (value * STEPS).round() / STEPS;
     // Adding zero turns a negative zero into a positive one.

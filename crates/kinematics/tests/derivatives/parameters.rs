@@ -1,4 +1,4 @@
-//! What every figure of a table and every number of a chain of screws does to the tip.
+//! What every parameter of a table and every number of a chain of screws does to the tip.
 
 use congruent_description::{ChainQ, DhConvention, DhTable, Robot, RobotQ};
 use congruent_kinematics::{
@@ -11,14 +11,14 @@ use proptest::prelude::*;
 
 use crate::{
     apart,
-    duals::{self, Motion, Table, space_twist},
+    duals::{self, DualPose, Table, space_twist},
     numbers, robots,
     support::{self, RowFigures, TableFigures, within},
 };
 
-/// Rounding, ours and the witness's, over up to seven rows within 10 m; worst seen 9.3e-15.
+/// Rounding, ours and the dual numbers', over up to seven rows within 10 m; worst seen 9.3e-15.
 const BY_TABLE: f64 = 1e-13;
-/// Rounding, ours and that of the witness's power series, with screws of up to 3 rad and 5 m for each
+/// Rounding, ours and that of the dual numbers' power series, with screws of up to 3 rad and 5 m for each
 /// joint; worst seen 1.5e-14.
 const BY_SCREWS: f64 = 1e-13;
 /// Golden digits: half a unit of the twelfth.
@@ -28,7 +28,7 @@ fn real(number: f64) -> Dual64 {
     Dual64::from_re(number)
 }
 
-/// The table with no figure changing.
+/// The table with no parameter changing.
 fn still(table: &DhTable) -> Table<Dual64> {
     let nothing = [real(0.0); 6];
     Table {
@@ -64,9 +64,9 @@ fn hold_table(table: &DhTable, robot: &Robot, q: &RobotQ) {
     };
     assert_eq!(found.by_rows.len(), table.rows.len());
     for (row, by) in found.by_rows.iter().enumerate() {
-        for (figure, found) in four(by).iter().enumerate() {
+        for (parameter, found) in four(by).iter().enumerate() {
             let mut changing = still.clone();
-            changing.rows[row][figure].eps = 1.0;
+            changing.rows[row][parameter].eps = 1.0;
             near(found, &changing);
         }
     }
@@ -92,10 +92,10 @@ fn hold_screws(chain: &ScrewChain, q: &ChainQ) {
     };
     let still: Vec<[Dual64; 6]> = chain.twists_in_base.iter().map(six).collect();
     let pose = |screws: &[[Dual64; 6]], of_home: [Dual64; 6]| {
-        let step = |pose: Motion<Dual64>, (screw, &q): (&[Dual64; 6], &f64)| {
+        let step = |pose: DualPose<Dual64>, (screw, &q): (&[Dual64; 6], &f64)| {
             pose * duals::exponential(screw.map(|component| component * q))
         };
-        let moved = screws.iter().zip(q).fold(Motion::identity(), step);
+        let moved = screws.iter().zip(q).fold(DualPose::identity(), step);
         let home = chain.base_from_tip_at_zero.to_isometry();
         space_twist(&(moved * duals::exponential(of_home) * duals::constant(&home)))
     };

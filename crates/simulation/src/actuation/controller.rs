@@ -1,0 +1,18 @@
+//! What every controller does.
+
+use super::{
+    commands::Commands,
+    joints_view::{JointsView, Setpoint},
+};
+
+/// Decides before each step what the actuators do in it.
+///
+/// A controller only fills [`Commands`]; the world applies them, and clips every force to the
+/// joint's effort limit if the description gives one above zero.
+pub trait Controller {
+    /// The name under which [`controller`](crate::controller) finds it.
+    fn name(&self) -> &'static str;
+
+    /// Fills `commands`, which come cleared: no torque, no motor, dynamics on.
+    fn command(&mut self, joints: &JointsView<'_>, setpoint: &Setpoint<'_>, commands: &mut Commands);
+}
