@@ -1,4 +1,4 @@
-//! What an arm can do: `ik`, `sensitivity`, `manipulability`, `workspace` and `move_tcp`, through the
+//! Analysis of an arm: `ik`, `sensitivity`, `manipulability`, `workspace` and `move_tcp`, through the
 //! command.
 
 use std::f64::consts::PI;
@@ -40,7 +40,7 @@ fn case_23_and_24_by_the_command() {
 }
 
 #[test]
-fn a_target_out_of_reach_is_a_result_and_a_slip_is_bad_input() {
+fn a_target_out_of_reach_is_a_result_and_an_error_is_bad_input() {
     let folder = tempfile::tempdir().unwrap();
     let file = targets(&folder, r#"[{"translation_m": [0.4, 0.1, 0.3]}, {"translation_m": [3, 0, 0]}]"#);
     let answer = congruent_json(&["ik", "robots/ur5e", "--targets", &file]);
@@ -62,12 +62,12 @@ fn a_target_out_of_reach_is_a_result_and_a_slip_is_bad_input() {
 }
 
 #[test]
-fn an_empty_list_asks_nothing_and_a_slip_has_its_line() {
+fn an_empty_list_is_no_check_and_an_error_has_its_line() {
     let folder = tempfile::tempdir().unwrap();
     let run = |json: &str| congruent_json(&["ik", "robots/ur5e", "--targets", &targets(&folder, json)]);
     assert_eq!(run("[]").code, 4);
     let human = congruent(&["ik", "robots/ur5e", "--targets", &targets(&folder, "[]")]);
-    assert!(human.code == 4 && human.stdout.contains("nothing was asked"), "{}", human.stdout);
+    assert!(human.code == 4 && human.stdout.contains("the file has no target"), "{}", human.stdout);
     for (second, mention) in [
         (r#"{"translation_m": [0.4, 0.1, 0.3], "quaternion_wxyz": [0, 0, 0, 0]}"#, "norm"),
         (r#"{"translation_m": [0.4, 0.1, 0.3], "start": {"elbo": 0}}"#, "elbo"),

@@ -1,6 +1,6 @@
-//! `congruent calibrate`: the reference case, known errors recovered from noisy measurements, what
-//! cannot be told, and refusals. The measurements are made by `congruent fk` from a robot file with
-//! changed figures, so nothing of the estimator is in them.
+//! `congruent calibrate`: the reference case, known errors recovered from noisy measurements, corrections that
+//! cannot be identified, and refusals. The measurements are made by `congruent fk` from a robot file with
+//! changed values, so nothing of the estimator is in them.
 
 use std::{collections::BTreeMap, fmt::Write, fs, path::Path};
 
@@ -58,7 +58,7 @@ impl Bench {
     }
 }
 
-/// A stream of pseudorandom figures, `SplitMix64`.
+/// A stream of pseudorandom numbers, `SplitMix64`.
 struct Random(u64);
 
 impl Random {
@@ -107,11 +107,11 @@ pub(crate) fn measured(
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     let answer = answer.json();
     let mut row = |(asked, found): (&Value, &Value)| {
-        let figure = |key: &str, at: usize| found["links"]["tcp"][key][at].as_f64().unwrap();
+        let value = |key: &str, at: usize| found["links"]["tcp"][key][at].as_f64().unwrap();
         let translation: Vec<f64> =
-            (0..3).map(|at| figure("translation_m", at) + noise_m * random.normal()).collect();
+            (0..3).map(|at| value("translation_m", at) + noise_m * random.normal()).collect();
         // A small turn on the left of the quaternion, to first order; the reader normalises it.
-        let [w, x, y, z] = [0, 1, 2, 3].map(|at| figure("quaternion_wxyz", at));
+        let [w, x, y, z] = [0, 1, 2, 3].map(|at| value("quaternion_wxyz", at));
         let [a, b, c] = [0; 3].map(|_| noise_rad * random.normal() / 2.0);
         let turned = [
             w - a * x - b * y - c * z,
@@ -158,7 +158,7 @@ const UR5E_ERRORS: [(&str, &str); 4] = [
     ("d_m = 0.0997\ntheta_deg = 0.0", "d_m = 0.1005\ntheta_deg = -0.15"),
 ];
 
-/// What is to be found for them, rad and m.
+/// The corrections to be found for them, rad and m.
 fn ur5e_truth() -> [(&'static str, f64); 7] {
     [
         ("shoulder_lift_joint.theta", 0.35_f64.to_radians()),
@@ -195,24 +195,24 @@ fn case_04_zero_offset_of_the_planar_arm() {
         assert_eq!(row["line"], line);
         assert!((number(&row["least_squares_m"]) - expected_m).abs() < 5e-4, "{row}");
     }
-    // The others agree on another offset, and are explained by it to some millimetres.
+    // The others agree on another offset, which explains them to some millimetres.
     let robust = number(&offset["robust_correction"]).to_degrees();
     assert!((0.5..0.8).contains(&robust), "{robust}");
     assert!(number(&report["held_out"]["rms_m"]) < 0.006);
     // The largest of its statements comes first, in words.
     let first = report["statements"][0].as_str().unwrap();
-    assert!(first.contains("4 and 5") && first.contains("64.7 mm and 109.8 mm"), "{first}");
+    assert!(first.contains("4 (64.7") && first.contains("and 5 (109.8"), "{first}");
     assert!(report["next"].as_array().unwrap().len() == 5);
     let human = congruent(&["calibrate", "robots/planar_2r", &file, "--free", "joint_1.zero"]);
     assert!(human.stdout.contains("+1.0191"), "{}", human.stdout);
-    // What is suggested reads in the robot's order.
-    let next = human.stdout.split("most telling next").nth(1).unwrap();
+    // Suggestions are in the robot's order.
+    let next = human.stdout.split("most informative").nth(1).unwrap();
     assert!(next.find("joint_1") < next.find("joint_2"), "{next}");
 }
 
 #[test]
 fn without_noise_the_table_comes_back_to_rounding() {
-    /// Rounding of twelve figures within 1 m, times the condition of the problem. Worst seen 3e-13.
+    /// Rounding of twelve values within 1 m, times the condition of the problem. Worst seen 3e-13.
     const ROUNDING: f64 = 1e-11;
     let bench = Bench::new();
     let robot = bench.robot("ur5e", &UR5E_ERRORS);
@@ -225,20 +225,20 @@ fn without_noise_the_table_comes_back_to_rounding() {
         assert!((number(&parameter(&report, name)["correction"]) - truth).abs() < ROUNDING, "{name}");
     }
     assert_eq!(report["verdict"], "explained");
-    // Along parallel axes only the sum of the shifts shows, and it is frozen, not spread.
-    let frozen = names(&report["fixed"]);
-    assert!(frozen.contains(&"elbow_joint.d") && frozen.contains(&"wrist_1_joint.d"), "{frozen:?}");
+    // Along parallel axes only the sum of the shifts has an effect: one is estimated, the others are fixed.
+    let fixed = names(&report["fixed"]);
+    assert!(fixed.contains(&"elbow_joint.d") && fixed.contains(&"wrist_1_joint.d"), "{fixed:?}");
     let elbow =
         report["fixed"].as_array().unwrap().iter().find(|each| each["name"] == "elbow_joint.d").unwrap();
     assert_eq!(
         elbow["reason"],
-        "cannot be told from shoulder_lift_joint.d: only their sum can be identified"
+        "cannot be distinguished from shoulder_lift_joint.d: only their sum can be identified"
     );
 }
 
 #[test]
 fn noisy_poses_of_a_ur5e_recover_its_errors_within_their_sigmas() {
-    /// Normal noise exceeds this once in 16,000; seven figures.
+    /// Normal noise exceeds this once in 16,000; seven values.
     const SIGMAS: f64 = 4.0;
     let (noise_m, noise_rad) = (1e-4, 2e-4);
     let bench = Bench::new();
@@ -269,8 +269,8 @@ fn planted_outliers_are_named_and_do_not_bend_the_robust_estimate() {
     let robot = bench.robot("ur5e", &UR5E_ERRORS);
     let mut rows = measured(&robot, &UR5E_JOINTS, 40, (1e-4, 2e-4));
     for (turn, &row) in PLANTED.iter().enumerate() {
-        let figure = &mut rows[row - 1]["translation_m"][turn % 3];
-        *figure = json!(number(figure) + if turn % 2 == 0 { 0.02 } else { -0.004 });
+        let coordinate = &mut rows[row - 1]["translation_m"][turn % 3];
+        *coordinate = json!(number(coordinate) + if turn % 2 == 0 { 0.02 } else { -0.004 });
     }
     let file = bench.write("poses.json", &Value::from(rows).to_string());
     let report = calibrate(&[
@@ -319,17 +319,17 @@ fn panda_zeros_from_points_alone() {
     let zero = parameter(&report, "panda_joint3.zero");
     let error = (number(&zero["correction"]) - 0.4_f64.to_radians()).abs();
     assert!(error < 4.0 * number(&zero["standard_deviation"]), "{zero}");
-    // The base's yaw is the first joint's zero, and points do not see how the tool is turned.
-    let frozen = report["fixed"].as_array().unwrap();
+    // The base's yaw is the first joint's zero, and points do not depend on the tool's orientation.
+    let fixed = report["fixed"].as_array().unwrap();
     let reason = |name: &str| {
-        frozen.iter().find(|each| each["name"] == name).map(|each| each["reason"].as_str().unwrap())
+        fixed.iter().find(|each| each["name"] == name).map(|each| each["reason"].as_str().unwrap())
     };
     assert_eq!(
         reason("base.yaw"),
-        Some("cannot be told from panda_joint1.zero: only their sum can be identified")
+        Some("cannot be distinguished from panda_joint1.zero: only their sum can be identified")
     );
     for name in ["tool.roll", "tool.pitch", "tool.yaw"] {
-        assert_eq!(reason(name), Some("has no effect on these measurements"), "{frozen:?}");
+        assert_eq!(reason(name), Some("has no effect on these measurements"), "{fixed:?}");
     }
 }
 

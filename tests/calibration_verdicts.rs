@@ -1,5 +1,5 @@
-//! `congruent calibrate`: measurements that the corrections do not explain, or that leave nothing to judge
-//! by. The slips are made in measurements that are fine without them.
+//! `congruent calibrate`: measurements that the corrections do not explain, or that cannot verify them. The
+//! errors of units, order and frame are made in measurements that are right without them.
 
 use std::time::{Duration, Instant};
 
@@ -14,7 +14,7 @@ use crate::{
 /// Noise of a good measurement of an arm of 1 m.
 const NOISE: (f64, f64) = (1e-4, 2e-4);
 
-/// What the command makes of rows on the UR5e with these corrections free.
+/// The answer for rows on the UR5e with these corrections free.
 #[track_caller]
 fn judged(rows: &[Value], free: &str) -> Answer {
     let bench = Bench::new();
@@ -32,50 +32,53 @@ fn poses(rows: usize) -> Vec<Value> {
     measured(&bench.robot("ur5e", &zeros), &UR5E_JOINTS, rows, NOISE)
 }
 
-fn figures<const N: usize>(value: &Value) -> [f64; N] {
+fn values<const N: usize>(value: &Value) -> [f64; N] {
     std::array::from_fn(|at| number(&value[at]))
 }
 
-/// After a slip the command says that nothing is explained, names the slip, and what would be left.
+/// After an error the command says that nothing is explained, names the error, and the residual without it.
 #[track_caller]
-fn named(slip: impl Fn(&mut Value), words: &str) {
+fn named(error: impl Fn(&mut Value), words: &str) {
     let mut rows = poses(40);
-    rows.iter_mut().for_each(slip);
+    rows.iter_mut().for_each(error);
     let answer = judged(&rows, "zero-offsets");
     let report = answer.json();
-    let heard = format!("{words}: {}", report["statements"]);
-    assert_eq!((answer.code, &report["verdict"]), (1, &json!("unexplained")), "{heard}");
+    let statements = format!("{words}: {}", report["statements"]);
+    assert_eq!((answer.code, &report["verdict"]), (1, &json!("unexplained")), "{statements}");
     assert_eq!(report["recommended"], "nominal");
     let reason = &report["likely_reason"];
-    assert!(reason["what"].as_str().is_some_and(|what| what.contains(words)), "{words}: {reason}");
+    assert!(
+        reason["condition"].as_str().is_some_and(|condition| condition.contains(words)),
+        "{words}: {reason}"
+    );
     assert!(number(&reason["rms_m"]) < 3.0 * NOISE.0, "{reason}");
     let first = report["statements"][0].as_str().unwrap();
     assert!(first.contains("do NOT explain") && first.contains(words), "{first}");
 }
 
 #[test]
-fn slips_of_units_are_named() {
+fn errors_of_units_are_named() {
     let under = |from: &'static str, to: &'static str| {
         move |row: &mut Value| {
-            let figures = row.as_object_mut().unwrap().remove(from).unwrap();
-            row[to] = figures;
+            let moved = row.as_object_mut().unwrap().remove(from).unwrap();
+            row[to] = moved;
         }
     };
-    named(under("translation_m", "translation_mm"), "positions under mm were metres");
+    named(under("translation_m", "translation_mm"), "positions given as mm are in metres");
     let thousandfold = |row: &mut Value| {
-        row["translation_m"] = json!(figures::<3>(&row["translation_m"]).map(|figure| figure * 1e3));
+        row["translation_m"] = json!(values::<3>(&row["translation_m"]).map(|value| value * 1e3));
     };
-    named(thousandfold, "positions under m were millimetres");
+    named(thousandfold, "positions given as m are in millimetres");
     let degrees = |row: &mut Value| {
         for joint in UR5E_JOINTS {
             row["q"][joint] = json!(number(&row["q"][joint]).to_degrees());
         }
     };
-    named(degrees, "joint angles under rad were degrees");
+    named(degrees, "joint angles given as rad are in degrees");
 }
 
 #[test]
-fn lengths_a_thousand_times_as_short_do_not_explain_a_slip_of_units() {
+fn lengths_a_thousand_times_as_short_do_not_explain_an_error_of_units() {
     let mut rows = poses(40);
     for row in &mut rows {
         let metres = row.as_object_mut().unwrap().remove("translation_m").unwrap();
@@ -83,54 +86,54 @@ fn lengths_a_thousand_times_as_short_do_not_explain_a_slip_of_units() {
     }
     let answer = judged(&rows, "dh");
     let report = answer.json();
-    let heard = report["statements"][0].as_str().unwrap();
-    assert_eq!((answer.code, &report["verdict"]), (1, &json!("misread")), "{heard}");
-    assert!(heard.contains("under mm were metres") && report["recommended"] == "nominal", "{heard}");
+    let first = report["statements"][0].as_str().unwrap();
+    assert_eq!((answer.code, &report["verdict"]), (1, &json!("misinterpreted")), "{first}");
+    assert!(first.contains("given as mm are in metres") && report["recommended"] == "nominal", "{first}");
 }
 
 #[test]
-fn slips_of_order_sign_and_frame_are_named() {
+fn errors_of_order_sign_and_frame_are_named() {
     let scalar_last = |row: &mut Value| {
-        let [w, x, y, z] = figures(&row["quaternion_wxyz"]);
+        let [w, x, y, z] = values(&row["quaternion_wxyz"]);
         row["quaternion_wxyz"] = json!([x, y, z, w]);
     };
-    named(scalar_last, "under qw, qx, qy, qz were x, y, z, w");
+    named(scalar_last, "qw, qx, qy, qz hold x, y, z, w");
     let scalar_first = |row: &mut Value| {
-        let [w, x, y, z] = figures(&row["quaternion_wxyz"]);
+        let [w, x, y, z] = values(&row["quaternion_wxyz"]);
         row["quaternion_wxyz"] = json!([z, w, x, y]);
     };
-    named(scalar_first, "under qx, qy, qz, qw were w, x, y, z");
+    named(scalar_first, "qx, qy, qz, qw hold w, x, y, z");
     let conjugate = |row: &mut Value| {
-        let [w, x, y, z] = figures(&row["quaternion_wxyz"]);
+        let [w, x, y, z] = values(&row["quaternion_wxyz"]);
         row["quaternion_wxyz"] = json!([w, -x, -y, -z]);
     };
-    named(conjugate, "orientations were those of the base in the tip");
+    named(conjugate, "orientations are those of the base in the tip");
     let inverse = |row: &mut Value| {
-        let [w, x, y, z] = figures(&row["quaternion_wxyz"]);
-        let t = figures(&row["translation_m"]);
-        row["translation_m"] = json!(turned([w, -x, -y, -z], t).map(|figure| -figure));
+        let [w, x, y, z] = values(&row["quaternion_wxyz"]);
+        let t = values(&row["translation_m"]);
+        row["translation_m"] = json!(turned([w, -x, -y, -z], t).map(|value| -value));
         row["quaternion_wxyz"] = json!([w, -x, -y, -z]);
     };
-    named(inverse, "poses were those of the base in the tip");
+    named(inverse, "poses are those of the base in the tip");
     let other_way = |row: &mut Value| {
         row["q"]["elbow_joint"] = json!(-number(&row["q"]["elbow_joint"]));
     };
-    named(other_way, "elbow_joint counted the other way");
-    let aside = |row: &mut Value| {
-        let [x, y, z] = figures(&row["translation_m"]);
+    named(other_way, "elbow_joint is positive in the opposite direction");
+    let shifted_base = |row: &mut Value| {
+        let [x, y, z] = values(&row["translation_m"]);
         row["translation_m"] = json!([x + 0.2, y - 0.1, z + 0.4]);
     };
-    named(aside, "--free base)");
-    // A tracker that stands askew by 0.3 rad, which the first joint's zero could be as well.
-    let askew = |row: &mut Value| {
+    named(shifted_base, "--free base)");
+    // A tracker whose frame is rotated by 0.3 rad about z, as the first joint's zero could be.
+    let turned_base = |row: &mut Value| {
         let by = [0.15_f64.cos(), 0.0, 0.0, 0.15_f64.sin()];
-        let [w, x, y, z] = figures(&row["quaternion_wxyz"]);
+        let [w, x, y, z] = values(&row["quaternion_wxyz"]);
         let [c, .., s] = by;
         row["quaternion_wxyz"] = json!([c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w]);
-        let [x, y, z] = turned(by, figures(&row["translation_m"]));
+        let [x, y, z] = turned(by, values(&row["translation_m"]));
         row["translation_m"] = json!([x + 0.3, y + 0.1, z]);
     };
-    named(askew, "--free base)");
+    named(turned_base, "--free base)");
 }
 
 /// `v` turned by a quaternion, w first, of unit length but for its noise.
@@ -145,7 +148,7 @@ fn turned([w, x, y, z]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
 }
 
 #[test]
-fn what_no_slip_explains_is_not_explained_away() {
+fn what_no_common_error_explains_stays_unexplained() {
     let mut rows = poses(40);
     let shifted: Vec<Value> =
         (0..rows.len()).map(|at| rows[(at + 7) % 40]["translation_m"].clone()).collect();
@@ -156,17 +159,17 @@ fn what_no_slip_explains_is_not_explained_away() {
         let report = answer.json();
         let first = report["statements"][0].as_str().unwrap();
         assert_eq!((answer.code, &report["verdict"]), (1, &json!("unexplained")), "{first}");
-        assert!(report["likely_reason"].is_null() && first.contains("no common slip"), "{first}");
+        assert!(report["likely_reason"].is_null() && first.contains("no common error"), "{first}");
     }
 }
 
 #[test]
-fn as_many_corrections_as_measurements_leave_nothing_to_judge_by() {
+fn as_many_corrections_as_measurements_cannot_be_verified() {
     let mut rows = poses(2);
     for row in &mut rows {
         row.as_object_mut().unwrap().remove("quaternion_wxyz");
     }
-    // A point tells three figures, however often it is measured.
+    // A point gives three components, however often it is measured.
     let mut repeated = vec![rows[0].clone(); 20];
     for (at, row) in repeated.iter_mut().enumerate() {
         row["q"]["elbow_joint"] = json!(number(&row["q"]["elbow_joint"]) + [0.0, 1e-5, -2e-5][at % 3]);
@@ -174,7 +177,7 @@ fn as_many_corrections_as_measurements_leave_nothing_to_judge_by() {
     for rows in [&rows[..1], &repeated[..]] {
         let answer = judged(rows, "zero-offsets");
         let report = answer.json();
-        assert_eq!((answer.code, &report["verdict"]), (4, &json!("nothing_to_judge_by")), "{report}");
+        assert_eq!((answer.code, &report["verdict"]), (4, &json!("unverifiable")), "{report}");
         assert_eq!((&report["redundancy"], &report["recommended"]), (&json!(0), &json!("nominal")));
         assert!(report["held_out"].is_null() && report["least_squares"]["noise_m"].is_null());
         let parameters = report["parameters"].as_array().unwrap();
@@ -183,10 +186,10 @@ fn as_many_corrections_as_measurements_leave_nothing_to_judge_by() {
             assert!(each["standard_deviation"].is_null() && each["significant"] == false, "{each}");
         }
     }
-    // Poses at one configuration leave something, but not elsewhere.
+    // A pose at one configuration has redundancy, but cannot verify other configurations.
     let pose = poses(1);
     let report = judged(&pose, "elbow_joint.zero").json();
-    assert_eq!((&report["verdict"], &report["redundancy"]), (&json!("nothing_to_judge_by"), &json!(4)));
+    assert_eq!((&report["verdict"], &report["redundancy"]), (&json!("unverifiable"), &json!(4)));
     assert!(report["statements"][0].as_str().unwrap().contains("one configuration"), "{report}");
 }
 
@@ -199,7 +202,7 @@ fn repetitions_are_left_out_together() {
 
 #[test]
 #[expect(clippy::disallowed_methods, reason = "the time it takes is what is tested")]
-fn one_absurd_coordinate_is_set_aside_in_good_time() {
+fn one_absurd_coordinate_is_an_outlier_in_good_time() {
     /// Kind: bound; seen 0.7 s. From least squares alone the search for the rows that agree took 40 s.
     const MOST: Duration = Duration::from_secs(10);
     let mut rows = poses(40);

@@ -1,4 +1,4 @@
-//! `congruent derive` and `congruent convert`: what they write is read again and judged by `congruent check`.
+//! `congruent derive` and `congruent convert`: their output is parsed again and checked by `congruent check`.
 
 use std::{fs, path::Path};
 
@@ -9,7 +9,7 @@ use crate::{
     corpus::{corpus, workspace},
 };
 
-/// What every conversion is held to: rad and m. Worst seen: 1e-14.
+/// Largest error of a conversion: rad and m. Worst seen: 1e-14.
 const ACCURACY: f64 = 1e-12;
 const CONVENTIONS: [&str; 2] = ["standard", "modified"];
 
@@ -180,7 +180,7 @@ fn a_chain_that_does_not_move_has_no_table() {
 }
 
 #[test]
-fn a_mimic_joint_in_the_chain_is_told() {
+fn a_mimic_joint_in_the_chain_is_noted() {
     let Some(corpus) = corpus() else { return };
     let urdf = text(&corpus.join("robots/xarm7_gripper/robot.urdf"));
     let report = proved(&congruent_json(&["derive", &urdf, "--convention", "standard"]));
@@ -189,7 +189,7 @@ fn a_mimic_joint_in_the_chain_is_told() {
 }
 
 #[test]
-fn a_table_is_not_there_from_another_base() {
+fn a_table_does_not_exist_from_another_base() {
     let arguments = ["convert", "robots/ur5e", "--to", "urdf", "--from", "dh", "--base", "shoulder_link"];
     let answer = congruent(&arguments);
     assert_eq!(answer.code, 2);

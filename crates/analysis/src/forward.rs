@@ -1,21 +1,24 @@
-//! `congruent fk`: poses of links by a chosen witness.
+//! `congruent fk`: poses of links by a chosen source.
+
+use std::collections::BTreeMap;
 
 use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 use congruent_kinematics::{
     DhChain, KinematicsError, LinkPoses, LinkPosesError, Pose, ReportedPose, UrdfTree,
 };
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// The tool center point among links.
 const TCP: &str = "tcp";
 
-/// Which witness answers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+/// A source of link poses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Source {
     /// The URDF chain, by analysis.
     Urdf,
-    /// The declared table: its frames, the tip and the TCP.
+    /// The table of robot.toml: its frames, the tip and the TCP.
     Dh,
     /// Screws (product of exponentials).
     Poe,
@@ -24,10 +27,11 @@ pub enum Source {
 }
 
 /// Poses at one configuration, by name, in order.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Poses {
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ReportedLinkPoses {
     /// Links (or frames of the table) with their poses in the root link's frame.
     #[serde(serialize_with = "as_map")]
+    #[schemars(with = "BTreeMap<String, ReportedPose>")]
     pub links: Vec<(String, ReportedPose)>,
 }
 
@@ -36,19 +40,19 @@ fn as_map<S: serde::Serializer>(poses: &[(String, ReportedPose)], serializer: S)
 }
 
 /// The answer of `congruent fk`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ForwardReport {
     /// Name of the robot.
     pub robot: String,
     /// Movable joints, in the order of configuration vectors.
     pub joints: Vec<String>,
-    /// Which witness answered.
+    /// The source.
     pub source: Source,
     /// One entry for each configuration, in input order.
-    pub results: Vec<Poses>,
+    pub results: Vec<ReportedLinkPoses>,
 }
 
-/// Why a witness cannot answer.
+/// Why a source has no poses.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ForwardError {
@@ -58,7 +62,7 @@ pub enum ForwardError {
         /// The robot.
         robot: String,
     },
-    /// A witness refuses the robot.
+    /// The source refuses the robot.
     #[error(transparent)]
     Source(#[from] LinkPosesError),
 }
@@ -97,12 +101,12 @@ pub fn forward(
             let root_from_tcp = root_from_links[description.tip.get()] * tip_from_tcp;
             links.push((TCP.to_owned(), (&root_from_tcp).into()));
         }
-        results.push(Poses { links });
+        results.push(ReportedLinkPoses { links });
     }
     Ok(report(description, source, results))
 }
 
-fn report(description: &RobotDescription, source: Source, results: Vec<Poses>) -> ForwardReport {
+fn report(description: &RobotDescription, source: Source, results: Vec<ReportedLinkPoses>) -> ForwardReport {
     let robot = &description.robot;
     ForwardReport {
         robot: robot.name().to_owned(),
@@ -127,7 +131,7 @@ pub fn forward_by_table(
     let tree = UrdfTree::new(robot);
     let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
     let mut base_from_dh = vec![Pose::identity(); chain.joint_count() + 1];
-    let at = |q: &RobotQ| -> Result<Poses, KinematicsError> {
+    let at = |q: &RobotQ| -> Result<ReportedLinkPoses, KinematicsError> {
         let root_from_base = tree.root_from_link(q, description.base)?;
         chain.dh_frames_into(q, &mut base_from_dh)?;
         let root_from_tip = root_from_base * chain.base_from_tip(q)?;
@@ -137,7 +141,7 @@ pub fn forward_by_table(
             .collect();
         links.push((robot.link(description.tip).name.clone(), (&root_from_tip).into()));
         links.push((TCP.to_owned(), (&(root_from_tip * tip_from_tcp)).into()));
-        Ok(Poses { links })
+        Ok(ReportedLinkPoses { links })
     };
     let results = configurations.iter().map(at).collect::<Result<_, KinematicsError>>();
     Ok(report(description, Source::Dh, results.map_err(LinkPosesError::from)?))

@@ -1,23 +1,26 @@
-//! `congruent ik`: which joint positions bring the tool to given poses?
+//! `congruent ik`: joint positions that bring the tool to given poses.
 
 use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path};
 
-use congruent_description::{ArmQ, Diagnostic, Robot, RobotDescription, read_text};
+use congruent_description::{
+    ArmQ, Diagnostic, Finding, JointValues, JsonList, Robot, RobotDescription, configuration, read_text,
+};
 use congruent_kinematics::{Arm, IkResult, IkSolver, IkTarget, KinematicsError, Pose};
-
-pub use congruent_kinematics::{IkMethod, IkOptions, TargetPart};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use congruent_description::{Finding, JointValues, JsonList, configuration};
+pub use congruent_kinematics::{IkMethod, IkOptions, TargetPart};
 
-/// What a file of targets is.
+use crate::arm_joints::joint_names;
+
+/// A file of targets as a list.
 const LIST: JsonList = JsonList {
     entry: "target",
     code: "targets::json",
     help: r#"expected [{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint": 0.1}}]"#,
 };
-/// Farthest that a target may be: the square of anything larger drowns all else.
+/// Largest coordinate of a target: the square of a larger one would make all others insignificant.
 const MOST_M: f64 = 1e6;
 /// Largest file of targets that is read.
 const MOST_BYTES: u64 = 256 << 20;
@@ -27,16 +30,16 @@ const QUATERNION_NORM: f64 = 1e-6;
 /// One target as written.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Written {
+struct WrittenTarget {
     translation_m: [f64; 3],
     quaternion_wxyz: Option<[f64; 4]>,
     #[serde(default)]
     start: BTreeMap<String, f64>,
 }
 
-/// A pose to be reached, and where the search starts.
+/// A pose to be reached, and the start of the search.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Target {
+pub struct InverseTarget {
     /// The pose.
     pub target: IkTarget,
     /// Joints with a given start, by name, in rad or m; others start at the middle of their range.
@@ -45,43 +48,43 @@ pub struct Target {
 
 /// A file of targets.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Targets {
+pub struct InverseTargets {
     /// In the order of the file.
-    pub targets: Vec<Target>,
-    /// Starts that the limits do not allow: the search begins at the nearest position within.
+    pub targets: Vec<InverseTarget>,
+    /// Starts outside the limits: the search begins at the nearest position within.
     pub warnings: Vec<Diagnostic>,
 }
 
 /// The answer of `congruent ik`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct InverseReport {
     /// Name of the robot.
     pub robot: String,
     /// The arm's independent joints, base to tip.
     pub joints: Vec<String>,
     /// How it was solved.
-    pub method: &'static str,
+    pub method: IkMethod,
     /// One entry for each target, in input order.
-    pub results: Vec<Solution>,
+    pub results: Vec<InverseSolution>,
     /// Starts outside the limits.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
 }
 
-/// What came of one target.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Solution {
+/// The result for one target.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct InverseSolution {
     /// Whether the residuals are within tolerance.
     pub converged: bool,
     /// The best positions that were found, rad or m, always within the limits.
     pub q: JointValues,
-    /// Distance that is left.
+    /// Distance from the target.
     pub residual_position_m: f64,
-    /// Angle that is left; 0 where no orientation was asked for.
+    /// Angle from the target; 0 for a target without orientation.
     pub residual_orientation_rad: f64,
     /// Steps that were taken.
     pub iterations: usize,
-    /// Joints that stand at a limit.
+    /// Joints at a limit.
     pub limits_held: Vec<String>,
 }
 
@@ -89,14 +92,14 @@ pub struct Solution {
 /// "start": {joint: value}}`, the last two optional; poses of the tool in link `base`.
 ///
 /// # Errors
-/// Where the file cannot be read, is no such array, names an unknown joint or holds no unit quaternion.
-pub fn read_targets(path: &Path, robot: &Robot) -> Result<Targets, Vec<Diagnostic>> {
+/// The file cannot be read, is no such array, names an unknown joint or has a quaternion not of unit length.
+pub fn read_targets(path: &Path, robot: &Robot) -> Result<InverseTargets, Vec<Diagnostic>> {
     let source = read_text(path, MOST_BYTES)?;
     let in_file = |found: Vec<Diagnostic>| -> Vec<Diagnostic> {
         found.into_iter().map(|each| each.in_file(&source)).collect()
     };
     let (mut warnings, mut index) = (Vec::new(), 0);
-    let entry = |written: Written, place: Range<usize>| {
+    let entry = |written: WrittenTarget, place: Range<usize>| {
         index += 1;
         let target = checked(written, robot)?;
         let outside = target.start.iter().filter_map(|(name, &value)| outside(robot, name, value));
@@ -108,10 +111,10 @@ pub fn read_targets(path: &Path, robot: &Robot) -> Result<Targets, Vec<Diagnosti
         Ok(target)
     };
     let targets = LIST.read(&source.text, entry).map_err(in_file)?;
-    Ok(Targets { targets, warnings: in_file(warnings) })
+    Ok(InverseTargets { targets, warnings: in_file(warnings) })
 }
 
-/// What a start is beyond, unless whole turns of the joint bring it within.
+/// The limits that a start is outside of, unless whole turns of the joint bring it within.
 fn outside(robot: &Robot, name: &str, value: f64) -> Option<String> {
     let joint = robot.joint(robot.find_joint(name)?);
     let limit = joint.limit?;
@@ -128,9 +131,9 @@ fn outside(robot: &Robot, name: &str, value: f64) -> Option<String> {
     })
 }
 
-fn checked(written: Written, robot: &Robot) -> Result<Target, Diagnostic> {
+fn checked(written: WrittenTarget, robot: &Robot) -> Result<InverseTarget, Diagnostic> {
     configuration(&written.start, robot)?;
-    if let Some(far) = written.translation_m.iter().find(|figure| figure.abs() > MOST_M) {
+    if let Some(far) = written.translation_m.iter().find(|coordinate| coordinate.abs() > MOST_M) {
         let message = format!("translation_m has {far}, which is beyond {MOST_M:e} m");
         return Err(Diagnostic::error("targets::translation", message));
     }
@@ -140,7 +143,7 @@ fn checked(written: Written, robot: &Robot) -> Result<Target, Diagnostic> {
     };
     let base_from_tcp =
         Pose::from(Isometry3::from_parts(Translation3::from(written.translation_m), rotation));
-    Ok(Target { target: IkTarget { base_from_tcp, part }, start: written.start })
+    Ok(InverseTarget { target: IkTarget { base_from_tcp, part }, start: written.start })
 }
 
 fn unit_quaternion([w, x, y, z]: [f64; 4]) -> Result<UnitQuaternion<f64>, Diagnostic> {
@@ -157,15 +160,14 @@ fn unit_quaternion([w, x, y, z]: [f64; 4]) -> Result<UnitQuaternion<f64>, Diagno
 /// Solves all targets for the robot's arm, the URDF chain from `base` to `tip` with its tool.
 ///
 /// # Errors
-/// [`KinematicsError::NoJoint`] where the robot has no arm.
+/// [`KinematicsError::NoJoint`] if the robot has no arm.
 pub fn inverse(
     description: &RobotDescription,
-    Targets { targets, warnings }: &Targets,
+    InverseTargets { targets, warnings }: &InverseTargets,
     options: &IkOptions,
 ) -> Result<InverseReport, KinematicsError> {
     let arm = Arm::of(description)?;
-    let joints: Vec<String> =
-        arm.joints().iter().map(|joint| description.robot.joint(joint.joint).name.clone()).collect();
+    let joints = joint_names(description, &arm);
     let middle = arm.middle();
     let mut solver = IkSolver::new(arm);
     let mut results = Vec::with_capacity(targets.len());
@@ -177,28 +179,19 @@ pub fn inverse(
     Ok(InverseReport {
         robot: description.robot.name().to_owned(),
         joints,
-        method: name(options.method),
+        method: options.method,
         results,
         warnings: warnings.iter().map(Finding::from).collect(),
     })
 }
 
-fn solution(result: &IkResult<'_>, joints: &[String]) -> Solution {
-    Solution {
+fn solution(result: &IkResult<'_>, joints: &[String]) -> InverseSolution {
+    InverseSolution {
         converged: result.converged,
         q: JointValues::new(joints, result.q),
         residual_position_m: result.residual_position_m,
         residual_orientation_rad: result.residual_orientation_rad,
         iterations: result.iterations,
         limits_held: result.limits_held.iter().map(|&joint| joints[joint].clone()).collect(),
-    }
-}
-
-fn name(method: IkMethod) -> &'static str {
-    match method {
-        IkMethod::LevenbergMarquardt => "lm",
-        IkMethod::Newton => "newton",
-        IkMethod::PseudoInverse => "pseudo-inverse",
-        IkMethod::Transpose => "transpose",
     }
 }

@@ -1,25 +1,24 @@
-//! `congruent jacobian`: how joint velocities move a link.
+//! `congruent jacobian`: the velocity of a link by the velocities of the joints.
 
-use congruent_description::{LinkIndex, Robot, RobotQ};
-
-pub use congruent_kinematics::JacobianKind;
+use congruent_description::{JointState, LinkIndex, Robot, RobotQ};
 use congruent_kinematics::{Jacobian, KinematicsError, UrdfTree};
 use nalgebra::Matrix3xX;
+use schemars::JsonSchema;
 use serde::Serialize;
 
-use congruent_description::JointState;
+pub use congruent_kinematics::JacobianKind;
 
 /// A Jacobian as programs read it: named blocks, since half the field stacks linear first and half
 /// angular first. Columns are in the order of the report's joints.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Blocks {
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct JacobianBlocks {
     /// Three rows: m/s for each rad/s or m/s.
     pub linear: [Vec<f64>; 3],
     /// Three rows: rad/s for each rad/s or m/s.
     pub angular: [Vec<f64>; 3],
 }
 
-impl From<&Jacobian> for Blocks {
+impl From<&Jacobian> for JacobianBlocks {
     fn from(jacobian: &Jacobian) -> Self {
         Self { linear: rows(&jacobian.linear()), angular: rows(&jacobian.angular()) }
     }
@@ -29,20 +28,19 @@ fn rows(block: &Matrix3xX<f64>) -> [Vec<f64>; 3] {
     [0, 1, 2].map(|row| block.row(row).iter().copied().collect())
 }
 
-/// One configuration's answer.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The Jacobian at one configuration.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JacobianResult {
     /// The Jacobian itself.
     #[serde(flatten)]
-    pub jacobian: Blocks,
-    /// Its time derivative at the speeds that were given, each entry per s; absent where none was
-    /// asked for.
+    pub jacobian: JacobianBlocks,
+    /// Its time derivative at the given joint velocities, each entry per s; absent unless it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub derivative: Option<Blocks>,
+    pub derivative: Option<JacobianBlocks>,
 }
 
 /// The answer of `congruent jacobian`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JacobianReport {
     /// Name of the robot.
     pub robot: String,
@@ -50,8 +48,8 @@ pub struct JacobianReport {
     pub joints: Vec<String>,
     /// The link that moves.
     pub link: String,
-    /// `space`, `body` or `geometric`.
-    pub kind: &'static str,
+    /// Its frame and point.
+    pub kind: JacobianKind,
     /// One entry for each configuration, in input order.
     pub results: Vec<JacobianResult>,
 }
@@ -59,7 +57,7 @@ pub struct JacobianReport {
 /// Jacobians of one link at each configuration, from the URDF chain.
 ///
 /// # Errors
-/// [`KinematicsError::JointCount`] for a configuration that is none of the robot's.
+/// [`KinematicsError::JointCount`] for a configuration of another length.
 pub fn jacobians(
     robot: &Robot,
     link: LinkIndex,
@@ -69,7 +67,7 @@ pub fn jacobians(
     let tree = UrdfTree::new(robot);
     let at = |q: &RobotQ| {
         let jacobian = tree.jacobian(q, link, kind)?;
-        Ok(JacobianResult { jacobian: Blocks::from(&jacobian), derivative: None })
+        Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative: None })
     };
     let results = configurations.iter().map(at).collect::<Result<_, KinematicsError>>()?;
     Ok(report(robot, link, kind, results))
@@ -78,7 +76,7 @@ pub fn jacobians(
 /// Jacobians of one link and their time derivatives, from the URDF chain.
 ///
 /// # Errors
-/// [`KinematicsError::JointCount`] for positions or speeds that are none of the robot's.
+/// [`KinematicsError::JointCount`] for positions or velocities of another length.
 pub fn jacobians_in_motion(
     robot: &Robot,
     link: LinkIndex,
@@ -88,8 +86,8 @@ pub fn jacobians_in_motion(
     let tree = UrdfTree::new(robot);
     let at = |JointState { q, qd }: &JointState| {
         let jacobian = tree.jacobian(q, link, kind)?;
-        let derivative = Some(Blocks::from(&jacobian.rate(qd)?));
-        Ok(JacobianResult { jacobian: Blocks::from(&jacobian), derivative })
+        let derivative = Some(JacobianBlocks::from(&jacobian.rate(qd)?));
+        Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative })
     };
     let results = states.iter().map(at).collect::<Result<_, KinematicsError>>()?;
     Ok(report(robot, link, kind, results))
@@ -105,11 +103,7 @@ fn report(
         robot: robot.name().to_owned(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         link: robot.link(link).name.clone(),
-        kind: match kind {
-            JacobianKind::Space => "space",
-            JacobianKind::Body => "body",
-            JacobianKind::Geometric => "geometric",
-        },
+        kind,
         results,
     }
 }

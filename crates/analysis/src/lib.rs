@@ -2,6 +2,7 @@
 //! manipulability, workspace. The values are computed in `congruent-kinematics`; here they get names, units
 //! and plots.
 
+mod arm_joints;
 pub mod conversion;
 pub mod forward;
 pub mod inverse;
@@ -10,11 +11,3 @@ pub mod manipulability;
 pub mod plot;
 pub mod sensitivity;
 pub mod workspace;
-
-use congruent_description::RobotDescription;
-use congruent_kinematics::Arm;
-
-/// Names of the arm's joints.
-fn joint_names(description: &RobotDescription, arm: &Arm) -> Vec<String> {
-    arm.joints().iter().map(|joint| description.robot.joint(joint.joint).name.clone()).collect()
-}

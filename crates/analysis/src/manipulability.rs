@@ -5,15 +5,16 @@ use congruent_kinematics::{
     Arm, Dexterity, KinematicsError, Manipulability, Pose, UrdfTree, VelocityEllipsoid,
 };
 use nalgebra::{Matrix2x3, Vector3};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
-    joint_names,
-    plot::{Curve, PlaneView, PlotError, views},
+    arm_joints::joint_names,
+    plot::{AXES, Curve, PLANES, PlaneView, PlotError, views},
 };
 
 /// The answer of `congruent manipulability`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ManipulabilityReport {
     /// Name of the robot.
     pub robot: String,
@@ -25,41 +26,41 @@ pub struct ManipulabilityReport {
     pub results: Vec<ConfigurationDexterity>,
 }
 
-/// The figures at one configuration.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// Dexterity at one configuration.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ConfigurationDexterity {
     /// The configuration, rad or m.
     pub q: JointValues,
-    /// Where the tool is, in the base.
+    /// Position of the tool, in the base.
     pub tcp_in_base_m: [f64; 3],
-    /// Velocity of the tool centre point, m per unit of joint speed.
+    /// Velocity of the tool centre point, m per unit of joint velocity.
     pub linear: ReportedEllipsoid,
-    /// Angular velocity, rad per unit of joint speed.
+    /// Angular velocity, rad per unit of joint velocity.
     pub angular: ReportedEllipsoid,
     /// Both, lengths in `metres_per_rad`.
     pub whole: ReportedDexterity,
 }
 
-/// An ellipsoid with its figures.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// An ellipsoid with its dexterity measures.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedEllipsoid {
     /// Directions in the base, the longest first.
     pub axes: [[f64; 3]; 3],
     /// Lengths.
     pub semi_axes: [f64; 3],
-    /// Its figures.
+    /// Its dexterity measures.
     #[serde(flatten)]
     pub dexterity: ReportedDexterity,
 }
 
-/// What singular values say.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// Dexterity measures from singular values.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedDexterity {
     /// Directions that the arm can span at all.
     pub directions: usize,
     /// Product of the singular values.
     pub yoshikawa: f64,
-    /// Largest over smallest singular value; none where the arm is singular.
+    /// Largest over smallest singular value; none if the arm is singular.
     pub condition: Option<f64>,
     /// The smallest singular value.
     pub distance_to_singularity: f64,
@@ -89,7 +90,7 @@ impl From<&VelocityEllipsoid> for ReportedEllipsoid {
 /// Manipulability at configurations of the robot.
 ///
 /// # Errors
-/// [`KinematicsError`] where the robot has no arm.
+/// [`KinematicsError`] if the robot has no arm.
 pub fn manipulability(
     description: &RobotDescription,
     configurations: &[RobotQ],
@@ -116,11 +117,7 @@ pub fn manipulability(
     })
 }
 
-/// The planes that are drawn, by their axes.
-pub(super) const PLANES: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
-/// Names of the axes.
-pub(super) const AXES: [&str; 3] = ["x in m", "y in m", "z in m"];
-/// Length of the longest semi-axis in the figure as a share of the arm's extent.
+/// Length of the longest semi-axis in the plot as a share of the arm's extent.
 const DRAWN_SHARE: f64 = 0.3;
 /// Corners of a drawn ellipse.
 const CORNERS: u16 = 96;
@@ -128,7 +125,7 @@ const CORNERS: u16 = 96;
 /// The arm at one configuration with both ellipsoids at its tool, in three planes of the base.
 ///
 /// # Errors
-/// [`PlotError`] where the drawing library refuses.
+/// [`PlotError`] if the drawing library refuses.
 pub fn plot(
     description: &RobotDescription,
     q_robot: &RobotQ,

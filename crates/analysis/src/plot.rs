@@ -1,5 +1,5 @@
-//! Figures for a report, as SVG text: bars of named values, and plane views to scale. The one file
-//! that knows how they look.
+//! Plots of a report as SVG text: bars of named values, and plane views to scale. The one file
+//! that decides their appearance.
 
 use plotters::{
     coord::Shift,
@@ -7,9 +7,9 @@ use plotters::{
     style::text_anchor::{HPos, Pos, VPos},
 };
 
-/// Why no figure could be drawn.
+/// Why no plot could be drawn.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot draw the figure: {0}")]
+#[error("cannot draw the plot: {0}")]
 pub struct PlotError(String);
 
 impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for PlotError {
@@ -18,9 +18,13 @@ impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for PlotE
     }
 }
 
-/// Colours that are told apart in print and by the colour-blind (Okabe & Ito 2008).
+/// Colours that can be distinguished in print and by the colour-blind (Okabe & Ito 2008).
 const COLOURS: [RGBColor; 4] =
     [RGBColor(0, 114, 178), RGBColor(230, 159, 0), RGBColor(0, 158, 115), RGBColor(204, 121, 167)];
+/// The planes of a view, by their axes.
+pub(crate) const PLANES: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
+/// Names of the axes.
+pub(crate) const AXES: [&str; 3] = ["x in m", "y in m", "z in m"];
 const GREY: RGBColor = RGBColor(90, 90, 90);
 const FONT: &str = "sans-serif";
 const TITLE_PX: u32 = 44;
@@ -36,12 +40,12 @@ pub struct Bar {
     pub mean: f64,
 }
 
-/// Bars in groups, a group for each thing and a colour for each series.
+/// Bars in groups, each with one bar for each series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BarChart {
-    /// Stands above.
+    /// Its title.
     pub title: String,
-    /// What the axis measures, with its unit.
+    /// Name of the axis, with its unit.
     pub axis: String,
     /// Names of the series.
     pub series: Vec<String>,
@@ -52,7 +56,7 @@ pub struct BarChart {
 /// Draws horizontal bars, the worst as the bar and the mean as a line in it.
 ///
 /// # Errors
-/// [`PlotError`] where the drawing library refuses.
+/// [`PlotError`] if the drawing library refuses.
 pub fn bars(chart: &BarChart) -> Result<String, PlotError> {
     const BAR_PX: u32 = 17;
     let rows = chart.groups.iter().map(|(_, bars)| bars.len() + 1).sum::<usize>();
@@ -106,7 +110,7 @@ pub struct Curve {
     pub series: Option<usize>,
 }
 
-/// One plane seen to scale.
+/// A plane view to scale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaneView {
     /// Names of the axes, with units.
@@ -122,7 +126,7 @@ pub struct PlaneView {
 /// Draws views side by side, all at one scale.
 ///
 /// # Errors
-/// [`PlotError`] where the drawing library refuses.
+/// [`PlotError`] if the drawing library refuses.
 pub fn views(title: &str, series: &[String], views: &[PlaneView]) -> Result<String, PlotError> {
     const VIEW_PX: u32 = 430;
     /// Room for the title.
@@ -171,7 +175,7 @@ fn draw_view(area: &Area<'_>, view: &PlaneView, radius: f64) -> Result<(), PlotE
     Ok(())
 }
 
-/// Middle and half extent of what a view shows.
+/// Middle and half extent of the contents of a view.
 fn span(view: &PlaneView) -> ([f64; 2], f64) {
     let corners = view.areas.iter().flatten();
     let all = corners.chain(view.curves.iter().flat_map(|curve| &curve.points)).chain(&view.marks);
@@ -217,7 +221,7 @@ fn colour(series: usize) -> RGBColor {
     COLOURS[series % COLOURS.len()]
 }
 
-#[expect(clippy::cast_precision_loss, reason = "a figure has few rows")]
+#[expect(clippy::cast_precision_loss, reason = "a plot has few rows")]
 fn as_f64(rows: usize) -> f64 {
     rows as f64
 }

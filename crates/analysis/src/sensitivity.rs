@@ -1,13 +1,16 @@
-//! `congruent sensitivity`: what 1 degree or 1 mm in each parameter does at the tool.
+//! `congruent sensitivity`: displacement of the tool by an error of 1 degree or 1 mm in each parameter.
+
+use std::fmt;
 
 use congruent_description::{ArmQ, DhRow, DhRowKind, DhTable, JointValues, RobotDescription, RobotQ};
 use congruent_kinematics::{
     Arm, ArmJoint, DhChain, Displacement, KinematicsError, Pose, Sampling, displacement,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
-    joint_names,
+    arm_joints::joint_names,
     plot::{Bar, BarChart, PlotError, bars},
 };
 
@@ -17,7 +20,7 @@ const ANGLE_RAD: f64 = std::f64::consts::PI / 180.0;
 const LENGTH_M: f64 = 1e-3;
 
 /// The answer of `congruent sensitivity`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SensitivityReport {
     /// Name of the robot.
     pub robot: String,
@@ -30,7 +33,7 @@ pub struct SensitivityReport {
 }
 
 /// The robot, or one like it with all lengths and strokes multiplied.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ArmSensitivity {
     /// The factor.
     pub length_factor: f64,
@@ -38,39 +41,66 @@ pub struct ArmSensitivity {
     pub parameters: Vec<ParameterEffect>,
 }
 
-/// What an error of one parameter does at the tool centre point.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// Effect of an error of one parameter at the tool centre point.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ParameterEffect {
     /// The joint, or the joint of the table's row.
     pub joint: String,
-    /// `zero` of the joint, or `a`, `alpha`, `d`, `theta` of its row.
-    pub parameter: &'static str,
-    /// What it is off by: `1 deg` or `1 mm`.
-    pub error: &'static str,
+    /// The parameter: the joint's zero, or an entry of its row.
+    pub parameter: PerturbedParameter,
+    /// The error of the parameter.
+    pub error: ParameterError,
     /// Largest displacement over the joint range that was found.
     pub worst_mm: f64,
     /// Mean displacement over the joint range.
     pub mean_mm: f64,
-    /// Largest turn of the tool.
+    /// Largest rotation of the tool.
     pub worst_deg: f64,
     /// The configuration of the largest displacement, rad or m.
     pub worst_at: JointValues,
 }
 
-/// One parameter that may be off.
-#[derive(Debug, Clone, Copy)]
-struct Parameter {
-    name: &'static str,
-    is_angle: bool,
+/// A parameter of the model that may have an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PerturbedParameter {
+    /// The zero of a joint.
+    Zero,
+    /// Link length.
+    A,
+    /// Link twist.
+    Alpha,
+    /// Link offset.
+    D,
+    /// Joint angle.
+    Theta,
 }
 
-/// The effect of every joint zero, and of the table's other entries where a table is declared.
+/// The error of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+pub enum ParameterError {
+    /// Of an angle.
+    #[serde(rename = "1 deg")]
+    OneDegree,
+    /// Of a length.
+    #[serde(rename = "1 mm")]
+    OneMillimetre,
+}
+
+/// One parameter with its error.
+#[derive(Debug, Clone, Copy)]
+struct Perturbation {
+    parameter: PerturbedParameter,
+    error: ParameterError,
+}
+
+/// The effect of every joint zero, and of the table's other entries if a table is declared.
 ///
 /// An error of an angle displaces the tool in proportion to the arm's lengths and an error of a
 /// length does not depend on them, so arms of other lengths need no sampling of their own.
 ///
 /// # Errors
-/// [`KinematicsError::NoJoint`] where the robot has no arm.
+/// [`KinematicsError::NoJoint`] if the robot has no arm.
 pub fn sensitivity(
     description: &RobotDescription,
     length_factors: &[f64],
@@ -84,10 +114,7 @@ pub fn sensitivity(
     }
     let scaled = |&length_factor: &f64| ArmSensitivity {
         length_factor,
-        parameters: effects
-            .iter()
-            .map(|(joint, parameter, found)| effect(joint, *parameter, found, (&arm, &names, length_factor)))
-            .collect(),
+        parameters: effects.iter().map(|found| effect(found, (&arm, &names, length_factor))).collect(),
     };
     Ok(SensitivityReport {
         robot: description.robot.name().to_owned(),
@@ -97,100 +124,131 @@ pub fn sensitivity(
     })
 }
 
-type Effect = (String, Parameter, Displacement);
+/// The displacement by one perturbation.
+struct FoundDisplacement {
+    joint: String,
+    perturbation: Perturbation,
+    displacement: Displacement,
+}
 
-fn zero_effects(arm: &Arm, names: &[String], sampling: Sampling) -> Vec<Effect> {
+fn zero_effects(arm: &Arm, names: &[String], sampling: Sampling) -> Vec<FoundDisplacement> {
     let effect = |(at, (joint, name)): (usize, (&ArmJoint, &String))| {
-        let parameter = Parameter { name: "zero", is_angle: joint.turns };
-        let (mut meant, mut built) = (arm.clone(), arm.clone());
+        let error = if joint.turns { ParameterError::OneDegree } else { ParameterError::OneMillimetre };
+        let (mut nominal, mut perturbed) = (arm.clone(), arm.clone());
         let mut shifted = ArmQ::zeros(names.len());
         let pair = |q: &ArmQ| {
             shifted.copy_from_slice(q);
-            shifted[at] += parameter.error();
+            shifted[at] += error.in_si();
             let pose = |arm: &mut Arm, q: &ArmQ| arm.base_from_tcp(q).expect("q is a configuration");
-            (pose(&mut meant, q), pose(&mut built, &shifted))
+            (pose(&mut nominal, q), pose(&mut perturbed, &shifted))
         };
-        (name.clone(), parameter, displacement(arm.joints(), pair, sampling))
+        FoundDisplacement {
+            joint: name.clone(),
+            perturbation: Perturbation { parameter: PerturbedParameter::Zero, error },
+            displacement: displacement(arm.joints(), pair, sampling),
+        }
     };
     arm.joints().iter().zip(names).enumerate().map(effect).collect()
 }
 
-/// Every entry but the one that is the joint's zero.
+/// Every entry but the one that the joint's coordinate is added to.
 fn table_effects(
     description: &RobotDescription,
     table: &DhTable,
     arm: &Arm,
     sampling: Sampling,
-) -> Vec<Effect> {
+) -> Vec<FoundDisplacement> {
     let robot = &description.robot;
-    let meant = DhChain::new(table, robot);
+    let nominal = DhChain::new(table, robot);
     let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
     let mut q_robot = RobotQ::zeros(robot.dof());
     let mut effects = Vec::new();
     for at in 0..table.rows.len() {
-        for (parameter, entry) in entries(table.rows[at].kind) {
-            let mut off = table.clone();
-            *entry(&mut off.rows[at]) += parameter.error();
-            let built = DhChain::new(&off, robot);
+        for (perturbation, entry) in entries(table.rows[at].kind) {
+            let mut perturbed = table.clone();
+            *entry(&mut perturbed.rows[at]) += perturbation.error.in_si();
+            let perturbed = DhChain::new(&perturbed, robot);
             let pair = |q: &ArmQ| {
                 arm.write_to_robot(q, &mut q_robot);
                 robot.apply_mimic(&mut q_robot);
                 let pose = |chain: &DhChain| {
                     chain.base_from_tcp(&q_robot, &tip_from_tcp).expect("it is a configuration")
                 };
-                (pose(&meant), pose(&built))
+                (pose(&nominal), pose(&perturbed))
             };
             let joint = robot.joint(table.rows[at].joint).name.clone();
-            effects.push((joint, parameter, displacement(arm.joints(), pair, sampling)));
+            let displacement = displacement(arm.joints(), pair, sampling);
+            effects.push(FoundDisplacement { joint, perturbation, displacement });
         }
     }
     effects
 }
 
-type Entry = fn(&mut DhRow) -> &mut f64;
+/// Reaches one entry of a row.
+type EntryOfRow = fn(&mut DhRow) -> &mut f64;
 
-fn entries(kind: DhRowKind) -> [(Parameter, Entry); 3] {
-    let constant: (Parameter, Entry) = match kind {
-        DhRowKind::Revolute => (Parameter { name: "d", is_angle: false }, |row| &mut row.d_m),
-        DhRowKind::Prismatic => (Parameter { name: "theta", is_angle: true }, |row| &mut row.theta_rad),
+fn entries(kind: DhRowKind) -> [(Perturbation, EntryOfRow); 3] {
+    let angle = |parameter| Perturbation { parameter, error: ParameterError::OneDegree };
+    let length = |parameter| Perturbation { parameter, error: ParameterError::OneMillimetre };
+    let constant: (Perturbation, EntryOfRow) = match kind {
+        DhRowKind::Revolute => (length(PerturbedParameter::D), |row| &mut row.d_m),
+        DhRowKind::Prismatic => (angle(PerturbedParameter::Theta), |row| &mut row.theta_rad),
     };
     [
-        (Parameter { name: "a", is_angle: false }, |row| &mut row.a_m),
-        (Parameter { name: "alpha", is_angle: true }, |row| &mut row.alpha_rad),
+        (length(PerturbedParameter::A), |row| &mut row.a_m),
+        (angle(PerturbedParameter::Alpha), |row| &mut row.alpha_rad),
         constant,
     ]
 }
 
-impl Parameter {
-    fn error(self) -> f64 {
-        if self.is_angle { ANGLE_RAD } else { LENGTH_M }
+impl ParameterError {
+    /// In rad or m.
+    fn in_si(self) -> f64 {
+        match self {
+            Self::OneDegree => ANGLE_RAD,
+            Self::OneMillimetre => LENGTH_M,
+        }
+    }
+}
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(formatter)
+    }
+}
+
+impl fmt::Display for PerturbedParameter {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(formatter)
     }
 }
 
 fn effect(
-    joint: &str,
-    parameter: Parameter,
-    found: &Displacement,
+    FoundDisplacement { joint, perturbation, displacement }: &FoundDisplacement,
     (arm, names, length_factor): (&Arm, &[String], f64),
 ) -> ParameterEffect {
-    let factor = if parameter.is_angle { length_factor } else { 1.0 };
-    let at = arm.joints().iter().zip(&found.worst_at);
+    // The displacement by an error of an angle is proportional to the lengths of the arm.
+    let factor = match perturbation.error {
+        ParameterError::OneDegree => length_factor,
+        ParameterError::OneMillimetre => 1.0,
+    };
+    let at = arm.joints().iter().zip(&displacement.worst_at);
     let worst_at: Vec<f64> = at.map(|(joint, q)| if joint.turns { *q } else { q * length_factor }).collect();
     ParameterEffect {
-        joint: joint.to_owned(),
-        parameter: parameter.name,
-        error: if parameter.is_angle { "1 deg" } else { "1 mm" },
-        worst_mm: found.worst_m * factor * 1e3,
-        mean_mm: found.mean_m * factor * 1e3,
-        worst_deg: found.worst_rad.to_degrees(),
+        joint: joint.clone(),
+        parameter: perturbation.parameter,
+        error: perturbation.error,
+        worst_mm: displacement.worst_m * factor * 1e3,
+        mean_mm: displacement.mean_m * factor * 1e3,
+        worst_deg: displacement.worst_rad.to_degrees(),
         worst_at: JointValues::new(names, &worst_at),
     }
 }
 
-/// The report as a figure: a bar for each parameter and arm.
+/// The report as a plot: a bar for each parameter and arm.
 ///
 /// # Errors
-/// [`PlotError`] where the drawing library refuses.
+/// [`PlotError`] if the drawing library refuses.
 pub fn plot(report: &SensitivityReport) -> Result<String, PlotError> {
     let first = report.arms.first().map(|arm| arm.parameters.as_slice()).unwrap_or_default();
     let group = |(at, parameter): (usize, &ParameterEffect)| {

@@ -1,19 +1,19 @@
-//! `congruent workspace`: where the tool can be within the joint limits.
+//! `congruent workspace`: the reachable positions of the tool within the joint limits.
 
 use std::collections::BTreeSet;
 
 use congruent_description::{JointValues, RobotDescription};
 use congruent_kinematics::{Arm, KinematicsError, Sampling, Workspace};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
-    joint_names,
-    manipulability::{AXES, PLANES},
-    plot::{Curve, PlaneView, PlotError, views},
+    arm_joints::joint_names,
+    plot::{AXES, Curve, PLANES, PlaneView, PlotError, views},
 };
 
 /// The answer of `congruent workspace`; positions of the tool centre point in link `base`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct WorkspaceReport {
     /// Name of the robot.
     pub robot: String,
@@ -21,8 +21,8 @@ pub struct WorkspaceReport {
     pub samples: usize,
     /// Their seed.
     pub seed: u64,
-    /// Smallest and largest distance from the base's origin, and where.
-    pub reach: [Reach; 2],
+    /// Smallest and largest distance from the base's origin.
+    pub reach: [ReachExtreme; 2],
     /// Corners of the bounding box.
     pub lower_m: [f64; 3],
     /// The other corner.
@@ -36,18 +36,18 @@ pub struct WorkspaceReport {
 }
 
 /// An extreme distance from the base.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Reach {
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ReachExtreme {
     /// The distance.
     pub distance_m: f64,
-    /// The configuration that has it, rad or m.
+    /// The configuration with it, rad or m.
     pub at: JointValues,
 }
 
-/// The workspace of the robot's arm, as figures and as what a plot needs.
+/// The workspace of the robot's arm, as values for the report and as points for the plot.
 ///
 /// # Errors
-/// [`KinematicsError::NoJoint`] where the robot has no arm.
+/// [`KinematicsError::NoJoint`] if the robot has no arm.
 pub fn workspace(
     description: &RobotDescription,
     sampling: Sampling,
@@ -56,7 +56,7 @@ pub fn workspace(
     let names = joint_names(description, &arm);
     let found = arm.workspace(sampling);
     let of_size = |dimensions| (found.dimensions == dimensions).then_some(found.extent);
-    let reach = [0, 1].map(|end| Reach {
+    let reach = [0, 1].map(|end| ReachExtreme {
         distance_m: found.reach_m[end],
         at: JointValues::new(&names, &found.reach_at[end]),
     });
@@ -82,7 +82,7 @@ const DRAWN_CELLS: [f64; 2] = [160.0, 80.0];
 /// seen in that plane alone.
 ///
 /// # Errors
-/// [`PlotError`] where the drawing library refuses.
+/// [`PlotError`] if the drawing library refuses.
 pub fn plot(report: &WorkspaceReport, workspace: &Workspace) -> Result<String, PlotError> {
     let extents = workspace.upper_in_base - workspace.lower_in_base;
     let thin = workspace.dimensions < 3;

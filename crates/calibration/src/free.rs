@@ -41,14 +41,14 @@ pub(super) fn parameters(
     for word in free.iter().chain(hold) {
         known(word, &groups)?;
     }
-    let asked = |group: &str, name: &str, words: &[String]| {
+    let is_named = |group: &str, name: &str, words: &[String]| {
         words
             .iter()
             .any(|word| word == group || word == name || (word == "all" && everything.contains(&group)))
     };
     let chosen = groups.iter().flat_map(|(group, members)| members.iter().map(move |each| (*group, each)));
     let chosen: Vec<CorrectionParameter> = chosen
-        .filter(|(group, each)| asked(group, &each.name, free) && !asked(group, &each.name, hold))
+        .filter(|(group, each)| is_named(group, &each.name, free) && !is_named(group, &each.name, hold))
         .map(|(_, each)| each.clone())
         .collect();
     if chosen.is_empty() {

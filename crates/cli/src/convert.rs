@@ -2,63 +2,43 @@
 
 use std::fmt::Write;
 
-use clap::ValueEnum;
 use congruent::{
     analysis::conversion::{
-        Conversion, ConversionReport, DEFAULT_ACCURACY, Origin, PoeReport, ScrewReport, Target, convert,
+        Conversion, ConversionReport, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, PoeReport,
+        ScrewReport, convert,
     },
     description::{Diagnostic, RobotDescription},
 };
 
 use crate::{
     failure::Failure,
-    input::{ChainArguments, RobotArgument},
+    input::{ChainArguments, RobotArgument, name, named},
     print::Printer,
 };
 
 /// Writes a robot's model as another one, proved by comparing back.
 ///
-/// Converts the declared table, or the chain of the URDF where no table is declared.
+/// Converts the declared table, or the chain of the URDF if no table is declared.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// What the model becomes.
-    #[arg(long, value_enum)]
-    to: TargetArgument,
+    /// The model that the robot is converted to.
+    #[arg(long, value_parser = named::<ConversionTarget>())]
+    to: ConversionTarget,
     /// Which model is converted.
-    #[arg(long, value_enum)]
-    from: Option<OriginArgument>,
+    #[arg(long, value_parser = named::<ConversionSource>())]
+    from: Option<ConversionSource>,
     #[command(flatten)]
     chain: ChainArguments,
     #[command(flatten)]
     accuracy: AccuracyArguments,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum TargetArgument {
-    /// A table with rows Rz(theta) Tz(d) Tx(a) Rx(alpha).
-    Standard,
-    /// A table with rows Rx(alpha) Tx(a) Rz(theta) Tz(d) (Craig).
-    Modified,
-    /// Space and body screws with the home pose.
-    Poe,
-    /// A URDF of joints and named links.
-    Urdf,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum OriginArgument {
-    /// The table of robot.toml.
-    Dh,
-    /// The chain of the URDF.
-    Urdf,
-}
-
 /// How exact a conversion must be.
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(crate) struct AccuracyArguments {
-    /// What the result may be off, rad and m; coarser figures take nearly parallel axes as parallel.
+    /// Largest error of the result, rad and m; a coarser one takes nearly parallel axes as parallel.
     #[arg(long, default_value_t = DEFAULT_ACCURACY, value_parser = accuracy)]
     pub(crate) accuracy: f64,
     /// Seed of the random configurations of the proof.
@@ -78,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let declared = arguments.robot.load(printer)?;
     let table_along = declared.dh.is_some().then(|| chain_of(&declared));
     let description = arguments.chain.choose(declared)?;
-    if let (Some(table_along), None, Some(OriginArgument::Dh)) =
+    if let (Some(table_along), None, Some(ConversionSource::Dh)) =
         (table_along, &description.dh, arguments.from)
     {
         let message = format!("the [dh] table leads {table_along}, not {}", chain_of(&description));
@@ -86,16 +66,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
             .with_help("leave --base and --tip out, or convert the chain of the URDF there with --from urdf")
             .into());
     }
-    let to = match arguments.to {
-        TargetArgument::Standard => Target::Standard,
-        TargetArgument::Modified => Target::Modified,
-        TargetArgument::Poe => Target::Poe,
-        TargetArgument::Urdf => Target::Urdf,
-    };
-    let from = arguments.from.map(|from| match from {
-        OriginArgument::Dh => Origin::Dh,
-        OriginArgument::Urdf => Origin::Urdf,
-    });
+    let (from, to) = (arguments.from, arguments.to);
     let AccuracyArguments { accuracy, seed } = arguments.accuracy;
     let report = convert(&description, &Conversion { from, to, accuracy, seed })?;
     printer.result(&report, text)?;
@@ -109,14 +80,14 @@ fn chain_of(description: &RobotDescription) -> String {
 
 /// What can be pasted or saved as it is: everything besides the model itself is a comment.
 pub(crate) fn text(report: &ConversionReport) -> String {
-    let said = remarks(report);
+    let remarks = remarks(report);
     if let Some(urdf) = &report.urdf {
         // Two hyphens end a comment in XML.
-        let said = said.replace("--", "- -");
-        return urdf.replacen('\n', &format!("\n<!--\n{said}-->\n"), 1);
+        let remarks = remarks.replace("--", "- -");
+        return urdf.replacen('\n', &format!("\n<!--\n{remarks}-->\n"), 1);
     }
     let mut text = String::new();
-    for line in said.lines() {
+    for line in remarks.lines() {
         let _ = writeln!(text, "# {line}");
     }
     if let Some(section) = &report.robot_toml {
@@ -131,19 +102,19 @@ pub(crate) fn text(report: &ConversionReport) -> String {
 fn remarks(report: &ConversionReport) -> String {
     let mut text = String::new();
     let from = match report.from {
-        Origin::Dh => "its [dh] table",
-        Origin::Urdf => "its URDF",
+        ConversionSource::Dh => "its [dh] table",
+        ConversionSource::Urdf => "its URDF",
     };
     let _ =
         writeln!(text, "{}: base = \"{}\", tip = \"{}\", from {from}", report.robot, report.base, report.tip);
     if let Some(table) = &report.table {
-        let _ = writeln!(text, "a row is {}", table.equation);
+        let _ = writeln!(text, "each row is {}", table.equation);
     }
     let proof = &report.proof;
     let _ = writeln!(
         text,
         "proof: screws within {:.1e} rad and {:.1e} m, home {:.1e} rad and {:.1e} m, {} configurations {:.1e} rad and \
-         {:.1e} m; {:e} is allowed",
+         {:.1e} m; limit {:e}",
         proof.screw_rad,
         proof.screw_m,
         proof.home_rad,
@@ -158,7 +129,7 @@ fn remarks(report: &ConversionReport) -> String {
     }
     for pair in &report.axes {
         let [a, b] = &pair.joints;
-        let (degrees, relation) = (pair.angle_rad.to_degrees(), pair.relation.replace('_', "-"));
+        let (degrees, relation) = (pair.angle_rad.to_degrees(), name(&pair.relation).replace('_', "-"));
         let _ = writeln!(
             text,
             "axes of {a} and {b}: {relation}, {degrees:.6} deg, {:.6} m apart",
@@ -166,7 +137,7 @@ fn remarks(report: &ConversionReport) -> String {
         );
     }
     for free in &report.free_choices {
-        let _ = writeln!(text, "free at {}: {}", free.joint, free.text);
+        let _ = writeln!(text, "free choice at {}: {}", free.joint, free.text);
     }
     text
 }

@@ -1,7 +1,7 @@
 //! `congruent derive`: a Denavit-Hartenberg table from a URDF.
 
 use clap::ValueEnum;
-use congruent::analysis::conversion::{Conversion, Origin, Target, convert};
+use congruent::analysis::conversion::{Conversion, ConversionSource, ConversionTarget, convert};
 
 use crate::{
     convert::{AccuracyArguments, text},
@@ -12,12 +12,12 @@ use crate::{
 
 /// A Denavit-Hartenberg table from the axes of a URDF, proved by comparing back.
 ///
-/// Prints the section `[dh]` of a robot file; what was free to choose stands beside it.
+/// Prints the section `[dh]` of a robot file, with the free choices beside it.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// Which equation the rows stand for; the same figures are another robot in the other one.
+    /// Which equation the rows stand for; the same values are another robot in the other one.
     #[arg(long, value_enum)]
     convention: ConventionArgument,
     #[command(flatten)]
@@ -37,11 +37,12 @@ enum ConventionArgument {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.chain.choose(arguments.robot.load(printer)?)?;
     let to = match arguments.convention {
-        ConventionArgument::Standard => Target::Standard,
-        ConventionArgument::Modified => Target::Modified,
+        ConventionArgument::Standard => ConversionTarget::Standard,
+        ConventionArgument::Modified => ConversionTarget::Modified,
     };
     let AccuracyArguments { accuracy, seed } = arguments.accuracy;
-    let report = convert(&description, &Conversion { from: Some(Origin::Urdf), to, accuracy, seed })?;
+    let report =
+        convert(&description, &Conversion { from: Some(ConversionSource::Urdf), to, accuracy, seed })?;
     printer.result(&report, text)?;
     Ok(0)
 }

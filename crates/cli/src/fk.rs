@@ -1,8 +1,7 @@
-//! `congruent fk`: where the links are.
+//! `congruent fk`: poses of the links.
 
 use std::fmt::Write;
 
-use clap::ValueEnum;
 use congruent::{
     analysis::forward::{ForwardReport, Source},
     description::Diagnostic,
@@ -10,7 +9,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::{ConfigurationArguments, RobotArgument},
+    input::{ConfigurationArguments, RobotArgument, named},
     print::Printer,
 };
 
@@ -19,41 +18,18 @@ use crate::{
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// Which witness answers.
-    #[arg(long, value_enum, default_value_t = SourceArgument::Urdf)]
-    source: SourceArgument,
+    /// The source of the poses.
+    #[arg(long, default_value = "urdf", value_parser = named::<Source>())]
+    source: Source,
     #[command(flatten)]
     configurations: ConfigurationArguments,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum SourceArgument {
-    /// The URDF chain, by analysis.
-    Urdf,
-    /// The table of robot.toml: its frames, the tip and the TCP.
-    Dh,
-    /// Screws (product of exponentials).
-    Poe,
-    /// The physics engine.
-    Simulation,
-}
-
-impl From<SourceArgument> for Source {
-    fn from(source: SourceArgument) -> Self {
-        match source {
-            SourceArgument::Urdf => Self::Urdf,
-            SourceArgument::Dh => Self::Dh,
-            SourceArgument::Poe => Self::Poe,
-            SourceArgument::Simulation => Self::Simulation,
-        }
-    }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.robot.load(printer)?;
     let configurations = arguments.configurations.read(&description.robot)?;
-    let report = congruent::forward(&description, arguments.source.into(), &configurations)
-        .map_err(Diagnostic::from)?;
+    let report =
+        congruent::forward(&description, arguments.source, &configurations).map_err(Diagnostic::from)?;
     printer.result(&report, text)?;
     Ok(0)
 }

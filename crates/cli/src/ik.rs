@@ -1,8 +1,7 @@
-//! `congruent ik`: which joint positions bring the tool there.
+//! `congruent ik`: joint positions that bring the tool to given poses.
 
 use std::{fmt::Write, path::PathBuf};
 
-use clap::ValueEnum;
 use congruent::{
     analysis::inverse::{IkMethod, IkOptions, InverseReport, TargetPart, inverse, read_targets},
     description::Diagnostic,
@@ -10,14 +9,14 @@ use congruent::{
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},
-    input::RobotArgument,
+    input::{RobotArgument, named},
     print::Printer,
 };
 
-/// Joint positions that bring the tip, or the TCP where one is declared, to given poses.
+/// Joint positions that bring the tip, or the TCP if one is declared, to given poses.
 ///
-/// Targets count from 1, in the order of the file. Exit code 1 where one is not reached, with what is left
-/// and which joints stand at a limit; 4 where the file has none.
+/// Targets count from 1, in the order of the file. Exit code 1 if one is not reached, with the residual
+/// and the joints at a limit; 4 if the file has none.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -26,10 +25,10 @@ pub(crate) struct Arguments {
     /// value}}`; without a quaternion any orientation will do. Poses are in link `base`.
     #[arg(long, value_name = "FILE")]
     targets: PathBuf,
-    /// How steps are found.
-    #[arg(long, value_enum, default_value_t = MethodArgument::Lm)]
-    method: MethodArgument,
-    /// Ask for positions alone, even where a target has an orientation.
+    /// Method by which steps are found.
+    #[arg(long, default_value = "lm", value_parser = named::<IkMethod>())]
+    method: IkMethod,
+    /// Reach the positions alone, even if a target has an orientation.
     #[arg(long)]
     position_only: bool,
     /// Seed of the restarts.
@@ -41,29 +40,6 @@ pub(crate) struct Arguments {
     /// Steps that are tried for each target, restarts included.
     #[arg(long, default_value_t = IkOptions::default().max_iterations)]
     iterations: usize,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum MethodArgument {
-    /// Levenberg-Marquardt with joint limits and seeded restarts.
-    Lm,
-    /// Newton-Raphson with the matrix logarithm as error.
-    Newton,
-    /// Pseudo-inverse of the geometric Jacobian.
-    PseudoInverse,
-    /// Transpose of the geometric Jacobian.
-    Transpose,
-}
-
-impl From<MethodArgument> for IkMethod {
-    fn from(method: MethodArgument) -> Self {
-        match method {
-            MethodArgument::Lm => Self::LevenbergMarquardt,
-            MethodArgument::Newton => Self::Newton,
-            MethodArgument::PseudoInverse => Self::PseudoInverse,
-            MethodArgument::Transpose => Self::Transpose,
-        }
-    }
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -81,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         }
     }
     let options = IkOptions {
-        method: arguments.method.into(),
+        method: arguments.method,
         tolerance_m: arguments.tolerance,
         tolerance_rad: arguments.tolerance,
         max_iterations: arguments.iterations,
@@ -101,12 +77,12 @@ fn text(report: &InverseReport) -> String {
     let mut text = String::new();
     let width = report.joints.iter().map(String::len).max().unwrap_or(0);
     if report.results.is_empty() {
-        text += "no target: nothing was asked\n";
+        text += "the file has no target\n";
     }
     for (index, result) in report.results.iter().enumerate() {
         let _ = writeln!(
             text,
-            "target {}: {} after {} steps, {:.2e} m and {:.2e} rad left",
+            "target {}: {} after {} steps, residual {:.2e} m and {:.2e} rad",
             index + 1,
             if result.converged { "reached" } else { "NOT REACHED" },
             result.iterations,

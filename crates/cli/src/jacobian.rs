@@ -1,55 +1,34 @@
-//! `congruent jacobian`: how joint velocities move a link.
+//! `congruent jacobian`: the velocity of a link by the velocities of the joints.
 
 use std::fmt::Write;
 
-use clap::ValueEnum;
 use congruent::{
-    analysis::jacobians::{Blocks, JacobianKind, JacobianReport, jacobians, jacobians_in_motion},
+    analysis::jacobians::{JacobianBlocks, JacobianKind, JacobianReport, jacobians, jacobians_in_motion},
     description::{Diagnostic, known_names},
 };
 
 use crate::{
     failure::Failure,
-    input::{ConfigurationArguments, RobotArgument},
+    input::{ConfigurationArguments, RobotArgument, name, named},
     print::Printer,
 };
 
-/// The Jacobian of a link: its velocity for each joint's, linear and angular block by name.
+/// The Jacobian of a link: its velocity per velocity of each joint, linear and angular block by name.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// The link that moves; the model's tip where it is left out.
+    /// The link that moves; the model's tip if it is left out.
     #[arg(long, value_name = "NAME")]
     link: Option<String>,
     /// In which frame and at which point the velocity is taken.
-    #[arg(long, value_enum, default_value_t = KindArgument::Geometric)]
-    kind: KindArgument,
+    #[arg(long, default_value = "geometric", value_parser = named::<JacobianKind>())]
+    kind: JacobianKind,
     #[command(flatten)]
     configurations: ConfigurationArguments,
-    /// Add the time derivative at the speeds "v" of the configurations, in rad/s and m/s.
+    /// Add the time derivative at the velocities "v" of the configurations, in rad/s and m/s.
     #[arg(long)]
     derivative: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum KindArgument {
-    /// Twist in the root link's frame, at its origin.
-    Space,
-    /// Twist in the link's own frame, at its origin.
-    Body,
-    /// Velocity of the link's origin, axes of the root link.
-    Geometric,
-}
-
-impl From<KindArgument> for JacobianKind {
-    fn from(kind: KindArgument) -> Self {
-        match kind {
-            KindArgument::Space => Self::Space,
-            KindArgument::Body => Self::Body,
-            KindArgument::Geometric => Self::Geometric,
-        }
-    }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
@@ -63,7 +42,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
             Diagnostic::error("jacobian::link", message).with_help(known_names(name, "links", links))
         })?,
     };
-    let kind = arguments.kind.into();
+    let kind = arguments.kind;
     let report = if arguments.derivative {
         jacobians_in_motion(robot, link, kind, &arguments.configurations.read_states(robot)?)
     } else {
@@ -75,8 +54,12 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 }
 
 fn text(report: &JacobianReport) -> String {
-    let mut text =
-        format!("{} Jacobian of {}, columns: {}\n", report.kind, report.link, report.joints.join(", "));
+    let mut text = format!(
+        "{} Jacobian of {}, columns: {}\n",
+        name(&report.kind),
+        report.link,
+        report.joints.join(", ")
+    );
     for (index, result) in report.results.iter().enumerate() {
         let _ = writeln!(text, "configuration {}", index + 1);
         rows(&mut text, &result.jacobian);
@@ -88,11 +71,11 @@ fn text(report: &JacobianReport) -> String {
     text
 }
 
-fn rows(text: &mut String, blocks: &Blocks) {
+fn rows(text: &mut String, blocks: &JacobianBlocks) {
     for (name, block) in [("linear", &blocks.linear), ("angular", &blocks.angular)] {
         for (row, axis) in block.iter().zip(["x", "y", "z"]) {
-            let figures: Vec<String> = row.iter().map(|figure| format!("{figure:12.9}")).collect();
-            let _ = writeln!(text, "  {name:7} {axis}  {}", figures.join(" "));
+            let values: Vec<String> = row.iter().map(|value| format!("{value:12.9}")).collect();
+            let _ = writeln!(text, "  {name:7} {axis}  {}", values.join(" "));
         }
     }
 }

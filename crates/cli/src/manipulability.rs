@@ -1,4 +1,4 @@
-//! `congruent manipulability`: how well the tool moves.
+//! `congruent manipulability`: how well the tool moves in each direction.
 
 use std::fmt::Write;
 
@@ -18,7 +18,7 @@ use crate::{
 
 /// Velocity ellipsoids of the tool, Yoshikawa's measure, condition and distance to singularity.
 ///
-/// Linear and angular parts stand apart since their units differ. A plot shows the first
+/// Linear and angular parts are separate since their units differ. A plot shows the first
 /// configuration.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
@@ -49,19 +49,23 @@ fn text(report: &ManipulabilityReport) -> String {
         let _ = writeln!(text, "configuration {}: tool at {x:.6}, {y:.6}, {z:.6} m in the base", index + 1);
         ellipsoid(&mut text, "linear", &result.linear, "m");
         ellipsoid(&mut text, "angular", &result.angular, "rad");
-        let _ = writeln!(text, "  whole, 1 rad = {:.4} m: {}", report.metres_per_rad, figures(&result.whole));
+        let _ =
+            writeln!(text, "  whole, 1 rad = {:.4} m: {}", report.metres_per_rad, measures(&result.whole));
     }
     text
 }
 
 fn ellipsoid(text: &mut String, name: &str, ellipsoid: &ReportedEllipsoid, unit: &str) {
-    let _ = writeln!(text, "  {name}: {}", figures(&ellipsoid.dexterity));
+    let _ = writeln!(text, "  {name}: {}", measures(&ellipsoid.dexterity));
     for (length, [x, y, z]) in ellipsoid.semi_axes.iter().zip(&ellipsoid.axes) {
-        let _ = writeln!(text, "    {length:9.6} {unit} per unit speed along ({x:9.6}, {y:9.6}, {z:9.6})");
+        let _ = writeln!(
+            text,
+            "    {length:9.6} {unit} per unit joint velocity along ({x:9.6}, {y:9.6}, {z:9.6})"
+        );
     }
 }
 
-fn figures(found: &ReportedDexterity) -> String {
+fn measures(found: &ReportedDexterity) -> String {
     let condition = found.condition.map_or("infinite".to_owned(), |condition| format!("{condition:.3}"));
     format!(
         "Yoshikawa {:.6}, condition {condition}, distance to singularity {:.6}, over {} directions",

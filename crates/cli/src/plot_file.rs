@@ -1,4 +1,4 @@
-//! `--plot FILE.svg`: writes a figure where a command can draw one.
+//! `--plot FILE.svg`: writes the plot of a command.
 
 use std::path::PathBuf;
 
@@ -6,16 +6,16 @@ use congruent::{analysis::plot::PlotError, description::Diagnostic, twin::report
 
 use crate::failure::Failure;
 
-/// Where the figure goes.
+/// The file of a plot.
 #[derive(Debug, clap::Args)]
 pub(crate) struct PlotArgument {
-    /// Also draw a figure.
+    /// Also write a plot.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
 }
 
 impl PlotArgument {
-    /// Draws and writes it, if one was asked for.
+    /// Draws and writes the plot if the argument is given.
     pub(crate) fn write(&self, draw: impl FnOnce() -> Result<String, PlotError>) -> Result<(), Failure> {
         let Some(path) = &self.plot else { return Ok(()) };
         let svg = draw().map_err(|error| Failure::Machine(error.to_string()))?;

@@ -1,4 +1,4 @@
-//! `congruent sensitivity`: what small errors do at the tool.
+//! `congruent sensitivity`: displacement of the tool by small errors of the model.
 
 use std::fmt::Write;
 
@@ -12,7 +12,7 @@ use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, pri
 
 /// How far the tool is displaced by 1 degree or 1 mm in each joint's zero and each DH parameter.
 ///
-/// WorstDifference and mean over the joint range, with the configuration of the worst.
+/// Worst and mean over the joint range, with the configuration of the worst.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -57,10 +57,10 @@ fn text(report: &SensitivityReport) -> String {
         for parameter in &arm.parameters {
             let _ = writeln!(
                 text,
-                "  {:width$} {:5} {:5}  worst {:8.4} mm  mean {:8.4} mm  turn {:6.3} deg  at {}",
+                "  {:width$} {:5} {:5}  worst {:8.4} mm  mean {:8.4} mm  rotation {:6.3} deg  at {}",
                 parameter.joint,
-                parameter.parameter,
-                parameter.error,
+                parameter.parameter.to_string(),
+                parameter.error.to_string(),
                 parameter.worst_mm,
                 parameter.mean_mm,
                 parameter.worst_deg,

@@ -1,4 +1,4 @@
-//! `congruent workspace`: where the tool can be.
+//! `congruent workspace`: the reachable positions of the tool.
 
 use std::fmt::Write;
 

@@ -3,23 +3,28 @@
 use congruent_description::{ChainQ, DhTable, Diagnostic, JointIndex, RobotDescription, RobotQ};
 use congruent_kinematics::{DhChain, Pose, ScrewChain, SerialDh, UrdfTree};
 
-use super::Origin;
+use super::options::ConversionSource;
 
 /// One model of a chain.
-pub(super) struct Subject<'a> {
+pub(super) struct ConvertedModel<'a> {
     pub(super) description: &'a RobotDescription,
-    pub(super) origin: Origin,
+    pub(super) source: ConversionSource,
     /// Base to tip; for a table in the order of its rows.
     pub(super) joints: Vec<JointIndex>,
-    /// Where each joint stands in a configuration vector.
+    /// Index of each joint in a configuration vector.
     pub(super) coordinates: Vec<usize>,
 }
 
-impl<'a> Subject<'a> {
-    pub(super) fn new(description: &'a RobotDescription, origin: Option<Origin>) -> Result<Self, Diagnostic> {
-        let joints = match (origin, &description.dh) {
-            (Some(Origin::Dh) | None, Some(table)) => table.rows.iter().map(|row| row.joint).collect(),
-            (Some(Origin::Dh), None) => {
+impl<'a> ConvertedModel<'a> {
+    pub(super) fn new(
+        description: &'a RobotDescription,
+        source: Option<ConversionSource>,
+    ) -> Result<Self, Diagnostic> {
+        let joints = match (source, &description.dh) {
+            (Some(ConversionSource::Dh) | None, Some(table)) => {
+                table.rows.iter().map(|row| row.joint).collect()
+            }
+            (Some(ConversionSource::Dh), None) => {
                 let message = format!("robot \"{}\" has no [dh] table", description.name);
                 return Err(Diagnostic::error("convert::no_dh", message)
                     .with_help("leave --from out to convert the chain of the URDF"));
@@ -27,18 +32,18 @@ impl<'a> Subject<'a> {
             _ => description.moving_chain(),
         };
         let coordinate = |&joint| description.robot.coordinate(joint).expect("joints of a chain move");
-        let is_table = origin != Some(Origin::Urdf) && description.dh.is_some();
+        let is_table = source != Some(ConversionSource::Urdf) && description.dh.is_some();
         Ok(Self {
             description,
-            origin: if is_table { Origin::Dh } else { Origin::Urdf },
+            source: if is_table { ConversionSource::Dh } else { ConversionSource::Urdf },
             coordinates: joints.iter().map(coordinate).collect(),
             joints,
         })
     }
 
-    /// The declared table, where that is what is converted.
+    /// The declared table, if that is converted.
     pub(super) fn declared(&self) -> Option<&'a DhTable> {
-        self.description.dh.as_ref().filter(|_| self.origin == Origin::Dh)
+        self.description.dh.as_ref().filter(|_| self.source == ConversionSource::Dh)
     }
 
     pub(super) fn joint_name(&self, joint: usize) -> &'a str {
@@ -53,7 +58,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// `base_from_tip` at the positions of the joints, by the arithmetic that `congruent check` judges.
+    /// `base_from_tip` at the positions of the joints, by the same arithmetic as `congruent check`.
     pub(super) fn forward(&self) -> impl FnMut(&ChainQ) -> Pose + use<'a> {
         let RobotDescription { robot, base, tip, .. } = self.description;
         let table = self.declared().map(|table| DhChain::new(table, robot));

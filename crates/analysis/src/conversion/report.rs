@@ -4,22 +4,26 @@ use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Finding, Ro
 use congruent_kinematics::{
     AxisRelation, Choice, DhDerivation, Pose, Proof, ReportedPose, ScrewChain, Twist,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{Conversion, Origin, Target, subject::Subject};
+use super::{
+    converted_model::ConvertedModel,
+    options::{Conversion, ConversionSource, ConversionTarget},
+};
 
-/// A common normal this far away is told: no arm is built so, and it makes figures that nobody can check.
+/// A common normal beyond this is noted: no arm is built so, and its values cannot be checked by hand.
 const FAR_M: f64 = 100.0;
 
 /// A converted model with its proof.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ConversionReport {
     /// Name of the robot.
     pub robot: String,
     /// Which model was converted.
-    pub from: Origin,
-    /// What it became.
-    pub to: Target,
+    pub from: ConversionSource,
+    /// The model that it was converted to.
+    pub to: ConversionTarget,
     /// The link that the model starts from.
     pub base: String,
     /// The link that it ends at.
@@ -38,20 +42,20 @@ pub struct ConversionReport {
     /// URDF text.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub urdf: Option<String>,
-    /// How consecutive axes lie, where a table was derived from them.
+    /// Relations of consecutive axes, if a table was derived from them.
     pub axes: Vec<AxisReport>,
-    /// What was free, and what was taken.
+    /// The free choices of the derivation, and what was taken.
     pub free_choices: Vec<ChoiceReport>,
     /// What else a reader must know.
     pub notes: Vec<String>,
-    /// How far the result is from what it came from.
+    /// Errors of the result against its source.
     pub proof: ProofReport,
-    /// What was suspicious in the input.
+    /// Warnings about the input.
     pub warnings: Vec<Finding>,
 }
 
 /// A table as programs read it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TableReport {
     /// Which equation the rows stand for.
     pub convention: DhConvention,
@@ -66,7 +70,7 @@ pub struct TableReport {
 }
 
 /// One row.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RowReport {
     /// The joint that drives it.
     pub joint: String,
@@ -85,7 +89,7 @@ pub struct RowReport {
 }
 
 /// Screws and home pose.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PoeReport {
     /// Twists at zero in link `base`, of `exp([S_1] q_1) ... exp([S_n] q_n) M`.
     pub space_screws: Vec<ScrewReport>,
@@ -96,23 +100,23 @@ pub struct PoeReport {
 }
 
 /// One screw.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ScrewReport {
     /// The joint.
     pub joint: String,
-    /// Turn per unit of the joint.
+    /// Rotation per unit of the joint.
     pub angular: [f64; 3],
-    /// Shift of the point at the origin per unit of the joint.
+    /// Translation of the point at the origin per unit of the joint.
     pub linear: [f64; 3],
 }
 
-/// How two consecutive axes lie.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// Relation of two consecutive axes.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct AxisReport {
     /// The two joints.
     pub joints: [String; 2],
-    /// `skew`, `intersecting`, `parallel`, `anti_parallel` or `coincident`.
-    pub relation: &'static str,
+    /// How they lie.
+    pub relation: AxisRelation,
     /// Angle between the axes.
     pub angle_rad: f64,
     /// Length of the common normal.
@@ -121,23 +125,23 @@ pub struct AxisReport {
     pub normal_at_m: f64,
 }
 
-/// Something that the axes leave open.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// Something that the axes do not determine.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ChoiceReport {
-    /// The joint whose row it touches.
+    /// The joint whose row it affects.
     pub joint: String,
-    /// Stable name.
-    pub choice: &'static str,
-    /// What was open and what was taken.
+    /// Which choice.
+    pub choice: Choice,
+    /// What is free and what was taken.
     pub text: String,
 }
 
-/// Residuals of a conversion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// Errors of a conversion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ProofReport {
-    /// What was allowed, rad and m.
+    /// The limit, rad and m.
     pub limit: f64,
-    /// The largest of the residuals below.
+    /// The largest of the errors below.
     pub worst: f64,
     /// Directions of the screws, rad per unit of the joint.
     pub screw_rad: f64,
@@ -159,33 +163,33 @@ pub struct ProofReport {
 
 impl ConversionReport {
     /// The report before anything is converted.
-    pub(super) fn new(subject: &Subject<'_>, conversion: &Conversion) -> Self {
-        let description = subject.description;
+    pub(super) fn new(model: &ConvertedModel<'_>, conversion: &Conversion) -> Self {
+        let description = model.description;
         let robot = &description.robot;
         Self {
             robot: description.name.clone(),
-            from: subject.origin,
+            from: model.source,
             to: conversion.to,
             base: robot.link(description.base).name.clone(),
             tip: robot.link(description.tip).name.clone(),
-            joints: (0..subject.joints.len()).map(|joint| subject.joint_name(joint).to_owned()).collect(),
+            joints: (0..model.joints.len()).map(|joint| model.joint_name(joint).to_owned()).collect(),
             table: None,
             robot_toml: None,
             poe: None,
             urdf: None,
             axes: Vec::new(),
             free_choices: Vec::new(),
-            notes: notes(subject),
+            notes: notes(model),
             proof: ProofReport::new(&Proof::default(), conversion),
             warnings: description.warnings.iter().map(Finding::from).collect(),
         }
     }
 
-    pub(super) fn keep_choices(&mut self, derivation: &DhDerivation, subject: &Subject<'_>) {
-        let name = |joint: usize| subject.joint_name(joint).to_owned();
+    pub(super) fn keep_choices(&mut self, derivation: &DhDerivation, model: &ConvertedModel<'_>) {
+        let name = |joint: usize| model.joint_name(joint).to_owned();
         let axes = derivation.pairs.iter().map(|pair| AxisReport {
             joints: [name(pair.joint), name(pair.joint + 1)],
-            relation: relation(pair.relation),
+            relation: pair.relation,
             angle_rad: pair.angle_rad,
             distance_m: pair.distance_m,
             normal_at_m: pair.normal_at_m,
@@ -193,39 +197,41 @@ impl ConversionReport {
         self.axes = axes.collect();
         let choices = derivation.choices.iter().map(|free| ChoiceReport {
             joint: name(free.joint),
-            choice: choice(free.choice),
+            choice: free.choice,
             text: free.choice.to_string(),
         });
         self.free_choices = choices.collect();
         for pair in self.axes.iter().filter(|pair| pair.normal_at_m.abs() > FAR_M) {
             self.notes.push(format!(
-                "the axes of \"{}\" and \"{}\" are nearly but not quite parallel: their common normal lies {:.3e} m \
-                 away; a coarser --accuracy takes them as parallel",
+                "the axes of \"{}\" and \"{}\" are nearly parallel: their common normal is {:.3e} m away; a coarser \
+                 --accuracy takes them as parallel",
                 pair.joints[0],
                 pair.joints[1],
                 pair.normal_at_m.abs()
             ));
         }
-        self.notes.push("z axes point as the joints turn or shift, so every sign is 1".to_owned());
+        self.notes
+            .push("z axes point in the positive direction of the joints, so every sign is 1".to_owned());
     }
 }
 
-fn notes(subject: &Subject<'_>) -> Vec<String> {
-    let robot = &subject.description.robot;
-    let mimic = subject.joints.iter().filter_map(|&joint| {
+fn notes(model: &ConvertedModel<'_>) -> Vec<String> {
+    let robot = &model.description.robot;
+    let mimic = model.joints.iter().filter_map(|&joint| {
         let mimic = robot.joint(joint).mimic?;
         Some(format!(
-            "joint \"{}\" has a variable of its own here; as a mimic joint it follows \"{}\": {} times, plus {}",
+            "joint \"{}\" has a variable of its own here; as a mimic joint it follows \"{}\": {} times its position, \
+             plus {}",
             robot.joint(joint).name,
             robot.joint(mimic.master).name,
             mimic.multiplier,
             mimic.offset
         ))
     });
-    let tool = subject
+    let tool = model
         .description
         .tip_from_tcp
-        .map(|_| "the tool of [tcp] is no part of the chain: it stays as declared".to_owned());
+        .map(|_| "the tool of [tcp] is not part of the chain: it remains as declared".to_owned());
     mimic.chain(tool).collect()
 }
 
@@ -251,12 +257,12 @@ impl TableReport {
 }
 
 impl PoeReport {
-    pub(super) fn new(chain: &ScrewChain, subject: &Subject<'_>) -> Self {
+    pub(super) fn new(chain: &ScrewChain, model: &ConvertedModel<'_>) -> Self {
         let screws = |twists: &[Twist]| {
             let named = twists.iter().enumerate();
             named
                 .map(|(joint, twist)| ScrewReport {
-                    joint: subject.joint_name(joint).to_owned(),
+                    joint: model.joint_name(joint).to_owned(),
                     angular: twist.angular.into(),
                     linear: twist.linear.into(),
                 })
@@ -284,26 +290,5 @@ impl ProofReport {
             configurations: proof.configurations,
             seed: conversion.seed,
         }
-    }
-}
-
-fn relation(relation: AxisRelation) -> &'static str {
-    match relation {
-        AxisRelation::Skew => "skew",
-        AxisRelation::Intersecting => "intersecting",
-        AxisRelation::Parallel => "parallel",
-        AxisRelation::AntiParallel => "anti_parallel",
-        AxisRelation::Coincident => "coincident",
-    }
-}
-
-fn choice(choice: Choice) -> &'static str {
-    match choice {
-        Choice::FirstFrame => "first_frame",
-        Choice::ParallelOrigin => "parallel_origin",
-        Choice::NormalSense => "normal_sense",
-        Choice::CoincidentFrame => "coincident_frame",
-        Choice::PrismaticLine => "prismatic_line",
-        Choice::LastFrame => "last_frame",
     }
 }

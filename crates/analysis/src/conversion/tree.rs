@@ -6,22 +6,22 @@ use congruent_description::{
 use congruent_kinematics::Twist;
 use nalgebra::{Isometry3, Unit, Vector3};
 
-use super::subject::Subject;
+use super::converted_model::ConvertedModel;
 
 /// Components below this are written as 0. Kind: rounding of a dozen products within 2 m.
 const NOISE: f64 = 1e-15;
 
-/// The subject's chain as a robot of its own: the base link, one link for each joint, the tip.
-pub(super) fn tree(subject: &Subject<'_>) -> Result<Robot, Diagnostic> {
-    let source = &subject.description.robot;
-    let screws = subject.screws();
-    let (base, tip) = (name(source, subject.description.base), name(source, subject.description.tip));
+/// The model's chain as a robot of its own: the base link, one link for each joint, the tip.
+pub(super) fn tree(model: &ConvertedModel<'_>) -> Result<Robot, Diagnostic> {
+    let source = &model.description.robot;
+    let screws = model.screws();
+    let (base, tip) = (name(source, model.description.base), name(source, model.description.tip));
     let (mut links, mut parts) = (vec![link(&base)], Vec::new());
     let (mut parent, mut here_in_base) = (base, Vector3::zeros());
-    for (&joint, twist) in subject.joints.iter().zip(&screws.twists_in_base) {
+    for (&joint, twist) in model.joints.iter().zip(&screws.twists_in_base) {
         let written = source.joint(joint);
-        let Placed { axis, origin_in_base } = placed(written, twist, &here_in_base)?;
-        let child = carried(written, source, &tip);
+        let PlacedJoint { axis, origin_in_base } = placed(written, twist, &here_in_base)?;
+        let child = moved_link(written, source, &tip);
         links.push(link(&child));
         parts.push(JointParts {
             joint: Joint {
@@ -32,48 +32,49 @@ pub(super) fn tree(subject: &Subject<'_>) -> Result<Robot, Diagnostic> {
             },
             parent: std::mem::replace(&mut parent, child.clone()),
             child,
-            mimic: written.mimic.and_then(|mimic| followed(source, &mimic, &subject.joints)),
+            mimic: written.mimic.and_then(|mimic| followed(source, &mimic, &model.joints)),
         });
         here_in_base = origin_in_base;
     }
     let mut last = screws.base_from_tip_at_zero.to_isometry();
     last.translation.vector = (last.translation.vector - here_in_base).map(clean);
     links.push(link(&tip));
-    parts.push(fixed(&parent, &tip, last, subject.description.base));
+    parts.push(fixed(&parent, &tip, last, model.description.base));
     Robot::new(source.name(), links, parts)
         .map_err(|error| Diagnostic::error("convert::tree", error.to_string()))
 }
 
 /// A joint whose frame is parallel to the base.
-struct Placed {
+struct PlacedJoint {
     axis: Unit<Vector3<f64>>,
     origin_in_base: Vector3<f64>,
 }
 
-fn placed(written: &Joint, twist: &Twist, here_in_base: &Vector3<f64>) -> Result<Placed, Diagnostic> {
-    let turns = twist.angular.norm() > twist.linear.norm() * NOISE;
-    if turns != written.kind.is_angular() {
-        let message = format!("joint \"{}\" turns in one model and shifts in the other", written.name);
+fn placed(written: &Joint, twist: &Twist, here_in_base: &Vector3<f64>) -> Result<PlacedJoint, Diagnostic> {
+    let is_revolute = twist.angular.norm() > twist.linear.norm() * NOISE;
+    if is_revolute != written.kind.is_angular() {
+        let message =
+            format!("joint \"{}\" is revolute in one model and prismatic in the other", written.name);
         return Err(Diagnostic::error("convert::kind", message)
             .with_help("a URDF joint needs limits, and those of the other kind mean nothing"));
     }
-    if !turns {
+    if !is_revolute {
         let axis = Unit::new_normalize(twist.linear.map(clean));
-        return Ok(Placed { axis, origin_in_base: *here_in_base });
+        return Ok(PlacedJoint { axis, origin_in_base: *here_in_base });
     }
     let axis = Unit::new_normalize(twist.angular.map(clean));
     let on_axis = axis.cross(&twist.linear);
     let nearest = on_axis + axis.into_inner() * (here_in_base - on_axis).dot(&axis);
-    Ok(Placed { axis, origin_in_base: nearest.map(clean) })
+    Ok(PlacedJoint { axis, origin_in_base: nearest.map(clean) })
 }
 
-/// Name of the link that a joint carries; where the tip has that name it stands on a frame of its own.
-fn carried(joint: &Joint, source: &Robot, tip: &str) -> String {
+/// Name of the link that a joint moves; if that is the name of the tip, which has a frame of its own, another.
+fn moved_link(joint: &Joint, source: &Robot, tip: &str) -> String {
     let child = name(source, joint.child);
     if child == tip { format!("{}_frame", joint.name) } else { child }
 }
 
-/// The joint that is followed, where it is part of the chain.
+/// The joint that a mimic joint follows, if it is part of the chain.
 fn followed(source: &Robot, mimic: &Mimic, joints: &[JointIndex]) -> Option<(String, f64, f64)> {
     let master = joints.contains(&mimic.master).then(|| source.joint(mimic.master).name.clone())?;
     Some((master, mimic.multiplier, mimic.offset))

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::problem::{Measurement, Noise, NormalEquations, PoseResidual, Problem, Weighting};
+use super::problem::{CalibrationEquations, Measurement, Noise, PoseResidual, Problem, Weighting};
 
 /// Most iterations: near the solution each gains several digits, so this is far more than needed.
 const MOST_ITERATIONS: usize = 200;
@@ -153,7 +153,7 @@ fn finished(
     problem: &Problem<'_>,
     kept: &[usize],
     corrections: Vec<f64>,
-    (weighting, equations, converged, iterations): (&Weighting<'_>, &NormalEquations, bool, usize),
+    (weighting, equations, converged, iterations): (&Weighting<'_>, &CalibrationEquations, bool, usize),
 ) -> Fit {
     let unknown = || DMatrix::from_element(kept.len(), kept.len(), f64::NAN);
     let covariance = inverse(&equations.information).unwrap_or_else(unknown);
@@ -167,7 +167,7 @@ fn finished(
 }
 
 /// Solves `(H + damping diag H) step = g`.
-fn damped_step(equations: &NormalEquations, damping: f64) -> Option<DVector<f64>> {
+fn damped_step(equations: &CalibrationEquations, damping: f64) -> Option<DVector<f64>> {
     let mut information = equations.information.clone();
     for at in 0..information.nrows() {
         information[(at, at)] *= 1.0 + damping;

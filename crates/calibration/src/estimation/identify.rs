@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::{
     model::{CorrectionParameter, ParameterUnit},
-    problem::{Noise, NormalEquations, Problem, Weighting},
+    problem::{CalibrationEquations, Noise, Problem, Weighting},
 };
 
 /// A relation leaves out corrections that take part with less than this share of the largest.
@@ -93,7 +93,7 @@ fn scaled_information(problem: &Problem<'_>) -> (DMatrix<f64>, f64) {
     let reach_m = problem.reach_m();
     let noise = Noise { position_m: 1.0, orientation_rad: 1.0 / reach_m };
     let weighting = Weighting { noise, rows: &[] };
-    let NormalEquations { mut information, .. } =
+    let CalibrationEquations { mut information, .. } =
         problem.normal_equations(&vec![0.0; parameters.len()], &weighting);
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 components")]
     let components = problem.component_count().max(1) as f64;

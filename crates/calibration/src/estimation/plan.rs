@@ -6,7 +6,7 @@ use nalgebra::{Cholesky, DMatrix, Dyn};
 
 use super::{
     model::ParameterUnit,
-    problem::{Linearisation, Measurement, Noise, NormalEquations, Problem, Weighting},
+    problem::{CalibrationEquations, Linearisation, Measurement, Noise, Problem, Weighting},
 };
 
 /// Standard deviation of a correction before anything is measured, as a share of the reach. It keeps the
@@ -50,7 +50,7 @@ pub fn most_informative(
     let added: Vec<DMatrix<f64>> = candidates
         .iter()
         .map(|q| {
-            let mut equations = NormalEquations::zeros(corrections.len());
+            let mut equations = CalibrationEquations::zeros(corrections.len());
             let measurement = like_at(like, q, problem.chain.base_from_tip(q, corrections));
             equations.add(&mut at_corrections, &measurement, (1.0, &noise));
             equations.information

@@ -64,7 +64,7 @@ fn offset(byte: u64) -> usize {
     usize::try_from(byte).unwrap_or(usize::MAX)
 }
 
-/// The cells as they stand in the text. A quoted cell, which is longer there than its contents, and
+/// The cells with their places in the text. A quoted cell, which is longer there than its contents, and
 /// those behind it get the place of the whole record.
 fn cells<'a>(text: &'a str, record: &ByteRecord, end: usize) -> Record<'a> {
     let start = offset(record.position().map_or(0, csv::Position::byte));

@@ -11,4 +11,4 @@ pub use noise::Noise;
 pub use normal_equations::Problem;
 
 pub(super) use noise::{median_norm, outlying_norm};
-pub(super) use normal_equations::{Linearisation, NormalEquations, Weighting};
+pub(super) use normal_equations::{CalibrationEquations, Linearisation, Weighting};

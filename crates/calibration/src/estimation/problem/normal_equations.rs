@@ -101,8 +101,8 @@ impl Problem<'_> {
         &self,
         p: &[f64],
         weighting: &Weighting,
-    ) -> NormalEquations {
-        let mut sum = NormalEquations::zeros(p.len());
+    ) -> CalibrationEquations {
+        let mut sum = CalibrationEquations::zeros(p.len());
         let mut at_p = Linearisation::new(self.chain, p);
         for (at, measurement) in self.measurements.iter().enumerate() {
             sum.add(&mut at_p, measurement, (weighting.of_row(at), &weighting.noise));
@@ -127,7 +127,7 @@ impl Weighting<'_> {
 
 /// `J^T W J` and `J^T W r`, by position and by orientation, and `r^T W r`.
 #[derive(Debug, Clone)]
-pub(in crate::estimation) struct NormalEquations {
+pub(in crate::estimation) struct CalibrationEquations {
     pub(in crate::estimation) information: DMatrix<f64>,
     /// The part of the information that positions give.
     pub(in crate::estimation) by_position: DMatrix<f64>,
@@ -150,7 +150,7 @@ impl<'a> Linearisation<'a> {
     }
 }
 
-impl NormalEquations {
+impl CalibrationEquations {
     pub(in crate::estimation) fn zeros(parameters: usize) -> Self {
         Self {
             information: DMatrix::zeros(parameters, parameters),

@@ -1,10 +1,10 @@
 //! How inverse kinematics searches, and when it stops.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How the next configuration is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum IkMethod {
     /// Levenberg-Marquardt with damping by the residual, joints held at their limits, and

@@ -1,7 +1,7 @@
 //! Which of the three Jacobians is meant.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::spatial::{pose::Pose, twist::Twist};
 
@@ -16,7 +16,7 @@ use crate::spatial::{pose::Pose, twist::Twist};
 ///
 /// Source: Lynch & Park, *Modern Robotics* (2017), eq. 5.11 and 5.18; Siciliano et al., *Robotics*
 /// (2009), section 3.1 for the geometric one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JacobianKind {
     /// Space twist: axes and reference point of the root.
