@@ -1,7 +1,7 @@
 //! The diagnosis of a robot description: the table against the URDF and against the physics, which is
 //! identified as a black box.
 
-use congruent_description::{JointIndex, RobotDescription, RobotFilePlaces, RobotQ, UrdfPlaces};
+use congruent_description::{JointIndex, RobotDescription, RobotQ};
 use congruent_kinematics::ScrewChain;
 
 use super::{content::ReportedDiagnosis, describe::reported_diagnosis, names::ModelNames};
@@ -26,14 +26,14 @@ pub fn diagnose_models(
     let moving: Vec<JointIndex> =
         chain.iter().copied().filter(|&joint| robot.joint(joint).kind.is_movable()).collect();
     let coordinates: Vec<usize> = moving.iter().filter_map(|&joint| robot.coordinate(joint)).collect();
-    let places = description.dh.as_ref().and_then(|_| RobotFilePlaces::read(&description.path));
+    let places = description.places.robot_file.as_deref();
     let physics = ReferenceModel::from_screws(physics);
     let criterion = Criterion {
         tolerance: description.tolerance,
         configurations: configurations.iter().map(|q| q.of_chain(&coordinates)).collect(),
     };
     let names =
-        ModelNames { description, moving, chain, places, urdf: UrdfPlaces::read(&description.urdf_path) };
+        ModelNames { description, moving, chain, places, urdf: description.places.urdf.as_ref() };
     let pairs = if let Some(candidate) = candidate(&names) {
         let against_physics = ModelPair { candidate: candidate.clone(), reference: physics };
         vec![
@@ -55,7 +55,7 @@ fn candidate(names: &ModelNames<'_>) -> Option<Candidate> {
     use congruent_description::ConstantKey::{BaseFromDh0, DhnFromTip};
     let candidate = Candidate::from_table(names.description.dh.as_ref()?, &names.moving)?;
     let written = |transform: DeclaredTransform, key| DeclaredTransform {
-        written_rpy_rad: names.places.as_ref().and_then(|places| places.rpy_rad(key)),
+        written_rpy_rad: names.places.and_then(|places| places.rpy_rad(key)),
         ..transform
     };
     Some(Candidate {

@@ -6,7 +6,7 @@ use congruent_description::{
     ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, SourceFile,
     display::{angle, length},
     fitted_number, fitted_transform, line_column,
-    units::{Scale, Unit},
+    units::{Unit, UnitSystem},
 };
 use congruent_kinematics::{Pose, rotation_log};
 
@@ -68,7 +68,7 @@ impl FaultContext<'_> {
         if self.fault.cause != Cause::ConventionSwapped {
             return self.columns(&[DhEntry::A, DhEntry::D]);
         }
-        let span = self.names.places.as_ref().and_then(RobotFilePlaces::convention);
+        let span = self.names.places.and_then(RobotFilePlaces::convention);
         let word = |candidate: &Candidate| match candidate.convention {
             Some(DhConvention::Modified) => "modified",
             _ => "standard",
@@ -229,7 +229,7 @@ impl FaultContext<'_> {
             Cause::Tool | Cause::Base => format!("is off by {}", off_by(shift.norm(), turn.norm())),
             _ => "is not in the unit of its keys".to_owned(),
         };
-        let places = self.names.places.as_ref();
+        let places = self.names.places;
         let [found, expected] = [found, expected].map(|pose| isometry(&pose));
         let suggestion = match places {
             Some(places) => places.constant_as(key, &expected),
@@ -243,7 +243,7 @@ impl FaultContext<'_> {
             suggestion,
             ..Fault::default()
         };
-        let part = if shift.norm() > turn.norm() { ConstantPart::Shift } else { ConstantPart::Turn };
+        let part = if shift.norm() > turn.norm() { ConstantPart::Translation } else { ConstantPart::Rotation };
         let span = places.map(|places| places.constant(key, part));
         let message = format!("the declared transform {name} {how}");
         FaultMessage { fault, message, location: self.in_robot_file(span) }
@@ -294,18 +294,18 @@ impl FaultContext<'_> {
     }
 
     fn in_robot_file(&self, span: Option<Range<usize>>) -> Option<FileLocation> {
-        Some(FileLocation { source: Arc::clone(self.names.places.as_ref()?.source()), span: span? })
+        Some(FileLocation { source: Arc::clone(self.names.places?.source()), span: span? })
     }
 
     /// Whether the file writes a value of a row; true if there is no file.
     fn is_written(&self, row: usize, key: RowKey) -> bool {
-        let place = self.names.places.as_ref().and_then(|places| places.figure(row, key));
+        let place = self.names.places.and_then(|places| places.value(row, key));
         place.is_none_or(|place| place.is_written)
     }
 
     /// The place of a value of a row in the robot file.
     pub(super) fn location(&self, row: usize, key: RowKey) -> Option<FileLocation> {
-        self.in_robot_file(Some(self.names.places.as_ref()?.figure(row, key)?.span))
+        self.in_robot_file(Some(self.names.places?.value(row, key)?.span))
     }
 
     /// Whether the values of the rows are exchanged as well as the names.
@@ -315,11 +315,11 @@ impl FaultContext<'_> {
 
     /// A value of a row as the file writes it, with its key and in the unit of that key.
     fn written(&self, row: usize, entry: DhEntry, value: f64) -> String {
-        let place = self.names.places.as_ref().and_then(|places| places.figure(row, row_key(entry)));
+        let place = self.names.places.and_then(|places| places.value(row, row_key(entry)));
         let unit = if entry.is_angle() { Unit::Angle } else { Unit::Length };
         match place {
-            Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.scale)),
-            None => format!("{} = {}", entry, unit.fitted(value, Scale::Plain)),
+            Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.units)),
+            None => format!("{} = {}", entry, unit.fitted(value, UnitSystem::Si)),
         }
     }
 }

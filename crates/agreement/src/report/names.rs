@@ -9,8 +9,8 @@ pub(crate) struct ModelNames<'a> {
     pub(crate) moving: Vec<JointIndex>,
     /// All joints of the chain, fixed ones included.
     pub(crate) chain: Vec<JointIndex>,
-    pub(crate) places: Option<RobotFilePlaces>,
-    pub(crate) urdf: Option<UrdfPlaces>,
+    pub(crate) places: Option<&'a RobotFilePlaces>,
+    pub(crate) urdf: Option<&'a UrdfPlaces>,
 }
 
 impl ModelNames<'_> {

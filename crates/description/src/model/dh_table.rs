@@ -2,13 +2,14 @@
 //! with it.
 
 use nalgebra::Isometry3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::joint::JointIndex;
 use crate::written::name::serde_name;
 
 /// Which of the two equations a table stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DhConvention {
     /// `T = Rz(theta) Tz(d) Tx(a) Rx(alpha)` (Denavit and Hartenberg; Spong).
@@ -33,7 +34,7 @@ impl DhConvention {
 }
 
 /// Which of a row's entries the joint coordinate drives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DhRowKind {
     /// `theta(q) = theta + sign q`.
