@@ -3,7 +3,11 @@
 use congruent_kinematics::{Pose, PoseError};
 use congruent_twin::{Sample, monitor::Names, recorder::RecordingError};
 use nalgebra::{Isometry3, Point3};
-use rerun::{LineStrips3D, Quaternion, Scalars, TimeColumn, Transform3D};
+use re_chunk::TimeColumn;
+use re_sdk_types::{
+    archetypes::{LineStrips3D, Scalars, Transform3D},
+    datatypes::Quaternion,
+};
 
 use crate::{
     body::{quaternion, vector},
@@ -144,7 +148,7 @@ pub(super) fn exponent(error: f64) -> f64 {
 /// Writes one scalar for each instant.
 pub(super) fn write_scalars(
     writer: &mut RrdWriter,
-    path: &rerun::EntityPath,
+    path: &re_log_types::EntityPath,
     times: &[TimeColumn],
     values: impl Iterator<Item = f64>,
 ) -> Result<(), RecordingError> {
@@ -153,7 +157,7 @@ pub(super) fn write_scalars(
 
 fn transforms<'a>(
     poses: impl Iterator<Item = &'a Placed> + Clone,
-) -> Result<impl Iterator<Item = rerun::SerializedComponentColumn>, RecordingError> {
+) -> Result<impl Iterator<Item = re_sdk_types::SerializedComponentColumn>, RecordingError> {
     Transform3D::update_fields()
         .with_many_translation(poses.clone().map(|pose| pose.translation))
         .with_many_quaternion(poses.map(|pose| pose.quaternion))

@@ -3,7 +3,7 @@
 
 use congruent_description::{JointKind, RobotDescription};
 use congruent_twin::{monitor::Names, recorder::RecordingError, report::RunReport};
-use rerun::external::re_sdk_types::{
+use re_sdk_types::{
     blueprint::{
         archetypes::{
             Background, EyeControls3D, LineGrid3D, PanelBlueprint, PlotLegend, ScalarAxis, TextLogColumns,

@@ -3,9 +3,12 @@
 
 use congruent_description::{Geometry, Mesh, Shape};
 use nalgebra::{Isometry3, Vector3};
-use rerun::{
-    AlbedoFactor, AsComponents, Boxes3D, Color, Cylinders3D, Ellipsoids3D, EntityPath, EntityPathPart,
-    FillMode, Mesh3D, Quaternion, SerializedComponentBatch, TriangleIndices,
+use re_log_types::{EntityPath, EntityPathPart};
+use re_sdk_types::{
+    AsComponents, SerializedComponentBatch,
+    archetypes::{Boxes3D, Cylinders3D, Ellipsoids3D, Mesh3D},
+    components::{AlbedoFactor, Color, FillMode, TriangleIndices},
+    datatypes::Quaternion,
 };
 
 /// An inset takes at most this part of a shape's thickness.

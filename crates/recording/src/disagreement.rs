@@ -3,9 +3,11 @@
 
 use congruent_kinematics::PoseError;
 use congruent_twin::{Sample, monitor::Check, recorder::RecordingError};
-use rerun::{
-    Arrows3D, Ellipsoids3D, EntityPath, FillMode, Points3D, Radius, SerializedComponentBatch,
-    SerializedComponentColumn,
+use re_log_types::EntityPath;
+use re_sdk_types::{
+    SerializedComponentBatch, SerializedComponentColumn,
+    archetypes::{Arrows3D, Ellipsoids3D, Points3D},
+    components::{FillMode, Radius},
 };
 
 use crate::{
@@ -229,7 +231,7 @@ impl Disagreement {
 
 /// Rows that all have the same components, as columns.
 fn stack(rows: &[Vec<SerializedComponentBatch>]) -> Result<Vec<SerializedComponentColumn>, RecordingError> {
-    use rerun::external::arrow::{array::Array, compute::concat};
+    use re_chunk::external::arrow::{array::Array, compute::concat};
     let components = rows.first().map_or(0, Vec::len);
     let column = |index: usize| {
         let pieces: Vec<&dyn Array> = rows.iter().map(|row| row[index].array.as_ref()).collect();

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use congruent_twin::{proximity::Clearance, recorder::RecordingError};
-use rerun::{Color, SeriesLines};
+use re_sdk_types::{archetypes::SeriesLines, components::Color};
 
 use crate::{
     batch::write_scalars,

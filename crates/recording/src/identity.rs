@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use congruent_twin::scenario::Scenario;
-use rerun::{ApplicationId, StoreId, StoreKind};
+use re_log_types::{ApplicationId, StoreId, StoreKind};
 use sha2::{Digest, Sha256};
 
 /// Longest application id that rerun takes, less the prefix.

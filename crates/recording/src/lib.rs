@@ -27,7 +27,7 @@ use std::path::Path;
 use congruent_description::RobotDescription;
 use congruent_simulation::Obstacle;
 use nalgebra::{Isometry3, Point3};
-use rerun::{StoreId, StoreKind};
+use re_log_types::{StoreId, StoreKind};
 
 pub use read::{EntitySummary, InspectError, RecordingSummary, ScalarSummary, TimelineSummary, inspect};
 

@@ -1,22 +1,18 @@
 //! A tree of views as rerun's viewer reads it. What the views show is decided in `blueprint.rs`.
 
 use congruent_twin::recorder::RecordingError;
-use rerun::{
-    AsComponents, EntityPath, EntityPathPart, SerializedComponentBatch, TimePoint, Timeline,
-    external::{
-        re_log_types::TimeInt,
-        re_sdk_types::{
-            blueprint::{
-                archetypes::{ContainerBlueprint, ViewBlueprint, ViewContents, VisibleTimeRanges},
-                components::{
-                    ActiveTab, ColumnShare, ContainerKind, IncludedContent, QueryExpression, RowShare,
-                    VisibleTimeRange,
-                },
-            },
-            datatypes::{TimeInt as RelativeTime, TimeRange, TimeRangeBoundary, VisibleTimeRange as Range},
+use re_log_types::{EntityPath, EntityPathPart, TimeInt, TimePoint, Timeline};
+use re_sdk_types::{
+    AsComponents, SerializedComponentBatch,
+    blueprint::{
+        archetypes::{ContainerBlueprint, ViewBlueprint, ViewContents, VisibleTimeRanges},
+        components::{
+            ActiveTab, ColumnShare, ContainerKind, IncludedContent, QueryExpression, RowShare,
+            VisibleTimeRange,
         },
-        uuid::Uuid,
     },
+    datatypes::{TimeInt as RelativeTime, TimeRange, TimeRangeBoundary, VisibleTimeRange as Range},
+    external::uuid::Uuid,
 };
 
 use crate::{

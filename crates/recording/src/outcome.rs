@@ -5,8 +5,10 @@ use congruent_twin::{
     report::RunReport,
     verdict::{CheckResult, Measure, Moment, Status},
 };
-use rerun::{
-    Color, EntityPath, Scalars, SeriesLines, StateChange, StateConfiguration, TextLog, TextLogLevel,
+use re_log_types::EntityPath;
+use re_sdk_types::{
+    archetypes::{Scalars, SeriesLines, StateChange, StateConfiguration, TextLog},
+    components::{Color, TextLogLevel},
 };
 
 use crate::{batch::exponent, palette, paths, times::Instant, units, writer::RrdWriter};

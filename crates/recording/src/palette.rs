@@ -1,6 +1,6 @@
 //! Colours: one for each link wherever it appears, one meaning for each of the others.
 
-use rerun::Color;
+use re_sdk_types::components::Color;
 
 /// Lines on a dark background, told apart also side by side; none is close to [`OUTSIDE`].
 const LINKS: [[u8; 3]; 12] = [
@@ -58,5 +58,5 @@ const fn rgb([r, g, b]: [u8; 3]) -> Color {
 }
 
 const fn rgba([r, g, b]: [u8; 3], alpha: u8) -> Color {
-    Color(rerun::Rgba32(u32::from_be_bytes([r, g, b, alpha])))
+    Color(re_sdk_types::datatypes::Rgba32(u32::from_be_bytes([r, g, b, alpha])))
 }

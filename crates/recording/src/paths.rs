@@ -1,7 +1,7 @@
 //! Where things stand in a recording. Names come from robot files, so they are parts of a path
 //! and never parsed as one: a link `a/b` is one entity.
 
-use rerun::{EntityPath, external::re_log_types::EntityPathPart};
+use re_log_types::{EntityPath, EntityPathPart};
 
 /// The path with these parts.
 pub(super) fn path(parts: &[&str]) -> EntityPath {

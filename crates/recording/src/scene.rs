@@ -4,7 +4,11 @@ use congruent_agreement::compare::model::PoseSource;
 use congruent_description::{Link, Robot, Shape};
 use congruent_simulation::Obstacle;
 use congruent_twin::{monitor::Names, recorder::RecordingError, scenario::Scenario};
-use rerun::{Color, EntityPath, LineStrips3D, Radius, SeriesLines, TimePoint, ViewCoordinates};
+use re_log_types::{EntityPath, TimePoint};
+use re_sdk_types::{
+    archetypes::{LineStrips3D, SeriesLines, ViewCoordinates},
+    components::{Color, Radius},
+};
 
 use crate::{
     body::{Body, Paint},

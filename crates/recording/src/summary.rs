@@ -7,9 +7,10 @@ use congruent_twin::{
     report::RunReport,
     verdict::{CheckResult, Expectation, Moment, Status, Verdict},
 };
-use rerun::{
-    AnyValues, RecordingInfo, TextDocument,
-    external::arrow::array::{ArrayRef, Float64Array, StringArray, UInt64Array},
+use re_chunk::external::arrow::array::{ArrayRef, Float64Array, StringArray, UInt64Array};
+use re_sdk_types::{
+    AnyValues,
+    archetypes::{RecordingInfo, TextDocument},
 };
 
 use crate::{paths, units, writer::RrdWriter};
@@ -18,7 +19,7 @@ use crate::{paths, units, writer::RrdWriter};
 pub(super) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
     writer.log_static(&paths::summary(), &TextDocument::from_markdown(markdown(report)))?;
     let info = RecordingInfo::new().with_name(report.scenario.as_str());
-    writer.log_static(&rerun::EntityPath::properties(), &info)?;
+    writer.log_static(&re_log_types::EntityPath::properties(), &info)?;
     writer.log_static(&paths::properties(), &properties(report))
 }
 

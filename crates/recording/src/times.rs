@@ -1,6 +1,7 @@
 //! The two timelines: simulated time and physics steps. There is no wall clock in a recording.
 
-use rerun::{TimeColumn, TimePoint, Timeline, external::re_log_types::TimeInt};
+use re_chunk::TimeColumn;
+use re_log_types::{TimeInt, TimePoint, Timeline};
 
 /// Name of the timeline of simulated time.
 pub(super) const SIM_TIME: &str = "sim_time";

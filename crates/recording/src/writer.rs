@@ -14,18 +14,15 @@ use std::{
 };
 
 use congruent_twin::recorder::RecordingError;
-use rerun::{
-    AsComponents, EntityPath, SerializedComponentBatch, SerializedComponentColumn, TimeColumn, TimePoint,
-    external::{
-        arrow::datatypes::Schema,
-        re_chunk_store::external::re_chunk::{Chunk, ChunkId, RowId, Span},
-        re_log_encoding::{
-            Compression, CrateVersion, Encodable, EncodingOptions, MessageHeader, MessageKind, RRD_FOURCC,
-            RrdFooter, RrdManifestBuilder, StreamFooter, StreamHeader, ToTransport,
-        },
-        re_log_types::{BlueprintActivationCommand, LogMsg, SetStoreInfo, StoreId, StoreInfo, StoreSource},
-    },
+use re_chunk::{Chunk, ChunkId, RowId, Span, TimeColumn, external::arrow::datatypes::Schema};
+use re_log_encoding::{
+    Compression, CrateVersion, Encodable, EncodingOptions, MessageHeader, MessageKind, RRD_FOURCC, RrdFooter,
+    RrdManifestBuilder, StreamFooter, StreamHeader, ToTransport,
 };
+use re_log_types::{
+    BlueprintActivationCommand, EntityPath, LogMsg, SetStoreInfo, StoreId, StoreInfo, StoreSource, TimePoint,
+};
+use re_sdk_types::{AsComponents, SerializedComponentBatch, SerializedComponentColumn};
 
 /// Says in a recording's own words what rerun or the disk refused.
 pub(super) fn failed(error: impl Display) -> RecordingError {

@@ -2,18 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rerun::{
-    EntityPathPart, Scalars, StoreId,
-    external::{
-        arrow::{
-            array::{Array, AsArray},
-            datatypes::{DataType, Float32Type, Float64Type, UInt64Type},
-        },
-        re_log_types::ArrowMsg,
+use re_chunk::{
+    Chunk,
+    external::arrow::{
+        array::{Array, AsArray},
+        datatypes::{DataType, Float32Type, Float64Type, UInt64Type},
     },
-    log::Chunk,
-    time::TimeType,
 };
+use re_log_types::{ArrowMsg, EntityPathPart, StoreId, TimeType};
+use re_sdk_types::archetypes::Scalars;
 use serde_json::Value;
 
 use super::summary::{EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary};
@@ -243,7 +240,7 @@ fn first_value(array: &dyn Array) -> Option<Value> {
 
 #[cfg(test)]
 mod tests {
-    use rerun::external::arrow::array::{FixedSizeListArray, Float32Array, ListArray};
+    use re_chunk::external::arrow::array::{FixedSizeListArray, Float32Array, ListArray};
 
     use super::*;
 

@@ -3,9 +3,7 @@
 
 use std::io::{self, Read, Seek, SeekFrom};
 
-use rerun::external::re_log_encoding::{
-    Decodable, MessageHeader, MessageKind, RRD_FOURCC, StreamFooter, StreamHeader,
-};
+use re_log_encoding::{Decodable, MessageHeader, MessageKind, RRD_FOURCC, StreamFooter, StreamHeader};
 
 /// What was found at the end of the last whole frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

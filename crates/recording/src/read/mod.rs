@@ -13,10 +13,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use rerun::external::{
-    re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHeader, ToApplication},
-    re_log_types::LogMsg,
-};
+use re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHeader, ToApplication};
+use re_log_types::LogMsg;
 
 pub use summary::{EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary};
 

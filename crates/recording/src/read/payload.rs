@@ -1,10 +1,8 @@
 //! Holds the lengths inside a message against what is there, before the Arrow reader allocates
 //! what they claim. Only lengths are looked at; what is well formed and wrong passes.
 
-use rerun::external::{
-    arrow::ipc::root_as_message,
-    re_log_encoding::{Decodable, Encodable, MessageHeader, MessageKind, external::lz4_flex},
-};
+use re_chunk::external::arrow::ipc::root_as_message;
+use re_log_encoding::{Decodable, Encodable, MessageHeader, MessageKind, external::lz4_flex};
 
 /// LZ4 packs no tighter than this.
 const TIGHTEST_PACKING: usize = 255;
