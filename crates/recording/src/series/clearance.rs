@@ -1,45 +1,48 @@
-//! Clearance over time: the smallest distance, exact at every recorded instant, and the pairs that
-//! have been the smallest or came close to an obstacle.
+//! Clearance over time: the smallest distance, exact at every recorded time, and the distances of pairs that
+//! were the nearest or came close to an obstacle.
 
 use std::collections::BTreeMap;
 
 use congruent_twin::{proximity::Clearance, recorder::RecordingError};
 use re_sdk_types::{archetypes::SeriesLines, components::Color};
 
+use super::scalars::write_scalars;
 use crate::{
-    batch::write_scalars,
-    palette, paths,
-    times::{Instant, Times},
-    writer::RrdWriter,
+    rrd::{
+        paths,
+        times::{SampleTime, SampleTimes},
+        writer::RrdWriter,
+    },
+    scene::palette,
 };
 
-/// Pairs that get a line of their own: as many as a plot stays readable with.
-const MOST_PAIRS: usize = 8;
+/// The most pairs with a line of their own, so that the plot stays readable.
+const MAX_PAIRS: usize = 8;
 
-/// From where on an obstacle is close enough to be followed.
+/// Below this distance, a pair of a link and an obstacle gets a line.
 const NEAR_M: f64 = 0.1;
 
-/// Values of one line.
+/// The values of one line.
 #[derive(Debug, Default)]
-struct Line {
-    times: Times,
+struct DistanceLine {
+    times: SampleTimes,
     values: Vec<f64>,
-    /// How many lines were there before: gives the colour.
+    /// Number of earlier lines, which gives the colour.
     number: usize,
-    is_styled: bool,
+    has_style: bool,
 }
 
-impl Line {
+impl DistanceLine {
     fn numbered(number: usize) -> Self {
         Self { number, ..Self::default() }
     }
 
-    fn push(&mut self, instant: Instant, value: f64) {
-        self.times.push(instant);
+    fn push(&mut self, time: SampleTime, value: f64) {
+        self.times.push(time);
         self.values.push(value);
     }
 
-    /// Writes the values, and before the first of them colour and width of the line.
+    /// Writes the values; the first time also colour and width of the line.
     fn write(
         &mut self,
         writer: &mut RrdWriter,
@@ -47,10 +50,10 @@ impl Line {
         (color, width): (Color, f32),
     ) -> Result<(), RecordingError> {
         let path = paths::clearance(name);
-        if !self.is_styled {
+        if !self.has_style {
             let style = SeriesLines::new().with_names([name]).with_colors([color]).with_widths([width]);
             writer.log_static(&path, &style)?;
-            self.is_styled = true;
+            self.has_style = true;
         }
         if !self.times.is_empty() {
             write_scalars(writer, &path, &self.times.columns(), self.values.iter().copied())?;
@@ -61,23 +64,23 @@ impl Line {
     }
 }
 
-/// Gathers distances until they are written.
+/// Distances of one run until they are written.
 #[derive(Debug, Default)]
-pub(super) struct Distances {
-    minimum: Line,
-    /// By the pair's number: each from the instant on when it was the nearest first.
-    pairs: BTreeMap<usize, Line>,
-    /// The smallest and the largest of the smallest distances.
-    pub(super) range_m: Option<(f64, f64)>,
+pub(crate) struct ClearanceSeries {
+    minimum: DistanceLine,
+    /// Lines of pairs by the pair's index, each from the first time at which the pair was the nearest.
+    pairs: BTreeMap<usize, DistanceLine>,
+    /// Range of the smallest distance over the run; `None` without pairs.
+    pub(crate) range_m: Option<(f64, f64)>,
 }
 
-impl Distances {
-    /// Adds a row; without pairs there is none. Subjects below `links` are links.
-    pub(super) fn push(&mut self, instant: Instant, clearance: &mut Clearance, links: usize) {
+impl ClearanceSeries {
+    /// Adds a row, or nothing if there are no pairs. Bodies of a pair with an index below `links` are links.
+    pub(crate) fn push(&mut self, time: SampleTime, clearance: &mut Clearance, links: usize) {
         let Some(nearest) = clearance.nearest() else { return };
-        self.minimum.push(instant, nearest.distance_m);
+        self.minimum.push(time, nearest.distance_m);
         self.follow(nearest.pair);
-        // Two links that are always close to each other must not hide what the arm comes close to.
+        // Two links that are always close to each other must not hide an obstacle that the arm approaches.
         clearance.nearest_below(NEAR_M);
         let to_obstacles = clearance.pairs().enumerate().filter(|(_, pair)| pair.b >= links);
         let measured = to_obstacles.filter_map(|(pair, _)| Some((pair, clearance.current_m(pair)?)));
@@ -87,26 +90,26 @@ impl Distances {
             self.follow(pair);
         }
         for (&pair, line) in &mut self.pairs {
-            line.push(instant, clearance.measure(pair));
+            line.push(time, clearance.measure(pair));
         }
         let (low, high) = self.range_m.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
         self.range_m = Some((low.min(nearest.distance_m), high.max(nearest.distance_m)));
     }
 
-    /// Gives a pair a line of its own from now on.
+    /// Gives a pair a line of its own from this time on.
     fn follow(&mut self, pair: usize) {
         let number = self.pairs.len();
-        if number < MOST_PAIRS {
-            self.pairs.entry(pair).or_insert_with(|| Line::numbered(number));
+        if number < MAX_PAIRS {
+            self.pairs.entry(pair).or_insert_with(|| DistanceLine::numbered(number));
         }
     }
 
-    /// Writes all rows and forgets them.
-    pub(super) fn write(&mut self, writer: &mut RrdWriter, pairs: &[String]) -> Result<(), RecordingError> {
+    /// Writes all rows and removes them.
+    pub(crate) fn write(&mut self, writer: &mut RrdWriter, pairs: &[String]) -> Result<(), RecordingError> {
         if self.minimum.times.is_empty() {
             return Ok(());
         }
-        self.minimum.write(writer, "minimum", (palette::MINIMUM, 2.5))?;
+        self.minimum.write(writer, "minimum", (palette::NEUTRAL, 2.5))?;
         for (&pair, line) in &mut self.pairs {
             line.write(writer, &pairs[pair], (palette::link(line.number), 1.2))?;
         }
