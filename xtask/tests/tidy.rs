@@ -35,7 +35,10 @@ const ARROWS: &[(&str, &[&str])] = &[
 const PLACES: &[(&str, &str)] = &[
     ("rapier3d_f64", "crates/simulation/src"),
     ("parry3d_f64", "crates/twin/src/proximity/hulls.rs"),
-    ("rerun::", "crates/recording/src"),
+    ("re_chunk::", "crates/recording/src"),
+    ("re_log_encoding::", "crates/recording/src"),
+    ("re_log_types::", "crates/recording/src"),
+    ("re_sdk_types::", "crates/recording/src"),
 ];
 
 /// Words that `kinematics` does without: no I/O, no clock, no printing.

@@ -1,7 +1,7 @@
-//! The whole run loop of `scenarios/ur5e_pick.toml` (4 s at 1 kHz) with its recording; the stages before
-//! are in the benchmark of `congruent-twin`.
+//! The whole run loop of `scenarios/ur5e_pick.toml` (4 s at 1 kHz) with its recording. The benchmark
+//! of `congruent-twin` measures the parts of the loop.
 //!
-//! 4 s divided by a time here is how many times faster than real time it runs.
+//! 4 s divided by a time here is the speed relative to real time.
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
-//! Recordings, written by runs and read back: what is in them, to the last bit where it counts,
-//! and what is said about files that are cut, spoilt or something else.
+//! Recordings written by runs and read back: their content, scalars to the last bit, and the answers about files
+//! that are cut off, corrupt or not recordings.
 
-#![expect(clippy::unwrap_used, reason = "a test stops where something is missing")]
+#![expect(clippy::unwrap_used, reason = "a test stops if a value is missing")]
 
 use std::{
     fs,
@@ -85,7 +85,7 @@ fn load(folder: &Folder, text: &str) -> RunSetup {
     RunSetup::load(&path, &[]).unwrap()
 }
 
-/// Runs a scenario; gives its report and where its recording is.
+/// Runs a scenario; returns its report and the path of its recording.
 fn recorded(folder: &Folder, out: &str, scenario: RunSetup) -> (RunReport, PathBuf) {
     let options = Options { out: folder.file(out), recording: Some(&RerunFormat) };
     let (report, results) = execute(&scenario, &options, |_| ()).unwrap();
@@ -138,15 +138,15 @@ fn a_run_is_read_back() {
     assert_eq!(scalar(&summary, "/clearance/minimum").count, ROWS);
 }
 
-/// Records, and remembers what was shown at the instants that are kept.
-struct Witness {
+/// A recorder that keeps the errors and joint positions of the recorded samples.
+struct RecorderProbe {
     recorder: RerunRecorder,
     tip: usize,
     errors_m: Vec<f64>,
     q: Vec<f64>,
 }
 
-impl Recorder for Witness {
+impl Recorder for RecorderProbe {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
         if sample.step.is_multiple_of(10) || sample.step == 255 {
             self.errors_m.push(sample.errors[self.tip].position_m);
@@ -167,18 +167,18 @@ fn scalars_are_exact() {
     let names = run.names().clone();
     let recorder = RerunRecorder::create(&path, &scenario, &names, &sources).unwrap();
     let tip = scenario.description.tip.get();
-    let mut witness = Witness { recorder, tip, errors_m: Vec::new(), q: Vec::new() };
-    let (outcome, result) = run.finish(&mut checks, &mut witness, |_| ());
+    let mut probe = RecorderProbe { recorder, tip, errors_m: Vec::new(), q: Vec::new() };
+    let (outcome, result) = run.finish(&mut checks, &mut probe, |_| ());
     result.unwrap();
-    Box::new(witness.recorder).finish(&RunReport::new(&scenario, &sources, outcome, None)).unwrap();
+    Box::new(probe.recorder).finish(&RunReport::new(&scenario, &sources, outcome, None)).unwrap();
 
     let summary = inspect(&path).unwrap();
     let error = scalar(&summary, "/agreement/position/tool0");
-    assert_eq!(error.count, witness.errors_m.len() as u64);
+    assert_eq!(error.count, probe.errors_m.len() as u64);
     let bits = |value: f64| Some(value.to_bits());
-    assert_eq!(error.last.map(f64::to_bits), bits(witness.errors_m[witness.errors_m.len() - 1]));
-    assert_eq!(error.max.map(f64::to_bits), bits(witness.errors_m.iter().copied().fold(0.0, f64::max)));
-    for (joint, q) in names.joints.iter().zip(&witness.q) {
+    assert_eq!(error.last.map(f64::to_bits), bits(probe.errors_m[probe.errors_m.len() - 1]));
+    assert_eq!(error.max.map(f64::to_bits), bits(probe.errors_m.iter().copied().fold(0.0, f64::max)));
+    for (joint, q) in names.joints.iter().zip(&probe.q) {
         let recorded = scalar(&summary, &format!("/joint/position/{joint}"));
         assert_eq!(recorded.last.map(f64::to_bits), bits(*q), "{joint}");
     }
@@ -224,29 +224,29 @@ fn a_cut_file_is_read_as_far_as_it_goes() {
 }
 
 #[test]
-fn a_spoilt_file_never_panics() {
-    let folder = Folder::new("spoilt");
+fn a_corrupt_file_never_panics() {
+    let folder = Folder::new("corrupt");
     let (_, path) = recorded(&folder, "out", scenario(&folder, "ur5e"));
     let whole = fs::read(path).unwrap();
-    let spoilt = folder.file("spoilt.rrd");
+    let corrupt = folder.file("corrupt.rrd");
     let mut random = 7_u64;
     let mut next = || {
         random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         usize::try_from(random >> 33).unwrap()
     };
-    for _ in 0..SPOILT_FILES {
+    for _ in 0..CORRUPT_FILES {
         let mut bytes = whole.clone();
         for _ in 0..8 {
             let place = next() % bytes.len();
             bytes[place] = next().to_le_bytes()[0];
         }
-        fs::write(&spoilt, &bytes).unwrap();
-        let _ = inspect(&spoilt);
+        fs::write(&corrupt, &bytes).unwrap();
+        let _ = inspect(&corrupt);
     }
 }
 
-/// Enough to meet every kind of message; three thousand were tried once.
-const SPOILT_FILES: usize = 40;
+/// Enough to change every kind of message; three thousand were tried once.
+const CORRUPT_FILES: usize = 40;
 
 #[test]
 fn other_files_are_refused() {
@@ -268,8 +268,8 @@ fn other_files_are_refused() {
 
 #[test]
 fn names_are_never_parsed_as_paths() {
-    let folder = Folder::new("hostile");
-    let urdf = r#"<robot name="hostile">
+    let folder = Folder::new("odd_names");
+    let urdf = r#"<robot name="odd_names">
         <link name="a/b"/>
         <link name="../x">
             <inertial>
@@ -284,11 +284,11 @@ fn names_are_never_parsed_as_paths() {
         </joint>
         <joint name="fixed" type="fixed"><parent link="../x"/><child link="&lt;z&gt; $origin|"/></joint>
     </robot>"#;
-    fs::write(folder.file("hostile.urdf"), urdf).unwrap();
+    fs::write(folder.file("odd_names.urdf"), urdf).unwrap();
     let text = r#"
         schema_version = 1
-        name = "../<hostile>"
-        robot = "hostile.urdf"
+        name = "../<odd_names>"
+        robot = "odd_names.urdf"
         [simulation]
         step_s = 0.001
         duration_s = 0.02
@@ -304,7 +304,7 @@ fn names_are_never_parsed_as_paths() {
     let (_, path) = recorded(&folder, "out", load(&folder, text));
     let summary = inspect(&path).unwrap();
     assert!(summary.problems.is_empty(), "{:?}", summary.problems);
-    assert_eq!(summary.application_id, "congruent ____hostile_");
+    assert_eq!(summary.application_id, "congruent ____odd_names_");
     for path in [r"/world/twin/a\/b", r"/world/model/..\/x", r"/joint/position/j\/1"] {
         entity(&summary, path);
     }
@@ -313,7 +313,7 @@ fn names_are_never_parsed_as_paths() {
 }
 
 #[test]
-fn what_cannot_be_written_is_said() {
+fn a_file_that_cannot_be_written_is_an_error() {
     let folder = Folder::new("unwritable");
     let scenario = scenario(&folder, "ur5e");
     let run = Run::new(&scenario).unwrap();
@@ -321,7 +321,7 @@ fn what_cannot_be_written_is_said() {
     let path = folder.file("no/such/folder.rrd");
     let error = RerunRecorder::create(&path, &scenario, names, sources).unwrap_err();
     assert!(error.to_string().contains("cannot write"), "{error}");
-    // A disk that is full takes nothing; the first bytes are handed over before anything is run.
+    // A full disk refuses the first bytes, which are flushed before the run starts.
     let full = Path::new("/dev/full");
     if full.exists() {
         let error = RerunRecorder::create(full, &scenario, names, sources).unwrap_err();

@@ -1,32 +1,27 @@
-//! Gathers what the messages of a file say.
+//! The content of a file, gathered from its messages.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rerun::{
-    EntityPathPart, Scalars, StoreId,
-    external::{
-        arrow::{
-            array::{Array, AsArray},
-            datatypes::{DataType, Float32Type, Float64Type, UInt64Type},
-        },
-        re_log_types::ArrowMsg,
+use re_chunk::{
+    Chunk,
+    external::arrow::{
+        array::{Array, AsArray},
+        datatypes::{DataType, Float32Type, Float64Type, UInt64Type},
     },
-    log::Chunk,
-    time::TimeType,
 };
+use re_log_types::{ArrowMsg, EntityPathPart, StoreId, TimeType};
+use re_sdk_types::archetypes::Scalars;
 use serde_json::Value;
 
-use super::summary::{EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary};
+use super::summary::{EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary, VERDICT};
 
-/// The property that holds a whole report.
+/// The property that holds the whole report.
 const REPORT: &str = "congruent/report";
-/// The property that holds a verdict.
-const VERDICT: &str = "congruent/verdict";
-/// Arrow lists in lists in lists: deeper than any component.
-const DEEPEST: usize = 16;
+/// The most levels of nested Arrow lists that are read: more than any component has.
+const MAX_DEPTH: usize = 16;
 
 #[derive(Debug, Default)]
-struct Entity {
+struct EntityContent {
     components: BTreeSet<String>,
     rows: u64,
     chunks: u64,
@@ -34,7 +29,7 @@ struct Entity {
 }
 
 #[derive(Debug, Default)]
-struct Scalar {
+struct ScalarStatistics {
     count: u64,
     nan: u64,
     min: Option<f64>,
@@ -42,7 +37,7 @@ struct Scalar {
     last: Option<(i64, f64)>,
 }
 
-impl Scalar {
+impl ScalarStatistics {
     fn add(&mut self, time: i64, value: f64) {
         self.count += 1;
         if self.last.is_none_or(|(known, _)| known <= time) {
@@ -57,21 +52,21 @@ impl Scalar {
     }
 }
 
-/// What was found so far. Of several recordings in one file, the first is looked at.
+/// What the messages so far contain. Of several recordings in one file, only the first is read.
 #[derive(Debug, Default)]
-pub(super) struct Content {
+pub(super) struct RecordingContent {
     recording: Option<StoreId>,
     others: BTreeSet<String>,
     has_layout: bool,
     timelines: BTreeMap<String, TimelineSummary>,
-    entities: BTreeMap<String, Entity>,
-    scalars: BTreeMap<String, Scalar>,
+    entities: BTreeMap<String, EntityContent>,
+    scalars: BTreeMap<String, ScalarStatistics>,
     properties: BTreeMap<String, Value>,
     problems: Vec<String>,
 }
 
-impl Content {
-    /// Notes a recording or a layout.
+impl RecordingContent {
+    /// Adds a recording or a layout.
     pub(super) fn add_store(&mut self, store: &StoreId) {
         if store.is_blueprint() {
             self.has_layout = true;
@@ -82,12 +77,12 @@ impl Content {
         }
     }
 
-    /// Notes something wrong.
+    /// Adds a problem.
     pub(super) fn add_problem(&mut self, problem: String) {
         self.problems.push(problem);
     }
 
-    /// Looks at a chunk; the error says why it cannot be read.
+    /// Adds a chunk; the error says why it cannot be read.
     pub(super) fn add_chunk(&mut self, store: &StoreId, message: &ArrowMsg) -> Result<(), String> {
         self.add_store(store);
         if self.recording.as_ref() != Some(store) {
@@ -154,7 +149,7 @@ impl Content {
         }
     }
 
-    /// The summary, without what only the file as a whole says; `None` without a recording.
+    /// The summary, except for the file's size and completeness; `None` without a recording.
     pub(super) fn summary(mut self) -> Option<RecordingSummary> {
         let recording = self.recording.as_ref()?;
         let (application_id, recording_id) =
@@ -163,13 +158,13 @@ impl Content {
         let report = self.properties.remove(REPORT);
         let report = report.and_then(|text| serde_json::from_str(text.as_str()?).ok());
         let verdict = self.properties.get(VERDICT).and_then(Value::as_str).map(str::to_owned);
-        let entity = |(path, entity): (String, Entity)| EntitySummary {
+        let entity = |(path, entity): (String, EntityContent)| EntitySummary {
             path,
             components: entity.components.into_iter().collect(),
             rows: entity.rows,
             chunks: entity.chunks,
         };
-        let scalar = |(path, scalar): (String, Scalar)| ScalarSummary {
+        let scalar = |(path, scalar): (String, ScalarStatistics)| ScalarSummary {
             path,
             count: scalar.count,
             nan: scalar.nan,
@@ -196,20 +191,21 @@ impl Content {
 
     fn find_problems(&mut self) {
         for (path, scalar) in self.scalars.iter().filter(|(_, scalar)| scalar.nan > 0) {
-            self.problems.push(format!("{path}: {} of {} values are no number", scalar.nan, scalar.count));
+            self.problems.push(format!("{path}: {} of {} values are NaN", scalar.nan, scalar.count));
         }
         for (path, entity) in self.entities.iter().filter(|(_, entity)| entity.nan > 0) {
-            self.problems.push(format!("{path}: {} figures are no number", entity.nan));
+            self.problems.push(format!("{path}: {} values are NaN", entity.nan));
         }
         for other in &self.others {
-            self.problems.push(format!("the file holds another recording, which was left out: {other}"));
+            self.problems
+                .push(format!("the file contains another recording, which is not summarised: {other}"));
         }
     }
 }
 
-/// How many floats in nested lists are no number.
+/// Number of NaN in nested lists.
 fn count_nan(array: &dyn Array, depth: usize) -> u64 {
-    if depth > DEEPEST {
+    if depth > MAX_DEPTH {
         return 0;
     }
     let inside = |values: &dyn Array| count_nan(values, depth + 1);
@@ -228,7 +224,7 @@ fn count_nan(array: &dyn Array, depth: usize) -> u64 {
     }
 }
 
-/// The first value of a property, where it is text or a number.
+/// The first value of a property, if it is text or a number.
 fn first_value(array: &dyn Array) -> Option<Value> {
     if array.is_empty() || array.is_null(0) {
         return None;
@@ -243,24 +239,28 @@ fn first_value(array: &dyn Array) -> Option<Value> {
 
 #[cfg(test)]
 mod tests {
-    use rerun::external::arrow::array::{FixedSizeListArray, Float32Array, ListArray};
+    use re_chunk::external::arrow::array::{FixedSizeListArray, Float32Array, ListArray};
 
     use super::*;
 
     #[test]
-    fn what_is_no_number_is_found_in_nested_lists() {
+    fn nan_is_found_in_nested_lists() {
         let points = [Some([1.0, f32::NAN, 3.0]), Some([f32::NAN, f32::INFINITY, 0.0]), None];
         let points = points.map(|point| point.map(|point| point.map(Some)));
         let list = FixedSizeListArray::from_iter_primitive::<Float32Type, _, _>(points, 3);
         assert_eq!(count_nan(&list, 0), 2);
         let rows = [Some(vec![Some(f64::NAN), None]), None];
         assert_eq!(count_nan(&ListArray::from_iter_primitive::<Float64Type, _, _>(rows), 0), 1);
-        assert_eq!(count_nan(&Float32Array::from(vec![f32::NAN]), DEEPEST + 1), 0, "not deeper than that");
+        assert_eq!(
+            count_nan(&Float32Array::from(vec![f32::NAN]), MAX_DEPTH + 1),
+            0,
+            "lists are read up to the maximum depth"
+        );
     }
 
     #[test]
-    fn statistics_leave_out_what_is_no_number() {
-        let mut scalar = Scalar::default();
+    fn statistics_leave_out_nan() {
+        let mut scalar = ScalarStatistics::default();
         for (time, value) in [(0, 2.0), (2, -1.0), (1, f64::NAN)] {
             scalar.add(time, value);
         }

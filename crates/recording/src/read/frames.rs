@@ -1,39 +1,37 @@
-//! How far a file goes: its frames, from header to header, without looking inside. Lengths come
-//! from the file, so each is held against what is there before anything is read or allocated.
+//! The frames of a file, from header to header without their contents, up to the last complete one. Lengths
+//! come from the file, so each is compared with the file's size before anything is read or allocated.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
-use rerun::external::re_log_encoding::{
-    Decodable, MessageHeader, MessageKind, RRD_FOURCC, StreamFooter, StreamHeader,
-};
+use re_log_encoding::{Decodable, MessageHeader, MessageKind, RRD_FOURCC, StreamFooter, StreamHeader};
 
-/// What was found at the end of the last whole frame.
+/// What follows the last complete frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum End {
-    /// A footer, and nothing behind it.
+enum FileEnd {
+    /// Nothing; the last frame is a footer.
     Footer,
-    /// The end of the file.
-    Nothing,
-    /// A frame of which a part is missing.
-    HalfFrame,
-    /// Bytes that are no frame.
-    Garbage,
+    /// Nothing; there is no footer.
+    NoFooter,
+    /// Part of a frame.
+    PartialFrame,
+    /// Bytes that are not a frame.
+    NotAFrame,
 }
 
 /// The part of a file that can be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Extent {
-    /// Length of all whole frames.
+    /// Length of all complete frames, in bytes.
     pub(super) readable: u64,
-    end: End,
+    end: FileEnd,
 }
 
 impl Extent {
-    /// Walks over a file of `length` bytes. The inner error says why it is no recording.
+    /// The extent of a file of `length` bytes. The inner error says why the file is not a recording.
     pub(super) fn of<F: Read + Seek>(file: &mut F, length: u64) -> io::Result<Result<Self, String>> {
         const HEADER: u64 = StreamHeader::ENCODED_SIZE_BYTES as u64;
         if length < HEADER {
-            return Ok(Err(format!("{length} bytes are too few")));
+            return Ok(Err(format!("{length} bytes are less than a file header")));
         }
         let mut header = [0; StreamHeader::ENCODED_SIZE_BYTES];
         file.read_exact(&mut header)?;
@@ -41,67 +39,69 @@ impl Extent {
         if let Err(error) = version {
             return Ok(Err(error.to_string()));
         }
-        let mut walk = Walk { file, length, position: HEADER, has_footer: false };
+        let mut reader = FrameReader { file, length, position: HEADER, has_footer: false };
         let end = loop {
-            if let Some(end) = walk.next_frame()? {
+            if let Some(end) = reader.next_frame()? {
                 break end;
             }
         };
-        Ok(Ok(Self { readable: walk.position, end }))
+        Ok(Ok(Self { readable: reader.position, end }))
     }
 
-    /// Whether the file ends as it should.
-    pub(super) fn is_whole(&self) -> bool {
-        self.end == End::Footer
+    /// Whether the file ends with its footer.
+    pub(super) fn is_complete(&self) -> bool {
+        self.end == FileEnd::Footer
     }
 
-    /// What is wrong with the end of the file.
+    /// The problem with the end of the file.
     pub(super) fn problem(&self, length: u64) -> Option<String> {
         let read = format!("{} of {length} bytes were read", self.readable);
         match self.end {
-            End::Footer => None,
-            End::Nothing => Some(format!("there is no footer: the recording was not finished; {read}")),
-            End::HalfFrame => Some(format!("the file is cut off in the middle of a message; {read}")),
-            End::Garbage => Some(format!("the file is damaged behind byte {}; {read}", self.readable)),
+            FileEnd::Footer => None,
+            FileEnd::NoFooter => {
+                Some(format!("the file has no footer, so the recording was not finished; {read}"))
+            }
+            FileEnd::PartialFrame => Some(format!("the file is cut off in the middle of a message; {read}")),
+            FileEnd::NotAFrame => Some(format!("the file is damaged after byte {}; {read}", self.readable)),
         }
     }
 }
 
-struct Walk<'a, F> {
+struct FrameReader<'a, F> {
     file: &'a mut F,
     length: u64,
-    /// End of the last whole frame.
+    /// End of the last complete frame.
     position: u64,
     has_footer: bool,
 }
 
-impl<F: Read + Seek> Walk<'_, F> {
-    /// Steps over one frame; gives the end where there is none.
-    fn next_frame(&mut self) -> io::Result<Option<End>> {
+impl<F: Read + Seek> FrameReader<'_, F> {
+    /// Skips one frame; returns what follows instead if there is no complete frame.
+    fn next_frame(&mut self) -> io::Result<Option<FileEnd>> {
         const HEADER: usize = MessageHeader::ENCODED_SIZE_BYTES;
         if self.position == self.length {
-            return Ok(Some(if self.has_footer { End::Footer } else { End::Nothing }));
+            return Ok(Some(if self.has_footer { FileEnd::Footer } else { FileEnd::NoFooter }));
         }
-        let Some(header) = self.read::<HEADER>()? else { return Ok(Some(End::HalfFrame)) };
+        let Some(header) = self.read::<HEADER>()? else { return Ok(Some(FileEnd::PartialFrame)) };
         if header.starts_with(&RRD_FOURCC) {
-            // Recordings may stand one behind another in one file.
+            // One file can hold several recordings in sequence.
             self.position += StreamHeader::ENCODED_SIZE_BYTES as u64;
             self.has_footer = false;
             return Ok(None);
         }
-        let Ok(header) = MessageHeader::from_rrd_bytes(&header) else { return Ok(Some(End::Garbage)) };
+        let Ok(header) = MessageHeader::from_rrd_bytes(&header) else { return Ok(Some(FileEnd::NotAFrame)) };
         let end = self.position.checked_add(HEADER as u64).and_then(|start| start.checked_add(header.len));
         match end {
             Some(end) if end <= self.length => self.position = end,
-            _ => return Ok(Some(End::HalfFrame)),
+            _ => return Ok(Some(FileEnd::PartialFrame)),
         }
         if header.kind == MessageKind::End && !self.skip_footer()? {
-            return Ok(Some(End::HalfFrame));
+            return Ok(Some(FileEnd::PartialFrame));
         }
         Ok(None)
     }
 
-    /// The footer behind the last message; recordings of old programs have none.
+    /// Skips the footer after the last message; recordings of older versions of rerun have none.
     fn skip_footer(&mut self) -> io::Result<bool> {
         const FOOTER: usize = StreamFooter::ENCODED_SIZE_BYTES;
         if let Some(footer) = self.read::<FOOTER>()? {
@@ -114,7 +114,7 @@ impl<F: Read + Seek> Walk<'_, F> {
         Ok(self.position == self.length)
     }
 
-    /// The next bytes, where there are so many.
+    /// The next bytes, if there are so many.
     fn read<const N: usize>(&mut self) -> io::Result<Option<[u8; N]>> {
         if self.length - self.position < N as u64 {
             return Ok(None);
@@ -142,7 +142,7 @@ mod tests {
         bytes.extend(1_u64.to_le_bytes());
         bytes.extend(u64::MAX.to_le_bytes());
         let found = extent(&bytes).unwrap();
-        assert_eq!(found, Extent { readable: 12, end: End::HalfFrame });
+        assert_eq!(found, Extent { readable: 12, end: FileEnd::PartialFrame });
     }
 
     #[test]

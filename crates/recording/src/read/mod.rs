@@ -1,10 +1,10 @@
-//! Reads a recording back: what is in it, whether it is whole, and the verdict it carries. Any
-//! recording will do, ours or not, whole or cut off. Nothing is drawn and nothing is repaired.
+//! Reads a recording back: its content, whether it is complete, and its verdict. Reads recordings of any
+//! program, complete or cut off. Draws nothing and repairs nothing.
 
 mod content;
 mod frames;
-mod payload;
-mod shield;
+mod lengths;
+mod panics;
 mod summary;
 
 use std::{
@@ -13,14 +13,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use rerun::external::{
-    re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHeader, ToApplication},
-    re_log_types::LogMsg,
-};
+use re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHeader, ToApplication};
+use re_log_types::LogMsg;
 
 pub use summary::{EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary};
 
-use self::{content::Content, frames::Extent, shield::shielded};
+use self::{content::RecordingContent, frames::Extent, panics::catch_panic};
 
 /// Why a file cannot be read as a recording.
 #[derive(Debug, thiserror::Error)]
@@ -31,22 +29,22 @@ pub enum InspectError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the operating system says.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// A folder, a device or a pipe.
+    /// The path names a folder, a device or a pipe.
     #[error("{} is not a file", .path.display())]
     NotAFile {
-        /// What was named.
+        /// The path.
         path: PathBuf,
     },
-    /// Nothing in it.
+    /// The file has no bytes.
     #[error("{} is empty", .path.display())]
     Empty {
         /// The file.
         path: PathBuf,
     },
-    /// The first bytes are not those of a recording, or of one that is too old.
+    /// The first bytes are not those of a recording, or those of a format that is too old.
     #[error("{} is not a rerun recording: {reason}", .path.display())]
     NotARecording {
         /// The file.
@@ -54,74 +52,74 @@ pub enum InspectError {
         /// What is wrong with its first bytes.
         reason: String,
     },
-    /// It starts like a recording, but none is in it.
-    #[error("{} holds no recording", .path.display())]
+    /// The file starts like a recording but contains none.
+    #[error("{} contains no recording", .path.display())]
     NoRecording {
         /// The file.
         path: PathBuf,
     },
 }
 
-/// Faults that are told one by one; a spoilt file may have thousands.
-const MOST_PROBLEMS: usize = 20;
+/// The most unreadable messages that are reported one by one; a corrupt file can have thousands.
+const MAX_PROBLEMS: usize = 20;
 
-/// Reads a recording.
+/// The summary of a recording.
 ///
-/// A file that is cut off is read up to its last whole message; [`RecordingSummary::problems`]
-/// says so.
+/// A file that is cut off is read up to its last complete message, which [`RecordingSummary::problems`]
+/// reports.
 ///
 /// # Errors
-/// [`InspectError`] where there is no recording to read.
+/// [`InspectError`] if there is no recording to read.
 pub fn inspect(path: &Path) -> Result<RecordingSummary, InspectError> {
     let refused = |source| InspectError::Read { path: path.to_owned(), source };
-    let kind = std::fs::metadata(path).map_err(refused)?;
-    if !kind.is_file() {
+    let metadata = std::fs::metadata(path).map_err(refused)?;
+    if !metadata.is_file() {
         return Err(InspectError::NotAFile { path: path.to_owned() });
     }
-    if kind.len() == 0 {
+    if metadata.len() == 0 {
         return Err(InspectError::Empty { path: path.to_owned() });
     }
     let mut file = BufReader::new(File::open(path).map_err(refused)?);
-    let extent = Extent::of(&mut file, kind.len())
+    let extent = Extent::of(&mut file, metadata.len())
         .map_err(refused)?
         .map_err(|reason| InspectError::NotARecording { path: path.to_owned(), reason })?;
     file.seek(SeekFrom::Start(0)).map_err(refused)?;
-    let mut content = Content::default();
+    let mut content = RecordingContent::default();
     read_messages(file.take(extent.readable), &mut content);
     let mut summary = content.summary().ok_or_else(|| InspectError::NoRecording { path: path.to_owned() })?;
-    summary.bytes = kind.len();
-    summary.complete = extent.is_whole();
-    summary.problems.splice(0..0, extent.problem(kind.len()));
+    summary.bytes = metadata.len();
+    summary.complete = extent.is_complete();
+    summary.problems.splice(0..0, extent.problem(metadata.len()));
     Ok(summary)
 }
 
-fn read_messages(file: io::Take<BufReader<File>>, content: &mut Content) {
+fn read_messages(file: io::Take<BufReader<File>>, content: &mut RecordingContent) {
     let mut applications = CachingApplicationIdInjector::default();
-    let mut faults = 0_usize;
-    // Each message has a header: there cannot be more of them.
-    let most = file.limit() / MessageHeader::ENCODED_SIZE_BYTES as u64;
-    let most = usize::try_from(most).unwrap_or(usize::MAX);
-    for message in DecoderTransport::decode_lazy(file).take(most) {
+    let mut unreadable = 0_usize;
+    // Each message has a header, which bounds their number.
+    let max_messages = file.limit() / MessageHeader::ENCODED_SIZE_BYTES as u64;
+    let max_messages = usize::try_from(max_messages).unwrap_or(usize::MAX);
+    for message in DecoderTransport::decode_lazy(file).take(max_messages) {
         let taken = message.map_err(|error| error.to_string()).and_then(|message| {
-            payload::check(&message)?;
-            shielded(|| {
+            lengths::check(&message)?;
+            catch_panic(|| {
                 let message = message.to_application((&mut applications, None));
                 add(content, message.map_err(|error| error.to_string())?)
             })
         });
         if let Err(error) = taken {
-            faults += 1;
-            if faults <= MOST_PROBLEMS {
+            unreadable += 1;
+            if unreadable <= MAX_PROBLEMS {
                 content.add_problem(format!("a message cannot be read: {error}"));
             }
         }
     }
-    if faults > MOST_PROBLEMS {
-        content.add_problem(format!("{faults} messages cannot be read in all"));
+    if unreadable > MAX_PROBLEMS {
+        content.add_problem(format!("{unreadable} messages cannot be read in total"));
     }
 }
 
-fn add(content: &mut Content, message: LogMsg) -> Result<(), String> {
+fn add(content: &mut RecordingContent, message: LogMsg) -> Result<(), String> {
     match message {
         LogMsg::SetStoreInfo(info) => content.add_store(&info.info.store_id),
         LogMsg::ArrowMsg(store, message) => content.add_chunk(&store, &message)?,

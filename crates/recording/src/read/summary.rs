@@ -1,46 +1,49 @@
-//! What [`inspect`](super::inspect) gives: ordered lists, ready for people and for JSON.
+//! The result of [`inspect`](super::inspect): ordered lists, as text for people and as JSON.
 
 use std::{collections::BTreeMap, fmt};
 
 use serde::Serialize;
 
-/// What a recording holds.
+/// The property that holds the verdict.
+pub(super) const VERDICT: &str = "congruent/verdict";
+
+/// The content of a recording.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RecordingSummary {
     /// Name and version of this format.
     pub format: &'static str,
-    /// The application that made the recording.
+    /// The application id of the recording.
     pub application_id: String,
-    /// The recording.
+    /// The id of the recording.
     pub recording_id: String,
-    /// Size of the file.
+    /// Size of the file, in bytes.
     pub bytes: u64,
-    /// Whether the file ends with its footer; one that does not was cut off or is not finished.
+    /// Whether the file ends with its footer; otherwise it was cut off or the recording was not finished.
     pub complete: bool,
-    /// What is wrong with the file or its figures; empty where nothing is.
+    /// Problems with the file or its values.
     pub problems: Vec<String>,
-    /// The run's verdict, where the recording is one of this program.
+    /// The run's verdict, if this program made the recording.
     pub verdict: Option<String>,
-    /// Whether a layout for the viewer is inside.
+    /// Whether the file contains a layout for the viewer.
     pub has_layout: bool,
     /// Timelines, by name.
     pub timelines: Vec<TimelineSummary>,
     /// Entities, by path.
     pub entities: Vec<EntitySummary>,
-    /// Every scalar that is recorded over time, by path.
+    /// Scalars over time, by path.
     pub scalars: Vec<ScalarSummary>,
     /// Properties of the recording, by name.
     pub properties: BTreeMap<String, serde_json::Value>,
-    /// The whole report of the run, where the recording is one of this program.
+    /// The report of the run, if this program made the recording.
     pub report: Option<serde_json::Value>,
 }
 
-/// A timeline with its range.
+/// A timeline and its range.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct TimelineSummary {
     /// Its name.
     pub name: String,
-    /// `duration` and `timestamp` count nanoseconds, `sequence` counts.
+    /// `duration` or `timestamp`, both in nanoseconds, or `sequence`.
     pub kind: &'static str,
     /// The first time on it.
     pub first: i64,
@@ -48,31 +51,31 @@ pub struct TimelineSummary {
     pub last: i64,
 }
 
-/// What is recorded about one entity.
+/// The rows of one entity.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct EntitySummary {
-    /// Its path; odd characters in names are escaped with a backslash.
+    /// Its path; special characters in names are escaped with a backslash.
     pub path: String,
     /// Its components, by name.
     pub components: Vec<String>,
-    /// Rows in all chunks.
+    /// Number of rows in all chunks.
     pub rows: u64,
-    /// Chunks.
+    /// Number of chunks.
     pub chunks: u64,
 }
 
-/// Figures of one scalar.
+/// Statistics of one scalar over time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScalarSummary {
     /// Path of its entity.
     pub path: String,
-    /// How many values there are.
+    /// Number of values.
     pub count: u64,
-    /// How many of them are no number.
+    /// Number of NaN among them.
     pub nan: u64,
-    /// The smallest number.
+    /// The smallest value that is not NaN.
     pub min: Option<f64>,
-    /// The largest number.
+    /// The largest value that is not NaN.
     pub max: Option<f64>,
     /// The value at the last time.
     pub last: Option<f64>,
@@ -85,7 +88,7 @@ impl TimelineSummary {
     }
 }
 
-/// What the components belong to, each once; they are ordered by it.
+/// The archetypes of components that are sorted by name, each once.
 fn archetypes(components: &[String]) -> Vec<&str> {
     let mut archetypes: Vec<_> =
         components.iter().map(|name| name.split(':').next().unwrap_or(name)).collect();
@@ -95,17 +98,15 @@ fn archetypes(components: &[String]) -> Vec<&str> {
 
 impl fmt::Display for RecordingSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "application {}, recording {}", self.application_id, self.recording_id)?;
-        let state = if self.complete { "complete" } else { "not complete" };
-        writeln!(f, "{} bytes, {state}", self.bytes)?;
-        match &self.verdict {
-            Some(verdict) => writeln!(f, "verdict {verdict}")?,
-            None => writeln!(f, "no verdict inside")?,
-        }
+        writeln!(f, "application: {}", self.application_id)?;
+        writeln!(f, "recording: {}", self.recording_id)?;
+        let state = if self.complete { "complete" } else { "incomplete" };
+        writeln!(f, "file: {} bytes, {state}", self.bytes)?;
+        writeln!(f, "verdict: {}", self.verdict.as_deref().unwrap_or("none"))?;
         for problem in &self.problems {
             writeln!(f, "problem: {problem}")?;
         }
-        for (name, value) in &self.properties {
+        for (name, value) in self.properties.iter().filter(|(name, _)| *name != VERDICT) {
             writeln!(f, "property {name}: {value}")?;
         }
         for timeline in &self.timelines {
@@ -118,7 +119,7 @@ impl fmt::Display for RecordingSummary {
         }
         let longest = |paths: &mut dyn Iterator<Item = &String>| paths.map(|path| path.chars().count()).max();
         let width = longest(&mut self.entities.iter().map(|entity| &entity.path)).unwrap_or(0).min(60);
-        writeln!(f, "\n{:<width$}  {:>7}  kinds", "entity", "rows")?;
+        writeln!(f, "\n{:<width$}  {:>7}  archetypes", "entity", "rows")?;
         for EntitySummary { path, components, rows, .. } in &self.entities {
             writeln!(f, "{path:<width$}  {rows:>7}  {}", archetypes(components).join(", "))?;
         }

@@ -1,28 +1,28 @@
-//! Figures as people read them: few digits, a unit that fits.
+//! Values as text for people: few digits and a unit that follows the magnitude.
 
 use congruent_kinematics::PoseError;
 use congruent_twin::verdict::Measure;
 
-/// What is below a micrometre is told in powers of ten: nobody pictures it.
-const SMALLEST_PICTURED_M: f64 = 1e-6;
+/// Lengths below this one are written as powers of ten.
+const SMALLEST_DECIMAL_M: f64 = 1e-6;
 
-/// A length with four digits and a unit that fits.
-pub(super) fn length(value_m: f64) -> String {
+/// A length with about four digits, in m, mm or um.
+pub(crate) fn length(value_m: f64) -> String {
     match value_m.abs() {
         size if size >= 1.0 => format!("{value_m:.3} m"),
         size if size >= 1e-3 => format!("{:.2} mm", value_m * 1e3),
-        size if size >= SMALLEST_PICTURED_M => format!("{:.2} um", value_m * 1e6),
+        size if size >= SMALLEST_DECIMAL_M => format!("{:.2} um", value_m * 1e6),
         _ => format!("{value_m:.1e} m"),
     }
 }
 
-/// An angle with four digits.
-pub(super) fn angle(value_rad: f64) -> String {
+/// An angle with four decimals.
+pub(crate) fn angle(value_rad: f64) -> String {
     if value_rad.abs() >= 1e-3 { format!("{value_rad:.4} rad") } else { format!("{value_rad:.1e} rad") }
 }
 
 /// A value in its unit.
-pub(super) fn quantity(value: f64, unit: &str) -> String {
+pub(crate) fn quantity(value: f64, unit: &str) -> String {
     match unit {
         _ if value == 0.0 => format!("0 {unit}").trim_end().to_owned(),
         "m" => length(value),
@@ -31,8 +31,8 @@ pub(super) fn quantity(value: f64, unit: &str) -> String {
     }
 }
 
-/// A limit as it is written in a scenario.
-pub(super) fn limit(measure: &Measure) -> String {
+/// A limit in the unit of its scenario key.
+pub(crate) fn limit(measure: &Measure) -> String {
     let (sign, value) = (measure.bound.words(), measure.limit);
     if value == 0.0 || (1e-3..1e4).contains(&value.abs()) {
         format!("{sign} {value} {}", measure.unit)
@@ -41,8 +41,8 @@ pub(super) fn limit(measure: &Measure) -> String {
     }
 }
 
-/// A link with how far off it is, in position and, where there is more to say, in orientation.
-pub(super) fn disagreement(link: &str, error: &PoseError) -> String {
+/// A link with its position error, and its orientation error if that is a milliradian or more.
+pub(crate) fn pose_error(link: &str, error: &PoseError) -> String {
     let PoseError { position_m, orientation_rad } = *error;
     if orientation_rad >= 1e-3 {
         format!("{link}: {}, {}", length(position_m), angle(orientation_rad))
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn units_fit() {
+    fn units_follow_the_magnitude() {
         assert_eq!(length(1.2345), "1.234 m");
         assert_eq!(length(0.005), "5.00 mm");
         assert_eq!(length(-0.000_012), "-12.00 um");
@@ -64,6 +64,6 @@ mod tests {
         assert_eq!(quantity(0.0, "m"), "0 m");
         assert_eq!(quantity(0.25, ""), "0.2500");
         let error = PoseError { position_m: 0.005, orientation_rad: 0.0 };
-        assert_eq!(disagreement("tool0", &error), "tool0: 5.00 mm");
+        assert_eq!(pose_error("tool0", &error), "tool0: 5.00 mm");
     }
 }

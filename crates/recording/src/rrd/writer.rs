@@ -1,9 +1,8 @@
 //! Writes rerun messages to a file so that equal runs give equal bytes.
 //!
-//! rerun's own stream numbers chunks by the clock, lists the stores of the footer in the order of
-//! a random map, and reports a full disk only on request. Here identities are counted, the footer
-//! is sorted, and every write says at once whether it worked. What the messages mean is not known
-//! here.
+//! rerun's own encoder numbers chunks by the clock, lists the stores of the footer in the order of a random
+//! map, and reports a full disk only on request. Here identifiers are counted, the footer is sorted, and
+//! every write returns its error at once. This file knows nothing about the contents of the messages.
 
 use std::{
     collections::BTreeMap,
@@ -14,37 +13,34 @@ use std::{
 };
 
 use congruent_twin::recorder::RecordingError;
-use rerun::{
-    AsComponents, EntityPath, SerializedComponentBatch, SerializedComponentColumn, TimeColumn, TimePoint,
-    external::{
-        arrow::datatypes::Schema,
-        re_chunk_store::external::re_chunk::{Chunk, ChunkId, RowId, Span},
-        re_log_encoding::{
-            Compression, CrateVersion, Encodable, EncodingOptions, MessageHeader, MessageKind, RRD_FOURCC,
-            RrdFooter, RrdManifestBuilder, StreamFooter, StreamHeader, ToTransport,
-        },
-        re_log_types::{BlueprintActivationCommand, LogMsg, SetStoreInfo, StoreId, StoreInfo, StoreSource},
-    },
+use re_chunk::{Chunk, ChunkId, RowId, Span, TimeColumn, external::arrow::datatypes::Schema};
+use re_log_encoding::{
+    Compression, CrateVersion, Encodable, EncodingOptions, MessageHeader, MessageKind, RRD_FOURCC, RrdFooter,
+    RrdManifestBuilder, StreamFooter, StreamHeader, ToTransport,
 };
+use re_log_types::{
+    BlueprintActivationCommand, EntityPath, LogMsg, SetStoreInfo, StoreId, StoreInfo, StoreSource, TimePoint,
+};
+use re_sdk_types::{AsComponents, SerializedComponentBatch, SerializedComponentColumn};
 
-/// Says in a recording's own words what rerun or the disk refused.
-pub(super) fn failed(error: impl Display) -> RecordingError {
+/// A [`RecordingError`] with the message of an error of rerun or of the operating system.
+pub(crate) fn failed(error: impl Display) -> RecordingError {
     RecordingError { message: error.to_string() }
 }
 
-/// An open file of messages. The store that was opened last takes what is logged.
-pub(super) struct RrdWriter {
+/// An open file of messages. Rows go to the store that was opened last.
+pub(crate) struct RrdWriter {
     file: BufWriter<File>,
     written: u64,
     frame: Vec<u8>,
     store: StoreId,
     manifests: BTreeMap<StoreId, RrdManifestBuilder>,
-    last_identity: u64,
+    last_id: u64,
 }
 
 impl RrdWriter {
-    /// Makes the file and opens its first store.
-    pub(super) fn create(path: &Path, store: StoreId) -> Result<Self, RecordingError> {
+    /// Creates the file and opens its first store.
+    pub(crate) fn create(path: &Path, store: StoreId) -> Result<Self, RecordingError> {
         let file = File::create(path)
             .map_err(|error| failed(format_args!("cannot write {}: {error}", path.display())))?;
         let mut writer = Self {
@@ -53,7 +49,7 @@ impl RrdWriter {
             frame: Vec::new(),
             store: store.clone(),
             manifests: BTreeMap::new(),
-            last_identity: 0,
+            last_id: 0,
         };
         writer.put(&StreamHeader {
             fourcc: RRD_FOURCC,
@@ -64,10 +60,10 @@ impl RrdWriter {
         Ok(writer)
     }
 
-    /// Opens another store; what is logged from now on goes there.
-    pub(super) fn open_store(&mut self, store: StoreId) -> Result<(), RecordingError> {
+    /// Opens another store; rows go there from now on.
+    pub(crate) fn open_store(&mut self, store: StoreId) -> Result<(), RecordingError> {
         let source = StoreSource::Other(concat!("congruent ", env!("CARGO_PKG_VERSION")).to_owned());
-        let row_id = self.next_identity().1.as_tuid();
+        let row_id = self.next_ids().1.as_tuid();
         self.message(&LogMsg::SetStoreInfo(SetStoreInfo {
             row_id,
             info: StoreInfo::new(store.clone(), source),
@@ -76,15 +72,15 @@ impl RrdWriter {
         Ok(())
     }
 
-    /// Makes the open store the layout that the viewer takes for this application.
-    pub(super) fn activate_blueprint(&mut self) -> Result<(), RecordingError> {
+    /// Makes the open store the layout that the viewer uses for this application.
+    pub(crate) fn activate_blueprint(&mut self) -> Result<(), RecordingError> {
         let command = BlueprintActivationCommand::make_active(self.store.clone());
         self.message(&LogMsg::BlueprintActivationCommand(command))?;
         Ok(())
     }
 
-    /// Logs what holds at all times.
-    pub(super) fn log_static(
+    /// Logs components that hold at all times.
+    pub(crate) fn log_static(
         &mut self,
         path: &EntityPath,
         components: &dyn AsComponents,
@@ -92,8 +88,8 @@ impl RrdWriter {
         self.row(path, TimePoint::default(), components.as_serialized_batches())
     }
 
-    /// Logs what holds from one instant on.
-    pub(super) fn log_at(
+    /// Logs components that hold from one time on.
+    pub(crate) fn log_at(
         &mut self,
         path: &EntityPath,
         time: TimePoint,
@@ -102,8 +98,8 @@ impl RrdWriter {
         self.row(path, time, components.as_serialized_batches())
     }
 
-    /// Logs components that are serialized already, as one row.
-    pub(super) fn row(
+    /// Logs serialized components as one row.
+    pub(crate) fn row(
         &mut self,
         path: &EntityPath,
         time: TimePoint,
@@ -112,7 +108,7 @@ impl RrdWriter {
         if components.is_empty() {
             return Ok(());
         }
-        let (chunk, row) = self.next_identity();
+        let (chunk, row) = self.next_ids();
         let chunk = Chunk::builder_with_id(chunk, path.clone())
             .with_serialized_batches(row, time, components)
             .build()
@@ -121,26 +117,27 @@ impl RrdWriter {
     }
 
     /// Logs many rows of one entity at once.
-    pub(super) fn columns(
+    pub(crate) fn columns(
         &mut self,
         path: &EntityPath,
         times: &[TimeColumn],
         columns: impl IntoIterator<Item = SerializedComponentColumn>,
     ) -> Result<(), RecordingError> {
         let times = times.iter().map(|column| (*column.timeline().name(), column.clone())).collect();
-        let (chunk, _) = self.next_identity();
+        let (chunk, _) = self.next_ids();
         let columns = columns.into_iter().collect();
         let chunk = Chunk::from_auto_row_ids(chunk, path.clone(), times, columns).map_err(failed)?;
         self.chunk(&chunk)
     }
 
-    /// Hands everything so far to the operating system: a run that is killed leaves at least this.
-    pub(super) fn flush(&mut self) -> Result<(), RecordingError> {
+    /// Passes all data so far to the operating system: a run that is killed leaves at least these data in the
+    /// file.
+    pub(crate) fn flush(&mut self) -> Result<(), RecordingError> {
         self.file.flush().map_err(failed)
     }
 
-    /// Writes the footer, from which viewers find their way, and closes the file.
-    pub(super) fn finish(mut self) -> Result<(), RecordingError> {
+    /// Writes the footer, the index that viewers read first, and closes the file.
+    pub(crate) fn finish(mut self) -> Result<(), RecordingError> {
         let mut footer = RrdFooter::default();
         for (store, manifest) in std::mem::take(&mut self.manifests) {
             let mut manifest = manifest.build(store.clone()).map_err(failed)?;
@@ -170,7 +167,7 @@ impl RrdWriter {
         manifest.append(&batch, span, uncompressed).map_err(failed)
     }
 
-    /// Writes a message; gives the place of its payload in the file and its size unpacked.
+    /// Writes a message; returns the span of its payload in the file and its size before compression.
     fn message(&mut self, message: &LogMsg) -> Result<(Span<u64>, u64), RecordingError> {
         let message = message.to_transport(Compression::LZ4).map_err(failed)?;
         let header = MessageHeader::ENCODED_SIZE_BYTES as u64;
@@ -180,7 +177,7 @@ impl RrdWriter {
         Ok((span, message.byte_size_uncompressed()))
     }
 
-    /// Writes one frame whole.
+    /// Writes one complete frame.
     fn put(&mut self, frame: &dyn Encodable) -> Result<(), RecordingError> {
         self.frame.clear();
         frame.to_rrd_bytes(&mut self.frame).map_err(failed)?;
@@ -189,11 +186,11 @@ impl RrdWriter {
         Ok(())
     }
 
-    /// Counted, where rerun takes the clock: the upper half is a number of our own, rows of the
-    /// same chunk count in the lower half.
-    fn next_identity(&mut self) -> (ChunkId, RowId) {
-        self.last_identity += 1;
-        let identity = u128::from(self.last_identity) << 64;
-        (ChunkId::from_u128(identity), RowId::from_u128(identity + 1))
+    /// Identifiers that are counted, not taken from the clock as rerun does: the upper half is the number of
+    /// the chunk, the lower half counts its rows.
+    fn next_ids(&mut self) -> (ChunkId, RowId) {
+        self.last_id += 1;
+        let id = u128::from(self.last_id) << 64;
+        (ChunkId::from_u128(id), RowId::from_u128(id + 1))
     }
 }

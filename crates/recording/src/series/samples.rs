@@ -1,78 +1,83 @@
-//! Samples gathered in columns until there are enough to be written in one go.
+//! Poses, errors, joint positions and the tool's path, gathered in columns and written in batches.
 
 use congruent_kinematics::{Pose, PoseError};
 use congruent_twin::{Sample, monitor::Names, recorder::RecordingError};
 use nalgebra::{Isometry3, Point3};
-use rerun::{LineStrips3D, Quaternion, Scalars, TimeColumn, Transform3D};
+use re_chunk::TimeColumn;
+use re_sdk_types::{
+    archetypes::{LineStrips3D, Transform3D},
+    datatypes::Quaternion,
+};
 
-use crate::{
-    body::{quaternion, vector},
+use super::scalars::{log10, write_scalars};
+use crate::rrd::{
+    convert::{quaternion, vector},
     paths,
-    times::{Instant, Times},
+    times::{SampleTime, SampleTimes},
     writer::{RrdWriter, failed},
 };
 
-/// Rows of a batch. Each batch costs some 2 kB of footer for each entity, whatever its length.
-pub(super) const ROWS: usize = 1000;
+/// The most rows of a batch. A batch of any length adds some 2 kB to the footer for each entity.
+const MAX_ROWS: usize = 1000;
 
-/// A pose as rerun takes it.
+/// A pose in rerun's types.
 #[derive(Debug, Clone, Copy)]
-struct Placed {
+struct RerunPose {
     translation: [f32; 3],
     quaternion: Quaternion,
 }
 
-impl From<&Isometry3<f64>> for Placed {
+impl From<&Isometry3<f64>> for RerunPose {
     fn from(pose: &Isometry3<f64>) -> Self {
         Self { translation: vector(&pose.translation.vector), quaternion: quaternion(pose) }
     }
 }
 
-/// The columns; those with several values a row hold them one after another.
+/// The columns of a batch; a column with several values in each row holds them one after another.
 #[derive(Debug)]
-pub(super) struct Batch {
-    times: Times,
-    twin: Vec<Placed>,
-    model: Vec<Placed>,
+pub(crate) struct SampleBatch {
+    times: SampleTimes,
+    twin: Vec<RerunPose>,
+    model: Vec<RerunPose>,
     errors: Vec<PoseError>,
     q: Vec<f64>,
     tool: Vec<[f32; 3]>,
-    /// The tool at the end of the batch before, where the trail goes on.
-    tool_before: Option<[f32; 3]>,
+    /// The tool's position at the end of the previous batch, from which the trail continues.
+    previous_tool: Option<[f32; 3]>,
 }
 
-impl Batch {
-    /// Room for a batch about a robot with these names.
-    pub(super) fn new(names: &Names) -> Self {
-        let poses = ROWS * names.links.len();
+impl SampleBatch {
+    /// An empty batch for a robot with these names.
+    pub(crate) fn new(names: &Names) -> Self {
+        let poses = MAX_ROWS * names.links.len();
         Self {
-            times: Times::with_capacity(ROWS),
+            times: SampleTimes::with_capacity(MAX_ROWS),
             twin: Vec::with_capacity(poses),
             model: Vec::with_capacity(poses),
             errors: Vec::with_capacity(poses),
-            q: Vec::with_capacity(ROWS * names.joints.len()),
-            tool: Vec::with_capacity(ROWS),
-            tool_before: None,
+            q: Vec::with_capacity(MAX_ROWS * names.joints.len()),
+            tool: Vec::with_capacity(MAX_ROWS),
+            previous_tool: None,
         }
     }
 
-    /// Whether the next row needs the batch written first.
-    pub(super) fn is_full(&self) -> bool {
-        self.times.len() >= ROWS
+    /// Whether the batch must be written before the next row.
+    pub(crate) fn is_full(&self) -> bool {
+        self.times.len() >= MAX_ROWS
     }
 
     /// Adds a row.
-    pub(super) fn push(&mut self, instant: Instant, sample: &Sample<'_>, tool_in_world: &Point3<f64>) {
-        self.times.push(instant);
-        self.twin.extend(sample.twin.iter().map(Placed::from));
-        self.model.extend(sample.model.iter().map(|pose: &Pose| Placed::from(&pose.to_isometry())));
+    pub(crate) fn push(&mut self, time: SampleTime, sample: &Sample<'_>, tool_in_world: &Point3<f64>) {
+        self.times.push(time);
+        self.twin.extend(sample.twin.iter().map(RerunPose::from));
+        self.model.extend(sample.model.iter().map(|pose: &Pose| RerunPose::from(&pose.to_isometry())));
         self.errors.extend_from_slice(sample.errors);
         self.q.extend_from_slice(sample.joints.truth.q);
         self.tool.push(vector(&tool_in_world.coords));
     }
 
-    /// Writes all rows and forgets them.
-    pub(super) fn write(&mut self, writer: &mut RrdWriter, names: &Names) -> Result<(), RecordingError> {
+    /// Writes all rows and removes them.
+    pub(crate) fn write(&mut self, writer: &mut RrdWriter, names: &Names) -> Result<(), RecordingError> {
         if self.times.is_empty() {
             return Ok(());
         }
@@ -99,7 +104,7 @@ impl Batch {
         Ok(())
     }
 
-    /// The largest errors as powers of ten: rounding and limit are many decades apart.
+    /// The largest errors as decimal logarithms: rounding errors and limits are many decades apart.
     fn write_worst(
         &self,
         writer: &mut RrdWriter,
@@ -108,7 +113,7 @@ impl Batch {
     ) -> Result<(), RecordingError> {
         let worst = |value: fn(&PoseError) -> f64| {
             let rows = self.errors.chunks_exact(links.max(1));
-            rows.map(move |row| exponent(row.iter().map(value).fold(0.0, f64::max)))
+            rows.map(move |row| log10(row.iter().map(value).fold(0.0, f64::max)))
         };
         let position = worst(|error| error.position_m);
         write_scalars(writer, &paths::worst_of_links("position"), times, position)?;
@@ -116,16 +121,17 @@ impl Batch {
         write_scalars(writer, &paths::worst_of_links("orientation"), times, orientation)
     }
 
-    /// One piece of line for each row, from where the tool was at the row before.
+    /// One line segment for each row, from the tool's position in the previous row.
     fn write_trail(&self, writer: &mut RrdWriter, times: &[TimeColumn]) -> Result<(), RecordingError> {
-        let from = self.tool_before.iter().chain(self.tool.first().filter(|_| self.tool_before.is_none()));
-        let pieces = from.chain(&self.tool).zip(&self.tool).map(|(&from, &to)| [from, to]);
-        let trail = LineStrips3D::update_fields().with_strips(pieces);
+        let from =
+            self.previous_tool.iter().chain(self.tool.first().filter(|_| self.previous_tool.is_none()));
+        let segments = from.chain(&self.tool).zip(&self.tool).map(|(&from, &to)| [from, to]);
+        let trail = LineStrips3D::update_fields().with_strips(segments);
         writer.columns(&paths::trail(), times, trail.columns_of_unit_batches().map_err(failed)?)
     }
 
     fn clear(&mut self) {
-        self.tool_before = self.tool.last().copied();
+        self.previous_tool = self.tool.last().copied();
         self.times.clear();
         self.twin.clear();
         self.model.clear();
@@ -135,25 +141,10 @@ impl Batch {
     }
 }
 
-/// The power of ten of an error; below all rounding, there is no difference to no error at all.
-pub(super) fn exponent(error: f64) -> f64 {
-    const NOTHING: f64 = 1e-18;
-    error.max(NOTHING).log10()
-}
-
-/// Writes one scalar for each instant.
-pub(super) fn write_scalars(
-    writer: &mut RrdWriter,
-    path: &rerun::EntityPath,
-    times: &[TimeColumn],
-    values: impl Iterator<Item = f64>,
-) -> Result<(), RecordingError> {
-    writer.columns(path, times, Scalars::new(values).columns_of_unit_batches().map_err(failed)?)
-}
-
+/// Poses as a column of transforms.
 fn transforms<'a>(
-    poses: impl Iterator<Item = &'a Placed> + Clone,
-) -> Result<impl Iterator<Item = rerun::SerializedComponentColumn>, RecordingError> {
+    poses: impl Iterator<Item = &'a RerunPose> + Clone,
+) -> Result<impl Iterator<Item = re_sdk_types::SerializedComponentColumn>, RecordingError> {
     Transform3D::update_fields()
         .with_many_translation(poses.clone().map(|pose| pose.translation))
         .with_many_quaternion(poses.map(|pose| pose.quaternion))

@@ -1,33 +1,33 @@
-//! Which application and which recording a file says it is. Viewers keep one layout for each
-//! application and merge recordings of the same identity, so both follow from what was run.
+//! The application and the recording that a file belongs to. Viewers keep one layout for each application and
+//! merge recordings with the same identifier, so both follow from the scenario.
 
 use std::fmt::Write;
 
 use congruent_twin::RunSetup;
-use rerun::{ApplicationId, StoreId, StoreKind};
+use re_log_types::{ApplicationId, StoreId, StoreKind};
 use sha2::{Digest, Sha256};
 
-/// Longest application id that rerun takes, less the prefix.
-const LONGEST: usize = 160;
-/// Digits of the hash in a recording's id.
-const DIGITS: usize = 16;
+/// The most characters of a scenario's name in an application id: rerun limits the length.
+const MAX_NAME_CHARACTERS: usize = 160;
+/// Hexadecimal digits of the hash in a recording's id.
+const HASH_DIGITS: usize = 16;
 
 /// The store of a scenario's recording, or of its layout.
-pub(super) fn store(setup: &RunSetup, kind: StoreKind) -> StoreId {
+pub(crate) fn store(setup: &RunSetup, kind: StoreKind) -> StoreId {
     let name = application(&setup.scenario.name);
     let application = ApplicationId::new_or_unknown(name.as_str());
     let recording = format!("{name} {}", fingerprint(setup));
     StoreId::new(kind, application, recording)
 }
 
-/// Letters, digits and few signs are all that rerun takes.
+/// The application id of a scenario, in the characters that rerun allows.
 fn application(scenario: &str) -> String {
-    let is_taken = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | ' ');
-    let safe = scenario.chars().take(LONGEST).map(|c| if is_taken(c) { c } else { '_' });
+    let is_allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | ' ');
+    let safe = scenario.chars().take(MAX_NAME_CHARACTERS).map(|c| if is_allowed(c) { c } else { '_' });
     format!("congruent {}", safe.collect::<String>().trim())
 }
 
-/// Hash over the scenario and the robot without its meshes: runs that may differ have another.
+/// Hash of the scenario and of the robot without its meshes: runs that can differ have different hashes.
 fn fingerprint(setup: &RunSetup) -> String {
     let description = &setup.description;
     let robot = &description.robot;
@@ -39,7 +39,7 @@ fn fingerprint(setup: &RunSetup) -> String {
     }
     hash.update(format!("{:?} {:?} {:?}", description.dh, description.tip_from_tcp, description.tolerance));
     let mut digits = String::new();
-    for byte in hash.finalize().iter().take(DIGITS / 2) {
+    for byte in hash.finalize().iter().take(HASH_DIGITS / 2) {
         let _ = write!(digits, "{byte:02x}");
     }
     digits

@@ -1,4 +1,4 @@
-//! What came out, for people as a document and for programs as properties of the recording.
+//! The results of a run: a document for people, and properties of the recording for programs.
 
 use std::{fmt::Write, sync::Arc};
 
@@ -8,25 +8,29 @@ use congruent_twin::{
     scenario::Expectation,
     verdict::{CheckResult, Moment, Status, Verdict},
 };
-use rerun::{
-    AnyValues, RecordingInfo, TextDocument,
-    external::arrow::array::{ArrayRef, Float64Array, StringArray, UInt64Array},
+use re_chunk::external::arrow::array::{ArrayRef, Float64Array, StringArray, UInt64Array};
+use re_sdk_types::{
+    AnyValues,
+    archetypes::{RecordingInfo, TextDocument},
 };
 
-use crate::{paths, units, writer::RrdWriter};
+use crate::{
+    formatting,
+    rrd::{paths, writer::RrdWriter},
+};
 
-/// Writes both.
-pub(super) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
+/// Writes the document and the properties.
+pub(crate) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
     writer.log_static(&paths::summary(), &TextDocument::from_markdown(markdown(report)))?;
     let info = RecordingInfo::new().with_name(report.scenario.as_str());
-    writer.log_static(&rerun::EntityPath::properties(), &info)?;
+    writer.log_static(&re_log_types::EntityPath::properties(), &info)?;
     writer.log_static(&paths::properties(), &properties(report))
 }
 
 fn properties(report: &RunReport) -> AnyValues {
     let text = |text: &str| -> ArrayRef { Arc::new(StringArray::from(vec![text])) };
     let number = |number: u64| -> ArrayRef { Arc::new(UInt64Array::from(vec![number])) };
-    let json = serde_json::to_string(report).expect("a report holds nothing that JSON cannot");
+    let json = serde_json::to_string(report).expect("every report can be written as JSON");
     let word = serde_json::to_value(report.verdict).expect("a verdict is a word");
     AnyValues::default()
         .with_component_from_data("scenario", text(&report.scenario))
@@ -43,14 +47,10 @@ fn properties(report: &RunReport) -> AnyValues {
         .with_component_from_data("report", text(&json))
 }
 
-/// The verdict in a sentence.
-pub(super) fn verdict(report: &RunReport) -> String {
-    let failed: Vec<_> = report
-        .checks
-        .iter()
-        .filter(|check| check.status == Status::Fail)
-        .map(|check| check.check.word())
-        .collect();
+/// The verdict as a sentence.
+pub(crate) fn verdict(report: &RunReport) -> String {
+    let failed: Vec<_> =
+        report.checks.iter().filter(|check| check.status == Status::Fail).map(|check| check.check.word()).collect();
     let failed = failed.join(", ");
     match (report.verdict, &report.expected) {
         (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
@@ -60,7 +60,7 @@ pub(super) fn verdict(report: &RunReport) -> String {
         }
         (Verdict::NotAsExpected, _) => format!("{failed} fails, against expectation"),
         (Verdict::NothingChecked, _) => "nothing was checked".to_owned(),
-        (Verdict::Broken, _) => "the run broke".to_owned(),
+        (Verdict::Broken, _) => "the run ended with an error".to_owned(),
     }
 }
 
@@ -96,16 +96,16 @@ fn markdown(report: &RunReport) -> String {
     text
 }
 
-/// A check with its worst values: prose, which wraps where a table would be cut off.
+/// Adds a check with its worst values, as a list, since the viewer cuts off wide tables.
 fn push_check(text: &mut String, check: &CheckResult) {
     let _ = writeln!(text, "- **{} {}**", check.check, check.status.word());
     for measure in &check.measures {
         let quantity = measure.quantity.replace('_', " ");
-        let limit = units::limit(measure);
+        let limit = formatting::limit(measure);
         let _ = match &measure.worst {
-            None => writeln!(text, "  - {quantity}: nothing seen, {limit}"),
+            None => writeln!(text, "  - {quantity}: no value, {limit}"),
             Some(Moment { time_s, subject, value, .. }) => {
-                let value = units::quantity(*value, measure.unit);
+                let value = formatting::quantity(*value, measure.unit);
                 writeln!(text, "  - {quantity} **{value}**, {limit}, {} at {time_s:.3} s", escaped(subject))
             }
         };
@@ -115,7 +115,7 @@ fn push_check(text: &mut String, check: &CheckResult) {
     }
 }
 
-/// Text that comes from files, so that Markdown takes it as it is.
+/// Text from files, escaped so that Markdown shows it unchanged.
 fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
@@ -134,7 +134,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_from_files_stay_text() {
+    fn names_from_files_are_escaped() {
         assert_eq!(escaped("wrist_1_link--table"), "wrist_1_link--table");
         assert_eq!(escaped("a|b\n<img>`x`"), "a\\|b \\<img\\>\\`x\\`");
     }

@@ -1,35 +1,32 @@
-//! A tree of views as rerun's viewer reads it. What the views show is decided in `blueprint.rs`.
+//! A tree of views in the form that rerun's viewer reads. `layout.rs` decides what the views show.
 
 use congruent_twin::recorder::RecordingError;
-use rerun::{
-    AsComponents, EntityPath, EntityPathPart, SerializedComponentBatch, TimePoint, Timeline,
-    external::{
-        re_log_types::TimeInt,
-        re_sdk_types::{
-            blueprint::{
-                archetypes::{ContainerBlueprint, ViewBlueprint, ViewContents, VisibleTimeRanges},
-                components::{
-                    ActiveTab, ColumnShare, ContainerKind, IncludedContent, QueryExpression, RowShare,
-                    VisibleTimeRange,
-                },
-            },
-            datatypes::{TimeInt as RelativeTime, TimeRange, TimeRangeBoundary, VisibleTimeRange as Range},
+use re_log_types::{EntityPath, EntityPathPart, TimeInt, TimePoint, Timeline};
+use re_sdk_types::{
+    AsComponents, SerializedComponentBatch,
+    blueprint::{
+        archetypes::{ContainerBlueprint, ViewBlueprint, ViewContents, VisibleTimeRanges},
+        components::{
+            ActiveTab, ColumnShare, ContainerKind, IncludedContent, QueryExpression, RowShare,
+            VisibleTimeRange,
         },
-        uuid::Uuid,
     },
+    datatypes::{TimeInt as RelativeTime, TimeRange, TimeRangeBoundary, VisibleTimeRange as Range},
+    external::uuid::Uuid,
 };
 
-use crate::{
+use crate::rrd::{
+    paths,
     times::{SIM_TIME, nanoseconds},
     writer::RrdWriter,
 };
 
-/// Viewers read a layout on a timeline of this name.
+/// Name of the timeline on which viewers read a layout.
 const BLUEPRINT_TIMELINE: &str = "blueprint";
 
 /// One view.
 #[derive(Debug, Clone)]
-pub(super) struct View {
+pub(crate) struct View {
     class: &'static str,
     name: String,
     origin: EntityPath,
@@ -40,7 +37,7 @@ pub(super) struct View {
 
 impl View {
     /// A view of everything at and below `origin`.
-    pub(super) fn new(class: &'static str, name: impl Into<String>, origin: EntityPath) -> Self {
+    pub(crate) fn new(class: &'static str, name: impl Into<String>, origin: EntityPath) -> Self {
         Self {
             class,
             name: name.into(),
@@ -51,58 +48,58 @@ impl View {
         }
     }
 
-    /// Shows these entities only.
-    pub(super) fn only(mut self, entities: impl IntoIterator<Item = EntityPath>) -> Self {
+    /// Shows only these entities.
+    pub(crate) fn only(mut self, entities: impl IntoIterator<Item = EntityPath>) -> Self {
         self.contents = entities.into_iter().map(|path| format!("+ {path}")).collect();
         self
     }
 
     /// Sets one of the view's properties.
-    pub(super) fn with(mut self, name: &'static str, property: &dyn AsComponents) -> Self {
+    pub(crate) fn with(mut self, name: &'static str, property: &dyn AsComponents) -> Self {
         self.properties.push((name, property.as_serialized_batches()));
         self
     }
 
-    /// Shows the last seconds of an entity, not only its latest row.
-    pub(super) fn with_trail(mut self, entity: EntityPath, duration_s: f64) -> Self {
+    /// Shows the rows of an entity in the last seconds, not only the latest row.
+    pub(crate) fn with_trail(mut self, entity: EntityPath, duration_s: f64) -> Self {
         self.trail = Some((entity, duration_s));
         self
     }
 }
 
-/// A view, or several beside, above or behind each other.
+/// A view, or a container of nodes.
 #[derive(Debug, Clone)]
-pub(super) enum Node {
+pub(crate) enum LayoutNode {
     /// One view.
     View(Box<View>),
-    /// Side by side, with the shares of the width.
-    Columns(Vec<(f32, Node)>),
-    /// Above each other, with the shares of the height.
-    Rows(Vec<(f32, Node)>),
-    /// Behind each other; the first is in front.
-    Tabs(Vec<Node>),
+    /// Side by side, each with its share of the width.
+    Columns(Vec<(f32, LayoutNode)>),
+    /// One above the other, each with its share of the height.
+    Rows(Vec<(f32, LayoutNode)>),
+    /// In tabs; the first is in front.
+    Tabs(Vec<LayoutNode>),
 }
 
-impl From<View> for Node {
+impl From<View> for LayoutNode {
     fn from(view: View) -> Self {
         Self::View(Box::new(view))
     }
 }
 
-/// Writes a layout into the open store; names are counted, so that equal layouts are equal bytes.
-pub(super) struct LayoutWriter<'a> {
+/// Writes a layout into the open store; identifiers are counted, so that equal layouts give equal bytes.
+pub(crate) struct BlueprintWriter<'a> {
     writer: &'a mut RrdWriter,
     nodes: u128,
 }
 
-impl<'a> LayoutWriter<'a> {
-    /// A layout in the store that is open.
-    pub(super) fn new(writer: &'a mut RrdWriter) -> Self {
+impl<'a> BlueprintWriter<'a> {
+    /// A writer of a layout into the open store.
+    pub(crate) fn new(writer: &'a mut RrdWriter) -> Self {
         Self { writer, nodes: 0 }
     }
 
     /// Logs one row at a path of the layout.
-    pub(super) fn log(
+    pub(crate) fn log(
         &mut self,
         path: impl Into<EntityPath>,
         components: &dyn AsComponents,
@@ -110,16 +107,16 @@ impl<'a> LayoutWriter<'a> {
         self.row(path, components.as_serialized_batches())
     }
 
-    /// Writes a node with all below it; gives its name.
-    pub(super) fn node(&mut self, node: &Node) -> Result<Uuid, RecordingError> {
+    /// Writes a node and all nodes below it; returns its identifier.
+    pub(crate) fn node(&mut self, node: &LayoutNode) -> Result<Uuid, RecordingError> {
         self.nodes += 1;
         let id = Uuid::from_u128(self.nodes);
         match node {
-            Node::View(view) => self.view(id, view)?,
-            Node::Columns(children) | Node::Rows(children) => {
+            LayoutNode::View(view) => self.view(id, view)?,
+            LayoutNode::Columns(children) | LayoutNode::Rows(children) => {
                 let (shares, nodes): (Vec<_>, Vec<_>) = children.iter().cloned().unzip();
                 let contents = self.contents(&nodes)?;
-                let container = if matches!(node, Node::Columns(_)) {
+                let container = if matches!(node, LayoutNode::Columns(_)) {
                     ContainerBlueprint::new(ContainerKind::Horizontal)
                         .with_col_shares(shares.into_iter().map(|share| ColumnShare(share.into())))
                 } else {
@@ -128,7 +125,7 @@ impl<'a> LayoutWriter<'a> {
                 };
                 self.log(container_path(id), &container.with_contents(contents))?;
             }
-            Node::Tabs(nodes) => {
+            LayoutNode::Tabs(nodes) => {
                 let contents = self.contents(nodes)?;
                 let mut container = ContainerBlueprint::new(ContainerKind::Tabs);
                 if let Some(first) = contents.first() {
@@ -140,11 +137,11 @@ impl<'a> LayoutWriter<'a> {
         Ok(id)
     }
 
-    fn contents(&mut self, nodes: &[Node]) -> Result<Vec<IncludedContent>, RecordingError> {
+    fn contents(&mut self, nodes: &[LayoutNode]) -> Result<Vec<IncludedContent>, RecordingError> {
         let mut contents = Vec::with_capacity(nodes.len());
         for node in nodes {
             let id = self.node(node)?;
-            let path = if matches!(node, Node::View(_)) { view_path(id) } else { container_path(id) };
+            let path = if matches!(node, LayoutNode::View(_)) { view_path(id) } else { container_path(id) };
             contents.push(IncludedContent(path.to_string().into()));
         }
         Ok(contents)
@@ -190,9 +187,9 @@ fn last_seconds(duration_s: f64) -> VisibleTimeRange {
 }
 
 fn view_path(id: Uuid) -> EntityPath {
-    super::paths::path(&["view", &id.to_string()])
+    paths::path(&["view", &id.to_string()])
 }
 
 fn container_path(id: Uuid) -> EntityPath {
-    super::paths::path(&["container", &id.to_string()])
+    paths::path(&["container", &id.to_string()])
 }

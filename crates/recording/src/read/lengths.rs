@@ -1,56 +1,55 @@
-//! Holds the lengths inside a message against what is there, before the Arrow reader allocates
-//! what they claim. Only lengths are looked at; what is well formed and wrong passes.
+//! Compares the lengths stated inside a message with its size, before the Arrow reader allocates that much
+//! memory. Checks nothing but lengths.
 
-use rerun::external::{
-    arrow::ipc::root_as_message,
-    re_log_encoding::{Decodable, Encodable, MessageHeader, MessageKind, external::lz4_flex},
-};
+use re_chunk::external::arrow::ipc::root_as_message;
+use re_log_encoding::{Decodable, Encodable, MessageHeader, MessageKind, external::lz4_flex};
 
-/// LZ4 packs no tighter than this.
-const TIGHTEST_PACKING: usize = 255;
-/// Field numbers of rerun's `ArrowMsg`, and the number that stands for LZ4.
+/// The largest compression ratio of LZ4.
+const MAX_COMPRESSION_RATIO: usize = 255;
+/// Field numbers of rerun's `ArrowMsg`, and its number for LZ4.
 const COMPRESSION: u64 = 2;
-const UNPACKED_LENGTH: u64 = 3;
+const UNCOMPRESSED_LENGTH: u64 = 3;
 const PAYLOAD: u64 = 5;
 const LZ4: u64 = 2;
-/// What stands before the length of an Arrow message.
+/// The bytes before the length of an Arrow message.
 const CONTINUATION: [u8; 4] = [0xff; 4];
 
-/// Refuses a message that claims more than it has.
+const WRONG_LENGTHS: &str = "its lengths do not match its data";
+
+/// Refuses a message that states a length beyond its data.
 pub(super) fn check(message: &dyn Encodable) -> Result<(), String> {
     let mut bytes = Vec::new();
     message.to_rrd_bytes(&mut bytes).map_err(|error| error.to_string())?;
     let (header, body) =
-        bytes.split_at_checked(MessageHeader::ENCODED_SIZE_BYTES).ok_or("it has no header")?;
+        bytes.split_at_checked(MessageHeader::ENCODED_SIZE_BYTES).ok_or("its header is missing")?;
     let header = MessageHeader::from_rrd_bytes(header).map_err(|error| error.to_string())?;
     if header.kind != MessageKind::ArrowMsg {
         return Ok(());
     }
-    let ArrowMessage { is_packed, unpacked_length, payload } = ArrowMessage::read(body).ok_or(SENSELESS)?;
-    if !is_packed {
-        return check_arrow(payload).ok_or_else(|| SENSELESS.to_owned());
+    let ArrowMessage { is_compressed, uncompressed_length, payload } =
+        ArrowMessage::read(body).ok_or(WRONG_LENGTHS)?;
+    if !is_compressed {
+        return check_arrow(payload).ok_or_else(|| WRONG_LENGTHS.to_owned());
     }
-    if unpacked_length > payload.len().saturating_mul(TIGHTEST_PACKING) {
-        return Err("it claims an impossible size".to_owned());
+    if uncompressed_length > payload.len().saturating_mul(MAX_COMPRESSION_RATIO) {
+        return Err("its stated size is more than its compressed data can hold".to_owned());
     }
-    let unpacked =
-        lz4_flex::block::decompress(payload, unpacked_length).map_err(|error| error.to_string())?;
-    check_arrow(&unpacked).ok_or_else(|| SENSELESS.to_owned())
+    let uncompressed =
+        lz4_flex::block::decompress(payload, uncompressed_length).map_err(|error| error.to_string())?;
+    check_arrow(&uncompressed).ok_or_else(|| WRONG_LENGTHS.to_owned())
 }
 
-const SENSELESS: &str = "its lengths make no sense";
-
-/// The fields of rerun's message that say how long things are.
+/// The fields of rerun's message that state lengths, and the payload.
 #[derive(Debug, PartialEq, Eq)]
 struct ArrowMessage<'a> {
-    is_packed: bool,
-    unpacked_length: usize,
+    is_compressed: bool,
+    uncompressed_length: usize,
     payload: &'a [u8],
 }
 
 impl<'a> ArrowMessage<'a> {
     fn read(mut bytes: &'a [u8]) -> Option<Self> {
-        let mut found = Self { is_packed: false, unpacked_length: 0, payload: &[] };
+        let mut fields = Self { is_compressed: false, uncompressed_length: 0, payload: &[] };
         while !bytes.is_empty() {
             let key = varint(&mut bytes)?;
             let (field, wire_type) = (key >> 3, key & 7);
@@ -58,8 +57,8 @@ impl<'a> ArrowMessage<'a> {
                 0 => {
                     let value = varint(&mut bytes)?;
                     match field {
-                        COMPRESSION => found.is_packed = value == LZ4,
-                        UNPACKED_LENGTH => found.unpacked_length = usize::try_from(value).ok()?,
+                        COMPRESSION => fields.is_compressed = value == LZ4,
+                        UNCOMPRESSED_LENGTH => fields.uncompressed_length = usize::try_from(value).ok()?,
                         _ => {}
                     }
                 }
@@ -67,7 +66,7 @@ impl<'a> ArrowMessage<'a> {
                     let length = usize::try_from(varint(&mut bytes)?).ok()?;
                     let value = take(&mut bytes, length)?;
                     if field == PAYLOAD {
-                        found.payload = value;
+                        fields.payload = value;
                     }
                 }
                 1 => _ = take(&mut bytes, 8)?,
@@ -75,11 +74,11 @@ impl<'a> ArrowMessage<'a> {
                 _ => return None,
             }
         }
-        Some(found)
+        Some(fields)
     }
 }
 
-/// Walks over the messages of an Arrow stream; `None` where one is longer than the rest.
+/// Reads the lengths of the messages of an Arrow stream; `None` if one exceeds the remaining bytes.
 fn check_arrow(mut bytes: &[u8]) -> Option<()> {
     while let Some(mut length) = take(&mut bytes, 4) {
         if length == CONTINUATION {
@@ -96,7 +95,7 @@ fn check_arrow(mut bytes: &[u8]) -> Option<()> {
     Some(())
 }
 
-/// The next bytes, where there are so many.
+/// The next bytes, if there are so many.
 fn take<'a>(bytes: &mut &'a [u8], length: usize) -> Option<&'a [u8]> {
     let (taken, rest) = bytes.split_at_checked(length)?;
     *bytes = rest;
@@ -125,7 +124,10 @@ mod tests {
         // Field 1 as bytes, 2 = LZ4, 3 = 300, 5 as bytes, 7 = true.
         let bytes = [0x0a, 2, 9, 9, 0x10, 2, 0x18, 0xac, 0x02, 0x2a, 3, 1, 2, 3, 0x38, 1];
         let found = ArrowMessage::read(&bytes).unwrap();
-        assert_eq!(found, ArrowMessage { is_packed: true, unpacked_length: 300, payload: &[1, 2, 3] });
+        assert_eq!(
+            found,
+            ArrowMessage { is_compressed: true, uncompressed_length: 300, payload: &[1, 2, 3] }
+        );
         assert_eq!(ArrowMessage::read(&bytes[..10]), None, "a field is cut off");
         assert_eq!(ArrowMessage::read(&[0xff; 12]), None, "a number never ends");
     }

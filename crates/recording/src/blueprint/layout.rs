@@ -1,9 +1,9 @@
-//! How a recording looks when it is opened: the robot on the left with the lanes of verdicts
-//! below, the plots on the right, below them what came out.
+//! The layout of the viewer: the three-dimensional view on the left with the statuses of the checks below it;
+//! on the right the plots, and the summary and the events below them.
 
 use congruent_description::{JointKind, RobotDescription};
 use congruent_twin::{monitor::Names, recorder::RecordingError, report::RunReport};
-use rerun::external::re_sdk_types::{
+use re_sdk_types::{
     blueprint::{
         archetypes::{
             Background, EyeControls3D, LineGrid3D, PanelBlueprint, PlotLegend, ScalarAxis, TextLogColumns,
@@ -19,44 +19,46 @@ use rerun::external::re_sdk_types::{
     datatypes::{AbsoluteTimeRange as Range, TimeInt},
 };
 
+use super::tree::{BlueprintWriter, LayoutNode, View};
 use crate::{
-    body::vector,
-    camera::Camera,
-    node::{LayoutWriter, Node, View},
-    outcome::{first_violation_s, measures},
-    palette, paths,
-    times::{SIM_TIME, nanoseconds},
-    writer::RrdWriter,
+    outcome::measures::{first_violation_s, of_kind},
+    rrd::{
+        convert::vector,
+        paths,
+        times::{SIM_TIME, nanoseconds},
+        writer::RrdWriter,
+    },
+    scene::{camera::Camera, palette},
 };
 
-/// Lines of the grid, m.
+/// Spacing of the grid lines.
 const GRID_M: f32 = 0.1;
-/// Distances are plotted up to so many times the largest that counts: above, nothing is near.
-const PLOTTED: f64 = 3.0;
-/// Length of the tool's trail, s.
+/// Upper end of the clearance plot, as a multiple of the limit or of the largest minimum distance.
+const CLEARANCE_RANGE: f64 = 3.0;
+/// Duration of the tool's trail.
 const TRAIL_S: f64 = 2.0;
 
-/// What the layout depends on.
+/// What the viewer's layout depends on.
 #[derive(Debug)]
-pub(super) struct Layout<'a> {
+pub(crate) struct ViewerLayout<'a> {
     /// The robot.
-    pub(super) description: &'a RobotDescription,
-    /// Its names.
-    pub(super) names: &'a Names,
-    /// What came out.
-    pub(super) report: &'a RunReport,
-    /// Whether anything stands around.
-    pub(super) has_obstacles: bool,
-    /// Where the camera stands.
-    pub(super) camera: Camera,
-    /// The smallest and the largest minimum distance; `None` where there is no pair.
-    pub(super) clearance_m: Option<(f64, f64)>,
+    pub(crate) description: &'a RobotDescription,
+    /// The names of its links, joints and pairs.
+    pub(crate) names: &'a Names,
+    /// The results of the run.
+    pub(crate) report: &'a RunReport,
+    /// Whether the scene has obstacles.
+    pub(crate) has_obstacles: bool,
+    /// The camera of the three-dimensional view.
+    pub(crate) camera: Camera,
+    /// The smallest and the largest minimum distance; `None` if there is no pair.
+    pub(crate) clearance_m: Option<(f64, f64)>,
 }
 
-impl Layout<'_> {
-    /// Writes the layout into the store that is open.
-    pub(super) fn write(&self, writer: &mut RrdWriter) -> Result<(), RecordingError> {
-        let mut layout = LayoutWriter::new(writer);
+impl ViewerLayout<'_> {
+    /// Writes the layout into the open store.
+    pub(crate) fn write(&self, writer: &mut RrdWriter) -> Result<(), RecordingError> {
+        let mut layout = BlueprintWriter::new(writer);
         let root = layout.node(&self.root())?;
         let viewport = ViewportBlueprint::new()
             .with_root_container(RootContainer(root.into()))
@@ -77,8 +79,8 @@ impl Layout<'_> {
         Ok(())
     }
 
-    fn root(&self) -> Node {
-        let left = Node::Rows(vec![(5.0, self.scene()), (self.lanes_share(), lanes())]);
+    fn root(&self) -> LayoutNode {
+        let left = LayoutNode::Rows(vec![(5.0, self.scene()), (self.status_height(), statuses())]);
         let mut right = vec![(2.6, self.agreement())];
         if self.has_clearance() {
             right.push((2.2, self.clearance()));
@@ -87,11 +89,11 @@ impl Layout<'_> {
             right.push((2.0, joints));
         }
         let summary = View::new("TextDocument", "Summary", paths::summary());
-        right.push((3.2, Node::Columns(vec![(3.0, summary.into()), (2.0, events())])));
-        Node::Columns(vec![(1.0, left), (1.0, Node::Rows(right))])
+        right.push((3.2, LayoutNode::Columns(vec![(3.0, summary.into()), (2.0, events())])));
+        LayoutNode::Columns(vec![(1.0, left), (1.0, LayoutNode::Rows(right))])
     }
 
-    fn scene(&self) -> Node {
+    fn scene(&self) -> LayoutNode {
         let eye = EyeControls3D::new()
             .with_position(vector(&self.camera.eye_in_world.coords))
             .with_look_target(vector(&self.camera.target_in_world.coords))
@@ -107,16 +109,17 @@ impl Layout<'_> {
             .into()
     }
 
-    /// Height of the lanes, in which the scene has 5.
-    fn lanes_share(&self) -> f32 {
+    /// Height of the status lanes in units in which the three-dimensional view has 5.
+    fn status_height(&self) -> f32 {
         let lanes = u8::try_from(self.report.checks.len()).unwrap_or(u8::MAX);
         0.5 + 0.25 * f32::from(lanes.min(8))
     }
 
-    /// Errors behind each other: in front the one that is outside its limit, or all in decades.
-    fn agreement(&self) -> Node {
+    /// Plots of errors in tabs: in front the plot with a violated limit, or the logarithms of the largest
+    /// errors.
+    fn agreement(&self) -> LayoutNode {
         let of = |quantity: &'static str| {
-            measures(self.report, "agreement").find(move |measure| measure.quantity == quantity)
+            of_kind(self.report, "agreement").find(move |measure| measure.quantity == quantity)
         };
         let view = |quantity: &'static str, name: &str, fallback: f64| {
             let limit = of(quantity).map_or(fallback, |measure| measure.limit);
@@ -139,24 +142,24 @@ impl Layout<'_> {
         if let Some(violated) = violated {
             tabs[..=violated + 1].rotate_right(1);
         }
-        Node::Tabs(tabs)
+        LayoutNode::Tabs(tabs)
     }
 
-    /// Whether distances say anything: some are watched, and there is a limit or an obstacle.
+    /// Whether to show the clearance plot: distances were recorded, and there is a limit or an obstacle.
     fn has_clearance(&self) -> bool {
-        let is_checked = measures(self.report, "clearance").next().is_some();
+        let is_checked = of_kind(self.report, "clearance").next().is_some();
         self.clearance_m.is_some() && (is_checked || self.has_obstacles)
     }
 
-    fn clearance(&self) -> Node {
+    fn clearance(&self) -> LayoutNode {
         let (low, high) = self.clearance_m.unwrap_or((0.0, 1.0));
-        let limit = measures(self.report, "clearance").map(|measure| measure.limit).fold(0.0, f64::max);
+        let limit = of_kind(self.report, "clearance").map(|measure| measure.limit).fold(0.0, f64::max);
         let view = View::new("TimeSeries", "Clearance [m]", paths::path(&["clearance"]));
-        plot(view, (low.min(0.0), PLOTTED * high.max(limit)))
+        plot(view, (low.min(0.0), CLEARANCE_RANGE * high.max(limit)))
     }
 
-    /// Joint positions, those in radians behind or before those in metres; `None` without joints.
-    fn joints(&self) -> Option<Node> {
+    /// Joint positions, with one plot for each unit; `None` without joints.
+    fn joints(&self) -> Option<LayoutNode> {
         let robot = &self.description.robot;
         let of_unit = |is_length: bool| {
             let movable = self.names.joints.iter().zip(robot.movable_joints());
@@ -170,7 +173,7 @@ impl Layout<'_> {
             let view = View::new("TimeSeries", title, paths::path(&["joint", "position"])).only(joints);
             view.with("PlotLegend", &legend()).into()
         };
-        let mut views: Vec<Node> = [("rad", of_unit(false)), ("m", of_unit(true))]
+        let mut views: Vec<LayoutNode> = [("rad", of_unit(false)), ("m", of_unit(true))]
             .into_iter()
             .filter(|(_, joints)| !joints.is_empty())
             .map(|(unit, joints)| view(unit, joints))
@@ -178,16 +181,16 @@ impl Layout<'_> {
         match views.len() {
             0 => None,
             1 => views.pop(),
-            _ => Some(Node::Tabs(views)),
+            _ => Some(LayoutNode::Tabs(views)),
         }
     }
 }
 
-fn lanes() -> Node {
+fn statuses() -> LayoutNode {
     View::new("StateTimeline", "Checks", paths::path(&["status"])).into()
 }
 
-fn events() -> Node {
+fn events() -> LayoutNode {
     let column = |kind: TextLogColumnKind, is_visible: bool| {
         TextLogColumn(Column { visible: is_visible.into(), kind })
     };
@@ -199,23 +202,23 @@ fn events() -> Node {
     View::new("TextLog", "Events", paths::log()).with("TextLogColumns", &columns).into()
 }
 
-/// On the left, where runs begin and least happens.
+/// A legend on the left, since the values change least at the start of a run.
 fn legend() -> PlotLegend {
     PlotLegend::new().with_corner(Corner2D::LeftTop)
 }
 
-/// A plot that shows this range, with some air.
-fn plot(view: View, (low, high): (f64, f64)) -> Node {
-    let air = 0.06 * (high - low);
-    let range = if air.is_finite() && air > 0.0 {
-        Range1D::new(low - air, high + air)
+/// A plot of this range with a margin above and below.
+fn plot(view: View, (low, high): (f64, f64)) -> LayoutNode {
+    let margin = 0.06 * (high - low);
+    let range = if margin.is_finite() && margin > 0.0 {
+        Range1D::new(low - margin, high + margin)
     } else {
         Range1D::new(0.0, 1.0)
     };
     view.with("ScalarAxis", &ScalarAxis::new().with_range(range)).with("PlotLegend", &legend()).into()
 }
 
-/// The time from the first violation on: layouts cannot place the cursor, but playing it is a key.
+/// The time range from the first violation to the end. A layout cannot set the time cursor.
 fn selection(from_s: f64, to_s: f64) -> AbsoluteTimeRange {
     let time = |time_s: f64| TimeInt(nanoseconds(time_s));
     AbsoluteTimeRange(Range { min: time(from_s), max: time(to_s) })

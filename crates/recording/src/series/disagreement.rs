@@ -1,40 +1,48 @@
-//! What shows a disagreement before it is read: links turn red, arrows lead from the twin's links
-//! to the model's in true length, and the worst link carries its error as a label.
+//! Model and twin where they disagree: links outside the limits turn red, arrows of true length point from
+//! the twin's links to the model's, and a label shows the error of the worst link.
 
 use congruent_kinematics::PoseError;
 use congruent_twin::{Sample, recorder::RecordingError, scenario::Check};
-use rerun::{
-    Arrows3D, Ellipsoids3D, EntityPath, FillMode, Points3D, Radius, SerializedComponentBatch,
-    SerializedComponentColumn,
+use re_log_types::EntityPath;
+use re_sdk_types::{
+    SerializedComponentBatch, SerializedComponentColumn,
+    archetypes::{Arrows3D, Ellipsoids3D, Points3D},
+    components::{FillMode, Radius},
 };
 
 use crate::{
-    body::{Body, Paint, vector},
-    palette, paths,
-    times::{Instant, Times},
-    units,
-    writer::{RrdWriter, failed},
+    formatting,
+    rrd::{
+        convert::vector,
+        paths,
+        times::{SampleTime, SampleTimes},
+        writer::{RrdWriter, failed},
+    },
+    scene::{
+        palette,
+        visual::{Coloring, VisualBody},
+    },
 };
 
-/// Thickness of an arrow, as wide on the screen at any distance.
+/// Thickness of an arrow on the screen.
 const ARROW_UI_POINTS: f32 = 2.5;
-/// Radius of the ball around the worst link: it shows also where a link has no shape.
-const HALO_M: f32 = 0.05;
-/// The label stands above the ball.
+/// Radius of the ball around the worst link: it marks links without shapes as well.
+const MARKER_M: f32 = 0.05;
+/// Height of the label above the origin of the worst link.
 const LABEL_ABOVE_M: f32 = 0.07;
 
-/// From where on model and twin disagree.
+/// The largest errors at which model and twin agree.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct AgreementLimits {
+pub(crate) struct AgreementLimits {
     /// Distance of the origins.
-    pub(super) position_m: f64,
+    pub(crate) position_m: f64,
     /// Angle between the orientations.
-    pub(super) orientation_rad: f64,
+    pub(crate) orientation_rad: f64,
 }
 
 impl AgreementLimits {
-    /// The tightest limits of all checks; `None` where no check looks at agreement.
-    pub(super) fn of(checks: &[Check]) -> Option<Self> {
+    /// The tightest limits of all checks; `None` if no check limits these errors.
+    pub(crate) fn of(checks: &[Check]) -> Option<Self> {
         let limits = checks.iter().filter_map(|check| {
             let Check::Agreement(limits) = check else { return None };
             Some(Self { position_m: limits.position_m?, orientation_rad: limits.orientation_rad? })
@@ -45,57 +53,57 @@ impl AgreementLimits {
         })
     }
 
-    /// Whether an error is outside; no number is.
+    /// Whether an error is outside the limits; NaN is.
     fn excludes(&self, error: &PoseError) -> bool {
         let is_within = error.position_m <= self.position_m && error.orientation_rad <= self.orientation_rad;
         !is_within
     }
 
-    /// How many times its limit an error is.
+    /// The larger of both errors divided by their limits.
     fn ratio(&self, error: &PoseError) -> f64 {
         (error.position_m / self.position_m).max(error.orientation_rad / self.orientation_rad)
     }
 }
 
-/// A link that came to be outside its limits, or back.
+/// A link whose error crossed its limits in either direction.
 #[derive(Debug, Clone, Copy)]
-struct Change {
+struct ColorChange {
     link: usize,
-    instant: Instant,
+    time: SampleTime,
     is_outside: bool,
 }
 
-/// The worst link of an instant.
+/// The link with the largest error at one time.
 #[derive(Debug, Clone, Copy)]
-struct Worst {
+struct WorstLink {
     link: usize,
     error: PoseError,
     origin_in_world: [f32; 3],
 }
 
-/// Gathers what there is to show until it is written.
+/// Colours, arrows and labels of the links outside the limits, until they are written.
 #[derive(Debug)]
-pub(super) struct Disagreement {
+pub(crate) struct DisagreementSeries {
     limits: AgreementLimits,
-    /// As shown; `None` before the first sample.
+    /// For each link, whether it is drawn as outside the limits; `None` before the first sample.
     is_outside: Vec<Option<bool>>,
-    changes: Vec<Change>,
-    times: Times,
-    /// Arrows of each instant, one instant after another.
+    changes: Vec<ColorChange>,
+    times: SampleTimes,
+    /// Number of arrows at each time.
     arrows: Vec<u32>,
     origins: Vec<[f32; 3]>,
     vectors: Vec<[f32; 3]>,
-    worst: Vec<Option<Worst>>,
+    worst: Vec<Option<WorstLink>>,
 }
 
-impl Disagreement {
-    /// Nothing to show yet, for a robot with so many links.
-    pub(super) fn new(links: usize, limits: AgreementLimits) -> Self {
+impl DisagreementSeries {
+    /// No rows, for a robot with so many links.
+    pub(crate) fn new(links: usize, limits: AgreementLimits) -> Self {
         Self {
             limits,
             is_outside: vec![None; links],
             changes: Vec::with_capacity(links),
-            times: Times::default(),
+            times: SampleTimes::default(),
             arrows: Vec::new(),
             origins: Vec::new(),
             vectors: Vec::new(),
@@ -104,21 +112,21 @@ impl Disagreement {
     }
 
     /// Whether these errors change the colour of a link.
-    pub(super) fn would_change(&self, errors: &[PoseError]) -> bool {
+    pub(crate) fn would_change(&self, errors: &[PoseError]) -> bool {
         let shown = self.is_outside.iter();
         shown.zip(errors).any(|(shown, error)| *shown != Some(self.limits.excludes(error)))
     }
 
     /// Adds a row.
-    pub(super) fn push(&mut self, instant: Instant, sample: &Sample<'_>) {
+    pub(crate) fn push(&mut self, time: SampleTime, sample: &Sample<'_>) {
         let had_arrows = self.is_outside.contains(&Some(true));
         let first = self.origins.len();
-        let mut worst: Option<(f64, Worst)> = None;
+        let mut worst: Option<(f64, WorstLink)> = None;
         for (link, error) in sample.errors.iter().enumerate() {
             let is_outside = self.limits.excludes(error);
             if self.is_outside[link] != Some(is_outside) {
                 self.is_outside[link] = Some(is_outside);
-                self.changes.push(Change { link, instant, is_outside });
+                self.changes.push(ColorChange { link, time, is_outside });
             }
             if !is_outside {
                 continue;
@@ -129,38 +137,39 @@ impl Disagreement {
             self.vectors.push(vector(&(model - twin)));
             let ratio = self.limits.ratio(error);
             if worst.is_none_or(|(known, _)| ratio > known) {
-                worst = Some((ratio, Worst { link, error: *error, origin_in_world }));
+                worst = Some((ratio, WorstLink { link, error: *error, origin_in_world }));
             }
         }
         let arrows = u32::try_from(self.origins.len() - first).unwrap_or(u32::MAX);
         if arrows > 0 || had_arrows {
-            self.times.push(instant);
+            self.times.push(time);
             self.arrows.push(arrows);
             self.worst.push(worst.map(|(_, worst)| worst));
         }
     }
 
-    /// What looks the same all along.
-    pub(super) fn write_static(writer: &mut RrdWriter) -> Result<(), RecordingError> {
+    /// Writes colours and sizes that do not change.
+    pub(crate) fn write_static(writer: &mut RrdWriter) -> Result<(), RecordingError> {
         let arrows = Arrows3D::update_fields()
             .with_colors([palette::OUTSIDE])
             .with_radii([Radius::new_ui_points(ARROW_UI_POINTS)]);
         writer.log_static(&paths::error_arrows(), &arrows)?;
-        let halo = Ellipsoids3D::update_fields().with_colors([palette::HALO]).with_fill_mode(FillMode::Solid);
-        writer.log_static(&paths::worst_error(), &halo)?;
+        let marker =
+            Ellipsoids3D::update_fields().with_colors([palette::MARKER]).with_fill_mode(FillMode::Solid);
+        writer.log_static(&paths::worst_error(), &marker)?;
         let label = Points3D::update_fields()
-            .with_colors([palette::MINIMUM])
+            .with_colors([palette::NEUTRAL])
             .with_radii([Radius::new_ui_points(0.0)])
             .with_show_labels(true);
         writer.log_static(&paths::worst_error(), &label)
     }
 
-    /// Writes all rows and forgets them.
-    pub(super) fn write(
+    /// Writes all rows and removes them.
+    pub(crate) fn write(
         &mut self,
         writer: &mut RrdWriter,
         links: &[String],
-        bodies: &[Body],
+        bodies: &[VisualBody],
     ) -> Result<(), RecordingError> {
         for (link, name) in links.iter().enumerate() {
             self.write_colors(writer, link, &bodies[link], &paths::twin(name))?;
@@ -190,28 +199,29 @@ impl Disagreement {
         let above = |[x, y, z]: [f32; 3]| [x, y, z + LABEL_ABOVE_M];
         let labels = Points3D::update_fields()
             .with_positions(shown().map(|worst| above(worst.origin_in_world)))
-            .with_labels(shown().map(|worst| units::disagreement(&links[worst.link], &worst.error)));
-        let halos = Ellipsoids3D::update_fields()
+            .with_labels(shown().map(|worst| formatting::pose_error(&links[worst.link], &worst.error)));
+        let markers = Ellipsoids3D::update_fields()
             .with_centers(shown().map(|worst| worst.origin_in_world))
-            .with_half_sizes(shown().map(|_| [HALO_M; 3]));
+            .with_half_sizes(shown().map(|_| [MARKER_M; 3]));
         let labels = labels.columns(lengths()).map_err(failed)?;
-        Ok(labels.chain(halos.columns(lengths()).map_err(failed)?))
+        Ok(labels.chain(markers.columns(lengths()).map_err(failed)?))
     }
 
     fn write_colors(
         &self,
         writer: &mut RrdWriter,
         link: usize,
-        body: &Body,
+        body: &VisualBody,
         path: &EntityPath,
     ) -> Result<(), RecordingError> {
-        let mut times = Times::default();
-        // One column for each colour component, whose pieces are the rows.
+        let mut times = SampleTimes::default();
+        // The rows of each path.
         let mut columns: Vec<(EntityPath, Vec<Vec<SerializedComponentBatch>>)> = Vec::new();
         for change in self.changes.iter().filter(|change| change.link == link) {
-            times.push(change.instant);
-            let paint = if change.is_outside { Paint::Plain(palette::OUTSIDE) } else { Paint::Own };
-            for (index, (path, parts)) in body.colors(path, paint).into_iter().enumerate() {
+            times.push(change.time);
+            let coloring =
+                if change.is_outside { Coloring::Uniform(palette::OUTSIDE) } else { Coloring::AsDescribed };
+            for (index, (path, parts)) in body.colors(path, coloring).into_iter().enumerate() {
                 if columns.len() <= index {
                     columns.push((path, Vec::new()));
                 }
@@ -226,9 +236,9 @@ impl Disagreement {
     }
 }
 
-/// Rows that all have the same components, as columns.
+/// Columns of rows that all have the same components.
 fn stack(rows: &[Vec<SerializedComponentBatch>]) -> Result<Vec<SerializedComponentColumn>, RecordingError> {
-    use rerun::external::arrow::{array::Array, compute::concat};
+    use re_chunk::external::arrow::{array::Array, compute::concat};
     let components = rows.first().map_or(0, Vec::len);
     let column = |index: usize| {
         let pieces: Vec<&dyn Array> = rows.iter().map(|row| row[index].array.as_ref()).collect();

@@ -1,56 +1,45 @@
-//! What a finished run adds to its recording: lines at the limits, lanes of verdicts, events.
+//! What a finished run adds over time: lines at the limits, the status of each check, and events.
 
 use congruent_twin::{
     recorder::RecordingError,
     report::RunReport,
     scenario::CheckKind,
-    verdict::{CheckResult, Measure, Moment, Status},
+    verdict::{CheckResult, Status},
 };
-use rerun::{
-    Color, EntityPath, Scalars, SeriesLines, StateChange, StateConfiguration, TextLog, TextLogLevel,
+use re_log_types::EntityPath;
+use re_sdk_types::{
+    archetypes::{Scalars, SeriesLines, StateChange, StateConfiguration, TextLog},
+    components::{Color, TextLogLevel},
 };
 
-use crate::{batch::exponent, palette, paths, times::Instant, units, writer::RrdWriter};
+use super::{measures::first_violation, summary};
+use crate::{
+    formatting,
+    rrd::{paths, times::SampleTime, writer::RrdWriter},
+    scene::palette,
+    series::scalars::log10,
+};
 
-/// All quantities of all checks of one kind.
-pub(super) fn measures<'a>(report: &'a RunReport, kind: &'a str) -> impl Iterator<Item = &'a Measure> {
-    report.checks.iter().filter(move |check| check.check.word() == kind).flat_map(|check| &check.measures)
-}
-
-/// When something was outside its limit first.
-pub(super) fn first_violation_s(report: &RunReport) -> Option<f64> {
-    report.checks.iter().filter_map(first_violation).map(|(_, moment)| moment.time_s).min_by(f64::total_cmp)
-}
-
-/// Where a check was violated first.
-fn first_violation(check: &CheckResult) -> Option<(&Measure, &Moment)> {
-    check
-        .measures
-        .iter()
-        .filter_map(|measure| Some((measure, measure.first_violation.as_ref()?)))
-        .min_by(|(_, a), (_, b)| a.time_s.total_cmp(&b.time_s))
-}
-
-/// Writes all of it.
-pub(super) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
+/// Writes limits, statuses and events.
+pub(crate) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
     write_limits(writer, report)?;
-    for (check, lane) in report.checks.iter().zip(lane_names(report)) {
-        write_lane(writer, report, check, &paths::status(&lane))?;
+    for (check, name) in report.checks.iter().zip(status_names(report)) {
+        write_status(writer, report, check, &paths::status(&name))?;
     }
     write_events(writer, report)
 }
 
-fn instant(report: &RunReport, time_s: f64) -> Instant {
+fn time(report: &RunReport, time_s: f64) -> SampleTime {
     let steps = (time_s / report.simulation.step_s).round();
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "the cast of floats saturates, and times are not negative"
     )]
-    Instant::new(time_s, steps as u64)
+    SampleTime::new(time_s, steps as u64)
 }
 
-/// A line at every limit that a plot shows, from the start to the end.
+/// Writes a line at every limit in a plot, from the start to the end of the run.
 fn write_limits(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
     let plotted = |kind: &str, quantity: &str| match (kind, quantity) {
         ("agreement", "position") => Some((paths::position_error("tolerance"), "tolerance")),
@@ -66,7 +55,7 @@ fn write_limits(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
             if check.check == CheckKind::Agreement {
                 let name = format!("{} tolerance", measure.quantity);
                 let path = paths::worst_of_links(&name);
-                write_line(writer, report, &path, (&name, exponent(measure.limit)))?;
+                write_line(writer, report, &path, (&name, log10(measure.limit)))?;
             }
         }
     }
@@ -82,30 +71,32 @@ fn write_line(
     let style = SeriesLines::new().with_names([name]).with_colors([palette::LIMIT]).with_widths([1.5]);
     writer.log_static(path, &style)?;
     for time_s in [0.0, report.simulation.duration_s] {
-        writer.log_at(path, instant(report, time_s).point(), &Scalars::new([value]))?;
+        writer.log_at(path, time(report, time_s).point(), &Scalars::new([value]))?;
     }
     Ok(())
 }
 
-/// The kind of each check; where a kind appears again, with its line in the file.
-fn lane_names(report: &RunReport) -> impl Iterator<Item = String> + '_ {
+/// The kind of each check; a kind that appeared before is followed by the check's line in the scenario.
+fn status_names(report: &RunReport) -> impl Iterator<Item = String> + '_ {
     report.checks.iter().enumerate().map(|(index, check)| {
-        let is_again = report.checks[..index].iter().any(|before| before.check == check.check);
+        let is_repeated = report.checks[..index].iter().any(|before| before.check == check.check);
         match check.line {
-            Some(line) if is_again => format!("{} (line {line})", check.check),
+            Some(line) if is_repeated => format!("{} (line {line})", check.check),
             _ => check.check.to_string(),
         }
     })
 }
 
-/// A check's verdict as it changes: it passes until it is violated, or the run breaks.
-fn write_lane(
+/// Writes the status of a check over time: pass until the first violation, or until the run stops with an
+/// error.
+fn write_status(
     writer: &mut RrdWriter,
     report: &RunReport,
     check: &CheckResult,
     path: &EntityPath,
 ) -> Result<(), RecordingError> {
-    let style = StateConfiguration::new().with_values(palette::LANES).with_colors(palette::LANE_COLORS);
+    let style =
+        StateConfiguration::new().with_values(palette::STATUS_WORDS).with_colors(palette::STATUS_COLORS);
     writer.log_static(path, &style)?;
     let start = if check.status == Status::Skipped { Status::Skipped } else { Status::Pass };
     let change = match check.status {
@@ -113,15 +104,15 @@ fn write_lane(
         Status::Error => Some((report.simulation.duration_s, Status::Error)),
         Status::Pass | Status::Skipped => None,
     };
-    let starts_so = change.is_none_or(|(time_s, _)| time_s > 0.0);
-    for (time_s, status) in starts_so.then_some((0.0, start)).into_iter().chain(change) {
+    let has_start = change.is_none_or(|(time_s, _)| time_s > 0.0);
+    for (time_s, status) in has_start.then_some((0.0, start)).into_iter().chain(change) {
         let state = StateChange::single(status.word());
-        writer.log_at(path, instant(report, time_s).point(), &state)?;
+        writer.log_at(path, time(report, time_s).point(), &state)?;
     }
     Ok(())
 }
 
-/// Start, first violation of each check, end: changes only, in the order of time.
+/// Writes the events in order of time: start, first violation of each check, stop or error, verdict.
 fn write_events(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
     let end_s = report.simulation.duration_s;
     let start = format!("{} starts, seed {}", report.scenario, report.seed);
@@ -133,8 +124,8 @@ fn write_events(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
                 check.check,
                 measure.quantity,
                 moment.subject,
-                units::quantity(moment.value, measure.unit),
-                units::limit(measure),
+                formatting::quantity(moment.value, measure.unit),
+                formatting::limit(measure),
             );
             events.push((moment.time_s, TextLogLevel::ERROR, text));
         }
@@ -146,17 +137,17 @@ fn write_events(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
     if let Some(error) = &report.error {
         events.push((end_s, TextLogLevel::CRITICAL, error.clone()));
     }
-    let verdict = super::summary::verdict(report);
+    let verdict = summary::verdict(report);
     let level = if report.exit_code == 0 { TextLogLevel::INFO } else { TextLogLevel::ERROR };
     events.push((end_s, level, verdict));
     events.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
     for (time_s, level, text) in events {
         let event = TextLog::new(text).with_level(level).with_color(color(level));
-        writer.log_at(&paths::log(), instant(report, time_s).point(), &event)?;
+        writer.log_at(&paths::log(), time(report, time_s).point(), &event)?;
     }
     Ok(())
 }
 
 fn color(level: &str) -> Color {
-    if level == TextLogLevel::INFO { palette::MINIMUM } else { palette::LIMIT }
+    if level == TextLogLevel::INFO { palette::NEUTRAL } else { palette::LIMIT }
 }

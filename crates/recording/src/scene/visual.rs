@@ -1,106 +1,112 @@
-//! The shapes of one link or obstacle in rerun's terms: all boxes, all cylinders and all spheres
-//! stand at the body's own path, each mesh at one below it.
+//! The shapes of one link, obstacle or zone in rerun's types: boxes, cylinders and spheres at the body's own
+//! path, each mesh at a path below it.
 
 use congruent_description::{Geometry, Mesh, Shape};
 use nalgebra::{Isometry3, Vector3};
-use rerun::{
-    AlbedoFactor, AsComponents, Boxes3D, Color, Cylinders3D, Ellipsoids3D, EntityPath, EntityPathPart,
-    FillMode, Mesh3D, Quaternion, SerializedComponentBatch, TriangleIndices,
+use re_log_types::{EntityPath, EntityPathPart};
+use re_sdk_types::{
+    AsComponents, SerializedComponentBatch,
+    archetypes::{Boxes3D, Cylinders3D, Ellipsoids3D, Mesh3D},
+    components::{AlbedoFactor, Color, FillMode, TriangleIndices},
+    datatypes::Quaternion,
 };
 
-/// An inset takes at most this part of a shape's thickness.
-const THINNEST: f64 = 0.1;
+use crate::rrd::convert::{quaternion, single, vector};
 
-/// Shapes of one kind: where each stands in the body, its colour, its measures.
+/// The largest inset of a surface, as a fraction of half the shape's thickness.
+const MAX_INSET_FRACTION: f64 = 0.1;
+
+/// Shapes of one kind: their poses in the body, colours and sizes.
 #[derive(Debug)]
-struct Placed<M> {
+struct ShapeColumns<S> {
     centers: Vec<[f32; 3]>,
     quaternions: Vec<Quaternion>,
     colors: Vec<Color>,
-    measures: Vec<M>,
+    sizes: Vec<S>,
 }
 
-impl<M> Placed<M> {
+impl<S> ShapeColumns<S> {
     fn new() -> Self {
-        Self { centers: Vec::new(), quaternions: Vec::new(), colors: Vec::new(), measures: Vec::new() }
+        Self { centers: Vec::new(), quaternions: Vec::new(), colors: Vec::new(), sizes: Vec::new() }
     }
 
-    fn push(&mut self, body_from_shape: &Isometry3<f64>, color: Color, measures: M) {
+    fn push(&mut self, body_from_shape: &Isometry3<f64>, color: Color, size: S) {
         self.centers.push(vector(&body_from_shape.translation.vector));
         self.quaternions.push(quaternion(body_from_shape));
         self.colors.push(color);
-        self.measures.push(measures);
+        self.sizes.push(size);
     }
 }
 
-/// A mesh in the body's frame.
+/// A mesh in the body's frame, with its colour.
 #[derive(Debug)]
-struct PlacedMesh {
+struct ColoredMesh {
     archetype: Mesh3D,
     color: Color,
 }
 
-/// How a body is painted.
+/// The colours of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Paint {
-    /// In the colours of its description.
-    Own,
-    /// In one colour.
-    Plain(Color),
+pub(crate) enum Coloring {
+    /// Each shape in the colour of its description.
+    AsDescribed,
+    /// All shapes in one colour.
+    Uniform(Color),
 }
 
-/// A link or an obstacle, ready to be logged.
+/// What is drawn for a link, an obstacle or a zone.
 #[derive(Debug)]
-pub(super) struct Body {
-    boxes: Placed<[f32; 3]>,
-    cylinders: Placed<(f32, f32)>,
-    spheres: Placed<f32>,
-    meshes: Vec<PlacedMesh>,
+pub(crate) struct VisualBody {
+    boxes: ShapeColumns<[f32; 3]>,
+    cylinders: ShapeColumns<(f32, f32)>,
+    spheres: ShapeColumns<f32>,
+    meshes: Vec<ColoredMesh>,
 }
 
-impl Body {
-    /// The body with these shapes; those without a colour get `default`. Surfaces lie `inset_m`
-    /// deeper than they are: two bodies at one place must not flicker through each other.
-    pub(super) fn new(shapes: &[Shape], default: Color, inset_m: f64) -> Self {
+impl VisualBody {
+    /// The body with these shapes; a shape without a colour gets `default`. Surfaces are moved inwards by
+    /// `inset_m`: two bodies at the same pose must not flicker through each other.
+    pub(crate) fn new(shapes: &[Shape], default: Color, inset_m: f64) -> Self {
         let mut body = Self {
-            boxes: Placed::new(),
-            cylinders: Placed::new(),
-            spheres: Placed::new(),
+            boxes: ShapeColumns::new(),
+            cylinders: ShapeColumns::new(),
+            spheres: ShapeColumns::new(),
             meshes: Vec::new(),
         };
         for shape in shapes {
             let color = shape.color_rgba.map_or(default, color);
-            let place = &shape.link_from_shape;
-            let inner = |half: f64| single(half - inset_m.min(half * THINNEST));
+            let body_from_shape = &shape.link_from_shape;
+            let inner = |half: f64| single(half - inset_m.min(half * MAX_INSET_FRACTION));
             match &shape.geometry {
                 Geometry::Box { size_m } => {
-                    body.boxes.push(place, color, (size_m / 2.0).map(inner).into());
+                    body.boxes.push(body_from_shape, color, (size_m / 2.0).map(inner).into());
                 }
                 Geometry::Cylinder { radius_m, length_m } => {
                     let length = 2.0 * inner(length_m / 2.0);
-                    body.cylinders.push(place, color, (inner(*radius_m), length));
+                    body.cylinders.push(body_from_shape, color, (inner(*radius_m), length));
                 }
-                Geometry::Sphere { radius_m } => body.spheres.push(place, color, inner(*radius_m)),
+                Geometry::Sphere { radius_m } => body.spheres.push(body_from_shape, color, inner(*radius_m)),
                 Geometry::Mesh(mesh) if mesh.triangles.is_empty() => {}
                 Geometry::Mesh(mesh) => {
-                    body.meshes.push(PlacedMesh { archetype: triangles(mesh, place, inset_m), color });
+                    body.meshes
+                        .push(ColoredMesh { archetype: triangles(mesh, body_from_shape, inset_m), color });
                 }
             }
         }
         body
     }
 
-    /// The shapes, without colours: each path with what stands there.
-    pub(super) fn shapes(&self, path: &EntityPath) -> Vec<(EntityPath, Vec<SerializedComponentBatch>)> {
+    /// The shapes without colours: the components of each path.
+    pub(crate) fn shapes(&self, path: &EntityPath) -> Vec<(EntityPath, Vec<SerializedComponentBatch>)> {
         let mut own = Vec::new();
         if !self.boxes.centers.is_empty() {
-            let boxes = Boxes3D::from_centers_and_half_sizes(&self.boxes.centers, &self.boxes.measures)
+            let boxes = Boxes3D::from_centers_and_half_sizes(&self.boxes.centers, &self.boxes.sizes)
                 .with_quaternions(self.boxes.quaternions.iter().copied())
                 .with_fill_mode(FillMode::Solid);
             own.extend(boxes.as_serialized_batches());
         }
         if !self.cylinders.centers.is_empty() {
-            let (radii, lengths): (Vec<_>, Vec<_>) = self.cylinders.measures.iter().copied().unzip();
+            let (radii, lengths): (Vec<_>, Vec<_>) = self.cylinders.sizes.iter().copied().unzip();
             let cylinders = Cylinders3D::from_lengths_and_radii(lengths, radii)
                 .with_centers(&self.cylinders.centers)
                 .with_quaternions(self.cylinders.quaternions.iter().copied())
@@ -110,7 +116,7 @@ impl Body {
         if !self.spheres.centers.is_empty() {
             let spheres = Ellipsoids3D::from_centers_and_radii(
                 &self.spheres.centers,
-                self.spheres.measures.iter().copied(),
+                self.spheres.sizes.iter().copied(),
             )
             .with_fill_mode(FillMode::Solid);
             own.extend(spheres.as_serialized_batches());
@@ -121,17 +127,17 @@ impl Body {
         std::iter::once((path.clone(), own)).chain(meshes).filter(|(_, parts)| !parts.is_empty()).collect()
     }
 
-    /// The colours: each path with the paint that belongs there.
-    pub(super) fn colors(
+    /// The colours: the components of each path, in the order of [`shapes`](Self::shapes).
+    pub(crate) fn colors(
         &self,
         path: &EntityPath,
-        paint: Paint,
+        coloring: Coloring,
     ) -> Vec<(EntityPath, Vec<SerializedComponentBatch>)> {
-        let painted = |color: &Color| match paint {
-            Paint::Own => *color,
-            Paint::Plain(color) => color,
+        let colored = |color: &Color| match coloring {
+            Coloring::AsDescribed => *color,
+            Coloring::Uniform(color) => color,
         };
-        let all = |colors: &[Color]| colors.iter().map(painted).collect::<Vec<_>>();
+        let all = |colors: &[Color]| colors.iter().map(colored).collect::<Vec<_>>();
         let mut own = Vec::new();
         if !self.boxes.colors.is_empty() {
             own.extend(Boxes3D::update_fields().with_colors(all(&self.boxes.colors)).as_serialized_batches());
@@ -145,7 +151,7 @@ impl Body {
             own.extend(spheres.as_serialized_batches());
         }
         let meshes = self.meshes.iter().enumerate().map(|(index, mesh)| {
-            let factor = AlbedoFactor(painted(&mesh.color).0);
+            let factor = AlbedoFactor(colored(&mesh.color).0);
             let mesh = Mesh3D::update_fields().with_albedo_factor(factor);
             (mesh_path(path, index), mesh.as_serialized_batches())
         });
@@ -157,8 +163,8 @@ fn mesh_path(body: &EntityPath, index: usize) -> EntityPath {
     body / EntityPathPart::new(format!("mesh_{index}"))
 }
 
-/// The mesh in the body's frame, smoothly shaded: each vertex has the mean normal of the triangles
-/// that share it, weighted by their areas.
+/// The mesh in the body's frame with smooth shading: each vertex has the mean normal of the triangles that
+/// share it, weighted by their areas.
 fn triangles(mesh: &Mesh, body_from_mesh: &Isometry3<f64>, inset_m: f64) -> Mesh3D {
     let vertices: Vec<_> = mesh.vertices_m.iter().map(|vertex| body_from_mesh * vertex).collect();
     let mut normals = vec![Vector3::zeros(); vertices.len()];
@@ -176,22 +182,6 @@ fn triangles(mesh: &Mesh, body_from_mesh: &Isometry3<f64>, inset_m: f64) -> Mesh
     Mesh3D::new(surface.map(|vertex| vector(&vertex)))
         .with_vertex_normals(normals.iter().map(vector))
         .with_triangle_indices(mesh.triangles.iter().map(|&corners| TriangleIndices(corners.into())))
-}
-
-/// rerun keeps places in single precision: a tenth of a micrometre at one metre. Errors are never
-/// read back from them.
-pub(super) fn vector(vector: &Vector3<f64>) -> [f32; 3] {
-    [single(vector.x), single(vector.y), single(vector.z)]
-}
-
-/// The turn of a pose in single precision.
-pub(super) fn quaternion(pose: &Isometry3<f64>) -> Quaternion {
-    Quaternion::from_xyzw(pose.rotation.coords.map(single).into())
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "rerun draws in single precision")]
-pub(super) fn single(value: f64) -> f32 {
-    value as f32
 }
 
 /// A colour of a description, whose channels go from 0 to 1.

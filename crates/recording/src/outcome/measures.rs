@@ -1,0 +1,25 @@
+//! Which values of a report the recording shows: the measures of one kind of check, and the first violations.
+
+use congruent_twin::{
+    report::RunReport,
+    verdict::{CheckResult, Measure, Moment},
+};
+
+/// All measures of all checks of one kind.
+pub(crate) fn of_kind<'a>(report: &'a RunReport, kind: &'a str) -> impl Iterator<Item = &'a Measure> {
+    report.checks.iter().filter(move |check| check.check.word() == kind).flat_map(|check| &check.measures)
+}
+
+/// The first violation of a check.
+pub(crate) fn first_violation(check: &CheckResult) -> Option<(&Measure, &Moment)> {
+    check
+        .measures
+        .iter()
+        .filter_map(|measure| Some((measure, measure.first_violation.as_ref()?)))
+        .min_by(|(_, a), (_, b)| a.time_s.total_cmp(&b.time_s))
+}
+
+/// Time of the first violation of any check.
+pub(crate) fn first_violation_s(report: &RunReport) -> Option<f64> {
+    report.checks.iter().filter_map(first_violation).map(|(_, moment)| moment.time_s).min_by(f64::total_cmp)
+}

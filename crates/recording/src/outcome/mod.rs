@@ -1,0 +1,5 @@
+//! What a finished run adds to its recording, from its report alone.
+
+pub(crate) mod measures;
+pub(crate) mod summary;
+pub(crate) mod timeline;

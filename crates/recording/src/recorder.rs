@@ -1,0 +1,186 @@
+//! The recorder: takes the samples of a run and writes them in batches, then the results and the layout.
+
+use std::path::Path;
+
+use congruent_agreement::compare::PoseSource;
+use congruent_description::RobotDescription;
+use congruent_simulation::Obstacle;
+use congruent_twin::{
+    Recording, RecordingFormat, Run, RunSetup, Sample,
+    monitor::Names,
+    recorder::{Recorder, RecordingError},
+    report::RunReport,
+};
+use nalgebra::{Isometry3, Point3};
+use re_log_types::{StoreId, StoreKind};
+
+use crate::{
+    blueprint::layout::ViewerLayout,
+    outcome::{summary, timeline},
+    rrd::{identity, times::SampleTime, writer::RrdWriter},
+    scene::{
+        camera::{BoundingBox, Camera, ThinnedPath},
+        shapes, styles,
+        visual::VisualBody,
+    },
+    series::{
+        clearance::ClearanceSeries,
+        disagreement::{AgreementLimits, DisagreementSeries},
+        samples::SampleBatch,
+    },
+};
+
+/// Simulated time between two recorded samples; every step is recorded if steps are longer.
+const PERIOD_S: f64 = 0.01;
+
+/// Writes a recording for the rerun viewer in batches. [`Recording::finish`] completes the file; without it
+/// the recording has neither verdict nor layout, but the samples in it can be read.
+pub struct RerunRecorder {
+    writer: RrdWriter,
+    layout_store: StoreId,
+    names: Names,
+    description: RobotDescription,
+    obstacles: Vec<Obstacle>,
+    bodies: Vec<VisualBody>,
+    tip_from_tcp: Isometry3<f64>,
+    stride: u64,
+    batch: SampleBatch,
+    disagreement: DisagreementSeries,
+    clearance: ClearanceSeries,
+    robot_box: BoundingBox,
+    tool_path: ThinnedPath,
+}
+
+impl std::fmt::Debug for RerunRecorder {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("RerunRecorder").finish_non_exhaustive()
+    }
+}
+
+impl RerunRecorder {
+    /// Creates the file and writes the data that do not change: shapes, names, colours.
+    ///
+    /// `sources` are the model's sources of poses, in the robot's order of links. If a table gives the poses of some
+    /// links, the plots hide the links whose poses come from the URDF alone at first.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if the file cannot be written.
+    pub fn create(
+        path: &Path,
+        setup: &RunSetup,
+        names: &Names,
+        sources: &[PoseSource],
+    ) -> Result<Self, RecordingError> {
+        let description = &setup.description;
+        let tolerance = description.tolerance;
+        let limits = AgreementLimits::of(&setup.scenario.check).unwrap_or(AgreementLimits {
+            position_m: tolerance.position_m,
+            orientation_rad: tolerance.orientation_rad,
+        });
+        let mut writer = RrdWriter::create(path, identity::store(setup, StoreKind::Recording))?;
+        let bodies = shapes::bodies(&description.robot, 0.0);
+        shapes::write(&mut writer, setup, &bodies)?;
+        DisagreementSeries::write_static(&mut writer)?;
+        styles::write(&mut writer, &description.robot, names, sources)?;
+        writer.flush()?;
+        Ok(Self {
+            writer,
+            layout_store: identity::store(setup, StoreKind::Blueprint),
+            names: names.clone(),
+            description: description.clone(),
+            obstacles: setup.obstacles.clone(),
+            bodies,
+            tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
+            stride: stride(setup.clock.step_s),
+            batch: SampleBatch::new(names),
+            disagreement: DisagreementSeries::new(names.links.len(), limits),
+            clearance: ClearanceSeries::default(),
+            robot_box: BoundingBox::empty(),
+            tool_path: ThinnedPath::new(),
+        })
+    }
+
+    fn write_batch(&mut self) -> Result<(), RecordingError> {
+        self.batch.write(&mut self.writer, &self.names)?;
+        self.disagreement.write(&mut self.writer, &self.names.links, &self.bodies)?;
+        self.clearance.write(&mut self.writer, &self.names.pairs)?;
+        self.writer.flush()
+    }
+}
+
+impl Recorder for RerunRecorder {
+    fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
+        let is_due = sample.step.is_multiple_of(self.stride) || sample.is_last;
+        if !is_due && !self.disagreement.would_change(sample.errors) {
+            return Ok(());
+        }
+        if self.batch.is_full() {
+            self.write_batch()?;
+        }
+        let time = SampleTime::new(sample.time_s, sample.step);
+        let world_from_tip = &sample.twin[self.description.tip.get()];
+        let tool_in_world = world_from_tip * self.tip_from_tcp * Point3::origin();
+        for (twin, model) in sample.twin.iter().zip(sample.model) {
+            self.robot_box.include(&Point3::from(twin.translation.vector));
+            self.robot_box.include(&Point3::from(model.translation));
+        }
+        self.robot_box.include(&tool_in_world);
+        self.tool_path.push(tool_in_world);
+        self.batch.push(time, sample, &tool_in_world);
+        self.disagreement.push(time, sample);
+        self.clearance.push(time, sample.clearance, sample.twin.len());
+        Ok(())
+    }
+}
+
+impl Recording for RerunRecorder {
+    fn finish(mut self: Box<Self>, report: &RunReport) -> Result<(), RecordingError> {
+        self.write_batch()?;
+        timeline::write(&mut self.writer, report)?;
+        summary::write(&mut self.writer, report)?;
+        let layout = ViewerLayout {
+            description: &self.description,
+            names: &self.names,
+            report,
+            has_obstacles: !self.obstacles.is_empty(),
+            camera: Camera::framing(self.robot_box, &self.obstacles, self.tool_path.points()),
+            clearance_m: self.clearance.range_m,
+        };
+        self.writer.open_store(self.layout_store)?;
+        layout.write(&mut self.writer)?;
+        self.writer.activate_blueprint()?;
+        self.writer.finish()
+    }
+}
+
+/// Recordings for the rerun viewer, as a run starts them.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct RerunFormat;
+
+impl RecordingFormat for RerunFormat {
+    fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
+        let recorder = RerunRecorder::create(path, run.setup(), run.names(), run.model().sources())?;
+        Ok(Box::new(recorder))
+    }
+}
+
+/// Steps between two recorded samples.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a step is positive, and the cast of floats saturates"
+)]
+fn stride(step_s: f64) -> u64 {
+    ((PERIOD_S / step_s).round() as u64).max(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hundred_samples_a_second_at_most() {
+        assert_eq!([0.001, 0.002, 0.01, 0.0004, 0.005].map(stride), [10, 5, 1, 25, 2]);
+        assert_eq!(stride(1e-9), 10_000_000);
+    }
+}

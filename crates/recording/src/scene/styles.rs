@@ -1,0 +1,43 @@
+//! Names and colours of the lines in the plots.
+
+use congruent_agreement::compare::PoseSource;
+use congruent_description::Robot;
+use congruent_twin::{monitor::Names, recorder::RecordingError};
+use re_sdk_types::{archetypes::SeriesLines, components::Color};
+
+use super::palette;
+use crate::rrd::{paths, writer::RrdWriter};
+
+/// Width of a line on the screen.
+const WIDTH_UI_POINTS: f32 = 1.5;
+
+/// Writes names and colours of all lines. If a table gives the poses of some links, the links whose poses
+/// come from the URDF alone are hidden at first: model and URDF are identical there.
+pub(crate) fn write(
+    writer: &mut RrdWriter,
+    robot: &Robot,
+    names: &Names,
+    sources: &[PoseSource],
+) -> Result<(), RecordingError> {
+    let has_table = sources.iter().any(|source| *source != PoseSource::Urdf);
+    for (index, (link, source)) in names.links.iter().zip(sources).enumerate() {
+        let is_shown = !has_table || *source != PoseSource::Urdf;
+        let style = line(link, palette::link(index)).with_visible_series([is_shown]);
+        writer.log_static(&paths::position_error(link), &style)?;
+        writer.log_static(&paths::orientation_error(link), &style)?;
+    }
+    for (name, &joint) in names.joints.iter().zip(robot.movable_joints()) {
+        // A joint has the colour of its child link.
+        let color = palette::link(robot.joint(joint).child.get());
+        writer.log_static(&paths::joint_position(name), &line(name, color))?;
+    }
+    for (quantity, index) in [("position", 0), ("orientation", 1)] {
+        let style = line(quantity, palette::link(index));
+        writer.log_static(&paths::worst_of_links(quantity), &style)?;
+    }
+    Ok(())
+}
+
+fn line(name: &str, color: Color) -> SeriesLines {
+    SeriesLines::new().with_names([name]).with_colors([color]).with_widths([WIDTH_UI_POINTS])
+}

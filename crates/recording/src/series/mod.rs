@@ -1,0 +1,6 @@
+//! What is recorded over time, gathered in columns and written in batches.
+
+pub(crate) mod clearance;
+pub(crate) mod disagreement;
+pub(crate) mod samples;
+pub(crate) mod scalars;
