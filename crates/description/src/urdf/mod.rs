@@ -2,7 +2,7 @@
 //!
 //! Four passes, each of which relies on what the one before has checked:
 //! 1. `xml`: tokens, then the tree; refuses what would overflow a stack or the memory;
-//! 2. `raw`: the XML with positions against the grammar of URDF, every number token by token;
+//! 2. `grammar`: the XML with positions against the grammar of URDF, every number token by token;
 //! 3. `urdf-rs`: the structure. It accepts much that is wrong (it drops vector tokens that are no
 //!    numbers, it cannot tell a missing element from its default), which is why pass 2 exists;
 //! 4. `joint`, `link`, `shape`: what the values mean, then the tree.
@@ -17,10 +17,8 @@ mod grammar;
 mod joint;
 mod link;
 mod node;
-mod number;
 mod places;
 mod pose;
-mod raw;
 mod shape;
 mod write;
 
@@ -54,7 +52,7 @@ pub(crate) fn parse(
     let document = diagnostics.keep(xml::parse(text).map_err(dialect::explain))?;
     let root = document.root_element();
     diagnostics.keep(dialect::check(root))?;
-    raw::check(root, diagnostics);
+    grammar::check(root, diagnostics);
     let links = elements(root, "link").count();
     if links > MOST_LINKS {
         let message = format!("too many links: {links}, the limit is {MOST_LINKS}");

@@ -1,5 +1,5 @@
 //! The grammar of URDF as tables: which elements and attributes there are, which of them must be
-//! there, and what an attribute holds. `raw.rs` reads documents against it.
+//! there, and what an attribute holds. `check.rs` reads documents against it.
 //!
 //! Source: the XML reference of URDF (wiki.ros.org/urdf/XML) and the schema of urdfdom, up to
 //! version 1.2. Required is what `urdf-rs` cannot do without.
@@ -79,7 +79,7 @@ use Value::{Name, Numbers, Text, Word};
 const NUMBER: Value = Numbers(1);
 
 /// The types that a joint may have; which of them can be simulated is decided in `joint.rs`.
-pub(super) const JOINT_TYPES: &[&str] =
+const JOINT_TYPES: &[&str] =
     &["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
 
 /// The whole document.

@@ -8,20 +8,20 @@ use std::ops::Range;
 use roxmltree::{Attribute as XmlAttribute, Node};
 
 use super::{
-    grammar::{Attribute, Child, Element, Occurs, ROBOT, Value},
-    node::{elements, label, tag},
     number,
+    rules::{Attribute, Child, Element, Occurs, ROBOT, Value},
 };
 use crate::{
     diagnostic::{Diagnostic, known_names},
     diagnostics::Diagnostics,
+    urdf::node::{elements, label, tag},
 };
 
 /// The longest name without a warning: what a file system allows.
 const LONGEST_NAME: usize = 255;
 
 /// Checks a whole document.
-pub(super) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) {
+pub(crate) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) {
     if root.attribute("name").is_none_or(str::is_empty) {
         diagnostics.push(Diagnostic::warning("urdf::robot_name", "the robot has no name").at(tag(root)));
     }
@@ -38,7 +38,7 @@ pub(super) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) {
 }
 
 /// `version="1.1"` as numbers; 1.0 if it is missing or no version, as in urdfdom.
-pub(super) fn version(root: Node<'_, '_>) -> (u32, u32) {
+fn version(root: Node<'_, '_>) -> (u32, u32) {
     let parse = |text: &str| {
         let (major, minor) = text.trim().split_once('.')?;
         Some((major.parse().ok()?, minor.parse().ok()?))
