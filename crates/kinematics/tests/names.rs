@@ -9,7 +9,8 @@ use serde::Serialize;
 
 #[track_caller]
 fn check<T: Serialize + Debug>(variants: &[T], names: &[&str]) {
-    let found: Vec<String> = variants.iter().map(|each| serde_json::to_string(each).unwrap()).collect();
+    let found: Vec<String> =
+        variants.iter().map(|each| serde_json::to_string(each).expect("an enum serialises")).collect();
     let expected: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
     assert_eq!(found, expected, "{variants:?}");
 }
