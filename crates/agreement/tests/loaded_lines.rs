@@ -5,7 +5,7 @@
 
 use std::{fs, path::Path, sync::Arc};
 
-use congruent_agreement::compare::check::{CheckOptions, check};
+use congruent_agreement::compare::{CheckOptions, check};
 use congruent_description::{RobotDescription, SourceFile, load_robot, parse_robot};
 use congruent_kinematics::UrdfTree;
 

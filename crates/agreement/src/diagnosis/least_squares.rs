@@ -1,6 +1,7 @@
 //! Least squares on screws and tip for the free parameters of a hypothesis, by Levenberg and Marquardt.
 
-use nalgebra::{DMatrix, DVector};
+use congruent_kinematics::least_squares::{Damping, NormalEquations};
+use nalgebra::DVector;
 
 use super::thresholds::{DAMPING, MAX_STEPS, MIN_GAIN, NO_EFFECT, PERFECT_FIT};
 use super::{
@@ -84,14 +85,9 @@ impl FitTarget<'_> {
             Some(self.evaluation_point.derivative(candidate, walk, &effect))
         };
         let columns: Vec<Vec<f64>> = free.iter().map(column).collect::<Option<_>>()?;
-        let count = columns.len();
-        let mut normal = DMatrix::from_fn(count, count, |row, column| dot(&columns[row], &columns[column]));
-        let right = DVector::from_fn(count, |row, _| -dot(&columns[row], difference));
-        for at in 0..count {
-            // The second term keeps a parameter without effect at its value.
-            normal[(at, at)] += damping * normal[(at, at)] + NO_EFFECT;
-        }
-        Some(normal.cholesky()?.solve(&right))
+        // The absolute part keeps a parameter without effect at its value.
+        NormalEquations::of_columns(&columns, difference)
+            .damped_step(Damping { relative: damping, absolute: NO_EFFECT })
     }
 }
 
