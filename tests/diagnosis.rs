@@ -171,7 +171,7 @@ fn physics_is_identified_as_a_black_box_with_the_same_answer() {
         report["diagnoses"].as_array().unwrap().iter().map(|pair| &pair["name"]).collect();
     assert_eq!(names, ["model_urdf", "model_simulation"]);
     for pair in report["diagnoses"].as_array().unwrap() {
-        let cause = &pair["diagnosis"][0];
+        let cause = &pair["causes"][0];
         assert_eq!([&cause["cause"], &cause["joint"]], ["zero_offset", "wrist_2_joint"]);
         near(&cause["value"], -7_f64.to_radians());
     }

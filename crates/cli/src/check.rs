@@ -76,7 +76,7 @@ fn text(report: &CheckReport) -> String {
         text,
         "{}: {}, worst {} over {} configurations (tolerance {:e} m, {:e} rad)",
         report.robot,
-        word(report.verdict),
+        report.verdict,
         length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),
         report.configurations,
         report.tolerance.position_m,
@@ -199,7 +199,7 @@ fn diagnosed(text: &mut String, diagnosis: &ReportedDiagnosis) {
             let _ = writeln!(
                 text,
                 "    {:14} {:24} found {:>12} expected {:>12}",
-                difference.invariant.to_string(),
+                difference.invariant,
                 difference.joint,
                 invariant(difference.invariant, difference.found),
                 invariant(difference.invariant, difference.expected)
@@ -246,7 +246,7 @@ fn compared(text: &mut String, comparison: &Comparison) {
     let _ = writeln!(
         text,
         "  {:9} {:32} {:>12}  {:>12}  at {}",
-        word(comparison.verdict),
+        comparison.verdict,
         comparison.title,
         length(comparison.worst.error.position_m),
         angle(comparison.worst.error.orientation_rad),
@@ -267,12 +267,5 @@ fn compared(text: &mut String, comparison: &Comparison) {
             length(link.error.position_m),
             angle(link.error.orientation_rad)
         );
-    }
-}
-
-fn word(agreement: Agreement) -> &'static str {
-    match agreement {
-        Agreement::Agree => "agree",
-        Agreement::Disagree => "disagree",
     }
 }

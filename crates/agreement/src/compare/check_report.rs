@@ -1,5 +1,7 @@
 //! The answer of `congruent check`.
 
+use std::fmt;
+
 use congruent_description::{Finding, JointValues, Tolerance};
 use congruent_kinematics::PoseError;
 use schemars::JsonSchema;
@@ -23,6 +25,12 @@ pub enum Agreement {
     Agree,
     /// Beyond tolerance somewhere.
     Disagree,
+}
+
+impl fmt::Display for Agreement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
 }
 
 /// The largest differences, in position and in orientation; the two may be at different configurations.
@@ -112,4 +120,24 @@ pub struct DifferenceAt {
     /// The largest distance and the largest angle at a link that decides.
     #[serde(flatten)]
     pub error: PoseError,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_verdict_prints_as_it_is_serialised_and_fills_a_column() {
+        assert_eq!(format!("{:9}|", Agreement::Agree), "agree    |");
+        assert_eq!(serde_json::to_value(Agreement::Disagree).unwrap(), "disagree");
+    }
+
+    /// The schema names causes and pairs as the report does.
+    #[test]
+    fn a_report_has_a_schema() {
+        let schema = serde_json::to_string(&schemars::schema_for!(CheckReport)).unwrap();
+        for word in ["axis_flipped", "model_urdf", "within_tolerance", "axis_distance"] {
+            assert!(schema.contains(&format!("\"{word}\"")), "no {word} in {schema}");
+        }
+    }
 }

@@ -7,11 +7,11 @@ use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::thresholds::{PARALLEL, SAME_PART_OF_RESIDUAL, SAME_VALUE};
 use super::{
     candidate::{Candidate, CandidateRow, DhEntry, RowConstants},
     explanation::{Criterion, Explanation},
     hypothesis::ModelPair,
+    thresholds::{PARALLEL, SAME_PART_OF_RESIDUAL, SAME_VALUE},
 };
 
 /// The reason why two explanations cannot be distinguished.

@@ -1,12 +1,12 @@
 //! The fit of one hypothesis, or of several together.
 
-use super::thresholds::{ANGLE_STARTS_RAD, GOOD_FIT};
 use super::{
     candidate::{Candidate, ModelParameter},
     evaluation_point::EvaluationPoint,
     hypothesis::{Hypothesis, ModelPair},
     least_squares::{FitTarget, FittedCandidate},
     reference_model::ChainState,
+    thresholds::{ANGLE_STARTS_RAD, GOOD_FIT},
 };
 
 /// Hypotheses with their free parameters fitted.

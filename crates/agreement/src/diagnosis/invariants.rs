@@ -8,8 +8,10 @@ use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::hypothesis::ModelPair;
-use super::thresholds::{NO_TURN, PARALLEL, SAME_VALUE};
+use super::{
+    hypothesis::ModelPair,
+    thresholds::{NO_TURN, PARALLEL, SAME_VALUE},
+};
 
 /// A quantity of a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]

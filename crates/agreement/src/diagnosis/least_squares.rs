@@ -3,11 +3,11 @@
 use congruent_kinematics::least_squares::{Damping, NormalEquations};
 use nalgebra::DVector;
 
-use super::thresholds::{DAMPING, MAX_STEPS, MIN_GAIN, NO_EFFECT, PERFECT_FIT};
 use super::{
     candidate::{Candidate, ChainWalk, ModelParameter},
     evaluation_point::EvaluationPoint,
     reference_model::ChainState,
+    thresholds::{DAMPING, MAX_STEPS, MIN_GAIN, NO_EFFECT, PERFECT_FIT},
 };
 
 /// A candidate with its free parameters fitted.

@@ -8,14 +8,14 @@
 
 use congruent_kinematics::PoseError;
 
-use super::thresholds::{
-    BELOW_TOLERANCE, CERTAIN, EVIDENT, FAR_BELOW_TOLERANCE, QUARTER_TURNS, REFUTED, ROUNDING_RESIDUAL,
-};
 use super::{
     candidate::{Candidate, DeclaredTransform, DhEntry, ModelParameter},
     explanation::Criterion,
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
     hypothesis_fit::{FitContext, HypothesisFit},
+    thresholds::{
+        BELOW_TOLERANCE, CERTAIN, EVIDENT, FAR_BELOW_TOLERANCE, QUARTER_TURNS, REFUTED, ROUNDING_RESIDUAL,
+    },
 };
 
 /// The order in which explanations are named; smaller is first.

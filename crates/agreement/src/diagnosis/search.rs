@@ -2,9 +2,6 @@
 
 use congruent_kinematics::PoseError;
 
-use super::thresholds::{
-    EVALUATED_BELOW, MAX_IN_PAIRS, MAX_NEXT_BEST, MAX_PARAMETERS, PARAMETER_GAIN, SAME_EFFECT, SAME_NORM,
-};
 use super::{
     cause,
     equivalence::{self, Equivalence},
@@ -13,6 +10,9 @@ use super::{
     hypothesis_fit::{FitContext, HypothesisFit},
     invariants::{self, JointDifference},
     score::{Rank, is_refuted, rank},
+    thresholds::{
+        EVALUATED_BELOW, MAX_IN_PAIRS, MAX_NEXT_BEST, MAX_PARAMETERS, PARAMETER_GAIN, SAME_EFFECT, SAME_NORM,
+    },
 };
 
 /// Why two models differ: the answer of [`diagnose`].
@@ -243,7 +243,7 @@ impl ExplanationSearch<'_> {
         while fit.hypotheses.len() > 2 && at < fit.hypotheses.len() {
             let (mut fewer, mut start) = (fit.hypotheses.clone(), fit.changes.clone());
             fewer.remove(at);
-            start.remove(at); // one free number each
+            start.remove(at); // one free parameter each
             let without = self.context.fit(fewer, &[start]);
             if self.accepts(&without) { fit = without } else { at += 1 }
         }

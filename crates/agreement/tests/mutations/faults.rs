@@ -65,7 +65,7 @@ fn of_row(models: &ModelPair, row: usize, list: &mut Vec<InjectedFault>) {
         let place = Place::Entries(what, vec![row]);
         for &by in if is_angle { &ANGLES_RAD[..] } else { &LENGTHS_M[..] } {
             list.push(InjectedFault::new(cause, place.clone(), move |models| {
-                *entry(models, row, what) += by
+                *entry(models, row, what) += by;
             }));
         }
         let slips: &[(Cause, f64)] = if is_angle {
@@ -75,7 +75,7 @@ fn of_row(models: &ModelPair, row: usize, list: &mut Vec<InjectedFault>) {
         };
         for &(cause, factor) in slips {
             list.push(InjectedFault::new(cause, place.clone(), move |models| {
-                *entry(models, row, what) *= factor
+                *entry(models, row, what) *= factor;
             }));
         }
     }
@@ -107,7 +107,7 @@ fn order(row: usize, other: usize, list: &mut Vec<InjectedFault>) {
         (rows[row].joint, rows[other].joint) = (rows[other].joint, rows[row].joint);
     }));
     list.push(InjectedFault::new(Cause::JointsSwapped, place, move |models| {
-        models.candidate.rows.swap(row, other)
+        models.candidate.rows.swap(row, other);
     }));
     if other == row + 1 {
         let place = Place::Entries(DhEntry::Alpha, vec![row, other]);

@@ -2,10 +2,10 @@
 
 use nalgebra::Matrix3;
 
-use crate::diagnosis::thresholds::{FOUR_DECIMALS_RAD, NO_TURN};
 use crate::diagnosis::{
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
     reference_model::ReferenceModel,
+    thresholds::{FOUR_DECIMALS_RAD, NO_TURN},
 };
 
 pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {

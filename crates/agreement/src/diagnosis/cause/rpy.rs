@@ -4,8 +4,10 @@
 use congruent_kinematics::EulerSet;
 use nalgebra::Matrix3;
 
-use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
-use crate::diagnosis::thresholds::{NO_TURN, SINGULAR_BELOW_RAD};
+use crate::diagnosis::{
+    hypothesis::{Cause, Hypothesis, ModelPair, Place},
+    thresholds::{NO_TURN, SINGULAR_BELOW_RAD},
+};
 
 /// A rotation after its angles are read in another order, from its roll, pitch and yaw and its matrix.
 type RpyReading = fn([f64; 3], &Matrix3<f64>) -> Matrix3<f64>;
