@@ -66,6 +66,9 @@ impl KinematicsError {
     }
 
     /// Compares two numbers of joints.
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] if they differ.
     pub fn check_joint_count(expected: usize, found: usize) -> Result<(), Self> {
         if found == expected { Ok(()) } else { Err(Self::JointCount { expected, found }) }
     }

@@ -1,6 +1,7 @@
 //! Least squares on screws and tip: the free numbers of a hypothesis, by Levenberg and Marquardt.
 
-use nalgebra::{DMatrix, DVector};
+use congruent_kinematics::least_squares::{Damping, NormalEquations};
+use nalgebra::DVector;
 
 use super::{
     candidate::{Candidate, ChainWalk, ModelParameter},
@@ -90,14 +91,9 @@ impl FitTarget<'_> {
             Some(self.evaluation_point.derivative(candidate, walk, &influence))
         };
         let columns: Vec<Vec<f64>> = free.iter().map(column).collect::<Option<_>>()?;
-        let count = columns.len();
-        let mut normal = DMatrix::from_fn(count, count, |row, column| dot(&columns[row], &columns[column]));
-        let right = DVector::from_fn(count, |row, _| -dot(&columns[row], difference));
-        for at in 0..count {
-            // The second term keeps a number that changes nothing where it is.
-            normal[(at, at)] += damping * normal[(at, at)] + 1e-15;
-        }
-        Some(normal.cholesky()?.solve(&right))
+        // The absolute part keeps a number that changes nothing where it is.
+        NormalEquations::of_columns(&columns, difference)
+            .damped_step(Damping { relative: damping, absolute: 1e-15 })
     }
 }
 

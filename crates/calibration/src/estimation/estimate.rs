@@ -1,6 +1,7 @@
 //! Least squares by Levenberg-Marquardt, its covariance, and the noise estimated from the residuals.
 
-use nalgebra::{DMatrix, DVector};
+use congruent_kinematics::least_squares::{BalancedCholesky, Damping, damped_step};
+use nalgebra::DMatrix;
 
 use super::problem::{CalibrationEquations, Measurement, Noise, PoseResidual, Problem, Weighting};
 
@@ -125,7 +126,8 @@ pub(super) fn weighted_fit(
         (FIRST_DAMPING, f64::INFINITY, kept.is_empty(), 0);
     while !converged && iterations < MOST_ITERATIONS && damping < MOST_DAMPING {
         iterations += 1;
-        let Some(step) = damped_step(&equations, damping) else {
+        let damped = Damping { relative: damping, absolute: 0.0 };
+        let Some(step) = damped_step(&equations.information, &equations.gradient, damped) else {
             damping *= 10.0;
             continue;
         };
@@ -166,46 +168,7 @@ fn finished(
     Fit { corrections, standard_deviations, covariance, residuals, noise, converged, iterations }
 }
 
-/// Solves `(H + damping diag H) step = g`.
-fn damped_step(equations: &CalibrationEquations, damping: f64) -> Option<DVector<f64>> {
-    let mut information = equations.information.clone();
-    for at in 0..information.nrows() {
-        information[(at, at)] *= 1.0 + damping;
-    }
-    Some(balanced(&information)?.solve(&equations.gradient))
-}
-
 /// Inverse of a positive definite matrix.
 fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let identity = DMatrix::identity(information.nrows(), information.nrows());
-    let balanced = balanced(information)?;
-    let mut inverse = identity.clone();
-    for at in 0..identity.ncols() {
-        inverse.set_column(at, &balanced.solve(&identity.column(at).into_owned()));
-    }
-    Some(inverse)
-}
-
-/// A Cholesky factor of a matrix whose rows and columns were scaled to a unit diagonal first, so
-/// that radians and metres do not cost digits.
-struct Balanced {
-    scale: DVector<f64>,
-    factor: nalgebra::Cholesky<f64, nalgebra::Dyn>,
-}
-
-fn balanced(information: &DMatrix<f64>) -> Option<Balanced> {
-    let scale = information.diagonal().map(|entry| if entry > 0.0 { 1.0 / entry.sqrt() } else { 1.0 });
-    let mut unit = information.clone();
-    for row in 0..unit.nrows() {
-        for column in 0..unit.ncols() {
-            unit[(row, column)] *= scale[row] * scale[column];
-        }
-    }
-    Some(Balanced { scale, factor: unit.cholesky()? })
-}
-
-impl Balanced {
-    fn solve(&self, right: &DVector<f64>) -> DVector<f64> {
-        self.factor.solve(&right.component_mul(&self.scale)).component_mul(&self.scale)
-    }
+    Some(BalancedCholesky::new(information.clone())?.inverse())
 }

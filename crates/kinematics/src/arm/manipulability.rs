@@ -3,7 +3,7 @@
 use congruent_description::ArmQ;
 use nalgebra::{DMatrix, Matrix3};
 
-use super::{model::Arm, spread::spread};
+use super::model::Arm;
 use crate::{error::KinematicsError, spatial::twist::Twist};
 
 /// Singular values below this share of the largest are zero. Kind: rounding of a dozen products.
@@ -82,7 +82,7 @@ impl Arm {
     /// The most directions that each of the three spans at a few fixed configurations.
     fn attainable_ranks(&mut self) -> [usize; 3] {
         let mut ranks = [0; 3];
-        for q in spread(self.joints(), RANK_SAMPLES) {
+        for q in self.spread(RANK_SAMPLES) {
             let jacobians = self.jacobians(&q).expect("q is a configuration of this arm");
             for (rank, jacobian) in ranks.iter_mut().zip(jacobians) {
                 let values = sorted(&jacobian.singular_values());

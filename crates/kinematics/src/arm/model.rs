@@ -208,6 +208,12 @@ impl Arm {
         }
     }
 
+    /// Fixed configurations, spread over the ranges.
+    pub(super) fn spread(&self, count: u32) -> Vec<ArmQ> {
+        let ranges: Vec<(f64, f64)> = self.joints.iter().map(ArmJoint::sampled_range).collect();
+        spread(&ranges, count)
+    }
+
     /// Positions of the chain's joints, mimics included.
     fn place(&mut self, q: &ArmQ) -> Result<(), KinematicsError> {
         KinematicsError::check_joints(self.joints.len(), q)?;
@@ -222,7 +228,7 @@ impl Arm {
         /// Enough for a length that is only a scale.
         const CONFIGURATIONS: u32 = 16;
         let (mut sum, mut turning) = (0.0, 0.0);
-        for q in spread(&self.joints, CONFIGURATIONS) {
+        for q in self.spread(CONFIGURATIONS) {
             let (_, columns) = self.pose_and_jacobian(&q).expect("q is a configuration of this arm");
             for column in columns {
                 let rate = column.angular.norm();

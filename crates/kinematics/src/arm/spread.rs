@@ -3,21 +3,18 @@
 
 use congruent_description::ArmQ;
 
-use super::model::ArmJoint;
-
-/// `count` configurations: joint `j` of configuration `k` is at the part `frac(k sqrt(p_j))` of its range, `p_j`
+/// `count` configurations: position `j` of configuration `k` is at the part `frac(k sqrt(p_j))` of its range, `p_j`
 /// the j-th prime, so that no two joints move alike.
 ///
 /// Source: Niederreiter, *Random Number Generation and Quasi-Monte Carlo Methods* (1992), section 3.1: the
 /// Kronecker sequence.
-pub(super) fn spread(joints: &[ArmJoint], count: u32) -> Vec<ArmQ> {
-    let primes = primes(joints.len());
+pub(super) fn spread(ranges: &[(f64, f64)], count: u32) -> Vec<ArmQ> {
+    let primes = primes(ranges.len());
     let configuration = |k: u32| {
-        let position = |(joint, prime): (&ArmJoint, &u32)| {
-            let (lower, upper) = joint.sampled_range();
-            lower + (upper - lower) * (f64::from(k) * f64::from(*prime).sqrt()).fract()
+        let position = |(&(lower, upper), &prime): (&(f64, f64), &u32)| {
+            lower + (upper - lower) * (f64::from(k) * f64::from(prime).sqrt()).fract()
         };
-        joints.iter().zip(&primes).map(position).collect()
+        ranges.iter().zip(&primes).map(position).collect()
     };
     (1..=count).map(configuration).collect()
 }

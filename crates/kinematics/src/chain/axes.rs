@@ -22,6 +22,7 @@ pub struct Axes {
 impl Axes {
     /// The axes of a pose.
     #[inline]
+    #[must_use]
     pub fn of(pose: &Pose) -> Self {
         let column = |at: usize| pose.rotation.column(at).into_owned();
         Self { x: column(0), y: column(1), z: column(2), origin: pose.translation }
@@ -37,6 +38,7 @@ impl Axes {
 
     /// Times `Rz(theta)`.
     #[inline]
+    #[must_use]
     pub fn turned_about_z(&self, theta: SinCos) -> Self {
         Self {
             x: self.x * theta.cos + self.y * theta.sin,
@@ -47,6 +49,7 @@ impl Axes {
 
     /// Times `Rx(alpha)`.
     #[inline]
+    #[must_use]
     pub fn turned_about_x(&self, alpha: SinCos) -> Self {
         Self {
             y: self.y * alpha.cos + self.z * alpha.sin,
@@ -57,18 +60,21 @@ impl Axes {
 
     /// Times `Rz(theta) Tz(d)`.
     #[inline]
+    #[must_use]
     pub fn about_z(&self, theta: SinCos, d_m: f64) -> Self {
         Self { origin: self.origin + self.z * d_m, ..self.turned_about_z(theta) }
     }
 
     /// Times `Tx(a) Rx(alpha)`.
     #[inline]
+    #[must_use]
     pub fn about_x(&self, alpha: SinCos, a_m: f64) -> Self {
         Self { origin: self.origin + self.x * a_m, ..self.turned_about_x(alpha) }
     }
 
     /// Times `T(shift)`.
     #[inline]
+    #[must_use]
     pub fn shifted(&self, shift: &Vector3<f64>) -> Self {
         let origin = self.x * shift.x + self.y * shift.y + self.z * shift.z + self.origin;
         Self { origin, ..*self }

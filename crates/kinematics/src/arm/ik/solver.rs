@@ -264,7 +264,7 @@ impl IkSolver {
         Ok((best, options.max_iterations))
     }
 
-    /// IkResidual and columns at `q`.
+    /// Residual and columns at `q`.
     fn look(&mut self, target: &IkTarget, frame: &TaskFrame) -> Result<IkResidual, KinematicsError> {
         let (base_from_tcp, columns) = self.arm.pose_and_jacobian(&self.q)?;
         for (task, column) in self.columns.iter_mut().zip(columns) {

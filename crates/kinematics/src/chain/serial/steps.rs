@@ -18,7 +18,7 @@ pub(crate) struct PathStep {
     /// Pose of that frame in the one of the joint before, at position zero.
     pub(crate) before_from_axis: Pose,
     pub(crate) turns: bool,
-    /// AxisMotion for one unit of the coordinate.
+    /// Motion for one unit of the coordinate.
     pub(crate) per_q: f64,
     pub(crate) coordinate: usize,
 }
