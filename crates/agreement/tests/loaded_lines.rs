@@ -45,10 +45,10 @@ fn names_line_10(description: &RobotDescription, file: &Path) {
     let mut physics = UrdfTree::new(&description.robot);
     let options = CheckOptions { seed: 0, configurations: Vec::new() };
     let report = check(description, &mut physics, &options).unwrap();
-    let fault = &report.diagnosis[0].blame;
+    let fault = &report.diagnosis[0].fault;
     assert_eq!((fault.joint.as_deref(), fault.line), (Some("a"), Some(10)), "{fault:?}");
     assert_eq!(fault.suggestion, "write a_m = 0.4");
-    let found = &report.ladders[0].findings[0];
+    let found = &report.diagnoses[0].findings[0];
     let source = found.source.as_ref().unwrap();
     assert_eq!((found.line_column(), source.path.as_path()), (Some((10, 7)), file));
     assert_eq!(&source.text[found.span.clone().unwrap()], "0.5");

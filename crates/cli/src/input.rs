@@ -72,7 +72,7 @@ impl ConfigurationArguments {
         for assignment in &self.at {
             let (joint, value) = parse(assignment)?;
             if let Some(before) = values.insert(joint, value) {
-                let message = format!("--at {assignment}: the joint is already given as {before}");
+                let message = format!("--at {assignment}: the joint is given as {before} already");
                 return Err(Diagnostic::error("cli::at", message).into());
             }
         }
