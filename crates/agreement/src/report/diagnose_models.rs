@@ -32,8 +32,7 @@ pub fn diagnose_models(
         tolerance: description.tolerance,
         configurations: configurations.iter().map(|q| q.of_chain(&coordinates)).collect(),
     };
-    let names =
-        ModelNames { description, moving, chain, places, urdf: description.places.urdf.as_ref() };
+    let names = ModelNames { description, moving, chain, places, urdf: description.places.urdf.as_ref() };
     let pairs = if let Some(candidate) = candidate(&names) {
         let against_physics = ModelPair { candidate: candidate.clone(), reference: physics };
         vec![

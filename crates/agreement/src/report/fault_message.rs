@@ -243,7 +243,8 @@ impl FaultContext<'_> {
             suggestion,
             ..Fault::default()
         };
-        let part = if shift.norm() > turn.norm() { ConstantPart::Translation } else { ConstantPart::Rotation };
+        let part =
+            if shift.norm() > turn.norm() { ConstantPart::Translation } else { ConstantPart::Rotation };
         let span = places.map(|places| places.constant(key, part));
         let message = format!("the declared transform {name} {how}");
         FaultMessage { fault, message, location: self.in_robot_file(span) }

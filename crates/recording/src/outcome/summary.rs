@@ -49,8 +49,12 @@ fn properties(report: &RunReport) -> AnyValues {
 
 /// The verdict as a sentence.
 pub(crate) fn verdict(report: &RunReport) -> String {
-    let failed: Vec<_> =
-        report.checks.iter().filter(|check| check.status == Status::Fail).map(|check| check.check.word()).collect();
+    let failed: Vec<_> = report
+        .checks
+        .iter()
+        .filter(|check| check.status == Status::Fail)
+        .map(|check| check.check.word())
+        .collect();
     let failed = failed.join(", ");
     match (report.verdict, &report.expected) {
         (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
