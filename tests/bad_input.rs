@@ -141,8 +141,8 @@ fn case_13_a_zone_that_cannot_be() {
         ("links = [\"l*9\"]\nbox_m = [1, 1, 1]", ["no moving link with a collision shape \"l*9\"", "link_2"]),
         ("links = [\"tip\"]\nbox_m = [1, 1, 1]", ["\"tip\" has no collision shape", "link_1"]),
         ("links = [\"base*\"]\nbox_m = [1, 1, 1]", ["no moving link", "base_link"]),
-        ("links = \"link_1\"\nbox_m = [1, 1, 1]", ["`links` is an array of strings", "found string"]),
-        ("links = [1]\nbox_m = [1, 1, 1]", ["`links` is an array of strings", "found integer"]),
+        ("links = \"link_1\"\nbox_m = [1, 1, 1]", ["string \"link_1\"", "expected an array of strings"]),
+        ("links = [1]\nbox_m = [1, 1, 1]", ["integer `1`", "expected a string"]),
         ("links = []\nbox_m = [1, 1, 1]", ["forbidden to no link", "links = [\"*\"]"]),
         ("link = [\"*\"]\nbox_m = [1, 1, 1]", ["forbidden to no link", "unknown key \"link\""]),
     ] {
@@ -170,9 +170,9 @@ fn case_13_zones_and_their_check_go_together() {
 #[test]
 fn case_13_an_answer_to_a_violation_that_is_none() {
     for (key, words) in [
-        ("on_violation = \"halt\"", ["unknown answer to a violation \"halt\"", "continue, stop"]),
-        ("on_violation = true", ["`on_violation` is a string", "found boolean"]),
-        ("on_violaton = \"stop\"", ["unknown key \"on_violaton\"", "of every check: kind, on_violation"]),
+        ("on_violation = \"halt\"", ["unknown value \"halt\"", "continue, stop"]),
+        ("on_violation = true", ["boolean `true`", "expected a string"]),
+        ("on_violaton = \"stop\"", ["unknown key \"on_violaton\"", "on_violation; of every check: kind"]),
     ] {
         let bench = Workbench::new();
         bench.edit("scenario.toml", "kind = \"agreement\"", &format!("kind = \"agreement\"\n{key}"));

@@ -23,5 +23,6 @@ mod pairing;
 mod robots;
 mod safety;
 mod scenarios;
+mod schemas;
 mod servo;
 mod suggestions;

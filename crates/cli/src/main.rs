@@ -1,24 +1,16 @@
 //! The command `congruent`: arguments, printing, exit codes. What it prints is computed in
-//! `congruent-twin`. A new command is a file here, a variant of [`Command`] and a line in [`main`].
+//! the library `congruent`. A new command is a file here or in a folder, a variant of [`Command`] and a line in [`main`].
 
-mod calibrate;
-mod check;
-mod clearance;
-mod convert;
-mod derive;
+mod arm;
 mod failure;
-mod fk;
-mod ik;
 mod input;
 #[cfg(feature = "recording")]
 mod inspect;
-mod jacobian;
-mod manipulability;
+mod model;
 mod plot_file;
 mod print;
 mod run;
-mod sensitivity;
-mod workspace;
+mod schema;
 
 use std::process::ExitCode;
 
@@ -43,19 +35,20 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Arguments),
-    Check(check::Arguments),
-    Fk(fk::Arguments),
-    Jacobian(jacobian::Arguments),
-    Ik(ik::Arguments),
-    Manipulability(manipulability::Arguments),
-    Workspace(workspace::Arguments),
-    Sensitivity(sensitivity::Arguments),
-    Clearance(clearance::Arguments),
-    Calibrate(calibrate::Arguments),
-    Derive(derive::Arguments),
-    Convert(convert::Arguments),
+    Check(model::check::Arguments),
+    Fk(arm::fk::Arguments),
+    Jacobian(arm::jacobian::Arguments),
+    Ik(arm::ik::Arguments),
+    Manipulability(arm::manipulability::Arguments),
+    Workspace(arm::workspace::Arguments),
+    Sensitivity(arm::sensitivity::Arguments),
+    Clearance(arm::clearance::Arguments),
+    Calibrate(model::calibrate::Arguments),
+    Derive(model::derive::Arguments),
+    Convert(model::convert::Arguments),
     #[cfg(feature = "recording")]
     Inspect(inspect::Arguments),
+    Schema(schema::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -63,19 +56,20 @@ fn main() -> ExitCode {
     let printer = Printer::new(arguments.format);
     let result = match arguments.command {
         Command::Run(arguments) => run::run(&arguments, &printer),
-        Command::Check(arguments) => check::run(&arguments, &printer),
-        Command::Fk(arguments) => fk::run(&arguments, &printer),
-        Command::Jacobian(arguments) => jacobian::run(&arguments, &printer),
-        Command::Calibrate(arguments) => calibrate::run(&arguments, &printer),
-        Command::Ik(arguments) => ik::run(&arguments, &printer),
-        Command::Manipulability(arguments) => manipulability::run(&arguments, &printer),
-        Command::Workspace(arguments) => workspace::run(&arguments, &printer),
-        Command::Sensitivity(arguments) => sensitivity::run(&arguments, &printer),
-        Command::Clearance(arguments) => clearance::run(&arguments, &printer),
-        Command::Derive(arguments) => derive::run(&arguments, &printer),
-        Command::Convert(arguments) => convert::run(&arguments, &printer),
+        Command::Check(arguments) => model::check::run(&arguments, &printer),
+        Command::Fk(arguments) => arm::fk::run(&arguments, &printer),
+        Command::Jacobian(arguments) => arm::jacobian::run(&arguments, &printer),
+        Command::Calibrate(arguments) => model::calibrate::run(&arguments, &printer),
+        Command::Ik(arguments) => arm::ik::run(&arguments, &printer),
+        Command::Manipulability(arguments) => arm::manipulability::run(&arguments, &printer),
+        Command::Workspace(arguments) => arm::workspace::run(&arguments, &printer),
+        Command::Sensitivity(arguments) => arm::sensitivity::run(&arguments, &printer),
+        Command::Clearance(arguments) => arm::clearance::run(&arguments, &printer),
+        Command::Derive(arguments) => model::derive::run(&arguments, &printer),
+        Command::Convert(arguments) => model::convert::run(&arguments, &printer),
         #[cfg(feature = "recording")]
         Command::Inspect(arguments) => inspect::run(&arguments, &printer),
+        Command::Schema(arguments) => schema::run(&arguments, &printer),
     };
     match result {
         Ok(code) => ExitCode::from(code),

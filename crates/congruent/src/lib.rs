@@ -13,6 +13,7 @@ pub use congruent_recording as recording;
 pub use congruent_simulation as simulation;
 pub use congruent_twin as twin;
 
+pub mod schema;
 mod with_physics;
 
 pub use with_physics::{check, forward};

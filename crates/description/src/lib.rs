@@ -21,7 +21,9 @@ mod urdf;
 mod written;
 mod xml;
 
-pub use configuration_file::{JointState, JsonList, configuration, read_configurations, read_states};
+pub use configuration_file::{
+    JointState, JsonList, configuration, configurations_schema, read_configurations, read_states,
+};
 pub use description::{Places, RobotDescription};
 pub use diagnostic::{Diagnostic, Severity, SourceFile, known_names, line_column, nearest};
 pub use diagnostics::Diagnostics;
@@ -33,7 +35,9 @@ pub use model::{
     JointLimit, JointParts, JointValues, Link, LinkIndex, Mesh, Mimic, Robot, RobotError, RobotQ, Shape,
     Tolerance,
 };
-pub use robot_file::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace, dh_section};
+pub use robot_file::{
+    ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace, dh_section, robot_file_schema,
+};
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use written::{
     array::fixed_array,

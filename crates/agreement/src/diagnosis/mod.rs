@@ -2,8 +2,8 @@
 //!
 //! The candidate (`candidate.rs`) is a table, or screws that were identified; the reference model
 //! (`reference_model.rs`) is a chain of joints. Both are compared as screws and tip at one generic
-//! configuration (`evaluation_point.rs`), which is exact, by their invariants (`invariants.rs`), and by
-//! fitting each hypothesis of a catalogue (`cause/`, `hypothesis_fit.rs`) to the difference. The
+//! configuration (`fit/evaluation_point.rs`), which is exact, by their invariants (`invariants.rs`), and by
+//! fitting each hypothesis of a catalogue (`cause/`, `fit/`) to the difference. The
 //! explanations are ranked (`score.rs`), and those that no measurement can distinguish are listed with the
 //! reason (`equivalence.rs`). Every threshold is in `thresholds.rs`. The bound of the difference is in
 //! [`crate::bound`].
@@ -12,12 +12,10 @@ mod candidate;
 mod cause;
 mod described;
 mod equivalence;
-mod evaluation_point;
 mod explanation;
+mod fit;
 mod hypothesis;
-mod hypothesis_fit;
 mod invariants;
-mod least_squares;
 mod reference_model;
 mod score;
 mod search;

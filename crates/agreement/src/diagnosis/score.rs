@@ -11,8 +11,8 @@ use congruent_kinematics::PoseError;
 use super::{
     candidate::{Candidate, DeclaredTransform, DhEntry, ModelParameter},
     explanation::Criterion,
+    fit::hypothesis_fit::{FitContext, HypothesisFit},
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
-    hypothesis_fit::{FitContext, HypothesisFit},
     thresholds::{
         BELOW_TOLERANCE, CERTAIN, EVIDENT, FAR_BELOW_TOLERANCE, QUARTER_TURNS, REFUTED, ROUNDING_RESIDUAL,
     },

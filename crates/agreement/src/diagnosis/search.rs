@@ -6,8 +6,8 @@ use super::{
     cause,
     equivalence::{self, Equivalence},
     explanation::{Criterion, ExplainedFault, Explanation},
+    fit::hypothesis_fit::{FitContext, HypothesisFit},
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
-    hypothesis_fit::{FitContext, HypothesisFit},
     invariants::{self, JointDifference},
     score::{Rank, is_refuted, rank},
     thresholds::{

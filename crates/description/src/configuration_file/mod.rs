@@ -4,6 +4,7 @@ mod json_list;
 
 use std::{collections::BTreeMap, path::Path};
 
+use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 
 use crate::{
@@ -26,17 +27,27 @@ const LIST: JsonList = JsonList {
 const MOST_BYTES: u64 = 256 << 20;
 
 /// One entry of a batch, joints by name; joints of groups that a command does not use are checked too.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "Configuration")]
 struct WrittenConfiguration {
+    /// Positions in rad and m; joints that are not named are at 0.
     #[serde(default)]
     q: BTreeMap<String, f64>,
+    /// Velocities in rad/s and m/s.
     #[serde(default)]
     v: BTreeMap<String, f64>,
+    /// Torques in N m and forces in N.
     #[serde(default)]
     tau: BTreeMap<String, f64>,
+    /// Accelerations in rad/s² and m/s².
     #[serde(default)]
     a: BTreeMap<String, f64>,
+}
+
+/// The JSON schema of files of configurations.
+pub fn configurations_schema() -> Schema {
+    schema_for!(Vec<WrittenConfiguration>)
 }
 
 /// Positions and speeds of a robot: one entry for each movable joint.

@@ -184,7 +184,8 @@ impl Robot {
     /// If `qd` is not a configuration vector of this robot.
     /// # Examples
     /// ```
-    /// let robot = congruent_description::parse_urdf(
+    /// use congruent_description::{RobotQ, parse_urdf};
+    /// let robot = parse_urdf(
     ///     r#"<robot name="gripper">
     ///         <link name="palm"/><link name="left"/><link name="right"/>
     ///         <joint name="a" type="continuous"><parent link="palm"/><child link="left"/></joint>
@@ -192,10 +193,10 @@ impl Robot {
     ///             <mimic joint="a" multiplier="-2" offset="0.5"/></joint>
     ///     </robot>"#,
     /// ).unwrap();
-    /// let (mut q, mut qd) = ([0.1, 9.0], [0.1, 9.0]);
+    /// let (mut q, mut qd) = (RobotQ::from([0.1, 9.0]), [0.1, 9.0]);
     /// robot.apply_mimic(&mut q);
     /// robot.apply_mimic_to_speeds(&mut qd);
-    /// assert_eq!((q, qd), ([0.1, 0.3], [0.1, -0.2]));
+    /// assert_eq!((q.as_slice(), qd), ([0.1, 0.3].as_slice(), [0.1, -0.2]));
     /// ```
     pub fn apply_mimic_to_speeds(&self, qd: &mut [f64]) {
         self.follow_masters(qd, |_| 0.0);

@@ -10,6 +10,7 @@ pub(crate) use check::{Declared, check};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
 pub use write::dh_section;
 pub(crate) use written::WrittenRobot;
+pub use written::robot_file_schema;
 
 /// The largest robot file that is read.
 pub(crate) const ROBOT_FILE_BYTES: u64 = 1 << 20;

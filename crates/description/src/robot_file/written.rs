@@ -1,7 +1,9 @@
-//! A robot file as it is written: keys and units, nothing checked.
+//! A robot file as it is written: keys and units, nothing checked. The comments are the descriptions of the
+//! robot file's JSON schema, so they speak to people who write robot files.
 
 use std::{collections::BTreeMap, path::PathBuf};
 
+use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -10,54 +12,148 @@ use crate::{
     written::transform::WrittenTransform,
 };
 
-#[derive(Debug, Deserialize)]
+/// The JSON schema of robot files.
+pub fn robot_file_schema() -> Schema {
+    schema_for!(WrittenRobot)
+}
+
+/// A robot: its URDF, the chain from base to tip, and the analytical model of that chain.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(title = "Robot file")]
 pub(crate) struct WrittenRobot {
-    pub(crate) name: Option<Spanned<String>>,
-    pub(crate) urdf: Option<Spanned<PathBuf>>,
-    pub(crate) srdf: Option<Spanned<PathBuf>>,
-    pub(crate) base: Option<Spanned<String>>,
-    pub(crate) tip: Option<Spanned<String>>,
+    /// Name in reports; the URDF's name by default.
     #[serde(default)]
+    #[schemars(with = "String")]
+    pub(crate) name: Option<Spanned<String>>,
+    /// The URDF, relative to this file.
+    #[schemars(with = "String")]
+    pub(crate) urdf: Option<Spanned<PathBuf>>,
+    /// The SRDF that disables collisions, relative to this file.
+    #[serde(default)]
+    #[schemars(with = "String")]
+    pub(crate) srdf: Option<Spanned<PathBuf>>,
+    /// First link of the chain; the root by default.
+    #[serde(default)]
+    #[schemars(with = "String")]
+    pub(crate) base: Option<Spanned<String>>,
+    /// Last link of the chain; the end of the longest chain by default.
+    #[serde(default)]
+    #[schemars(with = "String")]
+    pub(crate) tip: Option<Spanned<String>>,
+    /// Folders of `package://NAME` in mesh addresses, relative to this file.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, String>")]
     pub(crate) packages: BTreeMap<String, Spanned<PathBuf>>,
+    /// The Denavit-Hartenberg table; without one the URDF is compared with the physics alone.
+    #[serde(default)]
+    #[schemars(with = "WrittenDh")]
     pub(crate) dh: Option<Spanned<WrittenDh>>,
+    /// The tool centre point in the frame of the tip.
+    #[serde(default)]
+    #[schemars(with = "WrittenTransform")]
     pub(crate) tcp: Option<Spanned<WrittenTransform>>,
+    /// How far model and twin may differ; 1e-9 m and 1e-9 rad by default.
+    #[serde(default)]
+    #[schemars(with = "WrittenTolerance")]
     pub(crate) tolerance: Option<WrittenTolerance>,
 }
 
-#[derive(Debug, PartialEq, Deserialize)]
+/// A Denavit-Hartenberg table.
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "DhTable")]
 pub(crate) struct WrittenDh {
-    /// Optional, so that a missing one gets a message of its own.
+    // Optional, so that a missing one gets a message of its own.
+    /// The order of the four motions of a row: the same table in the other convention is another robot.
+    #[schemars(with = "DhConvention")]
     pub(crate) convention: Option<Spanned<DhConvention>>,
-    pub(crate) source: Option<String>,
-    pub(crate) base_from_dh0: Option<Spanned<WrittenTransform>>,
-    pub(crate) dhn_from_tip: Option<Spanned<WrittenTransform>>,
+    /// The publication that the values are from.
     #[serde(default)]
+    #[schemars(with = "String")]
+    pub(crate) source: Option<String>,
+    /// The pose of the table's frame 0 in the base link; identity by default.
+    #[serde(default)]
+    #[schemars(with = "WrittenTransform")]
+    pub(crate) base_from_dh0: Option<Spanned<WrittenTransform>>,
+    /// The pose of the tip in the table's last frame; identity by default.
+    #[serde(default)]
+    #[schemars(with = "WrittenTransform")]
+    pub(crate) dhn_from_tip: Option<Spanned<WrittenTransform>>,
+    /// One row for each movable joint of the chain, from base to tip.
+    #[serde(default)]
+    #[schemars(with = "Vec<WrittenRow>")]
     pub(crate) row: Vec<Spanned<WrittenRow>>,
 }
 
-#[derive(Debug, PartialEq, Deserialize)]
+/// A row of the table. Each quantity has one of its two keys: SI units or engineering units.
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "DhRow")]
 pub(crate) struct WrittenRow {
+    /// Name of the joint in the URDF.
+    #[schemars(with = "String")]
     pub(crate) joint: Spanned<String>,
+    /// Whether the joint's position is added to theta or to d.
+    #[schemars(with = "DhRowKind")]
     pub(crate) kind: Spanned<DhRowKind>,
+    /// Link length a in metres.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) a_m: Option<Spanned<f64>>,
+    /// Link length a in millimetres.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) a_mm: Option<Spanned<f64>>,
+    /// Link twist alpha in radians.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) alpha_rad: Option<Spanned<f64>>,
+    /// Link twist alpha in degrees.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) alpha_deg: Option<Spanned<f64>>,
+    /// Link offset d in metres; of a prismatic row, d at position 0.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) d_m: Option<Spanned<f64>>,
+    /// Link offset d in millimetres; of a prismatic row, d at position 0.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) d_mm: Option<Spanned<f64>>,
+    /// Joint angle theta in radians; of a revolute row, theta at position 0. 0 by default.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) theta_rad: Option<Spanned<f64>>,
+    /// Joint angle theta in degrees; of a revolute row, theta at position 0. 0 by default.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) theta_deg: Option<Spanned<f64>>,
+    /// 1 or -1: the sign of the URDF's joint position in the row. 1 by default.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) sign: Option<Spanned<f64>>,
 }
 
-#[derive(Debug, Deserialize)]
+/// How far two poses may be apart and still agree.
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "FileTolerance")]
 pub(crate) struct WrittenTolerance {
+    /// Distance of the origins in metres.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) position_m: Option<Spanned<f64>>,
+    /// Distance of the origins in millimetres.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) position_mm: Option<Spanned<f64>>,
+    /// Angle between the orientations in radians.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) orientation_rad: Option<Spanned<f64>>,
+    /// Angle between the orientations in degrees.
+    #[serde(default)]
+    #[schemars(with = "f64")]
     pub(crate) orientation_deg: Option<Spanned<f64>>,
 }

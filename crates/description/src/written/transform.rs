@@ -2,6 +2,7 @@
 //! or by a whole matrix.
 
 use nalgebra::{Isometry3, Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -22,26 +23,33 @@ const QUATERNION_NORM: f64 = 1e-6;
 const ORTHONORMAL: f64 = 1e-9;
 
 /// A transform as written; the identity if nothing is given.
-#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "Transform")]
 pub struct WrittenTransform {
     /// Translation in metres.
     #[serde(default, deserialize_with = "fixed_array")]
+    #[schemars(with = "[f64; 3]")]
     pub xyz_m: Option<Spanned<[f64; 3]>>,
     /// Translation in millimetres.
     #[serde(default, deserialize_with = "fixed_array")]
+    #[schemars(with = "[f64; 3]")]
     pub xyz_mm: Option<Spanned<[f64; 3]>>,
     /// Turns about the fixed axes x, then y, then z, in radians.
     #[serde(default, deserialize_with = "fixed_array")]
+    #[schemars(with = "[f64; 3]")]
     pub rpy_rad: Option<Spanned<[f64; 3]>>,
     /// Turns about the fixed axes x, then y, then z, in degrees.
     #[serde(default, deserialize_with = "fixed_array")]
+    #[schemars(with = "[f64; 3]")]
     pub rpy_deg: Option<Spanned<[f64; 3]>>,
     /// Unit quaternion, scalar first.
     #[serde(default, deserialize_with = "fixed_array")]
+    #[schemars(with = "[f64; 4]")]
     pub quaternion_wxyz: Option<Spanned<[f64; 4]>>,
     /// Homogeneous matrix by rows, in metres; excludes all other keys.
     #[serde(default, deserialize_with = "fixed_matrix")]
+    #[schemars(with = "[[f64; 4]; 4]")]
     pub matrix: Option<Spanned<[[f64; 4]; 4]>>,
 }
 

@@ -2,13 +2,14 @@
 
 use std::{collections::BTreeMap, fmt};
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// The property that holds the verdict.
 pub(super) const VERDICT: &str = "congruent/verdict";
 
 /// The content of a recording.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RecordingSummary {
     /// Name and version of this format.
     pub format: &'static str,
@@ -39,7 +40,7 @@ pub struct RecordingSummary {
 }
 
 /// A timeline and its range.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct TimelineSummary {
     /// Its name.
     pub name: String,
@@ -52,7 +53,7 @@ pub struct TimelineSummary {
 }
 
 /// The rows of one entity.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct EntitySummary {
     /// Its path; special characters in names are escaped with a backslash.
     pub path: String,
@@ -65,7 +66,7 @@ pub struct EntitySummary {
 }
 
 /// Statistics of one scalar over time.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ScalarSummary {
     /// Path of its entity.
     pub path: String,

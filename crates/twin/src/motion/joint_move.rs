@@ -1,36 +1,15 @@
 //! `move_joints_*`: named joints move to absolute positions, the others hold.
 
-use congruent_description::{Diagnostic, RobotQ};
+use congruent_description::Diagnostic;
 
 use super::{
+    course::{Course, JointMove, Motion},
     planning::Planning,
-    trajectory::{Course, Motion},
 };
 use crate::{
-    scenario::{JointMotion, Profile, Progress, mark},
+    scenario::{JointMotion, mark},
     setup::JointTargets,
 };
-
-/// A planned move from one configuration to another.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JointMove {
-    /// Positions at its start.
-    pub from: RobotQ,
-    /// Positions at its end.
-    pub to: RobotQ,
-    /// How it runs in between.
-    pub profile: Profile,
-}
-
-impl JointMove {
-    /// Writes positions and velocities after a share of the move is done.
-    pub(super) fn at(&self, progress: Progress, q: &mut RobotQ, qd: &mut [f64]) {
-        for ((q, qd), (from, to)) in q.iter_mut().zip(qd).zip(self.from.iter().zip(&self.to)) {
-            *q = from + (to - from) * progress.share;
-            *qd = (to - from) * progress.share_per_s;
-        }
-    }
-}
 
 pub(super) fn plan(settings: &JointMotion, planning: &mut Planning<'_>) -> Result<Motion, Vec<Diagnostic>> {
     let robot = &planning.description.robot;

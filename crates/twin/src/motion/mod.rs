@@ -1,5 +1,6 @@
 //! Motions under way: planned moves, servos, and the reference that they give the joints.
 
+mod course;
 mod joint_move;
 mod planning;
 mod reference_generator;
@@ -9,8 +10,8 @@ mod tcp_servo;
 mod tests;
 mod trajectory;
 
-pub use joint_move::JointMove;
+pub use course::{Course, JointMove, Motion, TcpServo};
 pub use reference_generator::ReferenceGenerator;
 pub(crate) use tcp_servo::DEFAULT_GAIN_PER_S;
-pub use tcp_servo::{ServoResult, TcpServo};
-pub use trajectory::{Course, Motion, Trajectory};
+pub use tcp_servo::ServoResult;
+pub use trajectory::Trajectory;

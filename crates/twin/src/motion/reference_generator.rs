@@ -4,8 +4,9 @@ use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::KinematicsError;
 
 use super::{
+    course::Course,
     tcp_servo::{ServoController, ServoResult, StepInterval},
-    trajectory::{Course, Trajectory},
+    trajectory::Trajectory,
 };
 
 /// The reference of a run. Moves are planned and only looked up; servos follow where the robot

@@ -5,9 +5,8 @@ use congruent_description::{Diagnostic, RobotQ};
 use congruent_kinematics::{Arm, IkOptions, IkSolver, IkTarget, KinematicsError, Pose, TargetPart, UrdfTree};
 
 use super::{
-    joint_move::JointMove,
+    course::{Course, JointMove, Motion},
     planning::Planning,
-    trajectory::{Course, Motion},
 };
 use crate::scenario::{Place, PoseSettings, TcpMotion};
 

@@ -8,32 +8,19 @@
 //! its limits, where an obstacle keeps it from following: checks see that, the servo does not.
 
 use congruent_description::{ArmQ, Diagnostic, Robot, RobotDescription, RobotQ};
-use congruent_kinematics::{
-    Arm, ArmJoint, DifferentialMethod, IkSolver, IkTarget, KinematicsError, TargetPart,
-};
+use congruent_kinematics::{Arm, ArmJoint, DifferentialMethod, IkSolver, KinematicsError, TargetPart};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
+    course::{Course, Motion, TcpServo},
     planning::Planning,
     tcp_move,
-    trajectory::{Course, Motion},
 };
 use crate::scenario::{ServoMethod, ServoMotion};
 
 /// Without a gain, an error falls to 1/e in 0.2 s.
 pub(crate) const DEFAULT_GAIN_PER_S: f64 = 5.0;
-
-/// One motion that is closed over the measured positions and not planned.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TcpServo {
-    /// The target in the arm's base.
-    pub target: IkTarget,
-    /// How joint speeds follow from the error.
-    pub method: ServoMethod,
-    /// How fast the error decays: as `exp(-gain t)` where nothing limits the joints.
-    pub gain_per_s: f64,
-}
 
 /// How far a servo has brought the TCP.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

@@ -1,9 +1,9 @@
 //! One motion after another, looked up at instants.
 
 use super::{
-    joint_move::JointMove,
+    course::{Course, JointMove, Motion},
     reference_generator::ReferenceGenerator,
-    trajectory::{Course, Motion, Trajectory},
+    trajectory::Trajectory,
 };
 use crate::scenario::Profile;
 

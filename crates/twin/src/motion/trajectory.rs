@@ -4,30 +4,12 @@
 use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 
 use super::{
-    joint_move::{self, JointMove},
+    course::{Course, Motion},
+    joint_move,
     planning::Planning,
-    tcp_move,
-    tcp_servo::{self, TcpServo},
+    tcp_move, tcp_servo,
 };
 use crate::scenario::{MotionSettings, Place};
-
-/// One motion.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Motion {
-    /// How long it takes.
-    pub duration_s: f64,
-    /// Where it goes.
-    pub course: Course,
-}
-
-/// Where a motion goes.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Course {
-    /// From one configuration to another.
-    Joints(JointMove),
-    /// Closed over the measured positions, step by step.
-    Servo(Box<TcpServo>),
-}
 
 /// All motions of a scenario; the arm holds before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]

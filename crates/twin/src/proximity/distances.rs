@@ -4,6 +4,7 @@ use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::{KinematicsError, Pose, UrdfTree};
 use congruent_simulation::Obstacle;
 use nalgebra::Isometry3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
@@ -12,14 +13,14 @@ use super::{
 };
 
 /// Distances at one configuration, in the order of the report's pairs.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Distances {
     /// 0 where a pair touches or overlaps; negative depths where they were asked for.
     pub distances_m: Vec<f64>,
 }
 
 /// The answer of `congruent clearance`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DistanceReport {
     /// Name of the robot.
     pub robot: String,

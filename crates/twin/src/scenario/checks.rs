@@ -8,6 +8,7 @@ use super::{
     number::{non_negative, optional_positive, positive},
     on_violation::OnViolation,
     pose::PoseSettings,
+    text::variant,
 };
 
 /// One check.
@@ -93,7 +94,7 @@ pub struct AgreementCheck {
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub orientation_rad: Option<f64>,
     /// What follows its first violation.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
 }
 
@@ -105,7 +106,7 @@ pub struct ClearanceCheck {
     #[serde(deserialize_with = "non_negative")]
     pub minimum_m: f64,
     /// What follows its first violation.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
 }
 
@@ -122,7 +123,7 @@ pub struct GoalCheck {
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub orientation_rad: Option<f64>,
     /// What follows its first violation.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
 }
 
@@ -131,7 +132,7 @@ pub struct GoalCheck {
 #[serde(deny_unknown_fields)]
 pub struct LimitsCheck {
     /// What follows its first violation.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
 }
 
@@ -140,6 +141,6 @@ pub struct LimitsCheck {
 #[serde(deny_unknown_fields)]
 pub struct ZoneCheck {
     /// What follows its first violation.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
 }

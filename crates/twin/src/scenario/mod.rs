@@ -3,28 +3,26 @@
 
 mod checks;
 mod data;
-mod file;
 mod joints;
 mod motions;
 mod number;
 mod on_violation;
-mod overrides;
 mod place;
 mod pose;
 mod profile;
-mod section;
+mod reading;
 mod spaces;
+mod text;
 
 pub use checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck};
 pub use data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
-pub use file::ScenarioFile;
 pub use joints::StartSettings;
 pub use motions::{JointMotion, MotionSettings, ServoMethod, ServoMotion, TcpMotion};
 pub(crate) use number::Range;
 pub use on_violation::OnViolation;
-pub use overrides::Override;
 pub use place::Place;
 pub(crate) use place::mark;
 pub use pose::PoseSettings;
 pub use profile::{Profile, Progress};
+pub use reading::{Override, ScenarioFile};
 pub use spaces::{CylinderSettings, ObstacleSettings, ZoneSettings};

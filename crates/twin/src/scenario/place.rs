@@ -27,7 +27,7 @@ struct KeyPlace {
 
 impl PlaceNode {
     /// The places of a whole document.
-    pub(super) fn of_document(text: &str, table: &Spanned<DeTable<'_>>) -> Self {
+    pub(in crate::scenario) fn of_document(text: &str, table: &Spanned<DeTable<'_>>) -> Self {
         let breaks = text.match_indices('\n').map(|(line_break, _)| line_break + 1);
         let line_starts: Vec<usize> = std::iter::once(0).chain(breaks).collect();
         Self::of_table(table.get_ref(), table.span(), &line_starts)

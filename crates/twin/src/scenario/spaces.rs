@@ -3,7 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::number::{optional_array, optional_positive, optional_positive_array, positive};
+use super::{
+    number::{optional_array, optional_positive, optional_positive_array, positive},
+    text::strings,
+};
 
 /// A cylinder along its z axis, its origin in the middle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,7 +56,7 @@ pub struct ZoneSettings {
     /// Its name in reports.
     pub name: String,
     /// Names of the links that may not enter, in which `*` stands for any characters.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "strings")]
     pub links: Vec<String>,
     /// Edges of a box.
     #[serde(default, deserialize_with = "optional_positive_array", skip_serializing_if = "Option::is_none")]

@@ -1,19 +1,14 @@
-//! The catalogue of hypotheses: one file for each family of causes. A new family is a file here and a line in
+//! The catalogue of hypotheses: one file for each family of causes, those of joints in `joint/`. A new family is a file here and a line in
 //! [`FAMILIES`].
 
-mod axis;
 mod constants;
 mod convention;
 mod exchange;
-mod fixed_joint;
-mod kind;
-mod order;
+mod joint;
 mod parameter;
-mod ratio;
 mod rounding;
 mod rpy;
 mod units;
-mod zero;
 
 use super::hypothesis::{Hypothesis, ModelPair};
 
@@ -22,19 +17,19 @@ type Family = fn(&ModelPair) -> Vec<Hypothesis>;
 
 /// All families.
 const FAMILIES: [Family; 13] = [
-    axis::hypotheses,
+    joint::axis::hypotheses,
     convention::hypotheses,
-    order::hypotheses,
-    kind::hypotheses,
+    joint::order::hypotheses,
+    joint::kind::hypotheses,
     units::hypotheses,
     exchange::hypotheses,
     rpy::hypotheses,
-    fixed_joint::hypotheses,
+    joint::fixed_joint::hypotheses,
     rounding::hypotheses,
-    zero::hypotheses,
+    joint::zero::hypotheses,
     constants::hypotheses,
     parameter::hypotheses,
-    ratio::hypotheses,
+    joint::ratio::hypotheses,
 ];
 
 /// All hypotheses about a pair of models.

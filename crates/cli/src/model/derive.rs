@@ -4,9 +4,9 @@ use clap::ValueEnum;
 use congruent::analysis::conversion::{Conversion, ConversionSource, ConversionTarget, convert};
 
 use crate::{
-    convert::{AccuracyArguments, text},
     failure::Failure,
     input::{ChainArguments, RobotArgument},
+    model::convert::{AccuracyArguments, text},
     print::Printer,
 };
 

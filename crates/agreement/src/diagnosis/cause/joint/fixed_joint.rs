@@ -4,7 +4,7 @@ use congruent_kinematics::Pose;
 
 use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
 
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let reference = &models.reference;
     let dropped = |joint: usize| {
         Hypothesis::edit(

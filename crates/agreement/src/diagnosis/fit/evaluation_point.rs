@@ -5,22 +5,22 @@ use congruent_description::ChainQ;
 use congruent_kinematics::{Pose, Twist};
 use nalgebra::Vector3;
 
-use super::{
+use crate::diagnosis::{
     candidate::{Candidate, ChainWalk, ParameterEffect},
     reference_model::{ChainState, ReferenceModel},
 };
 
 /// The configuration at which chains are compared, and the length that makes metres comparable to radians.
 #[derive(Debug, Clone)]
-pub(super) struct EvaluationPoint {
-    pub(super) q: ChainQ,
-    pub(super) length_m: f64,
+pub(in crate::diagnosis) struct EvaluationPoint {
+    pub(in crate::diagnosis) q: ChainQ,
+    pub(in crate::diagnosis) length_m: f64,
 }
 
 impl EvaluationPoint {
     /// A generic configuration of `reference`: at zero, a table with its rows in another order could have the
     /// same screws and still be another robot.
-    pub(super) fn of(reference: &ReferenceModel) -> Self {
+    pub(in crate::diagnosis) fn of(reference: &ReferenceModel) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "arms have few joints")]
         let q: ChainQ = (0..reference.joint_count()).map(|joint| 0.3 + 0.1 * (joint as f64).sqrt()).collect();
         let state = reference.state(&q);
@@ -30,7 +30,7 @@ impl EvaluationPoint {
     }
 
     /// Candidate minus target, without unit: six values for each joint, then the tip.
-    pub(super) fn difference(
+    pub(in crate::diagnosis) fn difference(
         &self,
         candidate: &Candidate,
         walk: &ChainWalk,
@@ -55,7 +55,7 @@ impl EvaluationPoint {
     ///
     /// The chain behind the parameter moves rigidly: a screw by the bracket with the generator, the tip by
     /// the generator itself (Lynch & Park, *Modern Robotics* (2017), section 8.3.1).
-    pub(super) fn derivative(
+    pub(in crate::diagnosis) fn derivative(
         &self,
         candidate: &Candidate,
         walk: &ChainWalk,

@@ -2,7 +2,7 @@
 
 use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
 
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let rows = models.candidate.rows.len();
     let pairs = (0..rows).flat_map(|second| (0..second).map(move |first| (first, second)));
     pairs.flat_map(|(first, second)| [names(first, second), whole_rows(first, second)]).collect()

@@ -11,19 +11,16 @@ use congruent_simulation::controller_names;
 use serde::Deserialize;
 use toml::{Spanned, de::DeTable};
 
-use super::{
+use super::{overrides::Override, section::Section};
+use crate::scenario::{
     checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck},
     data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario},
     motions::{JOINT_KEYS, JointMotion, MotionSettings, SERVO_KEY, ServoMotion, TCP_KEY, TcpMotion},
-    overrides::Override,
     place::{Place, PlaceNode},
-    section::Section,
 };
 
 /// Largest scenario file that is read.
 const MOST_BYTES: u64 = 4 << 20;
-/// The keys that every check has, whatever its kind.
-const COMMON_CHECK_KEYS: &str = "kind, on_violation";
 
 /// A scenario with the places of its values.
 #[derive(Debug, Clone)]
@@ -231,8 +228,8 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
         CheckKind::Zone => section.read_into::<ZoneCheck>(&mut found).map(Check::Zone),
     };
     let name_common_keys = |finding: Diagnostic| {
-        let more = format!("of every check: {COMMON_CHECK_KEYS}");
-        if is_unknown_key(&finding) { with_more_help(finding, &more) } else { finding }
+        let more = "of every check: kind";
+        if is_unknown_key(&finding) { with_more_help(finding, more) } else { finding }
     };
     findings.extend(found.map(name_common_keys).into_vec());
     check
@@ -242,9 +239,9 @@ fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, V
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Gains {
-        #[serde(default, deserialize_with = "super::number::non_negative")]
+        #[serde(default, deserialize_with = "crate::scenario::number::non_negative")]
         stiffness: f64,
-        #[serde(default, deserialize_with = "super::number::non_negative")]
+        #[serde(default, deserialize_with = "crate::scenario::number::non_negative")]
         damping: f64,
     }
     let known: Vec<&str> = controller_names().collect();

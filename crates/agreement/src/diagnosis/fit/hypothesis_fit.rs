@@ -1,56 +1,56 @@
 //! The fit of one hypothesis, or of several together.
 
-use super::{
+use crate::diagnosis::{
     candidate::{Candidate, ModelParameter},
-    evaluation_point::EvaluationPoint,
+    fit::evaluation_point::EvaluationPoint,
+    fit::least_squares::{FitTarget, FittedCandidate},
     hypothesis::{Hypothesis, ModelPair},
-    least_squares::{FitTarget, FittedCandidate},
     reference_model::ChainState,
     thresholds::{ANGLE_STARTS_RAD, GOOD_FIT},
 };
 
 /// Hypotheses with their free parameters fitted.
 #[derive(Debug, Clone)]
-pub(super) struct HypothesisFit {
+pub(in crate::diagnosis) struct HypothesisFit {
     /// Indices of the hypotheses.
-    pub(super) hypotheses: Vec<usize>,
+    pub(in crate::diagnosis) hypotheses: Vec<usize>,
     /// The models with the faults corrected.
-    pub(super) corrected: ModelPair,
+    pub(in crate::diagnosis) corrected: ModelPair,
     /// Norm of the remaining difference of screws and tip, without unit.
-    pub(super) norm: f64,
+    pub(in crate::diagnosis) norm: f64,
     /// The change of each free parameter.
-    pub(super) changes: Vec<f64>,
+    pub(in crate::diagnosis) changes: Vec<f64>,
 }
 
 /// The models, the hypotheses and the target of all fits.
-pub(super) struct FitContext<'a> {
-    pub(super) models: &'a ModelPair,
-    pub(super) hypotheses: &'a [Hypothesis],
-    pub(super) evaluation_point: EvaluationPoint,
-    pub(super) state: ChainState,
+pub(in crate::diagnosis) struct FitContext<'a> {
+    pub(in crate::diagnosis) models: &'a ModelPair,
+    pub(in crate::diagnosis) hypotheses: &'a [Hypothesis],
+    pub(in crate::diagnosis) evaluation_point: EvaluationPoint,
+    pub(in crate::diagnosis) state: ChainState,
 }
 
 impl<'a> FitContext<'a> {
-    pub(super) fn new(models: &'a ModelPair, hypotheses: &'a [Hypothesis]) -> Self {
+    pub(in crate::diagnosis) fn new(models: &'a ModelPair, hypotheses: &'a [Hypothesis]) -> Self {
         let evaluation_point = EvaluationPoint::of(&models.reference);
         let state = models.reference.state(&evaluation_point.q);
         Self { models, hypotheses, evaluation_point, state }
     }
 
     /// Norm of the difference of two models.
-    pub(super) fn norm(&self, models: &ModelPair) -> f64 {
+    pub(in crate::diagnosis) fn norm(&self, models: &ModelPair) -> f64 {
         let state = models.reference.state(&self.evaluation_point.q);
         FitTarget { evaluation_point: &self.evaluation_point, state: &state }.norm(&models.candidate)
     }
 
     /// One hypothesis, from every start.
-    pub(super) fn single(&self, hypothesis: usize) -> HypothesisFit {
+    pub(in crate::diagnosis) fn single(&self, hypothesis: usize) -> HypothesisFit {
         self.fit(vec![hypothesis], &self.angle_starts(hypothesis))
     }
 
     /// Starts of the free parameters of a single fit in a pair: their result alone, and the starts of
     /// angles.
-    pub(super) fn starts(&self, single: &HypothesisFit) -> Vec<Vec<f64>> {
+    pub(in crate::diagnosis) fn starts(&self, single: &HypothesisFit) -> Vec<Vec<f64>> {
         if single.changes.is_empty() {
             return Vec::new();
         }
@@ -68,7 +68,7 @@ impl<'a> FitContext<'a> {
 
     /// The fit of several hypotheses together: from the present values and from further starts of the free
     /// parameters. The best result counts.
-    pub(super) fn fit(&self, hypotheses: Vec<usize>, starts: &[Vec<f64>]) -> HypothesisFit {
+    pub(in crate::diagnosis) fn fit(&self, hypotheses: Vec<usize>, starts: &[Vec<f64>]) -> HypothesisFit {
         let mut models = self.models.clone();
         for &hypothesis in &hypotheses {
             self.hypotheses[hypothesis].apply(&mut models);

@@ -3,31 +3,31 @@
 use congruent_kinematics::least_squares::{Damping, NormalEquations};
 use nalgebra::DVector;
 
-use super::{
+use crate::diagnosis::{
     candidate::{Candidate, ChainWalk, ModelParameter},
-    evaluation_point::EvaluationPoint,
+    fit::evaluation_point::EvaluationPoint,
     reference_model::ChainState,
     thresholds::{DAMPING, MAX_STEPS, MIN_GAIN, NO_EFFECT, PERFECT_FIT},
 };
 
 /// A candidate with its free parameters fitted.
 #[derive(Debug, Clone)]
-pub(super) struct FittedCandidate {
-    pub(super) candidate: Candidate,
+pub(in crate::diagnosis) struct FittedCandidate {
+    pub(in crate::diagnosis) candidate: Candidate,
     /// Norm of the remaining difference, without unit.
-    pub(super) norm: f64,
+    pub(in crate::diagnosis) norm: f64,
 }
 
 /// The target of a fit: screws and tip of the reference model at the evaluation point.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct FitTarget<'a> {
-    pub(super) evaluation_point: &'a EvaluationPoint,
-    pub(super) state: &'a ChainState,
+pub(in crate::diagnosis) struct FitTarget<'a> {
+    pub(in crate::diagnosis) evaluation_point: &'a EvaluationPoint,
+    pub(in crate::diagnosis) state: &'a ChainState,
 }
 
 impl FitTarget<'_> {
     /// Norm of the difference of a candidate from the target.
-    pub(super) fn norm(&self, candidate: &Candidate) -> f64 {
+    pub(in crate::diagnosis) fn norm(&self, candidate: &Candidate) -> f64 {
         norm(&self.difference(candidate, &candidate.walk(&self.evaluation_point.q)))
     }
 
@@ -38,7 +38,11 @@ impl FitTarget<'_> {
     /// Fits the parameters `free`, starting at their present values.
     ///
     /// Source: Marquardt (1963), the damping scaled by the diagonal, which mixes rad and m safely.
-    pub(super) fn refit(&self, candidate: &Candidate, free: &[ModelParameter]) -> FittedCandidate {
+    pub(in crate::diagnosis) fn refit(
+        &self,
+        candidate: &Candidate,
+        free: &[ModelParameter],
+    ) -> FittedCandidate {
         let mut walk = candidate.walk(&self.evaluation_point.q);
         let mut difference = self.difference(candidate, &walk);
         let mut best = FittedCandidate { candidate: candidate.clone(), norm: norm(&difference) };

@@ -2,7 +2,7 @@
 
 use crate::diagnosis::hypothesis::{Cause, Hypothesis, ModelPair, Place};
 
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let flipped = |row: usize| {
         Hypothesis::edit(Cause::AxisFlipped, Place::Rows(vec![row]), move |models: &mut ModelPair| {
             models.candidate.rows[row].rate *= -1.0;

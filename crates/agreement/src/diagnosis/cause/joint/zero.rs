@@ -5,7 +5,7 @@ use crate::diagnosis::{
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
 };
 
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let candidate = &models.candidate;
     let zero = |row: usize| {
         let entry = candidate.zero_entry(row);

@@ -7,7 +7,7 @@ use crate::diagnosis::{
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
 };
 
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let twists: Vec<_> = models.reference.joints.iter().filter_map(|joint| joint.twist_in_joint).collect();
     let other = |row: usize| {
         let RowConstants::Dh { kind, .. } = models.candidate.rows[row].link else { return None };

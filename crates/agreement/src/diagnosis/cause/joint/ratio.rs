@@ -5,7 +5,7 @@ use crate::diagnosis::{
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
 };
 
-pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
+pub(in crate::diagnosis::cause) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
     let ratio = |row| Hypothesis::fit(Cause::Ratio, Place::Rows(vec![row]), vec![ModelParameter::Rate(row)]);
     (0..models.candidate.rows.len()).map(ratio).collect()
 }

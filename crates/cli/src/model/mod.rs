@@ -1,0 +1,6 @@
+//! Commands about models: compared, calibrated, derived and converted.
+
+pub(crate) mod calibrate;
+pub(crate) mod check;
+pub(crate) mod convert;
+pub(crate) mod derive;

@@ -1,0 +1,80 @@
+//! JSON schemas of the files that are read and of the documents that are written: for editors that complete and
+//! check while one types, and for programs in other languages.
+
+use congruent_agreement::compare::CheckReport;
+use congruent_analysis::{
+    conversion::ConversionReport, forward::ForwardReport, inverse::InverseReport, jacobians::JacobianReport,
+    manipulability::ManipulabilityReport, sensitivity::SensitivityReport, workspace::WorkspaceReport,
+};
+use congruent_calibration::report::CalibrationReport;
+use congruent_description::{configurations_schema, robot_file_schema};
+#[cfg(feature = "recording")]
+use congruent_recording::RecordingSummary;
+use congruent_twin::{proximity::DistanceReport, report::RunReport, scenario::Scenario};
+use schemars::{JsonSchema, Schema, generate::SchemaSettings, schema_for};
+
+/// A kind of file or document that has a schema.
+#[derive(Debug, Clone, Copy)]
+pub struct Document {
+    /// Its name: `robot`, `scenario`, `report`, or the command that prints it.
+    pub name: &'static str,
+    /// What it is.
+    pub about: &'static str,
+    make: fn() -> Schema,
+}
+
+impl Document {
+    /// Every document, files that are read first.
+    pub const ALL: &[Self] = &[
+        Self::new("robot", "robot file (robot.toml)", robot_file_schema),
+        Self::new("scenario", "scenario file", || schema_for!(Scenario)),
+        Self::new("configurations", "file of configurations, of --configurations", configurations_schema),
+        Self::new("report", "report.json of a run, printed by `run`", written::<RunReport>),
+        Self::new("check", "report of one robot, printed by `check`", written::<CheckReport>),
+        Self::new("fk", "link poses, printed by `fk`", written::<ForwardReport>),
+        Self::new("jacobian", "Jacobians, printed by `jacobian`", written::<JacobianReport>),
+        Self::new("ik", "solutions, printed by `ik`", written::<InverseReport>),
+        Self::new(
+            "manipulability",
+            "ellipsoids, printed by `manipulability`",
+            written::<ManipulabilityReport>,
+        ),
+        Self::new("workspace", "reach, printed by `workspace`", written::<WorkspaceReport>),
+        Self::new("sensitivity", "sensitivities, printed by `sensitivity`", written::<SensitivityReport>),
+        Self::new("clearance", "distances, printed by `clearance`", written::<DistanceReport>),
+        Self::new("calibrate", "corrections, printed by `calibrate`", written::<CalibrationReport>),
+        Self::new(
+            "convert",
+            "model and proof, printed by `convert` and `derive`",
+            written::<ConversionReport>,
+        ),
+        #[cfg(feature = "recording")]
+        Self::new("inspect", "summary of a recording, printed by `inspect`", written::<RecordingSummary>),
+    ];
+
+    const fn new(name: &'static str, about: &'static str, make: fn() -> Schema) -> Self {
+        Self { name, about, make }
+    }
+
+    /// The document of this name.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent::schema::Document;
+    /// let schema = Document::find("scenario").unwrap().schema();
+    /// assert!(schema.get("properties").unwrap().get("controller").is_some());
+    /// ```
+    pub fn find(name: &str) -> Option<&'static Self> {
+        Self::ALL.iter().find(|document| document.name == name)
+    }
+
+    /// Its JSON schema, draft 2020-12.
+    pub fn schema(&self) -> Schema {
+        (self.make)()
+    }
+}
+
+/// The schema of a document as it is written: keys that are always written are required.
+fn written<T: JsonSchema>() -> Schema {
+    SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<T>()
+}

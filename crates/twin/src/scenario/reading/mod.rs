@@ -1,0 +1,8 @@
+//! Scenario files: text to data, with the places of all values, and overrides of single keys.
+
+mod file;
+mod overrides;
+mod section;
+
+pub use file::ScenarioFile;
+pub use overrides::Override;
