@@ -12,6 +12,7 @@ pub use congruent_kinematics as kinematics;
 pub use congruent_recording as recording;
 pub use congruent_simulation as simulation;
 pub use congruent_twin as twin;
+pub use nalgebra;
 
 pub mod schema;
 mod with_physics;

@@ -11,7 +11,12 @@ use congruent_description::{configurations_schema, robot_file_schema};
 #[cfg(feature = "recording")]
 use congruent_recording::RecordingSummary;
 use congruent_twin::{proximity::DistanceReport, report::RunReport, scenario::Scenario};
-use schemars::{JsonSchema, Schema, generate::SchemaSettings, schema_for};
+use schemars::{
+    JsonSchema, Schema,
+    generate::SchemaSettings,
+    schema_for,
+    transform::{RecursiveTransform, Transform},
+};
 
 /// A kind of file or document that has a schema.
 #[derive(Debug, Clone, Copy)]
@@ -70,7 +75,15 @@ impl Document {
 
     /// Its JSON schema, draft 2020-12.
     pub fn schema(&self) -> Schema {
-        (self.make)()
+        let mut schema = (self.make)();
+        // A key that may be left out has no value `null` that a file could give.
+        let drop_null_default = |schema: &mut Schema| {
+            if schema.get("default").is_some_and(|default| default.is_null()) {
+                schema.remove("default");
+            }
+        };
+        RecursiveTransform(drop_null_default).transform(&mut schema);
+        schema
     }
 }
 

@@ -1,0 +1,35 @@
+//! Inverse kinematics and back: which joint positions bring the tool to a pose, and is it there?
+//! `cargo run --example inverse_kinematics`
+
+#![expect(clippy::print_stdout, reason = "an example shows its result")]
+
+use std::path::Path;
+
+use congruent::{
+    description::ArmQ,
+    kinematics::{IkOptions, IkSolver, IkTarget, TargetPart},
+    prelude::*,
+};
+
+fn main() -> Result<(), String> {
+    let robot = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/ur5e"));
+    let description = load_robot(robot).map_err(|found| listed(&found))?;
+    let arm = Arm::of(&description).map_err(|error| error.to_string())?;
+    let there = ArmQ::from([0.3, -1.2, 1.4, -0.8, -1.5, 0.2]);
+    let base_from_tcp = arm.clone().base_from_tcp(&there).map_err(|error| error.to_string())?;
+
+    let start = ArmQ::zeros(arm.joints().len());
+    let target = IkTarget { base_from_tcp, part: TargetPart::Pose };
+    let mut solver = IkSolver::new(arm);
+    let result = solver
+        .solve(&target, &start, &IkOptions::default(), || true)
+        .map_err(|error| error.to_string())?;
+    println!("converged: {} after {} steps", result.converged, result.iterations);
+    println!("joint positions: {:.6?} rad", result.q.as_slice());
+    println!("residual: {:.1e} m, {:.1e} rad", result.residual_position_m, result.residual_orientation_rad);
+    Ok(())
+}
+
+fn listed(found: &[Diagnostic]) -> String {
+    found.iter().map(|diagnostic| format!("{diagnostic}\n")).collect()
+}

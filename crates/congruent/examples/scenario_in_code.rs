@@ -1,0 +1,54 @@
+//! A scenario made in code and run with several stiffnesses: how well does the arm follow its setpoint?
+//! `cargo run --example scenario_in_code`
+
+#![expect(clippy::print_stdout, reason = "an example shows its result")]
+
+use std::{collections::BTreeMap, path::Path};
+
+use congruent::{
+    prelude::*,
+    twin::{
+        recorder::NoRecorder,
+        scenario::{
+            AgreementCheck, Check, ControllerSettings, JointMotion, MotionSettings, SimulationSettings,
+        },
+    },
+};
+
+fn main() -> Result<(), String> {
+    let robot = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/ur5e"));
+    let description = load_robot(robot).map_err(|found| listed(&found))?;
+    for stiffness in [500.0, 2000.0, 8000.0] {
+        let setup =
+            RunSetup::new(lift(stiffness), description.clone()).map_err(|found| listed(&found))?;
+        let run = Run::new(&setup).map_err(|error| error.to_string())?;
+        let (outcome, ended) = run.finish(&mut setup.checks(), &mut NoRecorder, |_| ());
+        ended.map_err(|error| error.to_string())?;
+        for measure in outcome.checks.iter().flat_map(|check| &check.measures) {
+            let worst = measure.worst.as_ref().map_or(0.0, |moment| moment.value);
+            println!("{stiffness} N m/rad: {} {worst:.1e} {}", measure.quantity, measure.unit);
+        }
+    }
+    Ok(())
+}
+
+/// The shoulder lifts the arm against gravity in one second.
+fn lift(stiffness: f64) -> Scenario {
+    let lift = JointMotion {
+        move_joints_deg: BTreeMap::from([("shoulder_lift_joint".to_owned(), -60.0)]),
+        duration_s: 1.0,
+        ..JointMotion::default()
+    };
+    Scenario {
+        name: "lift".to_owned(),
+        simulation: SimulationSettings { duration_s: Some(1.5), ..SimulationSettings::default() },
+        controller: ControllerSettings { kind: "pd".to_owned(), stiffness, damping: stiffness / 10.0 },
+        motion: vec![MotionSettings::Joints(lift)],
+        check: vec![Check::Agreement(AgreementCheck::default())],
+        ..Scenario::default()
+    }
+}
+
+fn listed(found: &[Diagnostic]) -> String {
+    found.iter().map(|diagnostic| format!("{diagnostic}\n")).collect()
+}
