@@ -143,8 +143,8 @@ fn case_13_a_zone_that_cannot_be() {
         ("links = [\"base*\"]\nbox_m = [1, 1, 1]", ["no moving link", "base_link"]),
         ("links = \"link_1\"\nbox_m = [1, 1, 1]", ["`links` is an array of strings", "found string"]),
         ("links = [1]\nbox_m = [1, 1, 1]", ["`links` is an array of strings", "found integer"]),
-        ("links = []\nbox_m = [1, 1, 1]", ["forbidden to no link", "links = [\"*\"]"]),
-        ("link = [\"*\"]\nbox_m = [1, 1, 1]", ["forbidden to no link", "unknown key \"link\""]),
+        ("links = []\nbox_m = [1, 1, 1]", ["applies to no link", "links = [\"*\"]"]),
+        ("link = [\"*\"]\nbox_m = [1, 1, 1]", ["applies to no link", "unknown key \"link\""]),
     ] {
         let bench = Workbench::new();
         bench.edit("scenario.toml", "[[check]]", &format!("{ZONE}{keys}\n[[check]]"));
@@ -164,7 +164,7 @@ fn case_13_zones_and_their_check_go_together() {
     let bench = Workbench::new();
     let zone = &ZONE[ZONE.find("[[z").unwrap()..];
     bench.edit("scenario.toml", "[[check]]", &format!("{zone}links = [\"*\"]\nbox_m = [1, 1, 1]\n[[check]]"));
-    bench.refused("scenario.toml", 11, &["nothing watches the zones", "kind = \"zone\""]);
+    bench.refused("scenario.toml", 11, &["no check covers the zones", "kind = \"zone\""]);
 }
 
 #[test]

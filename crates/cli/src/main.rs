@@ -1,5 +1,5 @@
-//! The command `congruent`: arguments, printing, exit codes. What it prints is computed in
-//! `congruent-twin`. A new command is a file here, a variant of [`Command`] and a line in [`main`].
+//! The command `congruent`: arguments, printing, exit codes. What it prints is computed by the library
+//! `congruent`. A new command is a file here, a variant of [`Command`] and a line in [`main`].
 
 mod calibrate;
 mod check;
@@ -26,7 +26,7 @@ use clap::{Parser, Subcommand};
 
 use crate::print::{Format, Printer};
 
-/// Is a robot's analytical model the same robot as its URDF? With a number and a cause.
+/// Is a robot's analytical model the same robot as its URDF? With the difference and its cause.
 ///
 /// Exit codes: 0 all as expected, 1 a check failed, 2 bad input, 3 the simulation or the machine
 /// failed, 4 nothing was checked.
