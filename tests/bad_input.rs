@@ -143,8 +143,8 @@ fn case_13_a_zone_that_cannot_be() {
         ("links = [\"base*\"]\nbox_m = [1, 1, 1]", ["no moving link", "base_link"]),
         ("links = \"link_1\"\nbox_m = [1, 1, 1]", ["`links` is an array of strings", "found string"]),
         ("links = [1]\nbox_m = [1, 1, 1]", ["`links` is an array of strings", "found integer"]),
-        ("links = []\nbox_m = [1, 1, 1]", ["applies to no link", "links = [\"*\"]"]),
-        ("link = [\"*\"]\nbox_m = [1, 1, 1]", ["applies to no link", "unknown key \"link\""]),
+        ("links = []\nbox_m = [1, 1, 1]", ["forbidden to no link", "links = [\"*\"]"]),
+        ("link = [\"*\"]\nbox_m = [1, 1, 1]", ["forbidden to no link", "unknown key \"link\""]),
     ] {
         let bench = Workbench::new();
         bench.edit("scenario.toml", "[[check]]", &format!("{ZONE}{keys}\n[[check]]"));

@@ -1,5 +1,5 @@
-//! The command `congruent`: arguments, printing, exit codes. What it prints is computed by the library
-//! `congruent`. A new command is a file here, a variant of [`Command`] and a line in [`main`].
+//! The command `congruent`: arguments, printing, exit codes. What it prints is computed in
+//! `congruent-twin`. A new command is a file here, a variant of [`Command`] and a line in [`main`].
 
 mod calibrate;
 mod check;

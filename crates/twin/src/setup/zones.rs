@@ -77,7 +77,7 @@ fn forbidden_links(
     if names.is_empty() {
         return Err(place
             .mark(
-                Diagnostic::error("scenario::zone_links", "the zone applies to no link")
+                Diagnostic::error("scenario::zone_links", "the zone is forbidden to no link")
                     .with_help("give links = [\"*\"] for all links that move, or their names"),
             )
             .into());
