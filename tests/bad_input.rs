@@ -164,7 +164,7 @@ fn case_13_zones_and_their_check_go_together() {
     let bench = Workbench::new();
     let zone = &ZONE[ZONE.find("[[z").unwrap()..];
     bench.edit("scenario.toml", "[[check]]", &format!("{zone}links = [\"*\"]\nbox_m = [1, 1, 1]\n[[check]]"));
-    bench.refused("scenario.toml", 11, &["nothing watches the zones", "kind = \"zone\""]);
+    bench.refused("scenario.toml", 11, &["no check covers the zones", "kind = \"zone\""]);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Why a command has no answer, and the exit code that says so.
+//! Failures of commands and their exit codes.
 
 use congruent::description::Diagnostic;
 
@@ -12,7 +12,7 @@ pub(crate) const BROKEN: u8 = 3;
 /// Nothing was checked, which is never success.
 pub(crate) const NOTHING: u8 = 4;
 
-/// Why a command has no answer.
+/// Why a command has no result.
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// The input is wrong: every finding.

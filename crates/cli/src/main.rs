@@ -18,7 +18,7 @@ use clap::{Parser, Subcommand};
 
 use crate::print::{Format, Printer};
 
-/// Is a robot's analytical model the same robot as its URDF? With a number and a cause.
+/// Is a robot's analytical model the same robot as its URDF? With the difference and its cause.
 ///
 /// Exit codes: 0 all as expected, 1 a check failed, 2 bad input, 3 the simulation or the machine
 /// failed, 4 nothing was checked.

@@ -1,4 +1,4 @@
-//! The one place that writes to the terminal. Results go to standard output, findings to
+//! The one file that writes to the terminal. Results go to standard output, findings to
 //! standard error.
 
 use std::{
@@ -28,12 +28,12 @@ pub(crate) struct Printer {
     format: Format,
 }
 
-/// What stands on standard output when a command has no answer.
+/// The JSON document of a command that has no result.
 #[derive(Serialize)]
 pub(crate) struct Refusal<'a> {
     error: &'a str,
     findings: Vec<Finding>,
-    /// How many more there are.
+    /// Number of further findings.
     #[serde(skip_serializing_if = "is_zero")]
     left_out: usize,
 }
@@ -43,7 +43,7 @@ fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
-/// So many findings are shown: whoever mends these sees the next.
+/// Most findings that are shown; the others appear once these are corrected.
 const MOST_FINDINGS: usize = 100;
 /// Longest piece of a file, message or help that is shown to people, in bytes.
 const MOST_SHOWN: usize = 2000;
@@ -83,7 +83,7 @@ impl Printer {
         };
         let mut out = io::stdout().lock();
         match out.write_all(printed.as_bytes()).and_then(|()| out.flush()) {
-            // `congruent ... | head` is no failure.
+            // `congruent ... | head` is not a failure.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
             result => result.map_err(machine),
         }
@@ -102,7 +102,7 @@ impl Printer {
     pub(crate) fn failure(&self, failure: &Failure) {
         Self::explain(failure);
         if self.format == Format::Json {
-            // Standard output may be gone; the exit code and standard error still tell.
+            // Standard output may be closed; the exit code and standard error remain.
             let _ = self.result(&Refusal::from(failure), |_| String::new());
         }
     }
@@ -133,7 +133,7 @@ fn machine(error: impl std::fmt::Display) -> Failure {
 }
 
 fn to_stderr(text: &str) {
-    // Nobody is left to tell when standard error is closed.
+    // There is nothing to be done if standard error is closed.
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
@@ -144,20 +144,20 @@ pub(crate) fn rendered(finding: &Diagnostic) -> String {
     let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
     let mut text = String::new();
     let finding = &shortened(finding);
-    // Without a place in a text there is no snippet to carry the file's name.
+    // Without a place in a text there is no snippet with the file's name.
     if let (None, Some(source)) = (&finding.span, &finding.source) {
         let _ = writeln!(text, "{}:", source.path.display());
     }
     if handler.render_report(&mut text, finding).is_err() {
-        // The renderer refuses spans outside the text; the message must not be lost with it.
+        // The renderer rejects spans outside the text; the message is printed all the same.
         let _ = writeln!(text, "{}: {finding}", finding.code);
     }
     text.push('\n');
     text
 }
 
-/// The finding without what would fill the terminal: the snippet where the text in criterion is
-/// long, the ends of its words.
+/// The finding without what would fill the terminal: no snippet if its lines are long, and long messages
+/// are cut.
 fn shortened(finding: &Diagnostic) -> Diagnostic {
     let mut shortened = finding.clone();
     clip(&mut shortened.message);

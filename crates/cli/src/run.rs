@@ -1,4 +1,4 @@
-//! `congruent run`: scenarios, headless.
+//! `congruent run`: runs scenario files without a display.
 
 use std::{
     collections::BTreeMap,
@@ -37,8 +37,10 @@ pub(crate) struct Arguments {
     /// How many scenarios run at once.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: u16,
-    /// Use another value than the scenarios': KEY is the keys of the file joined by dots, with the number of
-    /// an entry of a list, from 1. May be given several times.
+    /// Replace a value of all scenarios, for example controller.stiffness=500 or check.1.position_m=1e-6.
+    ///
+    /// KEY is the keys of the file joined by dots; an entry of a list has its number, from 1. VALUE is TOML.
+    /// May be given several times.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_override)]
     overrides: Vec<Override>,
     /// Use this seed instead of the scenario's; the same as --set seed=N.
@@ -64,11 +66,11 @@ impl Arguments {
     }
 }
 
-/// What became of one scenario.
+/// The result of one scenario.
 enum Finished {
     /// It ran; its results are in the folder.
     Ran(Box<RunReport>, OutputFolder),
-    /// It ran, but its results are nowhere but here.
+    /// It ran, but its results could not be written.
     Lost(Box<RunReport>, Failure),
     /// It could not run.
     Refused(Failure),
@@ -84,7 +86,7 @@ enum Entry<'a> {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     if let Some(path) = &arguments.junit {
-        // Shows now whether it can be written, and leaves nothing of an earlier run.
+        // Finds out now whether it can be written, and replaces the file of an earlier run.
         write_junit(path, &[]).map_err(|error| unwritable(&error, "choose another file with --junit"))?;
     }
     let scenarios = load(arguments, printer)?;
@@ -155,7 +157,7 @@ impl Finished {
     }
 }
 
-/// Reads all scenarios before the first one runs, so that a slip in the last is known at once.
+/// Reads all scenarios before the first one runs, so that a fault in the last is known at once.
 fn load(arguments: &Arguments, printer: &Printer) -> Result<Vec<RunSetup>, Failure> {
     let overrides = arguments.overrides();
     let mut scenarios = Vec::new();
@@ -212,7 +214,7 @@ fn run_all(scenarios: Vec<RunSetup>, arguments: &Arguments, printer: &Printer) -
     finished.into_iter().map(|(_, result)| result).collect()
 }
 
-/// The kind of recording that is made, if this command was built with one.
+/// The format of recordings, if this command was built with one.
 fn recording_format() -> Option<&'static dyn RecordingFormat> {
     #[cfg(feature = "recording")]
     return Some(&congruent::recording::RerunFormat);
@@ -230,7 +232,7 @@ fn run_one(setup: &RunSetup, options: &Options<'_>, bars: Option<&MultiProgress>
             bar.set_position(steps);
         }
     };
-    // A fault in one scenario must not take the results of the others with it.
+    // A panic in one scenario must not lose the results of the others.
     let result = catch_unwind(AssertUnwindSafe(|| execute(setup, options, progress)));
     if let Some(bar) = bar {
         bar.finish_and_clear();
@@ -258,7 +260,7 @@ fn progress_bar(setup: &RunSetup) -> ProgressBar {
     ProgressBar::new(setup.clock.steps).with_style(style).with_prefix(setup.scenario.name.clone())
 }
 
-/// A place that cannot be written is the user's to change, a full disk is the machine's failure.
+/// A path that cannot be written is bad input, a full disk is a failure of the machine.
 fn unwritable(error: &OutputError, help: &str) -> Failure {
     if error.is_full() {
         return Failure::Machine(error.to_string());
@@ -266,7 +268,7 @@ fn unwritable(error: &OutputError, help: &str) -> Failure {
     Diagnostic::error("run::output", error.to_string()).with_help(help).into()
 }
 
-/// Of two exit codes the one that is told: a broken run before bad input before a failed check.
+/// Of two exit codes the one that is returned: a broken run before bad input before a failed check.
 fn worse(a: u8, b: u8) -> u8 {
     const FROM_BEST: [u8; 5] = [0, 1, 4, 2, 3];
     let rank = |code: u8| FROM_BEST.iter().position(|&known| known == code);
@@ -279,7 +281,7 @@ fn described(report: &RunReport) -> String {
         (Verdict::AsExpected, Expectation::Pass) => "pass",
         (Verdict::AsExpected, Expectation::Fail { .. }) => "pass (expected failure)",
         (Verdict::NotAsExpected, Expectation::Pass) => "FAIL",
-        (Verdict::NotAsExpected, Expectation::Fail { .. }) => "FAIL (the expected failure did not come)",
+        (Verdict::NotAsExpected, Expectation::Fail { .. }) => "FAIL (the expected failure did not occur)",
         (Verdict::NothingChecked, _) => "NOTHING CHECKED: add a [[check]]",
         (Verdict::Broken, _) => "BROKEN",
     };

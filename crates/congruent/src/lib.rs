@@ -1,4 +1,4 @@
-//! Is a robot's analytical model the same robot as its URDF? With a number, a cause and a certificate.
+//! Is a robot's analytical model the same robot as its URDF? With the difference, its cause and a certificate.
 //!
 //! This is the crate that programs use: each module is one crate of the workspace, and [`prelude`] has what
 //! most programs need.

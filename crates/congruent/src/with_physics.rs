@@ -1,4 +1,4 @@
-//! Questions about a robot that the physics answers as well: here the sources meet.
+//! Questions about a robot that need the physics beside the analytical sources.
 
 use congruent_agreement::compare::{CheckError, CheckOptions, CheckReport};
 use congruent_analysis::forward::{ForwardError, ForwardReport, Source, forward_by_table};
@@ -6,10 +6,10 @@ use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, ScrewTree, UrdfTree};
 use congruent_twin::source::SimulatedPoses;
 
-/// Holds table, URDF chain, screws and the physics twin of a robot against each other.
+/// Compares table, URDF chain, screws and the physics twin of a robot.
 ///
 /// # Errors
-/// [`CheckError`] if a source refuses the robot.
+/// [`CheckError`] if a source rejects the robot.
 pub fn check(description: &RobotDescription, options: &CheckOptions) -> Result<CheckReport, CheckError> {
     let mut physics = SimulatedPoses::new(&description.robot).map_err(LinkPosesError::source)?;
     congruent_agreement::compare::check(description, &mut physics, options)
@@ -18,7 +18,7 @@ pub fn check(description: &RobotDescription, options: &CheckOptions) -> Result<C
 /// Poses of all links at each configuration, by a chosen source.
 ///
 /// # Errors
-/// [`ForwardError`] if the source does not exist or refuses the robot.
+/// [`ForwardError`] if the source does not exist or rejects the robot.
 pub fn forward(
     description: &RobotDescription,
     source: Source,

@@ -1,4 +1,4 @@
-//! The one file that converts maths: nalgebra on our side, glam on rapier's.
+//! The one file that converts types: nalgebra outside, glam inside rapier.
 
 use nalgebra::{Isometry3, Point3, Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use rapier3d_f64::prelude::{MassProperties, Pose, Rotation, Vector};

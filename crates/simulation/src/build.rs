@@ -106,7 +106,7 @@ fn slots(robot: &Robot) -> Result<Vec<EngineSlot>, SimulationError> {
 
 impl EngineSlot {
     /// Makes a master stop if one of its followers has to. Two limits on coupled joints would
-    /// be one constraint twice, which the solver settles slowly: 1e-12 instead of 1e-15.
+    /// be one constraint twice, with which the solver converges slowly: 1e-12 instead of 1e-15.
     fn narrow(&mut self, (lower, upper): (f64, f64), mimic: &Mimic) {
         let [a, b] = [lower, upper].map(|end| (end - mimic.offset) / mimic.multiplier);
         let (lower, upper) = (self.lower.max(a.min(b)), self.upper.min(a.max(b)));

@@ -1,5 +1,5 @@
-//! What touches: links against obstacles, never links against links. Shapes weigh nothing; mass
-//! comes from the description's inertias only.
+//! Contacts: links against obstacles, never links against links. Shapes have no mass; mass comes from the
+//! description's inertias only.
 
 use congruent_description::{Geometry, Robot};
 use rapier3d_f64::prelude::{
@@ -48,7 +48,7 @@ fn groups(member: Group, meets: Group) -> InteractionGroups {
     InteractionGroups::new(member, meets, InteractionTestMode::And)
 }
 
-/// A collider of the shape, or `None` if a mesh is empty, which touches nothing.
+/// A collider of the shape, or `None` if a mesh is empty.
 fn shaped(
     geometry: &Geometry,
     pose: Pose,

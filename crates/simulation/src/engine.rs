@@ -1,5 +1,5 @@
-//! rapier behind one door: state in, forces in, one step, state out. Knows no names of links or
-//! joints, only coordinates; `world.rs` knows them.
+//! The robot in rapier: sets states and forces, steps, reads states. It has coordinates only; names of links
+//! and joints are in `world.rs`.
 
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::{
@@ -204,8 +204,8 @@ impl Engine {
         }
     }
 
-    /// The first coordinate for which this step had no honest solution: rapier gives its mass
-    /// matrix no pivot, or set a body aside whose pose was no number.
+    /// The first coordinate for which this step had no solution: rapier found no pivot in its mass
+    /// matrix, or disabled a body whose pose was not finite.
     pub(crate) fn first_unsolved(&self) -> Option<usize> {
         let quarantine = self.pipeline.quarantine().bodies();
         if !quarantine.is_empty() {
@@ -217,7 +217,7 @@ impl Engine {
         (0..factors.nrows()).find(|&row| !pivot(row).is_finite() || pivot(row) == 0.0)
     }
 
-    /// What each actuator exerted in the step that ended in `q`, `qd`: the torque, and the servo's
+    /// Effort of each actuator in the step that ended in `q`, `qd`: the torque, and the servo's effort
     /// by the law that rapier integrates implicitly.
     pub(crate) fn exerted(&self, commands: &Commands, q: &[f64], qd: &[f64], torque: &mut [f64]) {
         for (coordinate, slot) in self.slots.iter().enumerate() {

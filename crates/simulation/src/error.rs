@@ -1,4 +1,4 @@
-//! What can go wrong in this crate: one enum, one test for each variant.
+//! The errors of this crate: one enum, one test for each variant.
 
 use congruent_description::known_names;
 
@@ -6,19 +6,19 @@ use congruent_description::known_names;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulationError {
-    /// The time step is no positive number.
-    #[error("step_s = {step_s} is no positive number of seconds")]
+    /// The time step is not a positive number.
+    #[error("step_s = {step_s} is not a positive number of seconds")]
     Step {
         /// The step that was asked for, s.
         step_s: f64,
     },
-    /// Gravity has an entry that is no number.
+    /// Gravity has an entry that is not finite.
     #[error("gravity [{}, {}, {}] m/s2 is not finite", .gravity_in_world[0], .gravity_in_world[1], .gravity_in_world[2])]
     Gravity {
         /// The gravity that was asked for, m/s^2.
         gravity_in_world: [f64; 3],
     },
-    /// The limits of a joint leave no position.
+    /// The limits of a joint allow no position.
     #[error("joint \"{joint}\": the lower limit {lower} {unit} is above the upper limit {upper} {unit}")]
     Limits {
         /// The joint.
@@ -30,7 +30,7 @@ pub enum SimulationError {
         /// `rad` or `m`.
         unit: &'static str,
     },
-    /// A shape that shall touch has no convex hull.
+    /// A shape with contacts has no convex hull.
     #[error("{owner}: a shape is flat or empty and has no convex hull; give it a thickness or leave it out")]
     Shape {
         /// The link or the obstacle.
@@ -46,17 +46,17 @@ pub enum SimulationError {
         /// The number of movable joints.
         expected: usize,
     },
-    /// A number went to infinity or is no number at all.
+    /// A value is infinite or NaN.
     #[error("joint \"{joint}\": {what} is not finite at {time_s} s")]
     NotFinite {
-        /// The first joint at fault.
+        /// The first such joint.
         joint: String,
         /// Simulated time at the end of the step.
         time_s: f64,
         /// Which quantity.
         what: &'static str,
     },
-    /// A joint moves nothing that has inertia, so no dynamics follow.
+    /// A joint moves no inertia, so its dynamics are undefined.
     #[error(
         "link \"{link}\" and all that it carries have no mass; give it an <inertial>, or use the controller kinematic"
     )]
@@ -72,8 +72,8 @@ pub enum SimulationError {
         /// All names.
         known: Vec<&'static str>,
     },
-    /// A gain is negative or no number.
-    #[error("{gain} = {value} is no gain; it must be zero or positive")]
+    /// A gain is negative or not finite.
+    #[error("{gain} = {value} is not a gain; it must be zero or positive")]
     Gain {
         /// `stiffness` or `damping`.
         gain: &'static str,

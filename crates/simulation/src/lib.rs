@@ -1,8 +1,7 @@
 //! The physics twin: a rapier multibody built from a robot description.
 //!
-//! Everything at the border is nalgebra and the description's types; rapier stays inside. It is
-//! a source of its own: it takes poses, mass matrix and gravity torque from rapier and shares
-//! no formula with the analytical model.
+//! The interface has nalgebra's and the description's types; rapier stays inside. Poses, mass matrix and
+//! gravity torque come from rapier: no formula is shared with the analytical model.
 
 mod actuation;
 mod adapter;
@@ -20,6 +19,6 @@ pub use error::SimulationError;
 pub use settings::{Obstacle, WorldSettings};
 pub use world::{World, WorldSnapshot};
 
-/// Name and version of the physics engine, as reports give it; a repository test holds it
-/// against the manifest.
+/// Name and version of the physics engine, as reports give it; a test of the workspace compares it
+/// with the manifest.
 pub const ENGINE: &str = "rapier3d-f64 0.36.1";

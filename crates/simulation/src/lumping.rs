@@ -1,4 +1,4 @@
-//! Bodies: links that fixed joints hold together move as one, with one mass. Pure nalgebra.
+//! Bodies: links that are connected by fixed joints move as one, with one mass. Pure nalgebra.
 
 use congruent_description::{Inertia, JointKind, LinkIndex, Robot};
 use nalgebra::{Isometry3, Matrix3, Vector3};
@@ -13,7 +13,7 @@ pub(crate) struct BodyInertia {
     pub tensor_kg_m2: Matrix3<f64>,
 }
 
-/// Where a link is fixed.
+/// The body that a link is fixed to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LinkOnBody {
     pub body: usize,
@@ -75,7 +75,7 @@ fn inertia(robot: &Robot, body: usize, links: &[LinkOnBody]) -> BodyInertia {
         turn.matrix() * part.1.tensor_kg_m2 * turn.matrix().transpose() + part.1.mass_kg * steiner
     };
     let tensor = parts().map(about_com).sum::<Matrix3<f64>>();
-    // What rounding made unsymmetric is no inertia.
+    // Rounding may have made it asymmetric.
     BodyInertia { mass_kg, com_in_body, tensor_kg_m2: (tensor + tensor.transpose()) * 0.5 }
 }
 

@@ -1,4 +1,4 @@
-//! What of rapier belongs to one robot: its sets, and one slot for each movable joint.
+//! The part of rapier that belongs to one robot: its sets, and one slot for each movable joint.
 
 use rapier3d_f64::prelude::{
     BroadPhaseBvh, CCDSolver, ColliderSet, ImpulseJointSet, IslandManager, JointAxis, MultibodyJointSet,
@@ -19,7 +19,7 @@ pub(crate) struct EngineSets {
     pub ccd: CCDSolver,
 }
 
-/// What one movable joint can do; unit of the coordinate, N m or N.
+/// Properties of one movable joint; unit of the coordinate, N m or N.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EngineSlot {
     pub axis: JointAxis,

@@ -1,4 +1,4 @@
-//! What a world is built with, apart from the robot.
+//! The settings of a world, apart from the robot.
 
 use congruent_description::Geometry;
 use nalgebra::{Isometry3, Vector3};
@@ -19,7 +19,7 @@ pub struct WorldSettings {
 }
 
 impl Default for WorldSettings {
-    /// A step of 1 ms, 9.81 m/s^2 along -z, nothing to touch.
+    /// A step of 1 ms, 9.81 m/s^2 along -z, no obstacle.
     fn default() -> Self {
         Self {
             step_s: 1e-3,
@@ -37,6 +37,6 @@ pub struct Obstacle {
     pub name: String,
     /// Pose of the shape's frame in the world, m.
     pub world_from_obstacle: Isometry3<f64>,
-    /// The shape, m; of a mesh, the convex hull is what touches.
+    /// The shape, m; of a mesh, the convex hull has contacts.
     pub geometry: Geometry,
 }

@@ -1,4 +1,4 @@
-//! The world: one robot, fixed at its root, and what stands around it.
+//! The world: one robot, fixed at its root, and its obstacles.
 
 use congruent_description::{LinkIndex, Robot, RobotQ};
 use nalgebra::{DMatrix, DVector, Isometry3};
@@ -18,8 +18,8 @@ use crate::{
 const NO_INERTIA_RATIO: f64 = 1e-15;
 
 /// Numbers from here on count as infinite, whether they come in or out. Below, no product that
-/// rapier forms of them overflows; above, one may, and rapier then goes on with accelerations of
-/// zero and says nothing.
+/// rapier forms of them overflows; above, one may, and rapier then continues with accelerations of
+/// zero without an error.
 const LARGEST: f64 = 1e75;
 
 /// A robot in physics.
@@ -66,13 +66,13 @@ pub struct World {
     engine: Engine,
     joint_names: Vec<String>,
     links: Vec<LinkOnBody>,
-    /// The first link that no dynamics can move.
+    /// The first link without inertia, which cannot be moved by dynamics.
     massless: Option<String>,
     commands: Commands,
     state: WorldState,
 }
 
-/// What is ours of the state; rapier's part is [`EngineSets`].
+/// The state beside rapier's, which is [`EngineSets`].
 #[derive(Debug, Clone)]
 struct WorldState {
     q: RobotQ,
@@ -95,8 +95,8 @@ impl World {
     /// places it.
     ///
     /// # Errors
-    /// [`SimulationError`] when a setting is out of range, the limits of a joint exclude each
-    /// other, or a shape that shall touch has no volume.
+    /// [`SimulationError`] if a setting is out of range, the limits of a joint exclude each other, or a
+    /// shape with contacts has no volume.
     pub fn new(robot: &Robot, settings: &WorldSettings) -> Result<Self, SimulationError> {
         check(settings)?;
         let bodies = Bodies::of(robot);
@@ -122,8 +122,8 @@ impl World {
     /// Puts the robot at `q` with velocities `qd`, inside the limits or outside; time goes on.
     ///
     /// # Errors
-    /// [`SimulationError::Length`], and [`SimulationError::NotFinite`] for an entry that is no
-    /// number; the state is then as before.
+    /// [`SimulationError::Length`], and [`SimulationError::NotFinite`] for an entry that is not
+    /// finite; the state is then as before.
     pub fn set_state(&mut self, q: &RobotQ, qd: &[f64]) -> Result<(), SimulationError> {
         self.check_vector("position", q)?;
         self.check_vector("velocity", qd)?;
@@ -143,7 +143,7 @@ impl World {
         &self.state.qd
     }
 
-    /// What each actuator exerted in the last step; zero after a step that placed the robot.
+    /// Effort of each actuator in the last step; zero after a step that placed the robot.
     pub fn torque(&self) -> &[f64] {
         &self.state.torque
     }
@@ -188,13 +188,13 @@ impl World {
         if link.is_first { root_from_body } else { root_from_body * link.body_from_link }
     }
 
-    /// Goes one step ahead under a controller, towards the setpoint for the step's end.
+    /// Steps once under a controller, towards the setpoint for the end of the step.
     ///
     /// # Errors
     /// [`SimulationError::Length`] for a setpoint of another length;
     /// [`SimulationError::Massless`] for dynamics of a robot without mass;
-    /// [`SimulationError::NotFinite`] when the setpoint, the controller or the physics give no
-    /// number. After the last, the world needs [`World::set_state`] or [`World::restore`].
+    /// [`SimulationError::NotFinite`] if a value of the setpoint, the controller or the physics is not
+    /// finite. After the last, the world needs [`World::set_state`] or [`World::restore`].
     pub fn step(
         &mut self,
         controller: &mut dyn Controller,
@@ -231,12 +231,12 @@ impl World {
         torque
     }
 
-    /// The whole state: after [`World::restore`], all goes on bit by bit as it would have.
+    /// The whole state: after [`World::restore`], steps repeat bit by bit.
     pub fn snapshot(&self) -> WorldSnapshot {
         WorldSnapshot { state: self.state.clone(), sets: self.engine.sets().clone() }
     }
 
-    /// Goes back to a snapshot of this world.
+    /// Returns to a snapshot of this world.
     ///
     /// # Panics
     /// When the snapshot is of a robot with another number of joints.

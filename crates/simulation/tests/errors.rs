@@ -78,7 +78,7 @@ fn an_unknown_controller_lists_the_known() {
 #[test]
 fn a_gain_that_is_none() {
     let error = controller("pd", Gains { stiffness: 1.0, damping: -2.0 }).err().unwrap();
-    assert_eq!(error.to_string(), "damping = -2 is no gain; it must be zero or positive");
+    assert_eq!(error.to_string(), "damping = -2 is not a gain; it must be zero or positive");
     assert!(controller("pd", Gains { stiffness: f64::NAN, damping: 0.0 }).is_err());
 }
 

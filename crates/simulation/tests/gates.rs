@@ -81,7 +81,7 @@ fn robots() -> Option<std::path::PathBuf> {
     corpus::corpus().map(|corpus| corpus.join("robots"))
 }
 
-/// Every robot of the corpus; none where this run has no corpus.
+/// Every robot of the corpus; none if this run has no corpus.
 fn goldens() -> Vec<(&'static str, Golden)> {
     let Some(corpus) = robots() else { return Vec::new() };
     ROBOTS.iter().map(|name| (*name, Golden::load(&corpus.join(name)))).collect()

@@ -9,7 +9,7 @@ use crate::{
     setup::RunSetup,
 };
 
-/// Where results go and which.
+/// Which results are written, and to which folder.
 #[derive(Clone)]
 pub struct Options<'a> {
     /// The folder above the scenarios' own folders.
@@ -18,9 +18,9 @@ pub struct Options<'a> {
     pub recording: Option<&'a dyn RecordingFormat>,
 }
 
-/// A recording under way: it takes samples, and in the end the report.
+/// A recording in progress: it takes samples, and the report at the end.
 pub trait Recording: Recorder {
-    /// Adds what came out and closes the file.
+    /// Adds the results and closes the file.
     ///
     /// # Errors
     /// [`RecordingError`] if it cannot be written.
@@ -29,7 +29,7 @@ pub trait Recording: Recorder {
 
 /// A kind of recording.
 pub trait RecordingFormat: Sync {
-    /// Makes the file of a run that is about to start.
+    /// Creates the file of a run that is about to start.
     ///
     /// # Errors
     /// [`RecordingError`] if it cannot be written.
@@ -49,18 +49,18 @@ impl std::fmt::Debug for Options<'_> {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExecuteError {
-    /// Results could not be written, as was found before the run.
+    /// Results cannot be written; this was found before the run.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The recording cannot be begun.
+    /// The recording cannot be created.
     #[error(transparent)]
     Recording(#[from] RecordingError),
-    /// Results cannot be written, now that they are there: the report is here instead.
+    /// Results cannot be written after the run: the report is here instead.
     #[error("results of scenario \"{}\" are lost: {source}", .report.scenario)]
     Lost {
-        /// What was found.
+        /// The report.
         report: Box<RunReport>,
-        /// Why it is not on disk.
+        /// Why it could not be written.
         source: OutputError,
     },
     /// The robot cannot be simulated as the scenario asks.
@@ -73,12 +73,12 @@ pub enum ExecuteError {
     },
 }
 
-/// Runs a scenario and writes its results; the report says how it went.
+/// Runs a scenario, writes its results and returns the report.
 ///
-/// `progress` is told the number of steps taken.
+/// `progress` is called with the number of steps taken.
 ///
 /// # Errors
-/// [`ExecuteError`] when there can be no report. A run that breaks on the way has one.
+/// [`ExecuteError`] if there can be no report. A run that fails midway has one.
 pub fn execute(
     setup: &RunSetup,
     options: &Options<'_>,
@@ -105,15 +105,15 @@ pub fn execute(
     let mut published = Ok(());
     let is_recorded = recording.is_some();
     if let Err(error) = recording.map_or(Ok(()), |recording| recording.finish(&report)) {
-        // What broke the run comes before what breaks with it.
+        // The error of the run is reported before an error of the recording that follows from it.
         let first = result.err().unwrap_or(error.into());
         report = RunReport::new(setup, &sources, outcome, Some(&first));
-        // On a full disk it stands in the way of the report, which matters more.
+        // On a full disk it takes the space of the report, which matters more.
         published = folder.remove(PARTIAL);
     } else if is_recorded {
         published = folder.publish(PARTIAL, "recording.rrd");
     }
-    // Each is tried, whatever became of the others.
+    // Each is tried, even if another has failed.
     let written = [
         published,
         folder.write_json("report.json", &report),

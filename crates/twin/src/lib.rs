@@ -1,5 +1,8 @@
 //! Runs a robot's analytical model and its physics twin side by side, compares them at every
 //! sample, checks clearances and limits, and reports.
+//!
+//! [`scenario`] is a scenario as plain data, [`setup`] checks it against its robot, [`Run`] is the loop over a
+//! [`source`] of joint states, [`monitor`] holds the checks, and [`execute`] does all of it for one scenario.
 
 mod execute;
 pub mod monitor;

@@ -1,5 +1,5 @@
-//! Where samples go besides the checks. A new kind of recording is one file that implements
-//! [`Recorder`], and a line where the run is set up.
+//! Recorders get every sample of a run, as the checks do. A kind of recording implements [`Recorder`] and
+//! [`RecordingFormat`](crate::RecordingFormat).
 
 use crate::sample::Sample;
 
@@ -11,12 +11,12 @@ pub struct RecordingError {
     pub message: String,
 }
 
-/// Takes every sample of a run; decides itself which it keeps.
+/// Takes every sample of a run, and decides itself which to keep.
 pub trait Recorder {
     /// Takes one instant.
     ///
     /// # Errors
-    /// [`RecordingError`] when it cannot be written.
+    /// [`RecordingError`] if it cannot be written.
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError>;
 }
 

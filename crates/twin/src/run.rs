@@ -17,11 +17,11 @@ use crate::{
     verdict::{CheckResult, Stop},
 };
 
-/// Why a run cannot start or cannot go on.
+/// Why a run cannot start or cannot continue.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The source of joint states cannot begin, or broke on the way.
+    /// The source of joint states cannot start, or failed during the run.
     #[error(transparent)]
     Source(#[from] SourceError),
     /// The model does not fit the robot.
@@ -42,21 +42,21 @@ pub struct Outcome {
     pub checks: Vec<CheckResult>,
     /// Steps taken.
     pub steps: u64,
-    /// Where a check ended the run before its time.
+    /// The check that ended the run early, and when; `None` if none did.
     pub stopped: Option<Stop>,
-    /// How far each servo has brought the TCP.
+    /// The result of each servo: its error at the end.
     pub servos: Vec<ServoResult>,
     /// SHA-256 over the true joint positions of every sample.
     pub trajectory_sha256: String,
 }
 
-/// A run under way. [`Run::finish`] does all of it; the stages are public so that a benchmark can
-/// take them apart.
+/// A run in progress. [`Run::finish`] does all of it; the stages are public so that a benchmark can
+/// time each of them.
 pub struct Run<'a> {
     setup: &'a RunSetup,
     source: Box<dyn JointStateSource + 'a>,
     model: Model,
-    /// Places the links for a source that does not see them.
+    /// Computes the poses of the links for a source that has joint states only.
     tree: UrdfTree,
     clearance: Clearance,
     zones: Clearance,
@@ -127,16 +127,16 @@ impl<'a> Run<'a> {
         &self.model
     }
 
-    /// Takes the source one sample on.
+    /// Advances the source by one sample.
     ///
     /// # Errors
-    /// [`RunError::Source`] if the source breaks.
+    /// [`RunError::Source`] if the source fails.
     pub fn step(&mut self) -> Result<(), RunError> {
         let time_s = self.setup.clock.time_s(self.source.step_count() + 1);
         Ok(self.source.advance(time_s)?)
     }
 
-    /// Poses of all links by the model and by the twin at this instant, and how far they are apart.
+    /// Poses of all links by the model and by the twin at this instant, and their differences.
     ///
     /// # Errors
     /// [`KinematicsError`] if the source gives no configuration of the robot.
@@ -155,7 +155,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Shows this instant to all checks and to the recorder; gives the number of the check that ends
+    /// Passes this instant to all checks and to the recorder; returns the number of the check that ends
     /// the run here, if one does.
     ///
     /// # Errors
@@ -192,8 +192,8 @@ impl<'a> Run<'a> {
         Ok(stopping)
     }
 
-    /// Runs to the end, or to the first violation of a check that stops the run. What was found before
-    /// an error is in the results all the same.
+    /// Runs to the end, or to the first violation of a check that stops the run. After an error, the
+    /// outcome holds the results up to it.
     pub fn finish(
         mut self,
         checks: &mut [RunningCheck],
@@ -231,7 +231,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Where a run stands after `step` steps, ended by a check; its result tells people so.
+/// The end of a run by a check after `step` steps; the check's result gets a note about it.
 fn stopped_by(result: &mut CheckResult, setup: &RunSetup, step: u64) -> Stop {
     let (time_s, steps) = (setup.clock.time_s(step), setup.clock.steps);
     result.notes.push(format!("stopped the run at {time_s:.3} s, after {step} of {steps} steps"));

@@ -1,4 +1,4 @@
-//! What one instant of a run looks like to monitors and recorders.
+//! One instant of a run, as monitors and recorders get it.
 
 use congruent_kinematics::{Pose, PoseError};
 use nalgebra::Isometry3;
@@ -12,10 +12,10 @@ pub struct Sample<'a> {
     pub step: u64,
     /// Time of the source.
     pub time_s: f64,
-    /// Whether no step follows. Monitors see the end of the scenario, recorders also the end that
-    /// a check has just made.
+    /// Whether no step follows. For monitors this is the end of the scenario, for recorders also the end
+    /// by a check at this instant.
     pub is_last: bool,
-    /// The joints: as they are, as they are measured, and what was asked of them.
+    /// The joints: true states, measured states and setpoints.
     pub joints: JointSample<'a>,
     /// Poses by analysis at the measured joint positions, in the root link's frame and the robot's order of
     /// links.
@@ -24,7 +24,7 @@ pub struct Sample<'a> {
     pub twin: &'a [Isometry3<f64>],
     /// Model against twin, link by link.
     pub errors: &'a [PoseError],
-    /// Distances between links and to obstacles: measured where a monitor asks.
+    /// Distances between links and to obstacles, measured when a monitor needs them.
     pub clearance: &'a mut Clearance,
     /// Distances from links to the zones that are forbidden to them, likewise.
     pub zones: &'a mut Clearance,

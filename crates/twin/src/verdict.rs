@@ -1,4 +1,4 @@
-//! What a check found: one shape for every check, so that every report and exit code agrees.
+//! Results of checks and the verdict: one type for every check, so that all reports and exit codes agree.
 
 use congruent_description::{JointValues, serde_name};
 use schemars::JsonSchema;
@@ -14,9 +14,9 @@ pub enum Status {
     Pass,
     /// A value was outside its limit.
     Fail,
-    /// The run broke before the check could finish.
+    /// The run failed before the check could finish.
     Error,
-    /// There was nothing to look at.
+    /// There was nothing to check.
     Skipped,
 }
 
@@ -27,14 +27,14 @@ impl Status {
     }
 }
 
-/// One instant of a run, with what was seen there.
+/// One value of a run, with its time and configuration.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Moment {
     /// Simulated time.
     pub time_s: f64,
     /// The link, joint or pair that it is about.
     pub subject: String,
-    /// The value seen, in the unit of its [`Measure`].
+    /// The value, in the unit of its [`Measure`].
     pub value: f64,
     /// Position of every movable joint, rad or m.
     pub q: JointValues,
@@ -49,24 +49,24 @@ pub struct Measure {
     pub unit: &'static str,
     /// The limit.
     pub limit: f64,
-    /// Whether values may not exceed the limit (`at_most`), not fall below it (`at_least`), or not
-    /// even come down to it (`above`).
+    /// Whether values must be at most the limit (`at_most`), at least the limit (`at_least`), or above it
+    /// (`above`).
     pub bound: Bound,
-    /// The worst value with its place; `None` where nothing was seen.
+    /// The worst value; `None` if there was none.
     pub worst: Option<Moment>,
     /// The first value outside the limit.
     pub first_violation: Option<Moment>,
 }
 
-/// On which side of a limit values are fine.
+/// The side of a limit on which values must be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Bound {
-    /// Fine up to the limit.
+    /// At most the limit.
     AtMost,
-    /// Fine from the limit on.
+    /// At least the limit.
     AtLeast,
-    /// Fine above the limit, not at it.
+    /// Above the limit, not at it.
     Above,
 }
 
@@ -80,7 +80,7 @@ impl Bound {
         }
     }
 
-    /// Whether `value` is fine; NaN never is.
+    /// Whether `value` is within the limit; NaN never is.
     pub fn holds(self, value: f64, limit: f64) -> bool {
         match self {
             Self::AtMost => value <= limit,
@@ -109,16 +109,16 @@ pub struct CheckResult {
     pub line: Option<usize>,
     /// The outcome.
     pub status: Status,
-    /// How many instants were looked at.
+    /// Number of instants that were checked.
     pub samples: u64,
     /// The quantities with their limits.
     pub measures: Vec<Measure>,
-    /// What to know beside the figures.
+    /// Remarks on the values.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
-/// Where a run ended before its time, because a check says `on_violation = "stop"`.
+/// The early end of a run by a check with `on_violation = "stop"`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Stop {
     /// The kind of check that was violated.
@@ -131,7 +131,7 @@ pub struct Stop {
     pub time_s: f64,
 }
 
-/// What a run has shown, all checks together.
+/// The verdict of a run over all checks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -141,7 +141,7 @@ pub enum Verdict {
     NotAsExpected,
     /// Nothing was checked, which is never success.
     NothingChecked,
-    /// The simulation broke.
+    /// The simulation failed.
     Broken,
 }
 

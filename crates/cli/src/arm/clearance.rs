@@ -1,4 +1,4 @@
-//! `congruent clearance`: how far links are apart.
+//! `congruent clearance`: distances between links.
 
 use std::fmt::Write;
 
@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 
 fn text(report: &DistanceReport) -> String {
     if report.pairs.is_empty() {
-        return "no pair of links to look at; --all-pairs adds neighbours\n".to_owned();
+        return "no pair of links to measure; --all-pairs adds neighbours\n".to_owned();
     }
     let mut text = String::new();
     for (index, result) in report.results.iter().enumerate() {

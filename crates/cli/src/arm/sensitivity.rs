@@ -17,10 +17,10 @@ use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, pri
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// Random configurations.
+    /// Number of random configurations.
     #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     samples: u32,
-    /// Their seed.
+    /// Seed of the random configurations.
     #[arg(long, default_value_t = 0)]
     seed: u64,
     /// Also for arms like this one with all lengths multiplied, for example 1,1.5.

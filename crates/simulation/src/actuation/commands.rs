@@ -1,4 +1,4 @@
-//! What a controller may command.
+//! The commands of a controller to the actuators.
 
 use super::gains::Gains;
 
@@ -14,7 +14,7 @@ pub struct Motor {
     pub qd: f64,
 }
 
-/// What the actuators do in one step.
+/// Commands to the actuators for one step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Commands {
     pub(crate) torque: Vec<f64>,
@@ -38,14 +38,14 @@ impl Commands {
         &mut self.torque
     }
 
-    /// Drives a joint by a servo, on top of its torque. Gains of zero drive nothing.
+    /// Drives a joint by a servo, in addition to its torque. Gains of zero have no effect.
     pub fn drive(&mut self, coordinate: usize, motor: Motor) {
         // rapier takes a motor without gains for an infinitely stiff one.
         let drives = motor.gains.stiffness > 0.0 || motor.gains.damping > 0.0;
         self.motors[coordinate] = drives.then_some(motor);
     }
 
-    /// Puts the robot into the setpoint's state at the end of the step, without dynamics.
+    /// Places the robot at the setpoint's state at the end of the step, without dynamics.
     pub fn place(&mut self) {
         self.placed = true;
     }

@@ -1,11 +1,11 @@
-//! What every controller does.
+//! The trait of controllers.
 
 use super::{
     commands::Commands,
     joints_view::{JointsView, Setpoint},
 };
 
-/// Decides before each step what the actuators do in it.
+/// Decides before each step which commands the actuators get.
 ///
 /// A controller only fills [`Commands`]; the world applies them, and clips every force to the
 /// joint's effort limit if the description gives one above zero.

@@ -1,5 +1,5 @@
 //! The torque that holds the robot against gravity, at every joint, mimic joints included; with
-//! gains, servos on top.
+//! gains, servos in addition.
 
 use super::{
     commands::Commands,

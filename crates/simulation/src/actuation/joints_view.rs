@@ -1,4 +1,4 @@
-//! What a controller sees: the joints at the beginning of the step, and the setpoint for its end.
+//! The input of a controller: the joints at the beginning of the step, and the setpoint for its end.
 
 use congruent_description::RobotQ;
 use nalgebra::Vector3;
@@ -47,15 +47,15 @@ impl JointsView<'_> {
         self.engine.gravity_in_world()
     }
 
-    /// Whether the joint follows another instead of an actuator of its own.
+    /// Whether the joint mimics another and has no actuator of its own.
     pub fn is_mimic(&self, coordinate: usize) -> bool {
         self.engine.is_mimic(coordinate)
     }
 
-    /// Adds to `torque` what holds the robot against gravity, N m or N.
+    /// Adds to `torque` the efforts that hold the robot against gravity, N m or N.
     ///
     /// # Panics
-    /// When `torque` does not hold one entry for each movable joint.
+    /// If `torque` does not hold one entry for each movable joint.
     pub fn add_gravity_torque(&self, torque: &mut [f64]) {
         self.engine.add_gravity_torque(torque);
     }

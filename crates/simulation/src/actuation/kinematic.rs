@@ -1,4 +1,4 @@
-//! Playback: the robot is at the setpoint, whatever it weighs.
+//! Playback: the robot is placed at the setpoint, without dynamics.
 
 use super::{
     commands::Commands,

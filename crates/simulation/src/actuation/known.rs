@@ -1,4 +1,4 @@
-//! Every controller by name; a new one is its file and one line in [`KNOWN`].
+//! Every controller by name; a new one is its file and a line in [`KNOWN`].
 
 use super::{controller::Controller, gains::Gains, gravity_compensation, kinematic, passive, pd};
 use crate::error::SimulationError;

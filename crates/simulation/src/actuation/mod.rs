@@ -1,5 +1,5 @@
-//! Controllers: from state and setpoint to what the actuators do. One file each; a new one is
-//! its file and one line in the list of `known.rs`.
+//! Controllers: from state and setpoint to commands for the actuators. A new controller is a file here and a
+//! line in the list of `known.rs`.
 
 pub(crate) mod commands;
 mod controller;

@@ -26,7 +26,7 @@ impl ClearanceMonitor {
 impl Monitor for ClearanceMonitor {
     fn observe(&mut self, sample: &mut Sample<'_>) {
         self.samples += 1;
-        // Only what is closer than ever, or too close, changes what is reported; touching is
+        // Only a distance below the smallest so far, or below the minimum, changes the report; touching is
         // reported although no distance is below zero.
         let threshold_m = match self.distance.worst() {
             Some(worst_m) if self.distance.is_violated() => worst_m,
@@ -40,7 +40,7 @@ impl Monitor for ClearanceMonitor {
 
     fn finish(&self, names: &Names) -> Observed {
         let notes = if names.pairs.is_empty() {
-            vec!["no pair to watch: neighbouring bodies and disabled pairs are left out".to_owned()]
+            vec!["no pair to check: neighbouring bodies and disabled pairs are left out".to_owned()]
         } else {
             Vec::new()
         };

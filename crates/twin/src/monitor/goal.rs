@@ -1,5 +1,5 @@
-//! The goal: at the end of the scenario the tool centre point of the twin is where it ought to be. A
-//! run that ends before its time has not come to it, and the check is skipped.
+//! The goal: the target of the twin's tool centre point at the end of the scenario. If the run ends
+//! early, the check is skipped.
 
 use congruent_description::{Diagnostic, LinkIndex, RobotDescription};
 use congruent_kinematics::{Pose, PoseError};
@@ -21,7 +21,7 @@ pub(super) struct GoalMonitor {
     tip: LinkIndex,
     tip_from_tcp: Isometry3<f64>,
     position: Watch,
-    /// If a rotation is asked for.
+    /// `None` if the goal has no rotation.
     orientation: Option<Watch>,
     samples: u64,
 }
@@ -34,9 +34,9 @@ pub(super) fn examine(check: &GoalCheck, place: Place<'_>) -> Result<Isometry3<f
         return Ok(world_from_target);
     }
     let message = if check.tcp.has_rotation() {
-        "the goal has a rotation and no `orientation_rad` that it is held to"
+        "the goal has a rotation, but no tolerance `orientation_rad`"
     } else {
-        "`orientation_rad` holds to a rotation, and the goal has none"
+        "`orientation_rad` is the tolerance of a rotation, but the goal has none"
     };
     let error = Diagnostic::error("scenario::goal", message);
     Err(place.mark(error.with_help("give both for a pose, neither for a position")))

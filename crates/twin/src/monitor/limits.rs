@@ -1,4 +1,4 @@
-//! Joint positions: never outside their limits.
+//! Joint positions against their limits.
 
 use congruent_description::{JointKind, RobotDescription};
 

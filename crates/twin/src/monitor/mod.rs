@@ -1,4 +1,4 @@
-//! Checks of a scenario in a run: each looks at every sample.
+//! Checks of a scenario in a run: each gets every sample.
 
 mod agreement;
 mod clearance;

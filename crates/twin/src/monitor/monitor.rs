@@ -1,27 +1,27 @@
-//! What every check does with a sample.
+//! The trait of checks.
 
 use super::names::Names;
 use crate::{sample::Sample, verdict::Measure};
 
-/// A check that looks at every sample of a run.
+/// A check that gets every sample of a run.
 pub trait Monitor: Send {
-    /// Looks at one instant.
+    /// Evaluates one instant.
     fn observe(&mut self, sample: &mut Sample<'_>);
 
-    /// What was found so far.
+    /// The results so far.
     fn finish(&self, names: &Names) -> Observed;
 
     /// Whether the check has failed already.
     fn has_failed(&self) -> bool;
 }
 
-/// What a monitor found, before it is known which check of which file it belongs to.
+/// The results of a monitor, without the check and the file that it belongs to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observed {
-    /// Instants looked at.
+    /// Number of instants that were checked.
     pub samples: u64,
     /// The quantities with their limits.
     pub measures: Vec<Measure>,
-    /// What to know beside the values.
+    /// Remarks on the values.
     pub notes: Vec<String>,
 }

@@ -1,10 +1,10 @@
-//! Names that turn the numbers of a sample into words.
+//! Names for the indices in a sample.
 
 use congruent_description::Robot;
 
 use crate::proximity::Clearance;
 
-/// Names that turn numbers of a sample into words.
+/// Names for the indices in a sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Names {
     /// Links, in the robot's order.

@@ -17,7 +17,7 @@ use crate::{
     verdict::{CheckResult, Status},
 };
 
-/// A check with what it has seen.
+/// A check with its results so far.
 pub struct RunningCheck {
     /// The kind, as the scenario names it.
     pub kind: CheckKind,
@@ -25,7 +25,7 @@ pub struct RunningCheck {
     pub line: Option<usize>,
     /// What follows its first violation.
     pub on_violation: OnViolation,
-    /// What looks at the samples.
+    /// The check itself.
     pub monitor: Box<dyn Monitor>,
 }
 
@@ -39,10 +39,10 @@ impl std::fmt::Debug for RunningCheck {
 }
 
 impl RunningCheck {
-    /// Whether the settings of a check go together.
+    /// Whether the settings of a check are consistent.
     ///
     /// # Errors
-    /// A diagnostic at the value that does not.
+    /// A diagnostic at the value that is not.
     pub fn examine(check: &Check, place: Place<'_>) -> Result<(), Diagnostic> {
         match check {
             Check::Goal(check) => goal::examine(check, place).map(|_| ()),
@@ -50,10 +50,10 @@ impl RunningCheck {
         }
     }
 
-    /// The check before it has seen anything.
+    /// The check before the first sample.
     ///
     /// # Panics
-    /// For settings that [`RunningCheck::examine`] refuses.
+    /// For settings that [`RunningCheck::examine`] rejects.
     pub fn new(check: &Check, line: Option<usize>, description: &RobotDescription) -> Self {
         let monitor: Box<dyn Monitor> = match check {
             Check::Agreement(check) => Box::new(AgreementMonitor::new(check, description)),

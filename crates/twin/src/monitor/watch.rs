@@ -18,7 +18,7 @@ pub(crate) struct Watch {
     first_violation: Seen,
 }
 
-/// A value with its place; `q` is allocated once.
+/// A value with its time and configuration; `q` is allocated once.
 #[derive(Debug, Clone)]
 struct Seen {
     value: f64,
@@ -48,7 +48,7 @@ impl Watch {
         Self { quantity, unit, bound, limit, worst: unseen.clone(), first_violation: unseen }
     }
 
-    /// Looks at one value about `subject`, a number that `finish` turns into a name.
+    /// Evaluates one value of `subject`, an index that `measure` turns into a name.
     pub(crate) fn observe(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
         if !self.worst.is_set || self.bound.is_worse(value, self.worst.value) {
             self.worst.set(value, subject, sample);

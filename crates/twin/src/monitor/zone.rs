@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{sample::Sample, verdict::Bound};
 
-/// A link is outside a zone as long as it has this distance and more from it.
+/// A link is outside a zone if its distance from it is above this.
 const OUTSIDE_M: f64 = 0.0;
 
 pub(super) struct ZoneMonitor {

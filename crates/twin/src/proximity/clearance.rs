@@ -3,7 +3,7 @@
 //!
 //! An exact distance costs more than a physics step, so each pair keeps a lower bound that shrinks
 //! by how far its two bodies have moved against each other since the last exact distance. A pair
-//! is measured again only where that bound no longer settles what is asked.
+//! is measured again only if that bound does not decide the question.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +14,7 @@ use nalgebra::{Isometry3, Vector3};
 use super::hulls::{Hulls, ProximityError};
 use crate::setup::Zone;
 
-/// Subtracted from every bound: what an exact distance may be off, and then some.
+/// Subtracted from every bound: the largest error of an exact distance, with a margin.
 /// Kind: solver stop. Bound: 1e-7 m (worst of 1,950 mesh hull pairs of four arms: 2.5e-8 m).
 const DISTANCE_SLACK_M: f64 = 1e-7;
 
@@ -30,7 +30,7 @@ pub struct Pair {
 /// The smallest distance of one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// Distance; 0 where the pair touches or overlaps.
+    /// Distance; 0 if the pair touches or overlaps.
     pub distance_m: f64,
     /// Index into [`Clearance::pairs`].
     pub pair: usize,
@@ -57,7 +57,7 @@ struct Watch {
 }
 
 impl Watch {
-    /// A pair of which nothing is known.
+    /// A pair that was not measured yet.
     fn new(pair: Pair) -> Self {
         Self {
             pair,
@@ -69,7 +69,7 @@ impl Watch {
     }
 }
 
-/// Distances of all watched pairs.
+/// Distances of all pairs.
 #[derive(Debug, Clone)]
 pub struct Clearance {
     subjects: Vec<String>,
@@ -84,7 +84,7 @@ impl Clearance {
     /// Builds hulls and pairs for a robot among obstacles.
     ///
     /// # Errors
-    /// [`ProximityError`] when a collision mesh has no extent.
+    /// [`ProximityError`] if a collision mesh has no extent.
     pub fn new(
         description: &RobotDescription,
         obstacles: &[Obstacle],
@@ -131,7 +131,7 @@ impl Clearance {
         Ok(clearance)
     }
 
-    /// Adds what stands still; gives its index among the subjects.
+    /// Adds a body that stands still; returns its index among the subjects.
     fn add(&mut self, standing: &Obstacle) -> Result<usize, ProximityError> {
         let shape = Shape {
             link_from_shape: Isometry3::identity(),
@@ -160,7 +160,7 @@ impl Clearance {
         (&self.subjects[a], &self.subjects[b])
     }
 
-    /// The exact distance of one pair where it was measured at this instant.
+    /// The exact distance of one pair if it was measured at this instant.
     pub fn current_m(&self, pair: usize) -> Option<f64> {
         let watch = &self.watches[pair];
         watch.is_current.then_some(watch.exact_m)
@@ -197,9 +197,9 @@ impl Clearance {
         nearest
     }
 
-    /// The smallest distance of this instant; `None` where no pair is watched.
+    /// The smallest distance of this instant; `None` if there is no pair.
     pub fn nearest(&mut self) -> Option<Nearest> {
-        // Starting with the pair that was closest last time leaves least to measure.
+        // Starting with the pair that was closest last time, the fewest pairs need measuring.
         let first = (0..self.watches.len())
             .min_by(|&a, &b| self.watches[a].lower_bound_m.total_cmp(&self.watches[b].lower_bound_m))?;
         let mut nearest = Nearest { distance_m: self.measure(first), pair: first };

@@ -15,7 +15,7 @@ use super::{
 /// Distances at one configuration, in the order of the report's pairs.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Distances {
-    /// 0 where a pair touches or overlaps; negative depths where they were asked for.
+    /// 0 if a pair touches or overlaps; negative depths if they were asked for.
     pub distances_m: Vec<f64>,
 }
 
@@ -56,7 +56,7 @@ pub enum DistanceError {
 /// Distances between convex hulls of links (and to obstacles) at each configuration.
 ///
 /// # Errors
-/// [`DistanceError`] where a collision mesh has no extent.
+/// [`DistanceError`] if a collision mesh has no extent.
 pub fn distances(
     description: &RobotDescription,
     obstacles: &[Obstacle],

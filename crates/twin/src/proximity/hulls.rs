@@ -1,4 +1,4 @@
-//! The one place that names parry: convex hulls and exact distances between them.
+//! The one file that names parry: convex hulls and exact distances between them.
 //!
 //! Meshes are taken as their convex hulls, which contain them: a distance between hulls is never
 //! larger than the distance between the meshes.
@@ -41,7 +41,7 @@ impl Hulls {
     /// Hulls of the shapes of one link; a mesh without triangles contributes nothing.
     ///
     /// # Errors
-    /// [`ProximityError::NoHull`] when a mesh has no extent.
+    /// [`ProximityError::NoHull`] if a mesh has no extent.
     pub fn new(subject: &str, shapes: &[Shape]) -> Result<Self, ProximityError> {
         let mut hulls = Self { shapes: Vec::with_capacity(shapes.len()), radius_m: 0.0 };
         for shape in shapes {
@@ -65,14 +65,14 @@ impl Hulls {
         self.radius_m
     }
 
-    /// Distance to other hulls that stand at pose `self_from_other`; 0 where they touch or overlap.
+    /// Distance to other hulls that stand at pose `self_from_other`; 0 if they touch or overlap.
     pub fn distance_m(&self, other: &Self, self_from_other: &Isometry3<f64>) -> f64 {
         self.smallest(other, self_from_other, |between, a, b| {
             query::distance(&Pose::IDENTITY, a, between, b).map(|nearest| nearest.distance)
         })
     }
 
-    /// Like [`Hulls::distance_m`], but negative where they overlap: minus the depth.
+    /// Like [`Hulls::distance_m`], but negative if they overlap: minus the depth.
     pub fn signed_distance_m(&self, other: &Self, self_from_other: &Isometry3<f64>) -> f64 {
         self.smallest(other, self_from_other, |between, a, b| {
             let apart = query::distance(&Pose::IDENTITY, a, between, b)?.distance;

@@ -19,7 +19,7 @@ pub struct OutputError {
 }
 
 impl OutputError {
-    /// Whether the machine is at fault, and not the choice of the folder.
+    /// Whether the disk is full, in which case another folder does not help.
     pub fn is_full(&self) -> bool {
         matches!(self.source.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
     }
@@ -31,7 +31,7 @@ pub struct OutputFolder {
     path: PathBuf,
 }
 
-/// Everything that a run may leave behind.
+/// All files that a run may write.
 const RESULTS: [&str; 5] =
     ["report.json", "junit.xml", "recording.rrd", "recording.rrd.partial", "scenario.resolved.toml"];
 
@@ -41,10 +41,10 @@ impl OutputFolder {
         out.join(file_name(scenario))
     }
 
-    /// Makes the folder, proves that it can be written, and clears the results of an earlier run.
+    /// Makes the folder, checks that it can be written, and removes the results of an earlier run.
     ///
     /// # Errors
-    /// [`OutputError`] where the folder cannot be made or written.
+    /// [`OutputError`] if the folder cannot be made or written.
     pub fn create(out: &Path, scenario: &str) -> Result<Self, OutputError> {
         let folder = Self { path: Self::path_for(out, scenario) };
         fs::create_dir_all(&folder.path).map_err(|source| folder.refused("", source))?;
@@ -84,7 +84,7 @@ impl OutputFolder {
     /// Removes a file, unless there is none.
     ///
     /// # Errors
-    /// [`OutputError`] where it cannot be removed.
+    /// [`OutputError`] if it cannot be removed.
     pub fn remove(&self, name: &str) -> Result<(), OutputError> {
         match fs::remove_file(self.file(name)) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(self.refused(name, error)),
@@ -92,10 +92,10 @@ impl OutputFolder {
         }
     }
 
-    /// Gives a file that was written under a temporary name its own.
+    /// Renames a file from its temporary name.
     ///
     /// # Errors
-    /// [`OutputError`] where it cannot be renamed.
+    /// [`OutputError`] if it cannot be renamed.
     pub fn publish(&self, temporary: &str, name: &str) -> Result<(), OutputError> {
         fs::rename(self.file(temporary), self.file(name)).map_err(|source| self.refused(name, source))
     }
@@ -108,14 +108,14 @@ impl OutputFolder {
 /// Writes a file under a temporary name beside it and renames it.
 ///
 /// # Errors
-/// [`OutputError`] where it cannot be written.
+/// [`OutputError`] if it cannot be written.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(".tmp");
     let temporary = PathBuf::from(temporary);
     let written = fs::write(&temporary, contents).and_then(|()| fs::rename(&temporary, path));
     written.map_err(|source| {
-        // What is left of it is of no use; the first error is the one to tell.
+        // The remainder is of no use; the first error is the one to report.
         let _ = fs::remove_file(&temporary);
         OutputError { path: path.to_owned(), source }
     })

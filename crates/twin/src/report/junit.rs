@@ -16,7 +16,7 @@ use crate::{
 /// Writes all scenarios as one JUnit document; makes the folder that it goes to.
 ///
 /// # Errors
-/// [`OutputError`] where the file cannot be written.
+/// [`OutputError`] if the file cannot be written.
 pub fn write_junit(path: &Path, reports: &[RunReport]) -> Result<(), OutputError> {
     let mut document = Report::new("congruent");
     document.add_test_suites(reports.iter().map(suite));
@@ -79,11 +79,11 @@ pub fn sentence(measure: &Measure) -> String {
             "{} {:.3e} {unit} at {} ({:.3} s), {bound} {limit:e} {unit}",
             measure.quantity, worst.value, worst.subject, worst.time_s
         ),
-        None => format!("{}: nothing seen, {bound} {limit:e} {unit}", measure.quantity),
+        None => format!("{}: no value, {bound} {limit:e} {unit}", measure.quantity),
     }
 }
 
-/// XML has no place for most control characters and for two that are none.
+/// XML does not allow most control characters, and two further characters.
 fn printable(text: &str) -> String {
     let has_place = |c: char| c == '\n' || !(c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'));
     text.chars().map(|c| if has_place(c) { c } else { '\u{fffd}' }).collect()

@@ -1,4 +1,4 @@
-//! What a run leaves behind for programs: `report.json` is the truth, `junit.xml` a view of it.
+//! Results of a run for programs: `report.json` has everything, `junit.xml` the checks in the format of CI.
 
 mod files;
 mod junit;

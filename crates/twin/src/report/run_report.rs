@@ -32,12 +32,12 @@ pub struct RunReport {
     pub expected: Expectation,
     /// Every check.
     pub checks: Vec<CheckResult>,
-    /// Where a check ended the run before its time: later steps were neither taken nor looked at.
+    /// The check that ended the run early, and when: later steps were neither taken nor checked.
     pub stopped: Option<Stop>,
-    /// How far each `servo_tcp` has brought the TCP.
+    /// The result of each `servo_tcp`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub servos: Vec<ServoResult>,
-    /// Why the run broke off, where it did.
+    /// Why the run failed; `None` if it did not.
     pub error: Option<String>,
     /// The clock.
     pub simulation: RunClockReport,
@@ -45,9 +45,9 @@ pub struct RunReport {
     pub seed: u64,
     /// SHA-256 over the joint positions of every sample: equal runs have equal hashes.
     pub trajectory_sha256: String,
-    /// Where the model's pose of each link comes from.
+    /// The source of the model's pose of each link.
     pub links: Vec<LinkSource>,
-    /// What computed it.
+    /// Versions of the programs.
     pub versions: Versions,
     /// What was suspicious in the input.
     pub warnings: Vec<Finding>,
@@ -69,7 +69,7 @@ pub struct RunClockReport {
 pub struct LinkSource {
     /// The link.
     pub link: String,
-    /// Where the model's pose of it comes from.
+    /// The source of the model's pose of it.
     pub source: PoseSource,
 }
 
@@ -83,13 +83,13 @@ pub struct Versions {
 }
 
 impl RunReport {
-    /// Puts together what a run has found.
+    /// The report of a run.
     pub fn new(setup: &RunSetup, sources: &[PoseSource], outcome: Outcome, error: Option<&RunError>) -> Self {
         let robot = &setup.description.robot;
         let mut checks = outcome.checks;
         if error.is_some() {
             for check in checks.iter_mut().filter(|check| check.status == Status::Pass) {
-                check.status = Status::Error; // it was not looked at to the end
+                check.status = Status::Error; // it was not checked to the end
             }
         }
         let verdict = if error.is_some() { Verdict::Broken } else { judge(&setup.scenario.expect, &checks) };

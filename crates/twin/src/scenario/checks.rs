@@ -1,4 +1,4 @@
-//! `[[check]]`: what is looked at in a run, and the limits it is held against.
+//! `[[check]]`: the checks of a run and their limits.
 
 use congruent_description::serde_name;
 use schemars::JsonSchema;
@@ -19,7 +19,7 @@ pub enum Check {
     Agreement(AgreementCheck),
     /// Distance between links and to obstacles.
     Clearance(ClearanceCheck),
-    /// Where the TCP is at the end.
+    /// Pose or position of the TCP at the end.
     Goal(GoalCheck),
     /// Joint positions within their limits.
     Limits(LimitsCheck),

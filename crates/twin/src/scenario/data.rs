@@ -14,10 +14,10 @@ use super::{
 /// The one version of the format that exists.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// A scenario: which robot does what among which obstacles, and what is checked.
+/// A scenario: a robot, its motions, obstacles and zones, and the checks.
 ///
 /// # Examples
-/// Made in code, a scenario is what a file would say:
+/// A scenario made in code has the same content as a file:
 /// ```
 /// use congruent_twin::scenario::{AgreementCheck, Check, ControllerSettings, Scenario};
 /// let scenario = Scenario {
@@ -44,24 +44,24 @@ pub struct Scenario {
     /// Clock and gravity.
     #[serde(default)]
     pub simulation: SimulationSettings,
-    /// Where the robot starts.
+    /// Joint positions at the start.
     #[serde(default)]
     pub start: StartSettings,
-    /// What moves the twin.
+    /// The controller of the twin.
     pub controller: ControllerSettings,
-    /// What the arm is asked to do, one after another.
+    /// Motions, one after another.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<MotionSettings>,
-    /// What stands around.
+    /// Bodies that stand around the robot.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacle: Vec<ObstacleSettings>,
-    /// Where links may not be.
+    /// Space that links may not enter.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub zone: Vec<ZoneSettings>,
-    /// What is looked at.
+    /// Checks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub check: Vec<Check>,
-    /// What must come out.
+    /// The expected verdict.
     #[serde(default)]
     pub expect: Expectation,
 }
@@ -89,7 +89,7 @@ impl Scenario {
     /// The scenario as the text of a file.
     ///
     /// # Panics
-    /// For a seed above `i64::MAX`, which TOML does not have; a setup has refused it.
+    /// For a seed above `i64::MAX`, which TOML does not have; a setup rejects it.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("a scenario is TOML")
     }
@@ -124,7 +124,7 @@ impl Default for SimulationSettings {
     }
 }
 
-/// `[controller]`: what moves the twin.
+/// `[controller]`: the controller of the twin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ControllerSettings {
@@ -146,7 +146,7 @@ impl Default for ControllerSettings {
     }
 }
 
-/// `[expect]`: what must come out.
+/// `[expect]`: the expected verdict.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "verdict", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Expectation {

@@ -1,5 +1,5 @@
-//! A scenario as data: what a file says, plain values that are made in code as easily, changed key by key,
-//! and written back. What it means for a robot is `setup/`.
+//! A scenario as plain data: read from a file or made in code, changed key by key, and written back.
+//! `setup/` checks it against its robot.
 
 mod checks;
 mod data;

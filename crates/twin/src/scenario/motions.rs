@@ -1,4 +1,4 @@
-//! `[[motion]]`: what the arm is asked to do, one after another. A kind of motion is known by its keys.
+//! `[[motion]]`: the motions of a scenario, one after another. The keys of a motion tell its kind.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ use super::{
 pub enum MotionSettings {
     /// Named joints move to absolute positions.
     Joints(JointMotion),
-    /// The joints go together to where the TCP is at a pose.
+    /// The joints move together to a configuration that has the TCP at a pose.
     Tcp(TcpMotion),
     /// The TCP is driven to a pose in a closed loop.
     Servo(ServoMotion),
@@ -43,13 +43,13 @@ pub struct JointMotion {
     /// How long it takes.
     #[serde(deserialize_with = "positive")]
     pub duration_s: f64,
-    /// How it runs over its duration.
+    /// The profile over its duration.
     #[serde(default)]
     pub profile: Profile,
 }
 
-/// The TCP goes to a pose in the world: the nearest solution of inverse kinematics is taken and the joints go
-/// there together, so the path in between is no straight line.
+/// The TCP moves to a pose in the world: the nearest solution of inverse kinematics is taken and the joints
+/// move there together, so the path of the TCP is not a straight line.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TcpMotion {
@@ -58,7 +58,7 @@ pub struct TcpMotion {
     /// How long it takes.
     #[serde(deserialize_with = "positive")]
     pub duration_s: f64,
-    /// How it runs over its duration.
+    /// The profile over its duration.
     #[serde(default)]
     pub profile: Profile,
 }
@@ -69,7 +69,7 @@ pub struct TcpMotion {
 pub struct ServoMotion {
     /// The pose, or the position if no rotation is given.
     pub servo_tcp: PoseSettings,
-    /// How joint speeds follow from the error.
+    /// How joint velocities are computed from the error.
     #[serde(default)]
     pub method: ServoMethod,
     /// How fast the error decays; 5 per second if left out.
@@ -80,11 +80,11 @@ pub struct ServoMotion {
     pub duration_s: f64,
 }
 
-/// How joint speeds follow from the error.
+/// How joint velocities are computed from the error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ServoMethod {
-    /// By the pseudo-inverse of the Jacobian, damped where the arm is nearly singular.
+    /// By the pseudo-inverse of the Jacobian, damped if the arm is nearly singular.
     #[default]
     PseudoInverse,
     /// By the transpose of the Jacobian.
@@ -98,7 +98,7 @@ impl ServoMethod {
     }
 }
 
-/// The keys by which a kind of motion is known.
+/// The keys that tell the kind of a motion.
 pub(crate) const JOINT_KEYS: [&str; 4] =
     ["move_joints_deg", "move_joints_rad", "move_joints_m", "move_joints_mm"];
 /// Likewise.

@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OnViolation {
-    /// The run goes on to its end, and the report tells the worst.
+    /// The run continues to its end, and the report has the worst value.
     #[default]
     Continue,
     /// The run ends with the sample that shows the violation: the robot is driven no further.
     ///
-    /// It ends, and does not hold its position, because holding would be a claim about brakes that no
-    /// scenario declares: how far an arm travels until it stands is a property of the machine.
-    /// What is reported is what was seen up to the violation, and nothing after it.
+    /// The robot does not hold its position after it, since that would assume brakes that no scenario
+    /// declares: the distance in which an arm comes to rest is a property of the machine. The report covers
+    /// the run up to the violation.
     Stop,
 }

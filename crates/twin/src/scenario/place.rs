@@ -1,4 +1,4 @@
-//! Where the values of a scenario stand in its file, if it came from one.
+//! Places of the values of a scenario in its file, if it came from one.
 
 use std::{collections::BTreeMap, ops::Range};
 
@@ -8,7 +8,7 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-/// The place of one value, with those of what it holds.
+/// The place of one value, with the places of its entries.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct PlaceNode {
     span: Range<usize>,
@@ -58,8 +58,8 @@ impl PlaceNode {
     }
 }
 
-/// Where a value of a scenario stands: in a file, or nowhere if it was made in code. A key that is not
-/// written is where the table stands that would hold it.
+/// The place of a value of a scenario: in a file, or none if it was made in code. A key that is not
+/// written has the place of the table that would hold it.
 #[derive(Debug, Clone, Copy)]
 pub struct Place<'a>(Option<&'a PlaceNode>);
 
@@ -110,7 +110,7 @@ impl<'a> Place<'a> {
         self.0.map(|node| node.line)
     }
 
-    /// A diagnostic that stands here.
+    /// A diagnostic at this place.
     pub fn mark(self, diagnostic: Diagnostic) -> Diagnostic {
         mark(diagnostic, self.span())
     }

@@ -49,7 +49,7 @@ impl PoseSettings {
             || self.matrix.is_some()
     }
 
-    /// The pose; `place` is where a file writes it.
+    /// The pose; `place` is its place in the file.
     ///
     /// # Errors
     /// Two keys for one thing, a value that is not finite, a quaternion whose norm is not 1, or a matrix that
@@ -66,7 +66,7 @@ impl PoseSettings {
         written.isometry().map_err(|error| match place.span() {
             Some(span) if error.span.is_none() => error.at(span),
             Some(_) => error,
-            // Made in code: the places of the wrapper mean nothing.
+            // For a pose made in code, the places of the wrapper have no meaning.
             None => Diagnostic { span: None, ..error },
         })
     }

@@ -1,4 +1,4 @@
-//! How a motion runs from 0 to 1 over its duration.
+//! Profiles: how a motion proceeds from 0 to 1 over its duration.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,7 +12,7 @@ pub struct Progress {
     pub share_per_s: f64,
 }
 
-/// The course of a motion.
+/// The profile of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Profile {
@@ -22,12 +22,12 @@ pub enum Profile {
     Quintic,
     /// Rest to rest: `3 s^2 - 2 s^3` (eq. 9.11).
     Cubic,
-    /// Constant speed, with a jump of speed at both ends.
+    /// Constant velocity, with a jump of velocity at both ends.
     Linear,
 }
 
 impl Profile {
-    /// Where a motion of `duration_s` is after `elapsed_s`; it rests before its start and after its end.
+    /// Progress of a motion of `duration_s` after `elapsed_s`; it rests before its start and after its end.
     ///
     /// ```
     /// use congruent_twin::scenario::Profile;

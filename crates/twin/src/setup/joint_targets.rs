@@ -14,10 +14,10 @@ type ByName = BTreeMap<String, f64>;
 /// A value of a file in the unit of the program.
 type ToSi = fn(Unit, f64) -> f64;
 
-/// The four keys under which positions may be given: angles for turning joints, lengths for sliding ones.
+/// The four keys under which positions may be given: angles for revolute joints, lengths for prismatic ones.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct JointTargets<'a> {
-    /// Of the keys, before their units.
+    /// Beginning of the keys, before their units.
     prefix: &'static str,
     deg: &'a ByName,
     rad: &'a ByName,
@@ -46,12 +46,12 @@ pub(crate) struct JointTarget {
     pub(crate) joint: JointIndex,
     /// rad or m.
     pub(crate) value: f64,
-    /// Where it is written, if it is.
+    /// Its place in the file, if it has one.
     pub(crate) span: Option<Range<usize>>,
 }
 
 impl JointTarget {
-    /// What is wrong if the position is beyond the joint's limits; `what` it is, in words.
+    /// The message if the position is beyond the joint's limits; `what` names the position.
     pub(crate) fn beyond_limits(&self, robot: &Robot, what: &str) -> Option<String> {
         let joint = robot.joint(self.joint);
         let (lower, upper) = joint.position_range()?;
@@ -60,7 +60,7 @@ impl JointTarget {
             .then(|| format!("joint \"{name}\": {what} {value} {unit} is outside [{lower}, {upper}]"))
     }
 
-    /// Puts it into a configuration.
+    /// Writes it into a configuration.
     pub(crate) fn put(&self, robot: &Robot, q: &mut RobotQ) {
         q[robot.coordinate(self.joint).expect("resolved joints move")] = self.value;
     }
@@ -134,10 +134,10 @@ fn joint_named(robot: &Robot, name: &str, unit: Unit) -> Result<JointIndex, Diag
 }
 
 fn wrong_unit(joint: &Joint) -> Diagnostic {
-    let (moves, keys) = match joint.kind {
-        JointKind::Prismatic => ("slides", "`_m` or `_mm`"),
-        _ => ("turns", "`_deg` or `_rad`"),
+    let (kind, keys) = match joint.kind {
+        JointKind::Prismatic => ("prismatic", "`_m` or `_mm`"),
+        _ => ("revolute", "`_deg` or `_rad`"),
     };
-    Diagnostic::error("scenario::joint_unit", format!("joint \"{}\" {moves}", joint.name))
+    Diagnostic::error("scenario::joint_unit", format!("joint \"{}\" is {kind}", joint.name))
         .with_help(format!("give its position under a key that ends in {keys}"))
 }

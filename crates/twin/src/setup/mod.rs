@@ -1,4 +1,4 @@
-//! A scenario checked against its robot: nothing downstream validates again.
+//! A scenario checked against its robot: nothing later validates again.
 
 mod clock;
 mod joint_targets;

@@ -1,10 +1,10 @@
-//! The numbers of a scenario that was made in code: a file's were checked as they were read.
+//! Checks the numbers of a scenario that was made in code; those of a file are checked as they are read.
 
 use congruent_description::Diagnostic;
 
 use crate::scenario::{Check, MotionSettings, ObstacleSettings, Range, Scenario, ZoneSettings};
 
-/// What is wrong with the numbers, if anything is.
+/// All numbers that are out of range.
 pub(super) fn check(scenario: &Scenario) -> Vec<Diagnostic> {
     let mut numbers = Numbers(Vec::new());
     let simulation = &scenario.simulation;

@@ -1,4 +1,4 @@
-//! A scenario with its robot, ready to run as often as one likes.
+//! A scenario with its robot, ready to run any number of times.
 
 use std::path::{Path, PathBuf};
 
@@ -23,12 +23,12 @@ use crate::{
     },
 };
 
-/// A scenario checked against its robot. It is data as well: clones of it run independently, and each run
-/// builds its own physics, controller and checks.
+/// A scenario checked against its robot. It is plain data: each run builds its own physics, controller and
+/// checks.
 #[derive(Debug, Clone)]
 pub struct RunSetup {
-    /// The scenario with every default written out; it names the robot by its whole path, so that it runs
-    /// from wherever it lies.
+    /// The scenario with every default written out; it names the robot by its absolute path, so that it runs
+    /// from any folder.
     pub scenario: Scenario,
     /// The file that it came from; `None` for one that was made in code.
     pub path: Option<PathBuf>,
@@ -38,11 +38,11 @@ pub struct RunSetup {
     pub clock: RunClock,
     /// Configuration at the start.
     pub start: RobotQ,
-    /// What the arm is asked to do.
+    /// The motions.
     pub trajectory: Trajectory,
-    /// What stands around, in the root link's frame.
+    /// Bodies that stand around the robot, in the root link's frame.
     pub obstacles: Vec<Obstacle>,
-    /// Where named links may not be, in the root link's frame.
+    /// Space that named links may not enter, in the root link's frame.
     pub zones: Vec<Zone>,
     /// What is suspicious in the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
@@ -50,7 +50,7 @@ pub struct RunSetup {
 }
 
 impl RunSetup {
-    /// Reads a scenario file and the robot that it names; `overrides` replace what the file says.
+    /// Reads a scenario file and the robot that it names; `overrides` replace values of the file.
     ///
     /// # Errors
     /// Every finding, if at least one is an error.
@@ -143,7 +143,7 @@ impl RunSetup {
         })
     }
 
-    /// The checks, each of which has seen nothing yet.
+    /// The checks, each before its first sample.
     pub fn checks(&self) -> Vec<RunningCheck> {
         let checks = self.scenario.check.iter().zip(&self.check_lines);
         checks.map(|(check, &line)| RunningCheck::new(check, line, &self.description)).collect()
@@ -203,7 +203,7 @@ fn start(settings: &StartSettings, place: Place<'_>, robot: &Robot) -> Result<Ro
     if errors.is_empty() { Ok(q) } else { Err(errors) }
 }
 
-/// A joint that is not named starts at 0, or at its limit nearest to 0, which is said.
+/// A joint that is not named starts at 0, or at its limit nearest to 0, with a warning.
 fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item = Diagnostic> + 'a {
     robot.movable_joints().iter().zip(start).filter_map(|(&joint, &q)| {
         let joint = robot.joint(joint);
@@ -238,7 +238,7 @@ fn unexpected<'a>(scenario: &'a Scenario, place: Place<'a>) -> impl Iterator<Ite
     })
 }
 
-/// Puts in what was left out: the duration, the whole start, limits, and the robot's whole path.
+/// Fills in what was left out: the duration, the whole start, limits, and the robot's absolute path.
 fn write_out_defaults(
     scenario: &mut Scenario,
     description: &RobotDescription,

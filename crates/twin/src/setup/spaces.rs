@@ -10,7 +10,7 @@ use crate::scenario::{CylinderSettings, ObstacleSettings, Place, PoseSettings};
 /// accuracy of distances, and far beyond it products overflow.
 const LARGEST_M: f64 = 1e5;
 
-/// What a section describes: the word for it, and the codes of what may be wrong with one.
+/// What a section describes: its word in messages, and the codes of its faults.
 pub(super) struct SpaceKind {
     word: &'static str,
     twice: &'static str,
@@ -71,7 +71,7 @@ fn obstacle(settings: &ObstacleSettings, place: Place<'_>, kind: &SpaceKind) -> 
     if settings.name.trim().is_empty() {
         return Err(place.key("name").mark(
             Diagnostic::error(kind.name, format!("the {}'s name is empty", kind.word))
-                .with_help("reports name it when something comes too close"),
+                .with_help("reports name it if something comes too close"),
         ));
     }
     let geometry = match (settings.box_m, settings.sphere_radius_m, settings.cylinder) {

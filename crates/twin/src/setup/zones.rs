@@ -1,5 +1,5 @@
-//! `[[zone]]`: space that links are forbidden to enter, in the root link's frame. A zone is no body:
-//! physics knows nothing of it, the check `zone` watches it.
+//! `[[zone]]`: space that links are forbidden to enter, in the root link's frame. A zone is not a body:
+//! only the check `zone` uses it, not the physics.
 
 use congruent_description::{Diagnostic, Geometry, Link, LinkIndex, Robot, known_names};
 use congruent_simulation::Obstacle;
@@ -20,8 +20,8 @@ pub struct Zone {
 /// Builds all zones; names as of obstacles.
 ///
 /// `links` holds names of links, in which `*` stands for any characters. A name with `*` means the
-/// links that can move and have a collision shape: what stands with the root link stands where
-/// the scenario put it. A link that is named in full counts in any case.
+/// links that can move and have a collision shape: links that are fixed to the root are
+/// left out. A link that is named in full counts in any case.
 pub(super) fn build(
     all: &[ZoneSettings],
     places: Place<'_>,
@@ -45,8 +45,7 @@ pub(super) fn build(
     }
 }
 
-/// Zones and their check go together: a check without a zone would look at nothing, and a zone
-/// without a check would forbid nothing.
+/// A scenario has zones if and only if it has the check `zone`: either alone would have no effect.
 pub(super) fn paired_with_checks(
     zones: &[ZoneSettings],
     checks: &[Check],
@@ -56,11 +55,11 @@ pub(super) fn paired_with_checks(
     let check = checks.iter().position(|check| check.kind() == CheckKind::Zone);
     match (zones.is_empty(), check) {
         (false, None) => Err(place.key("zone").item(0).mark(
-            Diagnostic::error("scenario::zone_unchecked", "nothing watches the zones of this scenario")
+            Diagnostic::error("scenario::zone_unchecked", "no check covers the zones of this scenario")
                 .with_help(format!("add a [[check]] with kind = \"{word}\"")),
         )),
         (true, Some(check)) => {
-            let message = format!("check \"{word}\" has nothing to look at: the scenario has no zone");
+            let message = format!("check \"{word}\" has nothing to check: the scenario has no zone");
             Err(place.key("check").item(check).mark(
                 Diagnostic::error("scenario::no_zone", message)
                     .with_help("add a [[zone]] with name, links, a shape and its place"),
@@ -109,7 +108,7 @@ fn links_named(name: &str, robot: &Robot) -> Result<Vec<LinkIndex>, Diagnostic> 
         None => Err(no_link(name, robot)),
         Some(link) if can_enter(link) => Ok(vec![link]),
         Some(_) => {
-            let message = format!("link \"{name}\" has no collision shape: it can enter no zone");
+            let message = format!("link \"{name}\" has no collision shape: it cannot enter a zone");
             Err(Diagnostic::error("scenario::zone_links", message).with_help(known_names(
                 "",
                 "links with one",

@@ -1,4 +1,4 @@
-//! Where joint states come from: a simulation, later a log or a live robot.
+//! Sources of joint states: a simulation, later a log or a live robot.
 
 use congruent_description::RobotQ;
 use nalgebra::Isometry3;
@@ -16,7 +16,7 @@ pub struct JointStateView<'a> {
     pub effort: &'a [f64],
 }
 
-/// What was asked of the joints.
+/// The commanded state of the joints.
 #[derive(Debug, Clone, Copy)]
 pub struct SetpointView<'a> {
     /// Positions.
@@ -28,11 +28,11 @@ pub struct SetpointView<'a> {
 /// The joints of a robot at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct JointSample<'a> {
-    /// As they are. A source that cannot know it gives what is measured.
+    /// The true state. A source that does not know it gives the measured one.
     pub truth: JointStateView<'a>,
-    /// As the robot's sensors say: an encoder's fault stands between the two.
+    /// The state that the robot's sensors give; it differs from the true one by the faults of encoders.
     pub measured: JointStateView<'a>,
-    /// What was commanded; `None` if the source does not know.
+    /// The commanded state; `None` if the source does not know it.
     pub setpoint: Option<SetpointView<'a>>,
 }
 
@@ -45,20 +45,20 @@ pub trait JointStateSource {
     fn step_count(&self) -> u64;
 
     /// Writes the poses of all links at the present instant, in the root link's frame and the robot's order,
-    /// and says whether the source sees them: a log of joint states does not, and the links are then placed
-    /// by the URDF chain at the true joint positions.
+    /// and returns whether the source knows them: a log of joint states does not, and the poses are then those
+    /// of the URDF chain at the true joint positions.
     fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool;
 
-    /// Goes on to the next sample, which is at `time_s`.
+    /// Advances to the next sample, which is at `time_s`.
     ///
     /// # Errors
-    /// [`SourceError`] if there is none that could be used.
+    /// [`SourceError`] if there is no usable sample.
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError>;
 
-    /// How far servos have brought the tool, for a source that drives the robot.
+    /// The results of the servos, for a source that drives the robot.
     ///
     /// # Errors
-    /// [`SourceError`] if that cannot be told.
+    /// [`SourceError`] if they cannot be computed.
     fn finish(&mut self) -> Result<Vec<ServoResult>, SourceError> {
         Ok(Vec::new())
     }
@@ -70,7 +70,7 @@ pub trait JointStateSource {
 pub struct SourceError(Box<dyn std::error::Error + Send + Sync>);
 
 impl SourceError {
-    /// What a source says.
+    /// Wraps the error of a source.
     pub fn new(error: impl std::error::Error + Send + Sync + 'static) -> Self {
         Self(Box::new(error))
     }

@@ -1,4 +1,4 @@
-//! Where link poses and joint states come from. A run takes a source and does not know which it is.
+//! Sources of link poses and of joint states. A run takes any source of joint states.
 
 mod joint_states;
 mod simulated_poses;

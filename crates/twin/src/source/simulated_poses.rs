@@ -1,11 +1,11 @@
-//! Link poses by physics, for whoever compares sources and knows no engine.
+//! Link poses by physics, for comparisons that do not know the engine.
 
 use congruent_description::{Robot, RobotQ};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose};
 use congruent_simulation::{SimulationError, World, WorldSettings};
 use nalgebra::Isometry3;
 
-/// The physics twin of a robot, asked for poses alone: it is placed, not moved.
+/// The physics twin of a robot as a source of poses: it is placed at configurations, not stepped.
 pub struct SimulatedPoses {
     world: World,
     at_rest: Vec<f64>,

@@ -1,4 +1,4 @@
-//! The physics as a source of joint states: world, controller, and the reference that the motions give.
+//! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
 use congruent_description::RobotQ;
 use congruent_simulation::{Controller, Setpoint, World, WorldSettings, controller};
@@ -15,7 +15,7 @@ pub struct SimulationSource<'a> {
     world: World,
     controller: Box<dyn Controller>,
     reference: ReferenceGenerator<'a>,
-    /// What the encoders say. They are exact: faults, noise and quantisation belong here.
+    /// Positions that the encoders give. They are exact; faults, noise and quantisation belong here.
     measured_q: RobotQ,
 }
 

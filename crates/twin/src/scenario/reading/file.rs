@@ -25,11 +25,11 @@ const MOST_BYTES: u64 = 4 << 20;
 /// A scenario with the places of its values.
 #[derive(Debug, Clone)]
 pub struct ScenarioFile {
-    /// What the file says, with what was set beside it.
+    /// The content of the file, with the overrides applied.
     pub scenario: Scenario,
     source: Arc<SourceFile>,
     places: PlaceNode,
-    /// Keys that nothing has: the rest is good enough to be looked at.
+    /// Unknown keys: the rest can be checked all the same.
     findings: Vec<Diagnostic>,
 }
 
@@ -48,7 +48,7 @@ const SECTIONS: [&str; 8] =
     ["simulation", "start", "controller", "motion", "obstacle", "zone", "check", "expect"];
 
 impl ScenarioFile {
-    /// Reads a file; `overrides` replace what it says.
+    /// Reads a file; `overrides` replace its values.
     ///
     /// # Errors
     /// Every finding, if the file is no scenario.
@@ -84,12 +84,12 @@ impl ScenarioFile {
         self.path().parent().unwrap_or(Path::new("")).join(&self.scenario.robot)
     }
 
-    /// Where its values stand.
+    /// The places of its values.
     pub fn place(&self) -> Place<'_> {
         Place::of(Some(&self.places))
     }
 
-    /// What is wrong with it although it could be read: unknown keys.
+    /// Faults with which it could be read: unknown keys.
     pub fn findings(&self) -> &[Diagnostic] {
         &self.findings
     }
@@ -104,7 +104,7 @@ fn is_unknown_key(finding: &Diagnostic) -> bool {
     finding.code == toml_text::UNKNOWN_KEY_CODE
 }
 
-/// A fault at a value that was set says so: the line of the file has another one.
+/// Adds to a fault of an overridden value that it was set: the line of the file has another value.
 fn name_override(finding: Diagnostic, overrides: &[Override], set: &[Range<usize>]) -> Diagnostic {
     let cause = overrides.iter().zip(set).find(|(_, place)| finding.span.as_ref() == Some(place));
     match cause {
@@ -194,7 +194,7 @@ fn all<'a, T>(
     read: impl Fn(Section<'a>, &mut Diagnostics) -> Option<T>,
 ) -> Option<Vec<T>> {
     let sections = findings.keep(document.take_tables(key))?;
-    // Each is read, whatever became of the one before.
+    // Each is read, even if one before it is wrong.
     let read: Vec<Option<T>> = sections.into_iter().map(|section| read(section, findings)).collect();
     read.into_iter().collect()
 }
@@ -209,7 +209,7 @@ fn read_motion(section: Section<'_>, findings: &mut Diagnostics) -> Option<Motio
     } else {
         let known: Vec<&str> = JOINT_KEYS.into_iter().chain([TCP_KEY, SERVO_KEY]).collect();
         findings.push(
-            Diagnostic::error("scenario::unknown_motion", "the motion does not say what moves")
+            Diagnostic::error("scenario::unknown_motion", "the motion has no target")
                 .with_help(format!("give one of {}", known.join(", ")))
                 .at(section.span()),
         );

@@ -12,7 +12,7 @@ use toml::{
 ///
 /// The path is the keys of the file joined by dots; an entry of a list has its number, from 1:
 /// `controller.stiffness`, `check.1.position_m`, `start.joints_deg.elbow_joint`. The value is TOML; a word
-/// that is no TOML is taken as a string.
+/// that is not TOML is taken as a string.
 ///
 /// # Examples
 /// ```
@@ -65,10 +65,10 @@ impl Override {
     }
 
     /// Puts the value into a document, at the place of the value that it replaces, or of the table that gets
-    /// it; gives that place.
+    /// it; returns that place.
     ///
     /// # Errors
-    /// The path leads through a value that holds no others, or to an entry that a list does not have.
+    /// The path goes through a value that is not a table, or to an entry that a list does not have.
     pub(super) fn apply<'a>(
         &'a self,
         document: &mut Spanned<DeTable<'a>>,
@@ -77,7 +77,7 @@ impl Override {
             .ok()
             .and_then(|table| table.into_inner().into_iter().next())
             .map(|(_, value)| value.into_inner())
-            .ok_or_else(|| self.refused("the value is no TOML"))?;
+            .ok_or_else(|| self.refused("the value is not TOML"))?;
         let (last, through) = self.path.split_last().expect("a path has a key");
         let mut table = document.get_mut();
         let mut place = 0..0;

@@ -1,4 +1,4 @@
-//! One table of a scenario file, on its way to the module that knows what it means.
+//! One table of a scenario file with its place.
 
 use congruent_description::{Diagnostic, Diagnostics, known_names, toml_text};
 use serde::de::DeserializeOwned;
@@ -37,7 +37,7 @@ impl<'a> Section<'a> {
         self.table.get_mut().remove(key).map(|value| Self::as_section(key, value)).transpose()
     }
 
-    /// Refuses something else than a table under `key`: serde would read an array into a struct.
+    /// Rejects anything but a table under `key`: serde would read an array into a struct.
     ///
     /// # Errors
     /// A diagnostic where the key holds something else.
@@ -50,7 +50,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Takes an array of tables out of this one; empty where the key is absent.
+    /// Takes an array of tables out of this one; empty if the key is absent.
     ///
     /// # Errors
     /// A diagnostic where the key holds something else.
@@ -66,7 +66,7 @@ impl<'a> Section<'a> {
     /// Takes the string under `key` out and gives the one of `known` that has this name.
     ///
     /// # Errors
-    /// A diagnostic at the unknown name, or at the section where there is none.
+    /// A diagnostic at the unknown name, or at the section if there is none.
     pub(super) fn select<'k, T>(
         &mut self,
         key: &str,
@@ -92,7 +92,7 @@ impl<'a> Section<'a> {
         })
     }
 
-    /// Reads the section into a value; unknown keys are errors where the type denies them.
+    /// Reads the section into a value; unknown keys are errors if the type denies them.
     ///
     /// # Errors
     /// A diagnostic at every unknown key and at the first value that is wrong.
@@ -104,7 +104,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Like [`Section::read`], but gives a value as well where the only faults are unknown keys.
+    /// Like [`Section::read`], but returns a value as well if the only faults are unknown keys.
     pub(super) fn read_into<T: DeserializeOwned>(self, findings: &mut Diagnostics) -> Option<T> {
         toml_text::read_table(self.table, findings)
     }
