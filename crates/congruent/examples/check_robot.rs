@@ -9,23 +9,19 @@ use congruent::prelude::*;
 fn main() -> Result<(), String> {
     let robot = env::args().nth(1).map_or_else(default_robot, PathBuf::from);
     let description = load_robot(&robot).map_err(|found| listed(&found))?;
-    let report =
-        check(&description, &CheckOptions { seed: 0, configurations: Vec::new() }).map_err(|e| e.to_string())?;
+    let report = check(&description, &CheckOptions { seed: 0, configurations: Vec::new() })
+        .map_err(|e| e.to_string())?;
     println!("{}: {}", report.robot, report.verdict);
     for comparison in &report.comparisons {
         let worst = comparison.worst.error.position_m;
         println!("  {}: {}, worst {worst:.1e} m", comparison.title, comparison.verdict);
     }
     for cause in &report.diagnosis {
-        println!("  {}", cause.fault.sentence);
+        println!("  {}", cause.fault.suggestion);
     }
     Ok(())
 }
 
 fn default_robot() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/ur5e"))
-}
-
-fn listed(found: &[Diagnostic]) -> String {
-    found.iter().map(|diagnostic| format!("{diagnostic}\n")).collect()
 }

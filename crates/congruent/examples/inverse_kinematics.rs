@@ -21,15 +21,10 @@ fn main() -> Result<(), String> {
     let start = ArmQ::zeros(arm.joints().len());
     let target = IkTarget { base_from_tcp, part: TargetPart::Pose };
     let mut solver = IkSolver::new(arm);
-    let result = solver
-        .solve(&target, &start, &IkOptions::default(), || true)
-        .map_err(|error| error.to_string())?;
+    let result =
+        solver.solve(&target, &start, &IkOptions::default(), || true).map_err(|error| error.to_string())?;
     println!("converged: {} after {} steps", result.converged, result.iterations);
-    println!("joint positions: {:.6?} rad", result.q.as_slice());
+    println!("joint positions: {:.6?} rad", &result.q[..]);
     println!("residual: {:.1e} m, {:.1e} rad", result.residual_position_m, result.residual_orientation_rad);
     Ok(())
-}
-
-fn listed(found: &[Diagnostic]) -> String {
-    found.iter().map(|diagnostic| format!("{diagnostic}\n")).collect()
 }

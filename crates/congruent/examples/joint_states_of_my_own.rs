@@ -64,7 +64,3 @@ fn main() -> Result<(), String> {
     }
     Ok(())
 }
-
-fn listed(found: &[Diagnostic]) -> String {
-    found.iter().map(|diagnostic| format!("{diagnostic}\n")).collect()
-}

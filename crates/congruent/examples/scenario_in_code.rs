@@ -1,4 +1,4 @@
-//! A scenario made in code and run with several stiffnesses: how well does the arm follow its setpoint?
+//! A scenario made in code and run with several stiffnesses: whatever the gains, model and twin agree.
 //! `cargo run --example scenario_in_code`
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
@@ -19,8 +19,7 @@ fn main() -> Result<(), String> {
     let robot = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/ur5e"));
     let description = load_robot(robot).map_err(|found| listed(&found))?;
     for stiffness in [500.0, 2000.0, 8000.0] {
-        let setup =
-            RunSetup::new(lift(stiffness), description.clone()).map_err(|found| listed(&found))?;
+        let setup = RunSetup::new(lift(stiffness), description.clone()).map_err(|found| listed(&found))?;
         let run = Run::new(&setup).map_err(|error| error.to_string())?;
         let (outcome, ended) = run.finish(&mut setup.checks(), &mut NoRecorder, |_| ());
         ended.map_err(|error| error.to_string())?;
@@ -47,8 +46,4 @@ fn lift(stiffness: f64) -> Scenario {
         check: vec![Check::Agreement(AgreementCheck::default())],
         ..Scenario::default()
     }
-}
-
-fn listed(found: &[Diagnostic]) -> String {
-    found.iter().map(|diagnostic| format!("{diagnostic}\n")).collect()
 }

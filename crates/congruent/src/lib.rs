@@ -19,6 +19,11 @@ mod with_physics;
 
 pub use with_physics::{check, forward};
 
+/// What is wrong with an input, one finding in each line, without the lines of the file.
+pub fn listed(found: &[description::Diagnostic]) -> String {
+    found.iter().map(|diagnostic| format!("{diagnostic}\n")).collect()
+}
+
 /// What most programs need.
 pub mod prelude {
     pub use congruent_agreement::compare::{Agreement, CheckOptions, CheckReport};
@@ -34,5 +39,5 @@ pub mod prelude {
         verdict::Verdict,
     };
 
-    pub use crate::{check, forward};
+    pub use crate::{check, forward, listed};
 }

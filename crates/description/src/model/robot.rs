@@ -196,7 +196,7 @@ impl Robot {
     /// let (mut q, mut qd) = (RobotQ::from([0.1, 9.0]), [0.1, 9.0]);
     /// robot.apply_mimic(&mut q);
     /// robot.apply_mimic_to_speeds(&mut qd);
-    /// assert_eq!((q.as_slice(), qd), ([0.1, 0.3].as_slice(), [0.1, -0.2]));
+    /// assert_eq!((&q[..], qd), (&[0.1, 0.3][..], [0.1, -0.2]));
     /// ```
     pub fn apply_mimic_to_speeds(&self, qd: &mut [f64]) {
         self.follow_masters(qd, |_| 0.0);
