@@ -31,6 +31,10 @@ impl Bench {
         Self(tempfile::tempdir().unwrap())
     }
 
+    pub(crate) fn path(&self) -> &Path {
+        self.0.path()
+    }
+
     pub(crate) fn write(&self, name: &str, contents: &str) -> String {
         let path = self.0.path().join(name);
         fs::write(&path, contents).unwrap();

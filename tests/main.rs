@@ -24,4 +24,5 @@ mod robots;
 mod safety;
 mod scenarios;
 mod servo;
+mod snapshots;
 mod suggestions;
