@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Reference case 4: five measured points of the planar arm.
-const CASE_04: &str = "\
+pub(crate) const CASE_04: &str = "\
 joint_1_deg,joint_2_deg,x_m,y_m
 0,0,1.000,0.015
 30,-45,0.900,0.210
@@ -29,6 +29,10 @@ pub(crate) struct Bench(TempDir);
 impl Bench {
     pub(crate) fn new() -> Self {
         Self(tempfile::tempdir().unwrap())
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        self.0.path()
     }
 
     pub(crate) fn write(&self, name: &str, contents: &str) -> String {

@@ -27,6 +27,7 @@ pub(crate) fn congruent<S: AsRef<OsStr>>(arguments: &[S]) -> Answer {
         .args(arguments)
         .current_dir(crate::corpus::workspace())
         .env_remove("GITHUB_ACTIONS")
+        .env_remove("COLUMNS") // the width of help
         .output()
         .expect("the command starts");
     Answer {

@@ -25,4 +25,5 @@ mod safety;
 mod scenarios;
 mod schemas;
 mod servo;
+mod snapshots;
 mod suggestions;
