@@ -215,6 +215,10 @@ fn run_all(scenarios: Vec<RunSetup>, arguments: &Arguments, printer: &Printer) -
 }
 
 /// The format of recordings, if this command was built with one.
+#[cfg_attr(
+    feature = "recording",
+    expect(clippy::unnecessary_wraps, reason = "without the feature there is no format")
+)]
 fn recording_format() -> Option<&'static dyn RecordingFormat> {
     #[cfg(feature = "recording")]
     return Some(&congruent::recording::RerunFormat);

@@ -1,5 +1,7 @@
 //! `congruent schema`: the JSON schema of a file or of a document.
 
+use std::fmt::Write as _;
+
 use congruent::{
     description::{Diagnostic, known_names},
     schema::Document,
@@ -33,5 +35,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 
 /// One line for each document.
 fn listed() -> String {
-    Document::ALL.iter().map(|document| format!("{:15}  {}\n", document.name, document.about)).collect()
+    Document::ALL.iter().fold(String::new(), |mut text, document| {
+        let _ = writeln!(text, "{:15}  {}", document.name, document.about);
+        text
+    })
 }

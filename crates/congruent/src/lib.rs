@@ -21,7 +21,7 @@ pub use with_physics::{check, forward};
 
 /// What is wrong with an input, one finding in each line, without the lines of the file.
 pub fn listed(found: &[description::Diagnostic]) -> String {
-    found.iter().map(|diagnostic| format!("{diagnostic}\n")).collect()
+    found.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// What most programs need.

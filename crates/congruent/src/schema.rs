@@ -17,6 +17,7 @@ use schemars::{
     schema_for,
     transform::{RecursiveTransform, Transform},
 };
+use serde_json::Value;
 
 /// A kind of file or document that has a schema.
 #[derive(Debug, Clone, Copy)]
@@ -78,7 +79,7 @@ impl Document {
         let mut schema = (self.make)();
         // A key that may be left out has no value `null` that a file could give.
         let drop_null_default = |schema: &mut Schema| {
-            if schema.get("default").is_some_and(|default| default.is_null()) {
+            if schema.get("default").is_some_and(Value::is_null) {
                 schema.remove("default");
             }
         };

@@ -83,6 +83,6 @@ impl Monitor for GoalMonitor {
     }
 
     fn has_failed(&self) -> bool {
-        std::iter::once(&self.position).chain(&self.orientation).any(|watch| watch.is_violated())
+        std::iter::once(&self.position).chain(&self.orientation).any(Watch::is_violated)
     }
 }

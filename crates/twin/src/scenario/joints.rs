@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 /// Positions at the start; joints that are not named start at 0, or at the limit nearest to 0.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[expect(clippy::struct_field_names, reason = "the keys of the file")]
 pub struct StartSettings {
     /// Angles in degrees by joint.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]

@@ -50,7 +50,9 @@ impl Numbers {
     }
 
     fn maybe(&mut self, key: &str, value: Option<f64>, range: Range) {
-        value.into_iter().for_each(|value| self.one(key, value, range));
+        if let Some(value) = value {
+            self.one(key, value, range);
+        }
     }
 
     fn shape(&mut self, what: &str, shape: &ObstacleSettings) {

@@ -89,7 +89,7 @@ fn obstacle(settings: &ObstacleSettings, place: Place<'_>, kind: &SpaceKind) -> 
         }
     };
     let ObstacleSettings { xyz_m, xyz_mm, rpy_deg, rpy_rad, .. } = *settings;
-    let pose = PoseSettings { xyz_m, xyz_mm, rpy_deg, rpy_rad, ..PoseSettings::default() };
+    let pose = PoseSettings { xyz_m, xyz_mm, rpy_rad, rpy_deg, ..PoseSettings::default() };
     let world_from_obstacle = pose.isometry(place)?;
     let furthest_m = world_from_obstacle.translation.vector.amax().max(largest_size_m(&geometry));
     if furthest_m > LARGEST_M {
