@@ -22,7 +22,7 @@ use super::{
 
 /// Largest scenario file that is read.
 const MOST_BYTES: u64 = 4 << 20;
-/// The keys of checks of every kind.
+/// The keys that every check has, whatever its kind.
 const COMMON_CHECK_KEYS: &str = "kind, on_violation";
 
 /// A scenario with the places of its values.
