@@ -22,7 +22,7 @@ pub(crate) enum Format {
     Json,
 }
 
-/// Prints in the format that was asked for.
+/// Prints in the requested format.
 #[derive(Debug)]
 pub(crate) struct Printer {
     format: Format,

@@ -9,13 +9,13 @@ pub enum SimulationError {
     /// The time step is not a positive number.
     #[error("step_s = {step_s} is not a positive number of seconds")]
     Step {
-        /// The step that was asked for, s.
+        /// The requested step, s.
         step_s: f64,
     },
     /// Gravity has an entry that is not finite.
     #[error("gravity [{}, {}, {}] m/s2 is not finite", .gravity_in_world[0], .gravity_in_world[1], .gravity_in_world[2])]
     Gravity {
-        /// The gravity that was asked for, m/s^2.
+        /// The requested gravity, m/s^2.
         gravity_in_world: [f64; 3],
     },
     /// The limits of a joint allow no position.
@@ -67,7 +67,7 @@ pub enum SimulationError {
     /// There is no controller of that name.
     #[error("unknown controller \"{name}\"; {}", known_names(.name, "controllers", .known.iter().copied()))]
     UnknownController {
-        /// The name that was asked for.
+        /// The requested name.
         name: String,
         /// All names.
         known: Vec<&'static str>,

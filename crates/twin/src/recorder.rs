@@ -7,7 +7,7 @@ use crate::sample::Sample;
 #[derive(Debug, thiserror::Error)]
 #[error("recording failed: {message}")]
 pub struct RecordingError {
-    /// What the recorder says.
+    /// The recorder's message.
     pub message: String,
 }
 

@@ -13,7 +13,7 @@ const KNOWN: [(&str, Make); 4] = [
     (gravity_compensation::NAME, |gains| Box::new(gravity_compensation::GravityCompensation { gains })),
 ];
 
-/// The names that [`controller`] knows.
+/// The names of all controllers.
 pub fn controller_names() -> impl ExactSizeIterator<Item = &'static str> + Clone {
     KNOWN.iter().map(|(name, _)| *name)
 }

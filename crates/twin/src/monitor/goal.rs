@@ -44,7 +44,7 @@ pub(super) fn examine(check: &GoalCheck, place: Place<'_>) -> Result<Isometry3<f
 
 impl GoalMonitor {
     /// # Panics
-    /// For a goal that [`examine`] refuses.
+    /// For a goal that [`examine`] rejects.
     pub(super) fn new(check: &GoalCheck, description: &RobotDescription) -> Self {
         let world_from_target = examine(check, Place::nowhere()).expect("a setup examines its checks");
         let watch = |quantity, unit, limit: f64| {

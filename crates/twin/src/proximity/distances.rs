@@ -15,7 +15,7 @@ use super::{
 /// Distances at one configuration, in the order of the report's pairs.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Distances {
-    /// 0 if a pair touches or overlaps; negative depths if they were asked for.
+    /// 0 if a pair touches or overlaps; negative depths with `--penetration`.
     pub distances_m: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! The bounds against brute force: whatever moves how far, what is skipped may not be nearer.
+//! The bounds against brute force: a pair that was not measured may not be nearer than the reported one.
 
 use congruent_description::{Geometry, Joint, JointKind, JointParts, Link};
 use nalgebra::{Translation3, UnitQuaternion};

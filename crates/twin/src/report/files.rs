@@ -14,7 +14,7 @@ use serde::Serialize;
 pub struct OutputError {
     /// The file or folder.
     pub path: PathBuf,
-    /// What the operating system says.
+    /// The error of the operating system.
     pub source: io::Error,
 }
 

@@ -118,12 +118,12 @@ pub struct ClearanceCheck {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GoalCheck {
-    /// Where the TCP of the twin ought to be at the end, in the world.
+    /// Pose or position of the twin's TCP at the end, in the world.
     pub tcp: PoseSettings,
-    /// Largest distance from there.
+    /// Largest distance from it.
     #[serde(deserialize_with = "positive")]
     pub position_m: f64,
-    /// Largest angle from there, if a rotation is asked for.
+    /// Largest angle from it, if the goal has a rotation.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub orientation_rad: Option<f64>,
     /// What follows its first violation.

@@ -41,7 +41,7 @@ fn matrix<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[[f64; 4]
 }
 
 impl PoseSettings {
-    /// Whether a rotation is given, be it the identity.
+    /// Whether a rotation is given, the identity included.
     pub fn has_rotation(&self) -> bool {
         self.rpy_rad.is_some()
             || self.rpy_deg.is_some()
