@@ -53,8 +53,7 @@ impl ChainArguments {
 /// Configurations on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConfigurationArguments {
-    /// A JSON array of {"q": {"joint": value}} in rad and m, with velocities "v" for --derivative;
-    /// joints that are not named are at 0.
+    /// A JSON array of {"q": {"joint": value}} in rad and m; joints that are not named are at 0.
     #[arg(long, value_name = "FILE", conflicts_with = "at")]
     configurations: Option<PathBuf>,
     /// One joint's position in rad or m; may be given several times.

@@ -86,9 +86,9 @@ fn load(folder: &Folder, text: &str) -> RunSetup {
 }
 
 /// Runs a scenario; returns its report and the path of its recording.
-fn recorded(folder: &Folder, out: &str, scenario: RunSetup) -> (RunReport, PathBuf) {
+fn recorded(folder: &Folder, out: &str, scenario: &RunSetup) -> (RunReport, PathBuf) {
     let options = Options { out: folder.file(out), recording: Some(&RerunFormat) };
-    let (report, results) = execute(&scenario, &options, |_| ()).unwrap();
+    let (report, results) = execute(scenario, &options, |_| ()).unwrap();
     (report, results.file("recording.rrd"))
 }
 
@@ -109,7 +109,7 @@ const ROWS: u64 = 27;
 #[test]
 fn a_run_is_read_back() {
     let folder = Folder::new("read_back");
-    let (report, path) = recorded(&folder, "out", scenario(&folder, "ur5e"));
+    let (report, path) = recorded(&folder, "out", &scenario(&folder, "ur5e"));
     let summary = inspect(&path).unwrap();
     assert!(summary.complete && summary.has_layout && summary.problems.is_empty(), "{:?}", summary.problems);
     assert_eq!(summary.application_id, "congruent short");
@@ -187,7 +187,7 @@ fn scalars_are_exact() {
 #[test]
 fn a_disagreement_is_shown() {
     let folder = Folder::new("disagreement");
-    let (report, path) = recorded(&folder, "out", scenario(&folder, "ur5e/tool_5mm_off.toml"));
+    let (report, path) = recorded(&folder, "out", &scenario(&folder, "ur5e/tool_5mm_off.toml"));
     assert_eq!(report.exit_code, 1);
     let summary = inspect(&path).unwrap();
     assert_eq!(summary.verdict.as_deref(), Some("not_as_expected"));
@@ -200,15 +200,15 @@ fn a_disagreement_is_shown() {
 #[test]
 fn equal_runs_give_equal_bytes() {
     let folder = Folder::new("bytes");
-    let (_, first) = recorded(&folder, "first", scenario(&folder, "ur5e"));
-    let (_, second) = recorded(&folder, "second", scenario(&folder, "ur5e"));
+    let (_, first) = recorded(&folder, "first", &scenario(&folder, "ur5e"));
+    let (_, second) = recorded(&folder, "second", &scenario(&folder, "ur5e"));
     assert!(fs::read(first).unwrap() == fs::read(second).unwrap());
 }
 
 #[test]
 fn a_cut_file_is_read_as_far_as_it_goes() {
     let folder = Folder::new("cut");
-    let (_, path) = recorded(&folder, "out", scenario(&folder, "ur5e"));
+    let (_, path) = recorded(&folder, "out", &scenario(&folder, "ur5e"));
     let whole = fs::read(path).unwrap();
     let cut = folder.file("cut.rrd");
     let mut entities = 0;
@@ -226,7 +226,7 @@ fn a_cut_file_is_read_as_far_as_it_goes() {
 #[test]
 fn a_corrupt_file_never_panics() {
     let folder = Folder::new("corrupt");
-    let (_, path) = recorded(&folder, "out", scenario(&folder, "ur5e"));
+    let (_, path) = recorded(&folder, "out", &scenario(&folder, "ur5e"));
     let whole = fs::read(path).unwrap();
     let corrupt = folder.file("corrupt.rrd");
     let mut random = 7_u64;
@@ -301,7 +301,7 @@ fn names_are_never_parsed_as_paths() {
         [expect]
         verdict = "pass"
     "#;
-    let (_, path) = recorded(&folder, "out", load(&folder, text));
+    let (_, path) = recorded(&folder, "out", &load(&folder, text));
     let summary = inspect(&path).unwrap();
     assert!(summary.problems.is_empty(), "{:?}", summary.problems);
     assert_eq!(summary.application_id, "congruent ____odd_names_");

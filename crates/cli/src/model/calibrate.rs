@@ -63,7 +63,7 @@ pub(crate) struct Arguments {
     /// Plots the cost over the most significant correction and the residual of each row, as SVG.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
-    /// Seed of the configurations among which those are chosen.
+    /// Seed of the random configurations of which the most informative are chosen.
     #[arg(long, default_value_t = 0)]
     seed: u64,
 }
