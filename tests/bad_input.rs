@@ -160,7 +160,7 @@ fn case_13_a_zone_that_cannot_be() {
 fn case_13_zones_and_their_check_go_together() {
     let bench = Workbench::new();
     bench.edit("scenario.toml", "kind = \"agreement\"", "kind = \"zone\"");
-    bench.refused("scenario.toml", 11, &["nothing to look at", "[[zone]]"]);
+    bench.refused("scenario.toml", 11, &["nothing to check", "[[zone]]"]);
     let bench = Workbench::new();
     let zone = &ZONE[ZONE.find("[[z").unwrap()..];
     bench.edit("scenario.toml", "[[check]]", &format!("{zone}links = [\"*\"]\nbox_m = [1, 1, 1]\n[[check]]"));
@@ -172,7 +172,10 @@ fn case_13_an_answer_to_a_violation_that_is_none() {
     for (key, words) in [
         ("on_violation = \"halt\"", ["unknown value \"halt\"", "continue, stop"]),
         ("on_violation = true", ["boolean `true`", "expected a string"]),
-        ("on_violaton = \"stop\"", ["unknown key \"on_violaton\"", "on_violation; of every check: kind"]),
+        (
+            "on_violaton = \"stop\"",
+            ["unknown key \"on_violaton\"", "known keys: position_m, orientation_rad, on_violation"],
+        ),
     ] {
         let bench = Workbench::new();
         bench.edit("scenario.toml", "kind = \"agreement\"", &format!("kind = \"agreement\"\n{key}"));
@@ -207,7 +210,10 @@ fn case_23_a_goal_that_cannot_be() {
     for (keys, words) in [
         ("position_m = 1e-6", ["missing key \"tcp\"", "tcp"]),
         ("tcp = { xyz_m = [1, 0, 0] }", ["missing key \"position_m\"", "position_m"]),
-        ("tcp = { rpy_deg = [1, 0, 0] }\nposition_m = 1e-6", ["no `orientation_rad`", "both for a pose"]),
+        (
+            "tcp = { rpy_deg = [1, 0, 0] }\nposition_m = 1e-6",
+            ["no tolerance `orientation_rad`", "both for a pose"],
+        ),
         ("tcp = {}\nposition_m = 1\norientation_rad = 1", ["the goal has none", "neither for a position"]),
     ] {
         let bench = Workbench::new();

@@ -96,18 +96,22 @@ fn files_that_are_wrong_do_not_follow_their_schemas() {
 #[test]
 fn documents_follow_their_schemas() {
     let at = "--at=elbow_joint=1.2";
+    let folder = tempfile::tempdir().unwrap();
+    let targets = folder.path().join("targets.json");
+    fs::write(&targets, r#"[{"translation_m": [0.7, 0.2, 0]}, {"translation_m": [1.5, 0, 0]}]"#).unwrap();
+    let targets = text(&targets);
     let commands: &[(&str, &[&str])] = &[
         ("check", &["check", "robots/ur5e"]),
         ("check", &["check", "robots/cylindrical_rpp"]),
         ("fk", &["fk", "robots/ur5e", at]),
         ("jacobian", &["jacobian", "robots/ur5e", at]),
-        ("ik", &["ik", "robots/ur5e", "--position", "0.3", "0.2", "0.5"]),
+        ("ik", &["ik", "robots/planar_2r", "--targets", &targets]),
         ("manipulability", &["manipulability", "robots/panda"]),
         ("workspace", &["workspace", "robots/rrr_arm"]),
         ("sensitivity", &["sensitivity", "robots/rrr_arm"]),
         ("clearance", &["clearance", "robots/ur5e", at]),
         ("convert", &["convert", "robots/ur5e", "--to", "modified"]),
-        ("convert", &["derive", "robots/ur5e"]),
+        ("convert", &["derive", "robots/ur5e", "--convention", "standard"]),
     ];
     for (name, arguments) in commands {
         let answer = congruent_json(arguments);
