@@ -8,18 +8,18 @@ use crate::scenario::{Profile, Progress, ServoMethod};
 /// One motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    /// How long it takes.
+    /// Its duration.
     pub duration_s: f64,
-    /// Where it goes.
+    /// The planned move or the servo.
     pub course: Course,
 }
 
-/// Where a motion goes.
+/// The kind of a motion with its data.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Course {
     /// From one configuration to another.
     Joints(JointMove),
-    /// Closed over the measured positions, step by step.
+    /// A servo: computed at every step from the measured positions.
     Servo(Box<TcpServo>),
 }
 
@@ -30,12 +30,12 @@ pub struct JointMove {
     pub from: RobotQ,
     /// Positions at its end.
     pub to: RobotQ,
-    /// How it runs in between.
+    /// The profile of its progress over time.
     pub profile: Profile,
 }
 
 impl JointMove {
-    /// Writes positions and velocities after a share of the move is done.
+    /// Writes positions and velocities at a progress of the move.
     pub(super) fn at(&self, progress: Progress, q: &mut RobotQ, qd: &mut [f64]) {
         for ((q, qd), (from, to)) in q.iter_mut().zip(qd).zip(self.from.iter().zip(&self.to)) {
             *q = from + (to - from) * progress.share;
@@ -44,13 +44,13 @@ impl JointMove {
     }
 }
 
-/// One motion that is closed over the measured positions and not planned.
+/// A motion towards a pose of the tool that is controlled from the measured positions instead of planned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TcpServo {
     /// The target in the arm's base.
     pub target: IkTarget,
-    /// How joint speeds follow from the error.
+    /// Method by which joint velocities are computed from the error.
     pub method: ServoMethod,
-    /// How fast the error decays: as `exp(-gain t)` where nothing limits the joints.
+    /// Gain: the error decays as `exp(-gain t)` if no limit of a joint is active.
     pub gain_per_s: f64,
 }

@@ -1,4 +1,4 @@
-//! Motions under way: planned moves, servos, and the reference that they give the joints.
+//! Motions: planned moves, servos, and the setpoints that they give the joints.
 
 mod course;
 mod joint_move;

@@ -1,14 +1,13 @@
-//! What the plan of a motion may look at.
+//! The inputs of planning a motion.
 
 use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 
 use crate::scenario::Place;
 
-/// The robot, where the motion starts, and where it is written.
+/// The robot, the start of the motion, and its place in the scenario file.
 pub(super) struct Planning<'a> {
     pub(super) description: &'a RobotDescription,
-    /// Where the motion before it ends; before a motion that needs no start, the last configuration that is
-    /// known.
+    /// The end of the previous motion; after a servo, whose end is not known, the last configuration that is.
     pub(super) from: &'a RobotQ,
     pub(super) place: Place<'a>,
     pub(super) warnings: &'a mut Vec<Diagnostic>,

@@ -1,4 +1,4 @@
-//! A trajectory under way: what it asks of the joints, step after step.
+//! The setpoints of a trajectory, step after step.
 
 use congruent_description::{RobotDescription, RobotQ};
 use congruent_kinematics::KinematicsError;
@@ -9,16 +9,16 @@ use super::{
     trajectory::Trajectory,
 };
 
-/// The reference of a run. Moves are planned and only looked up; servos follow where the robot
-/// is measured, so that the loop is closed at every step.
+/// The setpoints of a run. Planned moves are evaluated at the time; servos are computed from the measured
+/// positions at every step.
 #[derive(Debug)]
 pub struct ReferenceGenerator<'a> {
     trajectory: &'a Trajectory,
-    /// What servos need; `None` where there are none.
+    /// The controller of the servos; `None` if there are none.
     servo_controller: Option<ServoController<'a>>,
     /// The motion of the last step.
     current: Option<usize>,
-    /// The time that the reference is for.
+    /// The time of the setpoint.
     time_s: f64,
     q: RobotQ,
     qd: Vec<f64>,
@@ -29,8 +29,7 @@ impl<'a> ReferenceGenerator<'a> {
     /// At the start of a trajectory.
     ///
     /// # Errors
-    /// [`KinematicsError::NoJoint`] where a servo has no joint to move; reading the scenario has
-    /// refused that before.
+    /// [`KinematicsError::NoJoint`] if a servo has no joint to move; `RunSetup` refuses such scenarios.
     pub fn new(
         trajectory: &'a Trajectory,
         description: &'a RobotDescription,
@@ -56,11 +55,11 @@ impl<'a> ReferenceGenerator<'a> {
         &self.qd
     }
 
-    /// Goes on to the reference for `time_s`, later than the last; `measured_q` is where the robot is
-    /// now, one step before.
+    /// Computes the setpoint for `time_s`, which is later than the last; `measured_q` are the positions one step
+    /// before.
     ///
     /// # Errors
-    /// [`KinematicsError::JointCount`] when `measured_q` is no configuration of the robot.
+    /// [`KinematicsError::JointCount`] if `measured_q` is not a configuration of the robot.
     pub fn advance(&mut self, time_s: f64, measured_q: &RobotQ) -> Result<(), KinematicsError> {
         let before_s = std::mem::replace(&mut self.time_s, time_s);
         let Some((index, starts_s)) = self.trajectory.under_way(time_s) else { return Ok(()) };
@@ -79,7 +78,7 @@ impl<'a> ReferenceGenerator<'a> {
                 let [from_s, to_s] =
                     [before_s, time_s].map(|time_s| (time_s - starts_s).clamp(0.0, motion.duration_s));
                 let interval = StepInterval { step_s: time_s - before_s, moved_s: to_s - from_s };
-                needed(&mut self.servo_controller).lead(
+                needed(&mut self.servo_controller).advance(
                     servo,
                     measured_q,
                     interval,
@@ -90,11 +89,10 @@ impl<'a> ReferenceGenerator<'a> {
         Ok(())
     }
 
-    /// The results of the servos, of the one under way for where the robot is now, unless physics
-    /// has lost it.
+    /// The results of the servos; of the current one at the present positions, unless these are not finite.
     ///
     /// # Errors
-    /// [`KinematicsError::JointCount`] when `measured_q` is no configuration of the robot.
+    /// [`KinematicsError::JointCount`] if `measured_q` is not a configuration of the robot.
     pub fn finish(&mut self, measured_q: &RobotQ) -> Result<Vec<ServoResult>, KinematicsError> {
         if measured_q.iter().all(|q| q.is_finite()) {
             self.leave(measured_q)?;
@@ -102,14 +100,14 @@ impl<'a> ReferenceGenerator<'a> {
         Ok(std::mem::take(&mut self.servo_results))
     }
 
-    /// Looks back on the motion that ends: the next begins at the end of a move, and where a servo has
-    /// come to.
+    /// Closes the motion that ends: the next begins at the end of a move, or at the positions that a servo has
+    /// reached.
     fn leave(&mut self, measured_q: &RobotQ) -> Result<(), KinematicsError> {
         let Some(index) = self.current else { return Ok(()) };
         match &self.trajectory.motions[index].course {
             Course::Joints(joints) => self.q.copy_from_slice(&joints.to),
             Course::Servo(servo) => {
-                self.servo_results.push(needed(&mut self.servo_controller).look_back(
+                self.servo_results.push(needed(&mut self.servo_controller).result(
                     servo,
                     index + 1,
                     measured_q,

@@ -1,11 +1,11 @@
 //! `servo_tcp`: the tool centre point is driven to a pose, or to a position, by differential inverse
 //! kinematics in the loop: at every step of the simulation the error and the Jacobian are those of
-//! the measured joint positions. There is no plan, so where it ends is known only in the run.
+//! the measured joint positions. There is no plan, so the end is known only in the run.
 //!
-//! What the loop adjusts is the reference of the joints' controller. It adds up what the error asks
-//! for and does not start from the measured positions, so that an arm that sags under its controller
-//! is brought to the target all the same. For the same reason it is asked for more and more, up to
-//! its limits, where an obstacle keeps it from following: checks see that, the servo does not.
+//! The loop adjusts the setpoint of the joints' controller. It integrates the changes that the error asks for
+//! and does not start from the measured positions, so that an arm that sags under its controller reaches the
+//! target all the same. For the same reason the setpoint goes on, up to the joint limits, if an obstacle stops
+//! the arm: checks detect that, the servo does not.
 
 use congruent_description::{ArmQ, Diagnostic, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{Arm, ArmJoint, DifferentialMethod, IkSolver, KinematicsError, TargetPart};
@@ -22,18 +22,18 @@ use crate::scenario::{ServoMethod, ServoMotion};
 /// Without a gain, an error falls to 1/e in 0.2 s.
 pub(crate) const DEFAULT_GAIN_PER_S: f64 = 5.0;
 
-/// How far a servo has brought the TCP.
+/// The result of a servo.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ServoResult {
     /// Number of the motion in the scenario, from 1.
     pub motion: usize,
-    /// How joint speeds followed from the error.
+    /// Method by which joint velocities were computed from the error.
     pub method: ServoMethod,
-    /// Distance to the target that is left.
+    /// Remaining distance to the target.
     pub position_m: f64,
-    /// Angle that is left; `None` where no orientation was asked for.
+    /// Remaining angle; `None` if the target has no orientation.
     pub orientation_rad: Option<f64>,
-    /// Joints that a limit holds from going on.
+    /// Joints that a position limit stops.
     pub limits_held: Vec<String>,
 }
 
@@ -48,7 +48,7 @@ pub(super) fn plan(settings: &ServoMotion, planning: &Planning<'_>) -> Result<Mo
     Ok(Motion { duration_s: settings.duration_s, course: Course::Servo(Box::new(servo)) })
 }
 
-/// Leads an arm; allocates nothing from step to step.
+/// Computes the steps of a servo without allocation.
 #[derive(Debug)]
 pub(super) struct ServoController<'a> {
     robot: &'a Robot,
@@ -56,7 +56,7 @@ pub(super) struct ServoController<'a> {
     measured: ArmQ,
     commanded: ArmQ,
     change: Vec<f64>,
-    /// The whole reference before the step.
+    /// The setpoint of all joints before the step.
     before: RobotQ,
 }
 
@@ -80,9 +80,9 @@ impl<'a> ServoController<'a> {
         })
     }
 
-    /// Leads the reference `q` on by one step: towards the target, within the joints' limits of
-    /// position and, all slowed down alike, of speed. `qd` is the mean over the step.
-    pub(super) fn lead(
+    /// Moves the setpoint `q` by one step towards the target, within the position limits of the joints; if a
+    /// velocity limit is exceeded, all joints are scaled down alike. `qd` is the mean over the step.
+    pub(super) fn advance(
         &mut self,
         servo: &TcpServo,
         measured_q: &RobotQ,
@@ -93,10 +93,10 @@ impl<'a> ServoController<'a> {
             qd.fill(0.0);
             return Ok(());
         }
-        self.look(measured_q, q);
+        self.copy_arm(measured_q, q);
         let (arm_q, method) = ((&self.measured, &self.commanded), servo.method.into());
         self.change.copy_from_slice(self.solver.change_towards(&servo.target, arm_q, method)?.change);
-        // What the law de/dt = -gain e does in this time: it never goes too far, whatever the gain.
+        // The solution of de/dt = -gain e over this time: no overshoot, whatever the gain.
         let share = -(-servo.gain_per_s * moved_s).exp_m1();
         let joints = self.solver.arm().joints();
         let times_too_fast = |(joint, change): (&ArmJoint, &f64)| {
@@ -116,15 +116,15 @@ impl<'a> ServoController<'a> {
         Ok(())
     }
 
-    /// What a servo leaves where the robot is now.
-    pub(super) fn look_back(
+    /// The result of a servo at the present positions.
+    pub(super) fn result(
         &mut self,
         servo: &TcpServo,
         motion: usize,
         measured_q: &RobotQ,
         q: &RobotQ,
     ) -> Result<ServoResult, KinematicsError> {
-        self.look(measured_q, q);
+        self.copy_arm(measured_q, q);
         let (arm_q, method) = ((&self.measured, &self.commanded), servo.method.into());
         let step = self.solver.change_towards(&servo.target, arm_q, method)?;
         let (position_m, orientation_rad) = (step.residual_position_m, step.residual_orientation_rad);
@@ -140,8 +140,8 @@ impl<'a> ServoController<'a> {
         })
     }
 
-    /// Takes the arm's joints out of the robot's.
-    fn look(&mut self, measured_q: &RobotQ, reference_q: &RobotQ) {
+    /// Copies the coordinates of the arm out of the robot's.
+    fn copy_arm(&mut self, measured_q: &RobotQ, reference_q: &RobotQ) {
         for (at, joint) in self.solver.arm().joints().iter().enumerate() {
             self.measured[at] = measured_q[joint.coordinate];
             self.commanded[at] = reference_q[joint.coordinate];

@@ -1,5 +1,5 @@
-//! What the arm is asked to do: motions one after another. Moves are planned when the scenario is
-//! set up, servos are computed in the run (`reference_generator.rs`).
+//! The motions of a scenario, one after another. Moves are planned when the scenario is checked, servos are
+//! computed in the run (`reference_generator.rs`).
 
 use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 
@@ -69,12 +69,12 @@ impl Trajectory {
         self.motions.iter().any(|motion| matches!(motion.course, Course::Servo(_)))
     }
 
-    /// Whether only the run can tell where the last motion ends.
+    /// Whether the end of the last motion is known only in the run.
     fn ends_open(&self) -> bool {
         matches!(self.motions.last(), Some(Motion { course: Course::Servo(_), .. }))
     }
 
-    /// Where the last motion ends whose end is known.
+    /// The last end of a motion that is known.
     pub(super) fn end(&self) -> &RobotQ {
         let known = self.motions.iter().rev().find_map(|motion| match &motion.course {
             Course::Joints(joints) => Some(&joints.to),
@@ -83,8 +83,7 @@ impl Trajectory {
         known.unwrap_or(&self.start)
     }
 
-    /// The motion at `time_s`, which is over where its duration is, with the time of its start; `None`
-    /// before the first.
+    /// The motion at `time_s` with the time of its start, also after its duration; `None` before the first.
     pub(super) fn under_way(&self, time_s: f64) -> Option<(usize, f64)> {
         let current = self.starts_s.partition_point(|&start_s| start_s <= time_s).checked_sub(1)?;
         Some((current, self.starts_s[current]))
