@@ -84,6 +84,7 @@ impl Document {
             }
         };
         RecursiveTransform(drop_null_default).transform(&mut schema);
+        RecursiveTransform(plain_description).transform(&mut schema);
         schema
     }
 }
@@ -91,4 +92,11 @@ impl Document {
 /// The schema of a document as it is written: keys that are always written are required.
 fn written<T: JsonSchema>() -> Schema {
     SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<T>()
+}
+
+/// Takes out of a description what only readers of the Rust documentation use: examples and links.
+fn plain_description(schema: &mut Schema) {
+    let Some(text) = schema.get("description").and_then(Value::as_str) else { return };
+    let plain = text.split("\n\n# ").next().unwrap_or_default().replace("[`", "`").replace("`]", "`");
+    schema.insert("description".to_owned(), plain.into());
 }

@@ -70,7 +70,14 @@ pub(crate) fn verdict(report: &RunReport) -> String {
 
 fn command(report: &RunReport) -> String {
     let file = report.scenario_file.as_deref().unwrap_or("FILE");
-    format!("congruent run {file} --seed {}", report.seed)
+    let mut command = format!("congruent run {file}");
+    for change in &report.overrides {
+        let _ = write!(command, " --set '{}'", change.replace('\'', r"'\''"));
+    }
+    if !report.overrides.iter().any(|change| change.starts_with("seed=")) {
+        let _ = write!(command, " --seed {}", report.seed);
+    }
+    command
 }
 
 fn markdown(report: &RunReport) -> String {

@@ -22,6 +22,9 @@ pub struct RunReport {
     pub scenario: String,
     /// The scenario file, as it was named.
     pub scenario_file: Option<String>,
+    /// Values that replaced those of the file, `KEY=VALUE`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub overrides: Vec<String>,
     /// Name of the robot.
     pub robot: String,
     /// Whether the run went as the scenario expects.
@@ -99,6 +102,7 @@ impl RunReport {
             format: "congruent-report/1",
             scenario: setup.scenario.name.clone(),
             scenario_file: setup.path.as_ref().map(|path| path.display().to_string()),
+            overrides: setup.overrides.clone(),
             robot: robot.name().to_owned(),
             verdict,
             exit_code: verdict.exit_code(),

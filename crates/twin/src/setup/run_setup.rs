@@ -32,6 +32,8 @@ pub struct RunSetup {
     pub scenario: Scenario,
     /// The file that it came from; `None` for one that was made in code.
     pub path: Option<PathBuf>,
+    /// Values that replace those of the file, `KEY=VALUE`.
+    pub overrides: Vec<String>,
     /// The robot with its model.
     pub description: RobotDescription,
     /// Clock and gravity.
@@ -77,6 +79,7 @@ impl RunSetup {
         };
         setup.warnings = in_file(std::mem::take(&mut setup.warnings)).collect();
         setup.path = Some(path.to_owned());
+        setup.overrides = overrides.iter().map(ToString::to_string).collect();
         Ok(setup)
     }
 
@@ -132,6 +135,7 @@ impl RunSetup {
         Ok(Self {
             scenario,
             path,
+            overrides: Vec::new(),
             description,
             clock,
             start,

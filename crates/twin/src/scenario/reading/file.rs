@@ -62,7 +62,8 @@ impl ScenarioFile {
         let places = PlaceNode::of_document(&source.text, &document);
         let set: Result<Vec<Range<usize>>, Diagnostic> =
             overrides.iter().map(|change| change.apply(&mut document)).collect();
-        let set = set.map_err(|error| vec![error])?;
+        let set =
+            set.and_then(|set| set_once(overrides).map(|()| set)).map_err(|error| in_file(vec![error]))?;
         let mut findings = Diagnostics::default();
         let scenario = read(Section::new(document), &mut findings);
         let findings = in_file(findings.map(|finding| name_override(finding, overrides, &set)).into_vec());
@@ -102,6 +103,24 @@ impl ScenarioFile {
 
 fn is_unknown_key(finding: &Diagnostic) -> bool {
     finding.code == toml_text::UNKNOWN_KEY_CODE
+}
+
+/// Refuses a key that is set twice: which of the values is meant is not known.
+fn set_once(overrides: &[Override]) -> Result<(), Diagnostic> {
+    let again = overrides.iter().enumerate().find_map(|(at, change)| {
+        overrides[..at].iter().find(|before| before.same_key(change)).map(|before| (before, change))
+    });
+    again.map_or(Ok(()), |(before, change)| {
+        Err(change.refused(&format!("the key is set already, by {before}")))
+    })
+}
+
+/// Names in the help on unknown keys a key that was read before the others.
+fn named_too(found: Vec<Diagnostic>, key: &str) -> Vec<Diagnostic> {
+    let named = |finding: Diagnostic| {
+        if is_unknown_key(&finding) { with_more_help(finding, key) } else { finding }
+    };
+    found.into_iter().map(named).collect()
 }
 
 /// Adds to a fault of an overridden value that it was set: the line of the file has another value.
@@ -251,7 +270,8 @@ fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, V
             .into());
     };
     let kind = (*section.select("kind", "controller", &known, |name| name)?).to_owned();
-    let Gains { stiffness, damping } = section.read()?;
+    let read = section.read();
+    let Gains { stiffness, damping } = read.map_err(|found| named_too(found, "kind"))?;
     Ok(ControllerSettings { kind, stiffness, damping })
 }
 

@@ -2,11 +2,14 @@
 
 use std::ops::Range;
 
-use congruent_description::{Diagnostic, known_names};
+use congruent_description::Diagnostic;
 use toml::{
     Spanned,
     de::{DeTable, DeValue},
 };
+
+/// Characters that a value without quotes does not have: with one of these it was meant as TOML.
+const NOT_IN_WORDS: [char; 9] = ['"', '\'', '[', ']', '{', '}', '=', '#', '\n'];
 
 /// One value under another key path.
 ///
@@ -45,6 +48,10 @@ impl std::str::FromStr for Override {
         let as_toml = format!("value = {}", value.trim());
         let document = match DeTable::parse(&as_toml) {
             Ok(table) if table.get_ref().len() == 1 => as_toml,
+            _ if value.contains(NOT_IN_WORDS) => {
+                let message = format!("--set \"{text}\": the value is neither TOML nor a word");
+                return Err(Diagnostic::error("cli::set", message));
+            }
             _ => format!("value = {}", toml::Value::String(value.trim().to_owned())),
         };
         Ok(Self { path, written: text.to_owned(), document })
@@ -68,7 +75,7 @@ impl Override {
     /// it; returns that place.
     ///
     /// # Errors
-    /// The path goes through a value that is not a table, or to an entry that a list does not have.
+    /// The path goes through a value that is neither table nor list, or to an entry that a list does not have.
     pub(super) fn apply<'a>(
         &'a self,
         document: &mut Spanned<DeTable<'a>>,
@@ -78,58 +85,62 @@ impl Override {
             .and_then(|table| table.into_inner().into_iter().next())
             .map(|(_, value)| value.into_inner())
             .ok_or_else(|| self.refused("the value is not TOML"))?;
-        let (last, through) = self.path.split_last().expect("a path has a key");
-        let mut table = document.get_mut();
-        let mut place = 0..0;
-        let mut keys = through.iter();
-        while let Some(key) = keys.next() {
-            let entry = table
-                .entry(Spanned::new(place.clone(), key.as_str().into()))
-                .or_insert_with(|| Spanned::new(place.clone(), DeValue::Table(DeTable::new())));
-            place = entry.span();
-            table = match entry.get_mut() {
-                DeValue::Table(table) => table,
-                DeValue::Array(items) => {
-                    let number = keys.next().unwrap_or(last);
-                    let count = items.len();
-                    let item = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
-                    let Some(item) = item.and_then(|item| items.get_mut(item)) else {
-                        return Err(self.refused(&format!("\"{key}\" has entries 1 to {count}")));
-                    };
-                    place = item.span();
-                    match item.get_mut() {
-                        DeValue::Table(table) => table,
-                        _ => return Err(self.refused(&format!("\"{key}\" holds no tables"))),
-                    }
-                }
-                _ => return Err(self.refused(&format!("\"{key}\" is a value, not a table"))),
-            };
-        }
-        let replaced = table.get(last.as_str()).map(Spanned::span);
-        let place = replaced.unwrap_or(place);
-        table.remove(last.as_str());
-        let key = Spanned::new(place.clone(), last.as_str().into());
-        table.insert(key, Spanned::new(place.clone(), placed(value, &place)));
-        Ok(place)
+        let place = document.span();
+        self.put((document.get_mut(), &place), &self.path, value)
     }
 
-    fn refused(&self, why: &str) -> Diagnostic {
-        Diagnostic::error("cli::set", format!("--set {}: {why}", self.written)).with_help(known_names(
-            self.path.first().map_or("", String::as_str),
-            "keys",
-            [
-                "name",
-                "robot",
-                "seed",
-                "simulation",
-                "start",
-                "controller",
-                "motion",
-                "obstacle",
-                "zone",
-                "check",
-            ],
-        ))
+    fn put<'a>(
+        &self,
+        (table, table_place): (&mut DeTable<'a>, &Range<usize>),
+        path: &'a [String],
+        value: DeValue<'a>,
+    ) -> Result<Range<usize>, Diagnostic> {
+        let (key, rest) = path.split_first().expect("a path has a key");
+        let entry = table
+            .entry(Spanned::new(table_place.clone(), key.as_str().into()))
+            .or_insert_with(|| Spanned::new(table_place.clone(), DeValue::Table(DeTable::new())));
+        self.replace((key, entry), rest, value)
+    }
+
+    /// Replaces a value or something in it.
+    fn replace<'a>(
+        &self,
+        (name, found): (&str, &mut Spanned<DeValue<'a>>),
+        path: &'a [String],
+        value: DeValue<'a>,
+    ) -> Result<Range<usize>, Diagnostic> {
+        let place = found.span();
+        let Some((number, rest)) = path.split_first() else {
+            *found = Spanned::new(place.clone(), placed(value, &place));
+            return Ok(place);
+        };
+        match found.get_mut() {
+            DeValue::Table(table) if table.is_empty() && number.parse::<usize>().is_ok() => {
+                Err(self.refused(&format!("\"{name}\" has no entry {number} in the file")))
+            }
+            DeValue::Table(table) => self.put((table, &place), path, value),
+            DeValue::Array(items) => {
+                let count = items.len();
+                let index = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+                match index.and_then(|index| items.get_mut(index)) {
+                    Some(item) => self.replace((name, item), rest, value),
+                    None => Err(self.refused(&format!("\"{name}\" has entries 1 to {count}"))),
+                }
+            }
+            _ => Err(self.refused(&format!("\"{name}\" is a value, not a table"))),
+        }
+    }
+
+    /// Whether both replace the same value.
+    pub(super) fn same_key(&self, other: &Self) -> bool {
+        self.path == other.path
+    }
+
+    pub(super) fn refused(&self, why: &str) -> Diagnostic {
+        Diagnostic::error("cli::set", format!("--set {}: {why}", self.written)).with_help(
+            "KEY is the keys of the file joined by dots, entries of lists by their number from 1: \
+             check.1.position_m=1e-6",
+        )
     }
 }
 
