@@ -5,7 +5,7 @@ use std::{fs, path::Path};
 use serde_json::Value;
 
 use crate::{
-    command::{congruent, congruent_json, text},
+    command::{Answer, congruent, congruent_json, text},
     corpus::workspace,
     golden::read_json,
 };
@@ -154,4 +154,45 @@ fn a_recording_holds_the_verdict_of_its_report() {
     for entity in ["/summary", "/status/clearance", "/agreement/position/tool0", "/clearance/minimum"] {
         assert!(entities.contains(&entity), "no {entity} in {entities:?}");
     }
+}
+
+/// Runs a UR5e with values set; gives the answer.
+fn run_set(out: &tempfile::TempDir, values: &[&str]) -> Answer {
+    let out = text(out.path());
+    let mut arguments = vec!["run", "scenarios/ur5e_pick.toml", "--no-recording", "--out", &out];
+    arguments.extend(values.iter().flat_map(|value| ["--set", value]));
+    congruent_json(&arguments)
+}
+
+#[test]
+fn values_are_set_in_tables_and_in_lists_and_the_report_has_them() {
+    let out = tempfile::tempdir().unwrap();
+    let values =
+        ["controller.stiffness=1500", "check.1={ kind = \"agreement\", position_m = 1e-6 }", "seed=9"];
+    let answer = run_set(&out, &values);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    let report = answer.json();
+    assert_eq!(report["overrides"], serde_json::json!(values));
+    assert_eq!(report["seed"], 9);
+    assert_eq!(report["checks"][0]["measures"][0]["limit"], 1e-6);
+}
+
+#[test]
+fn values_that_cannot_be_set_are_refused_with_the_reason() {
+    let out = tempfile::tempdir().unwrap();
+    for (values, reason) in [
+        (&["check.99.position_m=1"][..], "\"check\" has entries 1 to"),
+        (&["controller.stiffness.x=1"], "\"stiffness\" is a value, not a table"),
+        (&["seed=1", "seed=2"], "the key is set already, by seed=1"),
+        (&["controller.stifness=1"], "did you mean \"stiffness\"?"),
+    ] {
+        let answer = run_set(&out, values);
+        assert_eq!(answer.code, 2, "{values:?}");
+        let findings = answer.json()["findings"].clone();
+        let said = |key: &str| findings[0][key].as_str().unwrap_or_default().to_owned();
+        let said = format!("{} {}", said("message"), said("help"));
+        assert!(said.contains(reason), "{values:?}: {said}");
+    }
+    let answer = run_set(&out, &["name=\"a"]);
+    assert!(answer.code == 2 && answer.stderr.contains("neither TOML nor a word"), "{}", answer.stderr);
 }

@@ -271,7 +271,7 @@ fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, V
     };
     let kind = (*section.select("kind", "controller", &known, |name| name)?).to_owned();
     let read = section.read();
-    let Gains { stiffness, damping } = read.map_err(|found| named_too(found, "kind"))?;
+    let Gains { stiffness, damping } = read.map_err(|found| named_too(found, "and kind"))?;
     Ok(ControllerSettings { kind, stiffness, damping })
 }
 
