@@ -188,7 +188,7 @@ fn people_see_the_line_at_fault() {
     }
 }
 
-/// Published tables against published URDFs: what an independent study found, the ladder finds.
+/// Published tables against published URDFs: what an independent study found, the diagnosis finds.
 #[track_caller]
 fn published(pairing: &Pairing<'_>) -> Option<Value> {
     let cause = first(&check(pairing, &corpus()?));

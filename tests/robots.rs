@@ -111,8 +111,8 @@ fn case_06_zero_pose_and_one_axis_at_a_time() {
     let basics = &answer.json()["basics"];
     let (ten, half) = (10_f64.to_radians(), 0.5_f64.sqrt());
     let (sin, cos) = ten.sin_cos();
-    for witness in ["model", "urdf"] {
-        let zero = &basics["zero"][witness];
+    for source in ["model", "urdf"] {
+        let zero = &basics["zero"][source];
         assert_near(&zero["translation_m"], &[1.0, 0.0, 0.2]);
         assert_near(&zero["quaternion_wxyz"], &[half, half, 0.0, 0.0]);
         let lifted = |arm_m: f64| [arm_m * (cos - 1.0), 0.0, arm_m * sin];
@@ -123,7 +123,7 @@ fn case_06_zero_pose_and_one_axis_at_a_time() {
         ];
         for (joint, (name, shift_m, turn_rad)) in basics["joints"].as_array().unwrap().iter().zip(expected) {
             assert_eq!((&joint["joint"], &joint["unit"]), (&Value::from(name), &Value::from("rad")));
-            let motion = &joint["motion"][witness];
+            let motion = &joint["motion"][source];
             assert_near(&motion["shift_m"], &shift_m);
             assert_near(&motion["turn_rad"], &turn_rad);
             let length_m = shift_m.iter().map(|entry| entry * entry).sum::<f64>().sqrt();

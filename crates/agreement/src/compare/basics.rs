@@ -21,7 +21,7 @@ pub struct Basics {
     /// Pose of the TCP at zero.
     pub zero: BySource<ReportedPose>,
     /// The motion of each joint alone from zero; joints that mimic it follow.
-    pub joints: Vec<JointMotion>,
+    pub joints: Vec<SingleJointMotion>,
     /// The largest Frobenius norm of `R^T R - I` of the TCP at all configurations of the check.
     pub orthonormality_error: f64,
     /// The largest distance of `det R` from 1.
@@ -53,7 +53,7 @@ pub enum CoordinateUnit {
 
 /// The motion of the TCP by one joint alone.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct JointMotion {
+pub struct SingleJointMotion {
     /// The joint.
     pub joint: String,
     /// The change of its coordinate, in `unit`.
@@ -61,12 +61,12 @@ pub struct JointMotion {
     /// `rad` or `m`.
     pub unit: CoordinateUnit,
     /// The motion of the TCP.
-    pub motion: BySource<TcpMotion>,
+    pub motion: BySource<TcpDisplacement>,
 }
 
 /// A motion of the TCP, in the axes of link `base`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
-pub struct TcpMotion {
+pub struct TcpDisplacement {
     /// Displacement from the old position to the new one.
     pub shift_m: [f64; 3],
     /// Direction of the displacement, of length 1; `None` if there is none.
@@ -75,7 +75,7 @@ pub struct TcpMotion {
     pub turn_rad: [f64; 3],
 }
 
-impl TcpMotion {
+impl TcpDisplacement {
     fn between(before: &Pose, after: &Pose) -> Self {
         let shift = after.translation - before.translation;
         Self {
@@ -152,13 +152,13 @@ pub(crate) fn basics(
         let moved = sources.base_from_tcp(&step.q)?;
         let by_table = at_zero.model.as_ref().zip(moved.model.as_ref());
         let joint = robot.joint(step.joint);
-        basics.joints.push(JointMotion {
+        basics.joints.push(SingleJointMotion {
             joint: joint.name.clone(),
             by: step.by,
             unit: if joint.kind.is_angular() { CoordinateUnit::Rad } else { CoordinateUnit::M },
             motion: BySource {
-                model: by_table.map(|(before, after)| TcpMotion::between(before, after)),
-                urdf: TcpMotion::between(&at_zero.urdf, &moved.urdf),
+                model: by_table.map(|(before, after)| TcpDisplacement::between(before, after)),
+                urdf: TcpDisplacement::between(&at_zero.urdf, &moved.urdf),
             },
         });
     }

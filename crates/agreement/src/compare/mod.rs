@@ -9,7 +9,7 @@ pub(crate) mod error;
 pub(crate) mod identified;
 pub(crate) mod model;
 
-pub use basics::{Basics, BySource, CoordinateUnit, JointMotion, TcpMotion};
+pub use basics::{Basics, BySource, CoordinateUnit, SingleJointMotion, TcpDisplacement};
 pub use certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate};
 pub use check::{CheckOptions, RANDOM_CONFIGURATIONS, check};
 pub use check_report::{Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, WorstDifference};

@@ -128,7 +128,7 @@ pub struct Candidate {
 
 /// The effect of a parameter on the chain at one configuration.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ParameterEffect {
+pub(super) struct CandidateEffect {
     /// Twist, in the base frame, of the chain from `from_row` on, for one unit of the parameter.
     pub(super) generator: Twist,
     /// The first row that changes.
@@ -258,9 +258,9 @@ impl Candidate {
         parameter: ModelParameter,
         q: &ChainQ,
         walk: &ChainWalk,
-    ) -> Option<ParameterEffect> {
+    ) -> Option<CandidateEffect> {
         let rows = self.rows.len();
-        let rigid = |generator, from_row| Some(ParameterEffect { generator, from_row, scales_row: None });
+        let rigid = |generator, from_row| Some(CandidateEffect { generator, from_row, scales_row: None });
         match parameter {
             ModelParameter::Row(row, entry) => {
                 self.entry(row, entry)?;
@@ -277,7 +277,7 @@ impl Candidate {
             ModelParameter::Rate(row) => {
                 let share = q[self.rows[row].joint] / self.rows[row].rate;
                 let generator = walk.row_twists[row] * share;
-                Some(ParameterEffect { generator, from_row: row + 1, scales_row: Some(row) })
+                Some(CandidateEffect { generator, from_row: row + 1, scales_row: Some(row) })
             }
             ModelParameter::Base(component) if component < 3 => rigid(unit(component), 0),
             ModelParameter::Base(component) => rigid(unit(component).transformed_by(&self.base.pose), 0),

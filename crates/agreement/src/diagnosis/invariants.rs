@@ -108,13 +108,13 @@ pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
 }
 
 /// A joint's axis as a line; `through` is `None` for a prismatic joint.
-struct AxisLine {
+struct JointAxisLine {
     direction: Vector3<f64>,
     through: Option<Vector3<f64>>,
     ratio: f64,
 }
 
-impl AxisLine {
+impl JointAxisLine {
     /// `None` for a joint that moves nothing.
     fn of(twist: &Twist) -> Option<Self> {
         let Twist { angular, linear } = twist;
@@ -154,7 +154,7 @@ type JointQuantity = (usize, (Invariant, f64));
 
 /// All quantities that a chain has.
 fn quantities(chain: &ScrewChain) -> Vec<JointQuantity> {
-    let axes: Vec<Option<AxisLine>> = chain.twists_in_base.iter().map(AxisLine::of).collect();
+    let axes: Vec<Option<JointAxisLine>> = chain.twists_in_base.iter().map(JointAxisLine::of).collect();
     let mut list = Vec::new();
     for (joint, axis) in axes.iter().enumerate() {
         let Some(axis) = axis else { continue };

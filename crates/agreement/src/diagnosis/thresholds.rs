@@ -118,15 +118,15 @@ pub(super) const MIN_GAIN: f64 = 1e-3;
 
 /// Damping of Levenberg and Marquardt, relative to the diagonal: at the start, at least, and at most; a fit
 /// whose step fails at the last ends. No unit; kind: solver.
-pub(super) const DAMPING: Damping =
-    Damping { first: 1e-6, least: 1e-12, most: 1e4, after_success: 0.1, after_failure: 100.0 };
+pub(super) const DAMPING: DampingSchedule =
+    DampingSchedule { first: 1e-6, least: 1e-12, most: 1e4, after_success: 0.1, after_failure: 100.0 };
 
 /// Added to the diagonal of the normal equations: a parameter without effect keeps its value. Without unit;
 /// kind: rounding, some eps.
 pub(super) const NO_EFFECT: f64 = 1e-15;
 
 /// The damping of a fit and its change after each step.
-pub(super) struct Damping {
+pub(super) struct DampingSchedule {
     pub(super) first: f64,
     pub(super) least: f64,
     pub(super) most: f64,

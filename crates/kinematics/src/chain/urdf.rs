@@ -61,12 +61,12 @@ struct TreeJoint {
     parent: usize,
     child: usize,
     parent_from_joint: Pose,
-    motion: JointMotion,
+    motion: UrdfJointMotion,
 }
 
 /// How the child moves, in the axes of the parent.
 #[derive(Debug, Clone)]
-enum JointMotion {
+enum UrdfJointMotion {
     Fixed,
     /// `R(q) = R(0) + sin q R(0) [w] + (1 - cos q) R(0) [w]^2`: Rodrigues with the joint's own
     /// rotation multiplied in.
@@ -253,7 +253,7 @@ impl UrdfTree {
     }
 }
 
-impl JointMotion {
+impl UrdfJointMotion {
     /// The angle whose sine and cosine the motion needs; 0 if it needs none.
     #[inline]
     fn angle_rad(&self, q: &RobotQ) -> f64 {
@@ -285,13 +285,13 @@ impl TreeJoint {
                 let axis_hat = hat(&joint.axis_in_joint);
                 let by_sine = parent_from_joint.rotation * axis_hat;
                 let axis_in_child = joint.axis_in_joint.into_inner();
-                JointMotion::Turn { coordinate, by_sine, by_versine: by_sine * axis_hat, axis_in_child }
+                UrdfJointMotion::Turn { coordinate, by_sine, by_versine: by_sine * axis_hat, axis_in_child }
             }
             (JointKind::Prismatic, Some(coordinate)) => {
                 let axis_in_child = joint.axis_in_joint.into_inner();
-                JointMotion::Shift { coordinate, axis_in_parent, axis_in_child }
+                UrdfJointMotion::Shift { coordinate, axis_in_parent, axis_in_child }
             }
-            (JointKind::Fixed, _) | (_, None) => JointMotion::Fixed,
+            (JointKind::Fixed, _) | (_, None) => UrdfJointMotion::Fixed,
         };
         Self { parent: joint.parent.get(), child: joint.child.get(), parent_from_joint, motion }
     }
@@ -300,12 +300,12 @@ impl TreeJoint {
     fn parent_from_child(&self, q: &RobotQ, turn: SinCos) -> Pose {
         let Pose { rotation, translation } = self.parent_from_joint;
         match &self.motion {
-            JointMotion::Fixed => self.parent_from_joint,
-            JointMotion::Turn { by_sine, by_versine, .. } => {
+            UrdfJointMotion::Fixed => self.parent_from_joint,
+            UrdfJointMotion::Turn { by_sine, by_versine, .. } => {
                 let rotation = rotation + by_sine * turn.sin + by_versine * (1.0 - turn.cos);
                 Pose { rotation, translation }
             }
-            JointMotion::Shift { coordinate, axis_in_parent, .. } => {
+            UrdfJointMotion::Shift { coordinate, axis_in_parent, .. } => {
                 Pose { rotation, translation: translation + axis_in_parent * q[*coordinate] }
             }
         }

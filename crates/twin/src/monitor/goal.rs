@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     sample::Sample,
-    scenario::{GoalCheck, Place},
+    scenario::{FilePlace, GoalCheck},
     verdict::Bound,
 };
 
@@ -27,7 +27,7 @@ pub(super) struct GoalMonitor {
 }
 
 /// A pose needs both tolerances, a position one.
-pub(super) fn examine(check: &GoalCheck, place: Place<'_>) -> Result<Isometry3<f64>, Diagnostic> {
+pub(super) fn examine(check: &GoalCheck, place: FilePlace<'_>) -> Result<Isometry3<f64>, Diagnostic> {
     let place = place.key("tcp");
     let world_from_target = check.tcp.isometry(place)?;
     if check.tcp.has_rotation() == check.orientation_rad.is_some() {
@@ -46,7 +46,7 @@ impl GoalMonitor {
     /// # Panics
     /// For a goal that [`examine`] rejects.
     pub(super) fn new(check: &GoalCheck, description: &RobotDescription) -> Self {
-        let world_from_target = examine(check, Place::nowhere()).expect("a setup examines its checks");
+        let world_from_target = examine(check, FilePlace::nowhere()).expect("a setup examines its checks");
         let watch = |quantity, unit, limit: f64| {
             Watch::new(quantity, unit, Bound::AtMost, limit, description.robot.dof())
         };

@@ -13,7 +13,7 @@ use super::{
     zone::ZoneMonitor,
 };
 use crate::{
-    scenario::{Check, CheckKind, OnViolation, Place},
+    scenario::{Check, CheckKind, FilePlace, OnViolation},
     verdict::{CheckResult, Status},
 };
 
@@ -43,7 +43,7 @@ impl RunningCheck {
     ///
     /// # Errors
     /// A diagnostic at the value that is not.
-    pub fn examine(check: &Check, place: Place<'_>) -> Result<(), Diagnostic> {
+    pub fn examine(check: &Check, place: FilePlace<'_>) -> Result<(), Diagnostic> {
         match check {
             Check::Goal(check) => goal::examine(check, place).map(|_| ()),
             Check::Agreement(_) | Check::Clearance(_) | Check::Limits(_) | Check::Zone(_) => Ok(()),

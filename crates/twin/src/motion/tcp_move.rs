@@ -8,7 +8,7 @@ use super::{
     course::{Course, JointMove, Motion},
     planning::Planning,
 };
-use crate::scenario::{Place, PoseSettings, TcpMotion};
+use crate::scenario::{FilePlace, PoseSettings, TcpMotion};
 
 /// Random configurations from which other solutions are looked for: arms of six joints have up to 16.
 const ATTEMPTS: usize = 64;
@@ -22,7 +22,7 @@ pub(super) fn plan(settings: &TcpMotion, planning: &Planning<'_>) -> Result<Moti
 /// The arm that a tool's pose is asked of, and the pose in its base: all of it, or its position if no
 /// rotation is given.
 pub(super) fn target(
-    (pose, place): (&PoseSettings, Place<'_>),
+    (pose, place): (&PoseSettings, FilePlace<'_>),
     planning: &Planning<'_>,
 ) -> Result<(Arm, IkTarget), Diagnostic> {
     let part = if pose.has_rotation() { TargetPart::Pose } else { TargetPart::Position };
@@ -61,6 +61,6 @@ fn reach(pose: &PoseSettings, planning: &Planning<'_>) -> Result<RobotQ, Diagnos
     Ok(to)
 }
 
-fn no_arm(error: &KinematicsError, place: Place<'_>) -> Diagnostic {
+fn no_arm(error: &KinematicsError, place: FilePlace<'_>) -> Diagnostic {
     place.mark(Diagnostic::error("scenario::move_tcp", error.to_string()))
 }

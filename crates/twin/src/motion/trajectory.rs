@@ -9,7 +9,7 @@ use super::{
     planning::Planning,
     tcp_move, tcp_servo,
 };
-use crate::scenario::{MotionSettings, Place};
+use crate::scenario::{FilePlace, MotionSettings};
 
 /// All motions of a scenario; the arm holds before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +26,7 @@ impl Trajectory {
     /// # Errors
     /// Every finding of the first motion that is wrong.
     pub fn new(
-        (motions, places): (&[MotionSettings], Place<'_>),
+        (motions, places): (&[MotionSettings], FilePlace<'_>),
         description: &RobotDescription,
         start: &RobotQ,
         warnings: &mut Vec<Diagnostic>,

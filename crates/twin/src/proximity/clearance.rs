@@ -46,7 +46,7 @@ pub enum PairChoice {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Watch {
+struct WatchedPair {
     pair: Pair,
     /// Relative pose at the last exact distance.
     a_from_b: Isometry3<f64>,
@@ -56,7 +56,7 @@ struct Watch {
     is_current: bool,
 }
 
-impl Watch {
+impl WatchedPair {
     /// A pair that was not measured yet.
     fn new(pair: Pair) -> Self {
         Self {
@@ -77,7 +77,7 @@ pub struct Clearance {
     /// Links come first, in the robot's order, then obstacles or zones with their constant pose.
     root_from_subjects: Vec<Isometry3<f64>>,
     links: usize,
-    watches: Vec<Watch>,
+    watches: Vec<WatchedPair>,
 }
 
 impl Clearance {
@@ -104,7 +104,7 @@ impl Clearance {
             clearance.add(obstacle)?;
         }
         let pairs = pairs(robot, &clearance.hulls, choice, &description.disabled_collisions);
-        clearance.watches = pairs.map(Watch::new).collect();
+        clearance.watches = pairs.map(WatchedPair::new).collect();
         Ok(clearance)
     }
 
@@ -126,7 +126,7 @@ impl Clearance {
             // Links are second: what a bound loses by a turn is proportional to the second's size,
             // and zones are large.
             let pairs = zone.links.iter().map(|link| Pair { a, b: link.get() });
-            clearance.watches.extend(pairs.map(Watch::new));
+            clearance.watches.extend(pairs.map(WatchedPair::new));
         }
         Ok(clearance)
     }

@@ -20,7 +20,7 @@ pub use joints::StartSettings;
 pub use motions::{JointMotion, MotionSettings, ServoMethod, ServoMotion, TcpMotion};
 pub(crate) use number::Range;
 pub use on_violation::OnViolation;
-pub use place::Place;
+pub use place::FilePlace;
 pub(crate) use place::mark;
 pub use pose::PoseSettings;
 pub use profile::{Profile, Progress};

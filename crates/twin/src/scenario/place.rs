@@ -61,9 +61,9 @@ impl PlaceNode {
 /// The place of a value of a scenario: in a file, or none if it was made in code. A key that is not
 /// written has the place of the table that would hold it.
 #[derive(Debug, Clone, Copy)]
-pub struct Place<'a>(Option<&'a PlaceNode>);
+pub struct FilePlace<'a>(Option<&'a PlaceNode>);
 
-impl<'a> Place<'a> {
+impl<'a> FilePlace<'a> {
     /// Of a value that was made in code.
     pub fn nowhere() -> Self {
         Self(None)

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, de::Error};
 use toml::Spanned;
 
-use super::{number::optional_array, place::Place};
+use super::{number::optional_array, place::FilePlace};
 
 /// A pose; identity if nothing is given.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -54,7 +54,7 @@ impl PoseSettings {
     /// # Errors
     /// Two keys for one thing, a value that is not finite, a quaternion whose norm is not 1, or a matrix that
     /// is no rigid motion.
-    pub(crate) fn isometry(&self, place: Place<'_>) -> Result<Isometry3<f64>, Diagnostic> {
+    pub(crate) fn isometry(&self, place: FilePlace<'_>) -> Result<Isometry3<f64>, Diagnostic> {
         let written = WrittenTransform {
             xyz_m: spanned(self.xyz_m, place.key("xyz_m")),
             xyz_mm: spanned(self.xyz_mm, place.key("xyz_mm")),
@@ -72,6 +72,6 @@ impl PoseSettings {
     }
 }
 
-fn spanned<T>(value: Option<T>, place: Place<'_>) -> Option<Spanned<T>> {
+fn spanned<T>(value: Option<T>, place: FilePlace<'_>) -> Option<Spanned<T>> {
     value.map(|value| Spanned::new(place.span().unwrap_or(0..0), value))
 }

@@ -3,7 +3,7 @@
 use congruent_description::Diagnostic;
 use nalgebra::Vector3;
 
-use crate::scenario::{Place, SimulationSettings};
+use crate::scenario::{FilePlace, SimulationSettings};
 
 /// Longest step: beyond it no arm in `robots/` is stable.
 const LONGEST_STEP_S: f64 = 0.01;
@@ -36,7 +36,7 @@ impl RunClock {
     /// Without a duration the run ends with its motions.
     pub(super) fn new(
         settings: &SimulationSettings,
-        place: Place<'_>,
+        place: FilePlace<'_>,
         motions_s: f64,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self, Diagnostic> {

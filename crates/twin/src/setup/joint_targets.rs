@@ -6,7 +6,7 @@ use congruent_description::{
     Diagnostic, Joint, JointIndex, JointKind, Robot, RobotQ, known_names, units::Unit,
 };
 
-use crate::scenario::{JointMotion, Place, StartSettings};
+use crate::scenario::{FilePlace, JointMotion, StartSettings};
 
 /// Positions under one key, as written.
 type ByName = BTreeMap<String, f64>;
@@ -74,7 +74,7 @@ impl JointTargets<'_> {
     pub(crate) fn resolve(
         self,
         robot: &Robot,
-        place: Place<'_>,
+        place: FilePlace<'_>,
     ) -> Result<Vec<JointTarget>, Vec<Diagnostic>> {
         let mut targets: Vec<JointTarget> = Vec::new();
         let mut errors = Vec::new();

@@ -18,7 +18,7 @@ use crate::{
     monitor::RunningCheck,
     motion::Trajectory,
     scenario::{
-        Check, CheckKind, Expectation, MotionSettings, Override, Place, SCHEMA_VERSION, Scenario,
+        Check, CheckKind, Expectation, FilePlace, MotionSettings, Override, SCHEMA_VERSION, Scenario,
         ScenarioFile, StartSettings,
     },
 };
@@ -92,13 +92,13 @@ impl RunSetup {
         if !wrong.is_empty() {
             return Err(wrong);
         }
-        Self::build(scenario, description, Place::nowhere())
+        Self::build(scenario, description, FilePlace::nowhere())
     }
 
     fn build(
         mut scenario: Scenario,
         description: RobotDescription,
-        place: Place<'_>,
+        place: FilePlace<'_>,
     ) -> Result<Self, Vec<Diagnostic>> {
         let (mut found, mut warnings) = (Diagnostics::default(), Vec::new());
         let robot = &description.robot;
@@ -174,7 +174,7 @@ fn robot_refused(file: &ScenarioFile) -> Diagnostic {
 }
 
 /// What a file's reader has checked already, for a scenario that was made in code.
-fn check_head(scenario: &Scenario, place: Place<'_>) -> Result<(), Diagnostic> {
+fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnostic> {
     let Scenario { schema_version, name, seed, controller, .. } = scenario;
     let error = if *schema_version != SCHEMA_VERSION {
         Diagnostic::error("scenario::version", format!("schema_version = {schema_version} is not known"))
@@ -193,7 +193,7 @@ fn check_head(scenario: &Scenario, place: Place<'_>) -> Result<(), Diagnostic> {
     Err(error)
 }
 
-fn start(settings: &StartSettings, place: Place<'_>, robot: &Robot) -> Result<RobotQ, Vec<Diagnostic>> {
+fn start(settings: &StartSettings, place: FilePlace<'_>, robot: &Robot) -> Result<RobotQ, Vec<Diagnostic>> {
     let targets = JointTargets::from(settings).resolve(robot, place)?;
     let mut q = RobotQ::zeros(robot.dof());
     let mut errors = Vec::new();
@@ -225,7 +225,7 @@ fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item
 }
 
 /// Checks that are expected to fail must be the scenario's.
-fn unexpected<'a>(scenario: &'a Scenario, place: Place<'a>) -> impl Iterator<Item = Diagnostic> + 'a {
+fn unexpected<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator<Item = Diagnostic> + 'a {
     let named: &[CheckKind] = match &scenario.expect {
         Expectation::Pass => &[],
         Expectation::Fail { checks } => checks,

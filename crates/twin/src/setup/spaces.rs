@@ -4,7 +4,7 @@ use congruent_description::{Diagnostic, Geometry, Robot};
 use congruent_simulation::Obstacle;
 use nalgebra::Vector3;
 
-use crate::scenario::{CylinderSettings, ObstacleSettings, Place, PoseSettings};
+use crate::scenario::{CylinderSettings, FilePlace, ObstacleSettings, PoseSettings};
 
 /// Largest size and coordinate of an obstacle or zone: beyond it, rounding is no longer small against the
 /// accuracy of distances, and far beyond it products overflow.
@@ -43,7 +43,7 @@ pub(super) const ZONE: SpaceKind = SpaceKind {
 /// Builds all of one kind; no other of that kind and no link of the robot has its name.
 pub(super) fn build(
     all: &[ObstacleSettings],
-    places: Place<'_>,
+    places: FilePlace<'_>,
     kind: &SpaceKind,
     robot: &Robot,
 ) -> Result<Vec<Obstacle>, Vec<Diagnostic>> {
@@ -67,7 +67,11 @@ pub(super) fn build(
     if errors.is_empty() { Ok(obstacles) } else { Err(errors) }
 }
 
-fn obstacle(settings: &ObstacleSettings, place: Place<'_>, kind: &SpaceKind) -> Result<Obstacle, Diagnostic> {
+fn obstacle(
+    settings: &ObstacleSettings,
+    place: FilePlace<'_>,
+    kind: &SpaceKind,
+) -> Result<Obstacle, Diagnostic> {
     if settings.name.trim().is_empty() {
         return Err(place.key("name").mark(
             Diagnostic::error(kind.name, format!("the {}'s name is empty", kind.word))

@@ -5,7 +5,7 @@ use congruent_description::{Diagnostic, Geometry, Link, LinkIndex, Robot, known_
 use congruent_simulation::Obstacle;
 
 use super::spaces;
-use crate::scenario::{Check, CheckKind, ObstacleSettings, Place, ZoneSettings};
+use crate::scenario::{Check, CheckKind, FilePlace, ObstacleSettings, ZoneSettings};
 
 /// Space that is forbidden to some links.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Zone {
 /// left out. A link that is named in full counts in any case.
 pub(super) fn build(
     all: &[ZoneSettings],
-    places: Place<'_>,
+    places: FilePlace<'_>,
     robot: &Robot,
 ) -> Result<Vec<Zone>, Vec<Diagnostic>> {
     let mut errors = Vec::new();
@@ -49,7 +49,7 @@ pub(super) fn build(
 pub(super) fn paired_with_checks(
     zones: &[ZoneSettings],
     checks: &[Check],
-    place: Place<'_>,
+    place: FilePlace<'_>,
 ) -> Result<(), Diagnostic> {
     let word = CheckKind::Zone.word();
     let check = checks.iter().position(|check| check.kind() == CheckKind::Zone);
@@ -71,7 +71,7 @@ pub(super) fn paired_with_checks(
 
 fn forbidden_links(
     names: &[String],
-    place: Place<'_>,
+    place: FilePlace<'_>,
     robot: &Robot,
 ) -> Result<Vec<LinkIndex>, Vec<Diagnostic>> {
     if names.is_empty() {

@@ -6,7 +6,7 @@ use congruent_kinematics::{Pose, Twist};
 use nalgebra::Vector3;
 
 use crate::diagnosis::{
-    candidate::{Candidate, ChainWalk, ParameterEffect},
+    candidate::{Candidate, CandidateEffect, ChainWalk},
     reference_model::{ChainState, ReferenceModel},
 };
 
@@ -59,9 +59,9 @@ impl EvaluationPoint {
         &self,
         candidate: &Candidate,
         walk: &ChainWalk,
-        effect: &ParameterEffect,
+        effect: &CandidateEffect,
     ) -> Vec<f64> {
-        let ParameterEffect { generator, from_row, scales_row } = effect;
+        let CandidateEffect { generator, from_row, scales_row } = effect;
         let mut numbers = vec![0.0; 6 * self.q.len()];
         let mut put = |joint: usize, twist: Twist| {
             let place = &mut numbers[6 * joint..6 * joint + 6];

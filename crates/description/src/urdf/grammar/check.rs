@@ -9,7 +9,7 @@ use roxmltree::{Attribute as XmlAttribute, Node};
 
 use super::{
     number,
-    rules::{Attribute, Child, Element, Occurs, ROBOT, Value},
+    rules::{Attribute, AttributeValue, Child, Element, Occurs, ROBOT},
 };
 use crate::{
     diagnostic::{Diagnostic, known_names},
@@ -121,15 +121,19 @@ impl GrammarCheck<'_> {
     fn attribute(&mut self, rules: &Element, known: &Attribute, attribute: &XmlAttribute<'_, '_>) {
         let value = attribute.value();
         let fault = match known.value {
-            Value::Text => None,
-            Value::Name => value.trim().is_empty().then(|| ("urdf::empty_name", "it is empty".to_owned())),
-            Value::Numbers(count) => number::fault(value, count).map(|fault| ("urdf::number", fault)),
-            Value::Word(words) => (!words.contains(&value))
+            AttributeValue::Text => None,
+            AttributeValue::Name => {
+                value.trim().is_empty().then(|| ("urdf::empty_name", "it is empty".to_owned()))
+            }
+            AttributeValue::Numbers(count) => {
+                number::fault(value, count).map(|fault| ("urdf::number", fault))
+            }
+            AttributeValue::Word(words) => (!words.contains(&value))
                 .then(|| ("urdf::unknown_type", known_names(value, "types", words.iter().copied()))),
         };
         if let Some((code, fault)) = fault {
             let what = match known.value {
-                Value::Word(_) => format!("unknown {} \"{value}\"; {fault}", known.name),
+                AttributeValue::Word(_) => format!("unknown {} \"{value}\"; {fault}", known.name),
                 _ => format!("<{}> {} = \"{value}\": {fault}", rules.name, known.name),
             };
             self.report(code, &what, attribute.range());

@@ -16,12 +16,12 @@ pub(super) struct Element {
 /// An attribute of an element.
 pub(super) struct Attribute {
     pub(super) name: &'static str,
-    pub(super) value: Value,
+    pub(super) value: AttributeValue,
     pub(super) is_required: bool,
 }
 
 /// What an attribute holds.
-pub(super) enum Value {
+pub(super) enum AttributeValue {
     /// Any text, or none.
     Text,
     /// A name: text that is not empty.
@@ -54,11 +54,11 @@ const fn element(
     Element { name, attributes, children, is_choice: false }
 }
 
-const fn required(name: &'static str, value: Value) -> Attribute {
+const fn required(name: &'static str, value: AttributeValue) -> Attribute {
     Attribute { name, value, is_required: true }
 }
 
-const fn optional(name: &'static str, value: Value) -> Attribute {
+const fn optional(name: &'static str, value: AttributeValue) -> Attribute {
     Attribute { name, value, is_required: false }
 }
 
@@ -74,9 +74,9 @@ const fn any_number(element: &'static Element) -> Child {
     Child { element, occurs: Occurs::AnyNumber }
 }
 
-use Value::{Name, Numbers, Text, Word};
+use AttributeValue::{Name, Numbers, Text, Word};
 
-const NUMBER: Value = Numbers(1);
+const NUMBER: AttributeValue = Numbers(1);
 
 /// The types that a joint may have; which of them can be simulated is decided in `joint.rs`.
 const JOINT_TYPES: &[&str] =

@@ -16,7 +16,7 @@ use crate::scenario::{
     checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck},
     data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario},
     motions::{JOINT_KEYS, JointMotion, MotionSettings, SERVO_KEY, ServoMotion, TCP_KEY, TcpMotion},
-    place::{Place, PlaceNode},
+    place::{FilePlace, PlaceNode},
 };
 
 /// Largest scenario file that is read.
@@ -86,8 +86,8 @@ impl ScenarioFile {
     }
 
     /// The places of its values.
-    pub fn place(&self) -> Place<'_> {
-        Place::of(Some(&self.places))
+    pub fn place(&self) -> FilePlace<'_> {
+        FilePlace::of(Some(&self.places))
     }
 
     /// Faults with which it could be read: unknown keys.
@@ -257,7 +257,7 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
 fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, Vec<Diagnostic>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
-    struct Gains {
+    struct WrittenGains {
         #[serde(default, deserialize_with = "crate::scenario::number::non_negative")]
         stiffness: f64,
         #[serde(default, deserialize_with = "crate::scenario::number::non_negative")]
@@ -271,7 +271,7 @@ fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, V
     };
     let kind = (*section.select("kind", "controller", &known, |name| name)?).to_owned();
     let read = section.read();
-    let Gains { stiffness, damping } = read.map_err(|found| named_too(found, "and kind"))?;
+    let WrittenGains { stiffness, damping } = read.map_err(|found| named_too(found, "and kind"))?;
     Ok(ControllerSettings { kind, stiffness, damping })
 }
 
