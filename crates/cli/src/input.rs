@@ -1,13 +1,10 @@
 //! Arguments that several commands share.
 
-use std::{collections::BTreeMap, fmt, path::PathBuf};
+use std::{collections::BTreeMap, path::PathBuf};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use schemars::JsonSchema;
-use serde::{
-    Serialize,
-    de::{DeserializeOwned, IntoDeserializer, value::Error},
-};
+use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
 
 use congruent::description::{
     Diagnostic, JointState, Robot, RobotDescription, RobotQ, configuration, load_robot, read_configurations,
@@ -99,17 +96,6 @@ fn parse(assignment: &str) -> Result<(String, f64), Diagnostic> {
         Diagnostic::error("cli::at", format!("--at \"{assignment}\" is not JOINT=VALUE"))
             .with_help("for example --at elbow_joint=1.57, in rad or m")
     })
-}
-
-/// The name of an enum's value, as it is in JSON.
-pub(crate) fn name(value: &impl Serialize) -> String {
-    struct Name<'a, T>(&'a T);
-    impl<T: Serialize> fmt::Display for Name<'_, T> {
-        fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-            self.0.serialize(formatter)
-        }
-    }
-    Name(value).to_string()
 }
 
 /// Parses an enum of the library by the names that it has in JSON, with its documentation as help.

@@ -4,12 +4,12 @@ use std::fmt::Write;
 
 use congruent::{
     analysis::jacobians::{JacobianBlocks, JacobianKind, JacobianReport, jacobians, jacobians_in_motion},
-    description::{Diagnostic, known_names},
+    description::{Diagnostic, known_names, serde_name},
 };
 
 use crate::{
     failure::Failure,
-    input::{ConfigurationArguments, RobotArgument, name, named},
+    input::{ConfigurationArguments, RobotArgument, named},
     print::Printer,
 };
 
@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 fn text(report: &JacobianReport) -> String {
     let mut text = format!(
         "{} Jacobian of {}, columns: {}\n",
-        name(&report.kind),
+        serde_name(&report.kind),
         report.link,
         report.joints.join(", ")
     );

@@ -7,12 +7,12 @@ use congruent::{
         Conversion, ConversionReport, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, PoeReport,
         ScrewReport, convert,
     },
-    description::{Diagnostic, RobotDescription},
+    description::{Diagnostic, RobotDescription, serde_name},
 };
 
 use crate::{
     failure::Failure,
-    input::{ChainArguments, RobotArgument, name, named},
+    input::{ChainArguments, RobotArgument, named},
     print::Printer,
 };
 
@@ -129,7 +129,7 @@ fn remarks(report: &ConversionReport) -> String {
     }
     for pair in &report.axes {
         let [a, b] = &pair.joints;
-        let (degrees, relation) = (pair.angle_rad.to_degrees(), name(&pair.relation).replace('_', "-"));
+        let (degrees, relation) = (pair.angle_rad.to_degrees(), serde_name(&pair.relation).replace('_', "-"));
         let _ = writeln!(
             text,
             "axes of {a} and {b}: {relation}, {degrees:.6} deg, {:.6} m apart",

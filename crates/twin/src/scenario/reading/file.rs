@@ -246,11 +246,7 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
         CheckKind::Limits => section.read_into::<LimitsCheck>(&mut found).map(Check::Limits),
         CheckKind::Zone => section.read_into::<ZoneCheck>(&mut found).map(Check::Zone),
     };
-    let name_common_keys = |finding: Diagnostic| {
-        let more = "of every check: kind";
-        if is_unknown_key(&finding) { with_more_help(finding, more) } else { finding }
-    };
-    findings.extend(found.map(name_common_keys).into_vec());
+    findings.extend(named_too(found.into_vec(), "of every check: kind"));
     check
 }
 
