@@ -1,32 +1,47 @@
-//! Numbers for people: the one place that decides how lengths and angles are printed.
+//! Numbers for people: the one place that decides their unit and their digits, in every command, report and
+//! recording. Three significant digits, no digit before the decimal point lost, no zeros at the end.
 
-/// Below this, in m or rad, a value is printed in m or rad with an exponent: no hand measures it.
-const MEASURABLE: f64 = 1e-6;
+use std::f64::consts::PI;
 
-/// A length: millimetres if a hand could measure it, otherwise metres with an exponent.
+/// From this size on a value is printed in this unit.
+struct Step {
+    from: f64,
+    unit: &'static str,
+    units_in_si: f64,
+}
+
+const fn step(from: f64, unit: &'static str, units_in_si: f64) -> Step {
+    Step { from, unit, units_in_si }
+}
+
+/// Below the last step only rounding is left, which is printed in SI units with an exponent.
+const LENGTHS: [Step; 4] =
+    [step(10.0, "m", 1.0), step(1e-4, "mm", 1e3), step(1e-6, "um", 1e6), step(1e-9, "nm", 1e9)];
+const ANGLES: [Step; 3] =
+    [step(1e-3 * PI / 180.0, "deg", 180.0 / PI), step(1e-6, "urad", 1e6), step(1e-9, "nrad", 1e9)];
+
+/// A length in m.
 ///
 /// # Examples
 /// ```
 /// use congruent_description::display::length;
-/// assert_eq!([length(0.0338), length(7.9e-16)], ["33.8000 mm", "7.90e-16 m"]);
+/// let lengths = [2.687, 0.0338, 1e-3, 2.5e-5, 1e-9, 7.9e-16, 0.0].map(length);
+/// assert_eq!(lengths, ["2687 mm", "33.8 mm", "1 mm", "25 um", "1 nm", "7.9e-16 m", "0 mm"]);
 /// ```
 pub fn length(metres: f64) -> String {
-    if metres.abs() >= MEASURABLE { format!("{:.4} mm", metres * 1e3) } else { format!("{metres:.2e} m") }
+    scaled(metres, &LENGTHS, "m", "mm", "")
 }
 
-/// An angle: degrees if an eye could see it, otherwise radians with an exponent.
+/// An angle in rad.
 ///
 /// # Examples
 /// ```
 /// use congruent_description::display::angle;
-/// assert_eq!([angle(0.017_453_292_519_943_295), angle(1e-12)], ["1.00000 deg", "1.00e-12 rad"]);
+/// let angles = [1.5707963267948966, -0.0021, 1e-6, 1e-12].map(angle);
+/// assert_eq!(angles, ["90 deg", "-0.12 deg", "1 urad", "1.0e-12 rad"]);
 /// ```
 pub fn angle(radians: f64) -> String {
-    if radians.abs() >= MEASURABLE {
-        format!("{:.5} deg", radians.to_degrees())
-    } else {
-        format!("{radians:.2e} rad")
-    }
+    scaled(radians, &ANGLES, "rad", "deg", "")
 }
 
 /// A length with an angle beside it, as of a pose; without the angle if there is none.
@@ -34,8 +49,100 @@ pub fn angle(radians: f64) -> String {
 /// # Examples
 /// ```
 /// use congruent_description::display::length_and_angle;
-/// assert_eq!(length_and_angle(0.005, 0.0), "5.0000 mm");
+/// assert_eq!(length_and_angle(0.005, 0.0), "5 mm");
 /// ```
 pub fn length_and_angle(metres: f64, radians: f64) -> String {
     if radians > 0.0 { format!("{} and {}", length(metres), angle(radians)) } else { length(metres) }
+}
+
+/// A value in an SI unit, as reports name it: `m`, `rad`, `m/s`, `rad/s`, `N m`, or nothing for a plain number.
+///
+/// # Examples
+/// ```
+/// use congruent_description::display::quantity;
+/// assert_eq!(quantity(1.0663, "rad"), "61.1 deg");
+/// assert_eq!(quantity(0.25, "m/s"), "250 mm/s");
+/// assert_eq!(quantity(12.3456, "N m"), "12.3 N m");
+/// assert_eq!(quantity(0.0, ""), "0");
+/// ```
+pub fn quantity(value: f64, unit: &str) -> String {
+    match unit {
+        "m" => length(value),
+        "rad" => angle(value),
+        "m/s" => scaled(value, &LENGTHS, "m", "mm", "/s"),
+        "rad/s" => scaled(value, &ANGLES, "rad", "deg", "/s"),
+        _ => format!("{} {unit}", number(value)).trim_end().to_owned(),
+    }
+}
+
+/// A number without unit.
+///
+/// # Examples
+/// ```
+/// use congruent_description::display::number;
+/// let numbers = [0.46184, 2687.4, 1.0, 3.21e-16].map(number);
+/// assert_eq!(numbers, ["0.462", "2687", "1", "3.2e-16"]);
+/// ```
+pub fn number(value: f64) -> String {
+    /// Below this a decimal fraction is mostly zeros.
+    const SMALLEST_DECIMAL: f64 = 1e-4;
+    /// From here on it is mostly digits.
+    const LARGEST_DECIMAL: f64 = 1e7;
+    match value.abs() {
+        size if size == 0.0 => "0".to_owned(),
+        size if (SMALLEST_DECIMAL..LARGEST_DECIMAL).contains(&size) => significant(value),
+        _ if !value.is_finite() => value.to_string(),
+        _ => format!("{value:.1e}"),
+    }
+}
+
+fn scaled(value: f64, steps: &[Step], si: &str, unit_of_zero: &str, per: &str) -> String {
+    if value == 0.0 {
+        return format!("0 {unit_of_zero}{per}");
+    }
+    match steps.iter().find(|step| value.abs() >= step.from) {
+        Some(step) if value.is_finite() => {
+            format!("{} {}{per}", number(value * step.units_in_si), step.unit)
+        }
+        _ if value.is_finite() => format!("{value:.1e} {si}{per}"),
+        _ => format!("{value} {si}{per}"),
+    }
+}
+
+/// Three significant digits or all before the decimal point.
+fn significant(value: f64) -> String {
+    let mut decimals = 2;
+    let mut bound = 1.0;
+    // Powers of ten are exact enough here, and a logarithm is not needed.
+    while decimals > 0 && value.abs() >= bound * 10.0 {
+        (decimals, bound) = (decimals - 1, bound * 10.0);
+    }
+    let mut bound = 1.0;
+    while value.abs() < bound {
+        (decimals, bound) = (decimals + 1, bound / 10.0);
+    }
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_at_the_edges() {
+        let shown = [9.996, 99.96, 999.6, 0.099_96, 0.12, -33.84, 100.0].map(significant);
+        assert_eq!(shown, ["10", "100", "1000", "0.1", "0.12", "-33.8", "100"]);
+    }
+
+    #[test]
+    fn values_that_are_no_numbers_are_shown_as_such() {
+        assert_eq!([length(f64::NAN), angle(f64::INFINITY)], ["NaN m", "inf rad"]);
+        assert_eq!(number(f64::NAN), "NaN");
+    }
+
+    #[test]
+    fn large_values_keep_their_size() {
+        assert_eq!([length(53_087.0), length(1e12), number(1.234e9)], ["53087 m", "1.0e12 m", "1.2e9"]);
+    }
 }

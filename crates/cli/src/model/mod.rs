@@ -2,5 +2,6 @@
 
 pub(crate) mod calibrate;
 pub(crate) mod check;
+mod check_text;
 pub(crate) mod convert;
 pub(crate) mod derive;

@@ -1,0 +1,217 @@
+//! The report of `congruent check` as text for people.
+
+use std::fmt::Write;
+
+use congruent::{
+    agreement::{
+        compare::{
+            Agreement, Basics, Brackets, BySource, CheckReport, Comparison, CoordinateUnit, PoseSource,
+            Premise, ReportedBracket, ReportedCertificate,
+        },
+        diagnosis::Invariant,
+        report::{Fault, ReportedCause, ReportedDiagnosis},
+    },
+    description::display::{angle, length, length_and_angle},
+};
+
+use crate::print::rendered;
+
+pub(super) fn text(report: &CheckReport) -> String {
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "{}: {}, worst {} over {} configurations (tolerance {:e} m, {:e} rad)",
+        report.robot,
+        report.verdict,
+        length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),
+        report.configurations,
+        report.tolerance.position_m,
+        report.tolerance.orientation_rad
+    );
+    for comparison in &report.comparisons {
+        compared(&mut text, comparison);
+    }
+    if report.verdict == Agreement::Disagree {
+        let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, report.worst.at.listed(4));
+    }
+    for (at, difference) in (1..).zip(&report.at_configurations) {
+        let error = length_and_angle(difference.error.position_m, difference.error.orientation_rad);
+        let _ = writeln!(text, "  at configuration {at}: {error}");
+    }
+    certified(&mut text, report);
+    if let Some(diagnosis) = report.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty()) {
+        diagnosed(&mut text, diagnosis);
+    }
+    text
+}
+
+/// The first checks: the pose of the TCP at zero and its motion with each joint.
+pub(super) fn basics(basics: &Basics) -> String {
+    let mut text = format!("  the TCP on {}, in the axes of {}:\n", basics.tip, basics.base);
+    let width = basics.joints.iter().map(|joint| joint.joint.len()).max().unwrap_or(0);
+    by_source(&mut text, &format!("{:width$} {:8}", "at zero", ""), &basics.zero, |pose| {
+        let [at, quaternion] = [&pose.translation_m.map(to_mm)[..], &pose.quaternion_wxyz].map(listed);
+        format!("at    {at} mm  quaternion {quaternion}")
+    });
+    for joint in &basics.joints {
+        let by = match joint.unit {
+            CoordinateUnit::M => format!("{:+} mm", to_mm(joint.by)),
+            CoordinateUnit::Rad => format!("{:+} deg", joint.by.to_degrees().round()),
+        };
+        by_source(&mut text, &format!("{:width$} {by:>8}", joint.joint), &joint.motion, |motion| {
+            let [shift, turn] = [motion.shift_m.map(to_mm), motion.turn_rad.map(f64::to_degrees)];
+            format!("shift {} mm  turn {} deg", listed(&shift), listed(&turn))
+        });
+    }
+    let _ = writeln!(
+        text,
+        "    worst over all configurations: |R'R - I| {:.1e}, |det R - 1| {:.1e}, T T^-1 off by {:.1e} m and {:.1e} rad",
+        basics.orthonormality_error, basics.determinant_error, basics.round_trip_m, basics.round_trip_rad
+    );
+    text
+}
+
+/// One line if table and URDF have the same values, otherwise one line for each.
+fn by_source<T>(text: &mut String, label: &str, by: &BySource<T>, shown: impl Fn(&T) -> String) {
+    let lines: Vec<(&str, String)> = by.named().map(|(source, value)| (source, shown(value))).collect();
+    let lines: &[(&str, String)] = match &lines[..] {
+        [(_, table), (_, urdf)] if table == urdf => &[("both", table.clone())],
+        lines => lines,
+    };
+    for (source, line) in lines {
+        let _ = writeln!(text, "    {label} {source:5}  {line}");
+    }
+}
+
+/// Three decimals each, and no minus before a zero.
+fn listed(values: &[f64]) -> String {
+    let rounded = values.iter().map(|value| format!("{:9.3}", (value * 1e3).round() / 1e3 + 0.0));
+    rounded.collect::<Vec<_>>().join(" ")
+}
+
+fn to_mm(metres: f64) -> f64 {
+    metres * 1e3
+}
+
+/// The certificate: a bound over the whole joint range, not a sample.
+fn certified(text: &mut String, report: &CheckReport) {
+    if report.verdict == Agreement::Agree {
+        report.certificates.iter().for_each(|certificate| narrow(text, certificate));
+        return;
+    }
+    let mut line = |what: &str, bracket: &ReportedBracket, shown: fn(f64) -> String| {
+        let _ = writeln!(
+            text,
+            "  worst {what} disagreement {} at q = ({}), certified below {} over the whole joint range",
+            shown(bracket.attained),
+            bracket.at.listed(4),
+            shown(bracket.certified)
+        );
+    };
+    if let Some(Brackets { position_m, orientation_rad }) = &report.certificate_bracket {
+        line("position", position_m, length);
+        line("orientation", orientation_rad, angle);
+    }
+}
+
+/// The certificate of models that agree, with its premise.
+fn narrow(text: &mut String, certificate: &ReportedCertificate) {
+    let ReportedCertificate { title, brackets, premise, .. } = certificate;
+    if let Some(Brackets { position_m, orientation_rad }) = brackets {
+        let bound = length_and_angle(position_m.certified, orientation_rad.certified);
+        let _ = writeln!(text, "  certified  {title:32} at most {bound} over the whole joint range");
+    }
+    if let Some(Premise { configurations, residual_m, residual_rad, holds }) = premise {
+        let verified = if *holds { "verified as" } else { "are not" };
+        let residual = length_and_angle(*residual_m, *residual_rad);
+        let _ = writeln!(
+            text,
+            "    simulated joints {verified} pure screw motions: residual {residual} at {configurations} configurations"
+        );
+    }
+}
+
+/// The first cause with its lines of the file, then the causes that cannot be distinguished from it and the
+/// next best ones.
+fn diagnosed(text: &mut String, diagnosis: &ReportedDiagnosis) {
+    /// Alternatives shown to people; JSON has all of them.
+    const SHOWN: usize = 6;
+    let _ = writeln!(text, "\n  {}: {}", diagnosis.title, cause(&diagnosis.causes[0]));
+    for finding in &diagnosis.findings {
+        text.push_str(&rendered(finding));
+    }
+    if diagnosis.findings.is_empty() {
+        for difference in &diagnosis.invariants {
+            let _ = writeln!(
+                text,
+                "    {:14} {:24} found {:>12} expected {:>12}",
+                difference.invariant,
+                difference.joint,
+                invariant(difference.invariant, difference.found),
+                invariant(difference.invariant, difference.expected)
+            );
+        }
+    }
+    for alternative in diagnosis.indistinguishable.iter().take(SHOWN) {
+        let _ = writeln!(text, "  indistinguishable: {} ({})", cause(&alternative.cause), alternative.reason);
+    }
+    if let Some(more) = diagnosis.indistinguishable.len().checked_sub(SHOWN + 1) {
+        let _ = writeln!(text, "  and {} more indistinguishable causes", more + 1);
+    }
+    for next in &diagnosis.causes[1..] {
+        let _ = writeln!(text, "  next best: {}", cause(next));
+    }
+}
+
+/// The value of an invariant: a kind of joint by its name, and `none` if a chain does not have the quantity.
+fn invariant(invariant: Invariant, value: f64) -> String {
+    match invariant {
+        _ if value.is_nan() => "none".to_owned(),
+        Invariant::Kind => if value > 0.0 { "prismatic" } else { "revolute" }.to_owned(),
+        _ => format!("{value:.6}"),
+    }
+}
+
+/// One line for a cause.
+fn cause(cause: &ReportedCause) -> String {
+    let one = |fault: &Fault| {
+        let joints = fault.joint.iter().chain(&fault.joints).cloned().collect::<Vec<_>>().join(", ");
+        let cause = fault.cause.to_string();
+        let words = [&cause, fault.parameter.as_deref().unwrap_or_default(), &joints];
+        words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
+    };
+    let what = if cause.parts.is_empty() {
+        one(&cause.fault)
+    } else {
+        cause.parts.iter().map(one).collect::<Vec<_>>().join(" and ")
+    };
+    format!("{what}, residual {}", length_and_angle(cause.residual_m, cause.residual_rad))
+}
+
+fn compared(text: &mut String, comparison: &Comparison) {
+    let _ = writeln!(
+        text,
+        "  {:9} {:32} {:>12}  {:>12}  at {}",
+        comparison.verdict,
+        comparison.title,
+        length(comparison.worst.error.position_m),
+        angle(comparison.worst.error.orientation_rad),
+        comparison.worst.link
+    );
+    if comparison.verdict == Agreement::Agree {
+        return;
+    }
+    for link in &comparison.links {
+        let fitted = match link.source {
+            PoseSource::DhFitted => "(constant fitted at zero)",
+            _ => "",
+        };
+        let _ = writeln!(
+            text,
+            "            {:32} {:>12}  {:>12}  {fitted}",
+            link.link,
+            length(link.error.position_m),
+            angle(link.error.orientation_rad)
+        );
+    }
+}
