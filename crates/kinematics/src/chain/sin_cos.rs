@@ -51,8 +51,10 @@ const COSINE: [f64; 6] = [
 /// Sine and cosine of one angle.
 #[derive(Debug, Clone, Copy)]
 pub struct SinCos {
-    pub(crate) sin: f64,
-    pub(crate) cos: f64,
+    /// The sine.
+    pub sin: f64,
+    /// The cosine.
+    pub cos: f64,
 }
 
 impl SinCos {
@@ -64,6 +66,30 @@ impl SinCos {
         } else {
             let (sin, cos) = angle_rad.sin_cos();
             Self { sin, cos }
+        }
+    }
+
+    /// Of many angles in radians, in blocks as wide as the machine's vectors.
+    ///
+    /// # Panics
+    /// If there is not one place for each angle.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::SinCos;
+    /// let mut pairs = [SinCos::of(0.0); 2];
+    /// SinCos::of_many_into(&[0.0, std::f64::consts::FRAC_PI_2], &mut pairs);
+    /// assert_eq!((pairs[0].cos, pairs[1].sin), (1.0, 1.0));
+    /// ```
+    #[inline]
+    pub fn of_many_into(angles_rad: &[f64], pairs: &mut [Self]) {
+        assert_eq!(angles_rad.len(), pairs.len(), "one pair for each angle");
+        for (angles_rad, pairs) in angles_rad.chunks(BLOCK).zip(pairs.chunks_mut(BLOCK)) {
+            let mut block = [0.0; BLOCK];
+            block[..angles_rad.len()].copy_from_slice(angles_rad);
+            for (pair, found) in pairs.iter_mut().zip(SinesCosines::of_block(block).iter()) {
+                *pair = found;
+            }
         }
     }
 

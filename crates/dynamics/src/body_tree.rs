@@ -1,0 +1,231 @@
+//! A robot as rigid bodies that joints move against each other, made ready for the algorithms.
+
+use congruent_description::{JointIndex, JointKind, LinkIndex, Robot, RobotQ};
+use congruent_kinematics::{Pose, SinCos};
+use nalgebra::{Matrix3, Vector3};
+
+use crate::{error::DynamicsError, spatial_inertia::SpatialInertia};
+
+/// Gravity in the root link unless another is chosen, in m/s^2.
+pub const GRAVITY_M_S2: [f64; 3] = [0.0, 0.0, -9.81];
+
+/// What resists a joint's motion beside the inertia of what it carries.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct JointResistance {
+    /// Viscous damping, N m s/rad or N s/m.
+    pub damping: f64,
+    /// Dry friction against the motion, N m or N; none at rest.
+    pub friction: f64,
+    /// Inertia of motor and gear as the joint feels it, kg m^2 or kg.
+    pub armature: f64,
+}
+
+/// A robot as a tree of rigid bodies: each moving joint carries one, the links that fixed joints hold together.
+///
+/// Vectors go by the robot's moving joints in its own order. Mimic joints are independent, except in
+/// [`BodyTree::forward_into`], which keeps their ratio.
+///
+/// Damping and dry friction are those of the description, armature is zero, gravity is [`GRAVITY_M_S2`].
+#[derive(Debug, Clone)]
+pub struct BodyTree {
+    /// One for each moving joint, parents first.
+    pub(crate) bodies: Vec<Body>,
+    pub(crate) resistances: Vec<JointResistance>,
+    pub(crate) gravity_in_root: Vector3<f64>,
+    pub(crate) mimics: Vec<Option<Follower>>,
+    joint_names: Vec<String>,
+}
+
+/// The body that one moving joint carries. Its frame has the joint's axis as z and the joint's origin.
+#[derive(Debug, Clone)]
+pub(crate) struct Body {
+    /// The body that the joint moves against; `None` for the root.
+    pub(crate) parent: Option<usize>,
+    pub(crate) turns: bool,
+    /// At position zero.
+    pub(crate) parent_from_body: Pose,
+    pub(crate) inertia: SpatialInertia,
+    /// Axes of the link that the joint carries; the origins are one.
+    pub(crate) body_from_link: Matrix3<f64>,
+    pub(crate) link: LinkIndex,
+}
+
+/// A coordinate that follows another one rigidly.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Follower {
+    pub(crate) master: usize,
+    pub(crate) ratio: f64,
+}
+
+/// Positions, speeds and accelerations of all moving joints.
+///
+/// | field | shape | unit |
+/// |---|---|---|
+/// | `q` | the robot's dof | rad, m |
+/// | `qd` | the robot's dof | rad/s, m/s |
+/// | `qdd` | the robot's dof | rad/s^2, m/s^2 |
+#[derive(Debug, Clone, Copy)]
+pub struct JointMotion<'a> {
+    /// Positions.
+    pub q: &'a RobotQ,
+    /// Speeds.
+    pub qd: &'a [f64],
+    /// Accelerations.
+    pub qdd: &'a [f64],
+}
+
+impl BodyTree {
+    /// Prepares a robot.
+    pub fn new(robot: &Robot) -> Self {
+        let mut tree = Self {
+            bodies: Vec::with_capacity(robot.dof()),
+            resistances: Vec::with_capacity(robot.dof()),
+            gravity_in_root: Vector3::from(GRAVITY_M_S2),
+            mimics: Vec::with_capacity(robot.dof()),
+            joint_names: robot.movable_joint_names().map(str::to_owned).collect(),
+        };
+        // For each link the body that it belongs to, and its pose in it.
+        let mut carriers: Vec<(Option<usize>, Pose)> = vec![(None, Pose::identity()); robot.links().len()];
+        for (index, joint) in robot.joints().iter().enumerate() {
+            let (parent, parent_from_link) = carriers[joint.parent.get()];
+            let parent_from_joint = parent_from_link * Pose::from(joint.parent_from_joint);
+            carriers[joint.child.get()] = if joint.kind.is_movable() {
+                let joint_from_body = Pose::from_parts(frame_about(&joint.axis_in_joint), Vector3::zeros());
+                tree.bodies.push(Body {
+                    parent,
+                    turns: joint.kind != JointKind::Prismatic,
+                    parent_from_body: parent_from_joint * joint_from_body,
+                    inertia: SpatialInertia::zero(),
+                    body_from_link: joint_from_body.rotation.transpose(),
+                    link: joint.child,
+                });
+                let (damping, friction) = (joint.damping, joint.friction);
+                tree.resistances.push(JointResistance { damping, friction, armature: 0.0 });
+                tree.mimics.push(joint.mimic.and_then(|mimic| {
+                    Some(Follower { master: robot.coordinate(mimic.master)?, ratio: mimic.multiplier })
+                }));
+                (Some(tree.bodies.len() - 1), joint_from_body.inverse())
+            } else {
+                (parent, parent_from_joint)
+            };
+            debug_assert!(robot.parent_joint(joint.child).map(JointIndex::get) == Some(index));
+        }
+        for (link, (body, body_from_link)) in robot.links().iter().zip(carriers) {
+            if let (Some(body), Some(inertia)) = (body, &link.inertia) {
+                tree.bodies[body].inertia += SpatialInertia::of_link(inertia).transformed_by(&body_from_link);
+            }
+        }
+        tree
+    }
+
+    /// The same robot under another gravity, in the axes of the root link.
+    #[must_use]
+    pub fn with_gravity(mut self, gravity_in_root_m_s2: Vector3<f64>) -> Self {
+        self.gravity_in_root = gravity_in_root_m_s2;
+        self
+    }
+
+    /// The same robot with other resistances.
+    ///
+    /// # Errors
+    /// [`DynamicsError::Length`] if there is not one for each moving joint.
+    pub fn with_resistances(mut self, resistances: Vec<JointResistance>) -> Result<Self, DynamicsError> {
+        if resistances.len() != self.dof() {
+            let (expected, found) = (self.dof(), resistances.len());
+            return Err(DynamicsError::Length { what: "resistances", expected, found });
+        }
+        self.resistances = resistances;
+        Ok(self)
+    }
+
+    /// The same robot without damping, dry friction and armature.
+    #[must_use]
+    pub fn without_resistances(mut self) -> Self {
+        self.resistances.fill(JointResistance::default());
+        self
+    }
+
+    /// The same robot with every joint free of its master.
+    #[must_use]
+    pub fn with_independent_mimics(mut self) -> Self {
+        self.mimics.fill(None);
+        self
+    }
+
+    /// What resists each joint.
+    pub fn resistances(&self) -> &[JointResistance] {
+        &self.resistances
+    }
+
+    /// Number of moving joints, mimic joints included.
+    pub fn dof(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// The link that a moving joint carries, by which its body is named.
+    ///
+    /// # Panics
+    /// If there is no such joint.
+    pub fn link(&self, joint: usize) -> LinkIndex {
+        self.bodies[joint].link
+    }
+
+    /// The inertia of the body that a moving joint carries, in the frame of [`BodyTree::link`].
+    ///
+    /// # Panics
+    /// If there is no such joint.
+    pub fn inertia_in_link(&self, joint: usize) -> SpatialInertia {
+        let body = &self.bodies[joint];
+        body.inertia.transformed_by(&body.link_from_body())
+    }
+
+    /// The same robot with other inertias of its bodies, in the frames of [`BodyTree::link`].
+    ///
+    /// # Errors
+    /// [`DynamicsError::Length`] if there is not one for each moving joint.
+    pub fn with_inertias_in_links(mut self, inertias: &[SpatialInertia]) -> Result<Self, DynamicsError> {
+        if inertias.len() != self.dof() {
+            let (expected, found) = (self.dof(), inertias.len());
+            return Err(DynamicsError::Length { what: "inertias", expected, found });
+        }
+        for (body, inertia) in self.bodies.iter_mut().zip(inertias) {
+            body.inertia = inertia.transformed_by(&body.link_from_body().inverse());
+        }
+        Ok(self)
+    }
+
+    pub(crate) fn no_inertia(&self, joint: usize) -> DynamicsError {
+        DynamicsError::NoInertia { joint: self.joint_names[joint].clone() }
+    }
+
+    pub(crate) fn has_mimics(&self) -> bool {
+        self.mimics.iter().any(Option::is_some)
+    }
+}
+
+impl Body {
+    /// Pose in the parent's frame at a position.
+    #[inline]
+    pub(crate) fn parent_from_body_at(&self, q: f64, turn: &SinCos) -> Pose {
+        let Pose { rotation, translation } = &self.parent_from_body;
+        if !self.turns {
+            return Pose::from_parts(*rotation, translation + rotation.column(2) * q);
+        }
+        let (x, y) = (rotation.column(0), rotation.column(1));
+        let turned = [x * turn.cos + y * turn.sin, y * turn.cos - x * turn.sin];
+        let [x, y] = turned;
+        Pose::from_parts(Matrix3::from_columns(&[x, y, rotation.column(2).into_owned()]), *translation)
+    }
+
+    fn link_from_body(&self) -> Pose {
+        Pose::from_parts(self.body_from_link.transpose(), Vector3::zeros())
+    }
+}
+
+/// A rotation whose third column is a unit vector; exact if that is along an axis.
+fn frame_about(z: &Vector3<f64>) -> Matrix3<f64> {
+    let mut least = Vector3::zeros();
+    least[z.iamin()] = 1.0;
+    let y = z.cross(&least).normalize();
+    Matrix3::from_columns(&[y.cross(z), y, *z])
+}

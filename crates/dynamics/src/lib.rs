@@ -1,0 +1,35 @@
+//! Analytical dynamics of robots, the independent source for forces: from the description alone, and with no formula
+//! in common with the physics engine.
+//!
+//! | question | call |
+//! |---|---|
+//! | torques of a motion | [`BodyTree::inverse_into`], [`BodyTree::gravity_into`], [`BodyTree::bias_into`] |
+//! | mass matrix | [`BodyTree::mass_matrix_into`] |
+//! | accelerations under torques | [`BodyTree::forward_into`] |
+//! | energies, momentum | [`BodyTree::energy`], [`BodyTree::momentum_in_root`] |
+//! | which parameters torques tell | [`BodyTree::regressor_into`], [`BodyTree::base_parameters`] |
+//! | motion under torques | [`Rollout`] |
+//!
+//! Units are SI and radians. Nothing here reads a file, a clock or a random number, and calls that are made per sample
+//! allocate nothing: [`BodyTree::buffer`] makes their memory once.
+
+mod base_parameters;
+mod body_tree;
+mod buffer;
+mod energy;
+mod error;
+mod forward;
+mod inverse;
+mod mass_matrix;
+mod regressor;
+mod rollout;
+mod spatial_inertia;
+
+pub use base_parameters::{BaseParameter, BaseParameters, InertialParameter};
+pub use body_tree::{BodyTree, GRAVITY_M_S2, JointMotion, JointResistance};
+pub use buffer::DynamicsBuffer;
+pub use energy::Energy;
+pub use error::DynamicsError;
+pub use forward::DrivenState;
+pub use rollout::{Rollout, RolloutState};
+pub use spatial_inertia::{PARAMETER_NAMES, PARAMETERS, SpatialInertia};

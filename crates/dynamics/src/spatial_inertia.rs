@@ -1,0 +1,221 @@
+//! Mass, first moment and rotational inertia of a rigid body about the origin of a frame: the ten numbers in which
+//! all of dynamics is linear.
+
+use std::ops::{Add, AddAssign};
+
+use congruent_description::Inertia;
+use congruent_kinematics::{Pose, Twist, Wrench, hat};
+use nalgebra::{Matrix3, Vector3};
+
+/// Inertia of a rigid body in a frame; unlike mass and centre of mass, these numbers add.
+///
+/// | field | shape | unit | frame |
+/// |---|---|---|---|
+/// | `mass_kg` | 1 | kg | |
+/// | `first_moment_kg_m` | 3 | kg m | mass times centre of mass, in the named frame |
+/// | `tensor_kg_m2` | 3 x 3 | kg m^2 | about the origin of the named frame, in its axes |
+///
+/// # Examples
+/// Two balls of 1 kg on the x axis:
+/// ```
+/// use congruent_dynamics::SpatialInertia;
+/// use nalgebra::Vector3;
+/// let near = SpatialInertia::point_mass(1.0, Vector3::new(0.5, 0.0, 0.0));
+/// let both = near + SpatialInertia::point_mass(1.0, Vector3::new(1.5, 0.0, 0.0));
+/// assert_eq!(both.mass_kg, 2.0);
+/// assert_eq!(both.first_moment_kg_m / both.mass_kg, Vector3::new(1.0, 0.0, 0.0));
+/// assert_eq!(both.tensor_kg_m2[(2, 2)], 2.5);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpatialInertia {
+    /// Mass.
+    pub mass_kg: f64,
+    /// Mass times centre of mass.
+    pub first_moment_kg_m: Vector3<f64>,
+    /// Rotational inertia about the frame's origin.
+    pub tensor_kg_m2: Matrix3<f64>,
+}
+
+/// How many numbers an inertia has.
+pub const PARAMETERS: usize = 10;
+
+/// Symbols of [`SpatialInertia::parameters`], in their order.
+pub const PARAMETER_NAMES: [&str; PARAMETERS] =
+    ["ixx", "ixy", "ixz", "iyy", "iyz", "izz", "mx", "my", "mz", "m"];
+
+impl SpatialInertia {
+    /// Nothing.
+    pub fn zero() -> Self {
+        Self { mass_kg: 0.0, first_moment_kg_m: Vector3::zeros(), tensor_kg_m2: Matrix3::zeros() }
+    }
+
+    /// A mass at one point.
+    pub fn point_mass(mass_kg: f64, position: Vector3<f64>) -> Self {
+        Self {
+            mass_kg,
+            first_moment_kg_m: position * mass_kg,
+            tensor_kg_m2: shift(&position, &(position * mass_kg)) / 2.0,
+        }
+    }
+
+    /// The inertia of a link about the link's own origin.
+    pub fn of_link(inertia: &Inertia) -> Self {
+        let about_center = Self {
+            mass_kg: inertia.mass_kg,
+            first_moment_kg_m: Vector3::zeros(),
+            tensor_kg_m2: inertia.tensor_kg_m2,
+        };
+        about_center.transformed_by(&inertia.link_from_inertial.into())
+    }
+
+    /// The same body in frame a, given in frame b.
+    ///
+    /// Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), eq. 2.66, with the tensor about the origin.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_dynamics::SpatialInertia;
+    /// use congruent_kinematics::Pose;
+    /// use nalgebra::{Matrix3, Vector3};
+    /// let ball = SpatialInertia::point_mass(2.0, Vector3::zeros());
+    /// let a_from_b = Pose::from_parts(Matrix3::identity(), Vector3::new(0.0, 3.0, 0.0));
+    /// assert_eq!(ball.transformed_by(&a_from_b), SpatialInertia::point_mass(2.0, a_from_b.translation));
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn transformed_by(&self, a_from_b: &Pose) -> Self {
+        let (turn, origin) = (&a_from_b.rotation, &a_from_b.translation);
+        let turned = turn * self.first_moment_kg_m;
+        let tensor = turn * self.tensor_kg_m2 * turn.transpose();
+        Self {
+            mass_kg: self.mass_kg,
+            first_moment_kg_m: turned + origin * self.mass_kg,
+            tensor_kg_m2: tensor + shift(origin, &(turned * 2.0 + origin * self.mass_kg)) / 2.0,
+        }
+    }
+
+    /// Momentum of the body that moves with a twist: angular momentum about the origin, then linear momentum.
+    #[inline]
+    pub fn momentum(&self, twist: &Twist) -> Wrench {
+        let h = &self.first_moment_kg_m;
+        Wrench {
+            moment: self.tensor_kg_m2 * twist.angular + h.cross(&twist.linear),
+            force: twist.linear * self.mass_kg - h.cross(&twist.angular),
+        }
+    }
+
+    /// The ten numbers: `ixx ixy ixz iyy iyz izz` about the origin, then the first moment, then the mass.
+    pub fn parameters(&self) -> [f64; PARAMETERS] {
+        let (tensor, h) = (&self.tensor_kg_m2, &self.first_moment_kg_m);
+        [
+            tensor[(0, 0)],
+            tensor[(0, 1)],
+            tensor[(0, 2)],
+            tensor[(1, 1)],
+            tensor[(1, 2)],
+            tensor[(2, 2)],
+            h.x,
+            h.y,
+            h.z,
+            self.mass_kg,
+        ]
+    }
+
+    /// The inertia with these ten numbers, in the order of [`SpatialInertia::parameters`].
+    pub fn from_parameters([xx, xy, xz, yy, yz, zz, mx, my, mz, mass_kg]: [f64; PARAMETERS]) -> Self {
+        Self {
+            mass_kg,
+            first_moment_kg_m: Vector3::new(mx, my, mz),
+            tensor_kg_m2: Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
+        }
+    }
+}
+
+/// `-[a][b] - [b][a]`, twice the tensor of a mass if `b` is `m a`.
+#[inline]
+fn shift(a: &Vector3<f64>, b: &Vector3<f64>) -> Matrix3<f64> {
+    Matrix3::from_diagonal_element(2.0 * a.dot(b)) - a * b.transpose() - b * a.transpose()
+}
+
+impl Add for SpatialInertia {
+    type Output = Self;
+
+    fn add(mut self, other: Self) -> Self {
+        self += other;
+        self
+    }
+}
+
+impl AddAssign for SpatialInertia {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        self.mass_kg += other.mass_kg;
+        self.first_moment_kg_m += other.first_moment_kg_m;
+        self.tensor_kg_m2 += other.tensor_kg_m2;
+    }
+}
+
+/// Inertia of a body whose moving children are free to accelerate: wrench for an acceleration, as three blocks of a
+/// symmetric 6 x 6 matrix.
+///
+/// Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), section 7.2.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ArticulatedInertia {
+    /// Moment for an angular acceleration.
+    pub(crate) angular: Matrix3<f64>,
+    /// Moment for a linear acceleration; its transpose is force for an angular acceleration.
+    pub(crate) coupling: Matrix3<f64>,
+    /// Force for a linear acceleration.
+    pub(crate) linear: Matrix3<f64>,
+}
+
+impl ArticulatedInertia {
+    pub(crate) fn of_rigid(inertia: &SpatialInertia) -> Self {
+        Self {
+            angular: inertia.tensor_kg_m2,
+            coupling: hat(&inertia.first_moment_kg_m),
+            linear: Matrix3::from_diagonal_element(inertia.mass_kg),
+        }
+    }
+
+    /// The wrench that gives a body this acceleration.
+    #[inline]
+    pub(crate) fn wrench(&self, acceleration: &Twist) -> Wrench {
+        Wrench {
+            moment: self.angular * acceleration.angular + self.coupling * acceleration.linear,
+            force: self.coupling.tr_mul(&acceleration.angular) + self.linear * acceleration.linear,
+        }
+    }
+
+    /// Without the direction in which a joint lets go: `I - U U' / d`.
+    #[inline]
+    pub(crate) fn released(&self, along: &Wrench, inertia: f64) -> Self {
+        let scaled = Wrench { moment: along.moment / inertia, force: along.force / inertia };
+        Self {
+            angular: self.angular - along.moment * scaled.moment.transpose(),
+            coupling: self.coupling - along.moment * scaled.force.transpose(),
+            linear: self.linear - along.force * scaled.force.transpose(),
+        }
+    }
+
+    /// The same inertia in frame a, given in frame b.
+    #[inline]
+    pub(crate) fn transformed_by(&self, a_from_b: &Pose) -> Self {
+        let (turn, back) = (&a_from_b.rotation, a_from_b.rotation.transpose());
+        let lever = hat(&a_from_b.translation);
+        let turned = |block: &Matrix3<f64>| turn * block * back;
+        let (angular, coupling, linear) =
+            (turned(&self.angular), turned(&self.coupling), turned(&self.linear));
+        let moved = coupling + lever * linear;
+        Self { angular: angular - coupling * lever + lever * moved.transpose(), coupling: moved, linear }
+    }
+}
+
+impl AddAssign for ArticulatedInertia {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        self.angular += other.angular;
+        self.coupling += other.coupling;
+        self.linear += other.linear;
+    }
+}
