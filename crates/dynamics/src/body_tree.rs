@@ -1,10 +1,14 @@
 //! A robot as rigid bodies that joints move against each other, made ready for the algorithms.
 
 use congruent_description::{JointIndex, JointKind, LinkIndex, Robot, RobotQ};
-use congruent_kinematics::{Pose, SinCos};
+use congruent_kinematics::{Pose, Twist, rotation_exp};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::{error::DynamicsError, spatial_inertia::SpatialInertia};
+use crate::{
+    error::DynamicsError,
+    rigid::{BodyInertia, JointFrame},
+    spatial_inertia::SpatialInertia,
+};
 
 /// Gravity in the root link unless another is chosen, in m/s^2.
 pub const GRAVITY_M_S2: [f64; 3] = [0.0, 0.0, -9.81];
@@ -33,6 +37,8 @@ pub struct BodyTree {
     pub(crate) resistances: Vec<JointResistance>,
     pub(crate) gravity_in_root: Vector3<f64>,
     pub(crate) mimics: Vec<Option<Follower>>,
+    /// The joints without a master.
+    pub(crate) independent: Vec<usize>,
     joint_names: Vec<String>,
 }
 
@@ -41,10 +47,13 @@ pub struct BodyTree {
 pub(crate) struct Body {
     /// The body that the joint moves against; `None` for the root.
     pub(crate) parent: Option<usize>,
-    pub(crate) turns: bool,
+    /// The bodies that this one carries are those after it up to here: a robot's joints are sorted depth first.
+    pub(crate) subtree_end: usize,
+    pub(crate) frame: JointFrame,
+    pub(crate) inertia: BodyInertia,
     /// At position zero.
     pub(crate) parent_from_body: Pose,
-    pub(crate) inertia: SpatialInertia,
+    pub(crate) spatial_inertia: SpatialInertia,
     /// Axes of the link that the joint carries; the origins are one.
     pub(crate) body_from_link: Matrix3<f64>,
     pub(crate) link: LinkIndex,
@@ -82,6 +91,7 @@ impl BodyTree {
             resistances: Vec::with_capacity(robot.dof()),
             gravity_in_root: Vector3::from(GRAVITY_M_S2),
             mimics: Vec::with_capacity(robot.dof()),
+            independent: Vec::new(),
             joint_names: robot.movable_joint_names().map(str::to_owned).collect(),
         };
         // For each link the body that it belongs to, and its pose in it.
@@ -91,11 +101,15 @@ impl BodyTree {
             let parent_from_joint = parent_from_link * Pose::from(joint.parent_from_joint);
             carriers[joint.child.get()] = if joint.kind.is_movable() {
                 let joint_from_body = Pose::from_parts(frame_about(&joint.axis_in_joint), Vector3::zeros());
+                let parent_from_body = parent_from_joint * joint_from_body;
+                let turns = joint.kind != JointKind::Prismatic;
                 tree.bodies.push(Body {
                     parent,
-                    turns: joint.kind != JointKind::Prismatic,
-                    parent_from_body: parent_from_joint * joint_from_body,
-                    inertia: SpatialInertia::zero(),
+                    subtree_end: tree.bodies.len() + 1,
+                    frame: JointFrame::new(turns, &parent_from_body),
+                    inertia: BodyInertia::ZERO,
+                    parent_from_body,
+                    spatial_inertia: SpatialInertia::zero(),
                     body_from_link: joint_from_body.rotation.transpose(),
                     link: joint.child,
                 });
@@ -112,9 +126,18 @@ impl BodyTree {
         }
         for (link, (body, body_from_link)) in robot.links().iter().zip(carriers) {
             if let (Some(body), Some(inertia)) = (body, &link.inertia) {
-                tree.bodies[body].inertia += SpatialInertia::of_link(inertia).transformed_by(&body_from_link);
+                let inertia = SpatialInertia::of_link(inertia).transformed_by(&body_from_link);
+                let sum = tree.bodies[body].spatial_inertia + inertia;
+                tree.bodies[body].set_inertia(sum);
             }
         }
+        for joint in (0..tree.dof()).rev() {
+            if let Some(parent) = tree.bodies[joint].parent {
+                tree.bodies[parent].subtree_end =
+                    tree.bodies[parent].subtree_end.max(tree.bodies[joint].subtree_end);
+            }
+        }
+        tree.independent = (0..tree.dof()).filter(|&joint| tree.mimics[joint].is_none()).collect();
         tree
     }
 
@@ -149,6 +172,7 @@ impl BodyTree {
     #[must_use]
     pub fn with_independent_mimics(mut self) -> Self {
         self.mimics.fill(None);
+        self.independent = (0..self.dof()).collect();
         self
     }
 
@@ -176,7 +200,7 @@ impl BodyTree {
     /// If there is no such joint.
     pub fn inertia_in_link(&self, joint: usize) -> SpatialInertia {
         let body = &self.bodies[joint];
-        body.inertia.transformed_by(&body.link_from_body())
+        body.spatial_inertia.transformed_by(&body.link_from_body())
     }
 
     /// The same robot with other inertias of its bodies, in the frames of [`BodyTree::link`].
@@ -189,7 +213,7 @@ impl BodyTree {
             return Err(DynamicsError::Length { what: "inertias", expected, found });
         }
         for (body, inertia) in self.bodies.iter_mut().zip(inertias) {
-            body.inertia = inertia.transformed_by(&body.link_from_body().inverse());
+            body.set_inertia(inertia.transformed_by(&body.link_from_body().inverse()));
         }
         Ok(self)
     }
@@ -199,26 +223,42 @@ impl BodyTree {
     }
 
     pub(crate) fn has_mimics(&self) -> bool {
-        self.mimics.iter().any(Option::is_some)
+        self.independent.len() < self.dof()
     }
 }
 
 impl Body {
-    /// Pose in the parent's frame at a position.
-    #[inline]
-    pub(crate) fn parent_from_body_at(&self, q: f64, turn: &SinCos) -> Pose {
-        let Pose { rotation, translation } = &self.parent_from_body;
-        if !self.turns {
-            return Pose::from_parts(*rotation, translation + rotation.column(2) * q);
-        }
-        let (x, y) = (rotation.column(0), rotation.column(1));
-        let turned = [x * turn.cos + y * turn.sin, y * turn.cos - x * turn.sin];
-        let [x, y] = turned;
-        Pose::from_parts(Matrix3::from_columns(&[x, y, rotation.column(2).into_owned()]), *translation)
+    fn set_inertia(&mut self, inertia: SpatialInertia) {
+        self.spatial_inertia = inertia;
+        self.inertia = BodyInertia::from(&inertia);
     }
 
-    fn link_from_body(&self) -> Pose {
+    /// Pose in the parent's frame at a position.
+    pub(crate) fn parent_from_body_at(&self, q: f64) -> Pose {
+        let (angle_rad, shift_m) = if self.frame.turns { (q, 0.0) } else { (0.0, q) };
+        let along = Pose::from_parts(rotation_exp(&(Vector3::z() * angle_rad)), Vector3::z() * shift_m);
+        self.parent_from_body * along
+    }
+
+    /// A unit of the joint's motion, in the body's frame.
+    pub(crate) fn axis(&self) -> Twist {
+        let (zero, z) = (Vector3::zeros(), Vector3::z());
+        if self.frame.turns { Twist { angular: z, linear: zero } } else { Twist { angular: zero, linear: z } }
+    }
+
+    pub(crate) fn link_from_body(&self) -> Pose {
         Pose::from_parts(self.body_from_link.transpose(), Vector3::zeros())
+    }
+}
+
+impl JointFrame {
+    fn new(turns: bool, parent_from_body: &Pose) -> Self {
+        Self {
+            turns,
+            parent_from_body: parent_from_body.rotation.into(),
+            body_from_parent: parent_from_body.rotation.transpose().into(),
+            origin: parent_from_body.translation.into(),
+        }
     }
 }
 

@@ -1,12 +1,12 @@
 //! Memory of the algorithms, made once and used for every sample.
 
-use congruent_kinematics::{Pose, SinCos, Twist, Wrench};
+use congruent_kinematics::SinCos;
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
-    body_tree::{BodyTree, JointMotion},
+    body_tree::BodyTree,
     error::DynamicsError,
-    spatial_inertia::{ArticulatedInertia, SpatialInertia},
+    rigid::{ArticulatedInertia, BodyInertia, BodyMotion, BodyWrench, Placement},
 };
 
 /// Intermediate values of one robot's algorithms: [`BodyTree::buffer`] makes it, and no call allocates after that.
@@ -14,94 +14,74 @@ use crate::{
 pub struct DynamicsBuffer {
     pub(crate) angles_rad: Vec<f64>,
     pub(crate) turns: Vec<SinCos>,
-    pub(crate) parent_from_bodies: Vec<Pose>,
-    /// Angular velocity, and angular and linear acceleration, of each body in its own frame.
-    pub(crate) motions: Vec<BodyMotion>,
-    pub(crate) wrenches: Vec<Wrench>,
-    pub(crate) composites: Vec<SpatialInertia>,
-    pub(crate) articulated: Vec<ArticulatedInertia>,
-    pub(crate) releases: Vec<Release>,
+    pub(crate) values: Vec<BodyValues>,
     pub(crate) zeros: Vec<f64>,
     pub(crate) bias: Vec<f64>,
     pub(crate) mass_matrix: DMatrix<f64>,
-    pub(crate) independent: Vec<usize>,
     pub(crate) reduced_mass_matrix: DMatrix<f64>,
     pub(crate) reduced: DVector<f64>,
 }
 
-/// How a body moves, in its own frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BodyMotion {
-    /// Angular velocity, and linear velocity of the frame's origin.
-    pub(crate) velocity: Twist,
-    /// Angular acceleration, and acceleration of the point at the frame's origin.
-    pub(crate) acceleration: Twist,
-}
-
-impl BodyMotion {
-    pub(crate) fn zero() -> Self {
-        Self { velocity: Twist::zero(), acceleration: Twist::zero() }
-    }
+/// What the algorithms know of one body at a time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BodyValues {
+    pub(crate) placement: Placement,
+    pub(crate) motion: BodyMotion,
+    pub(crate) wrench: BodyWrench,
+    /// The body with all that it carries, as if rigid.
+    pub(crate) composite: BodyInertia,
+    pub(crate) articulated: ArticulatedInertia,
+    pub(crate) release: Release,
 }
 
 /// How an articulated body yields at its joint.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Release {
     /// Wrench for a unit acceleration of the joint.
-    pub(crate) along: Wrench,
+    pub(crate) along: BodyWrench,
     /// Inertia against the joint's own motion.
     pub(crate) inertia: f64,
-    /// What is left of the joint's torque.
+    /// Torque less what bias wrenches take.
     pub(crate) torque: f64,
+}
+
+impl BodyValues {
+    const NONE: Self = Self {
+        placement: Placement::NONE,
+        motion: BodyMotion::ZERO,
+        wrench: BodyWrench::ZERO,
+        composite: BodyInertia::ZERO,
+        articulated: ArticulatedInertia::ZERO,
+        release: Release { along: BodyWrench::ZERO, inertia: 0.0, torque: 0.0 },
+    };
 }
 
 impl BodyTree {
     /// A buffer for this robot.
     pub fn buffer(&self) -> DynamicsBuffer {
         let n = self.dof();
-        let independent: Vec<usize> = (0..n).filter(|&joint| self.mimics[joint].is_none()).collect();
-        let m = independent.len();
-        let rigid = ArticulatedInertia::of_rigid(&SpatialInertia::zero());
+        let m = self.independent.len();
         DynamicsBuffer {
             angles_rad: vec![0.0; n],
             turns: vec![SinCos::of(0.0); n],
-            parent_from_bodies: vec![Pose::identity(); n],
-            motions: vec![BodyMotion::zero(); n],
-            wrenches: vec![Wrench::zero(); n],
-            composites: vec![SpatialInertia::zero(); n],
-            articulated: vec![rigid; n],
-            releases: vec![Release { along: Wrench::zero(), inertia: 0.0, torque: 0.0 }; n],
+            values: vec![BodyValues::NONE; n],
             zeros: vec![0.0; n],
             bias: vec![0.0; n],
             mass_matrix: DMatrix::zeros(n, n),
-            independent,
             reduced_mass_matrix: DMatrix::zeros(m, m),
             reduced: DVector::zeros(m),
         }
     }
 
-    /// Compares the lengths of a motion and of the buffer.
-    pub(crate) fn check(
-        &self,
-        motion: &JointMotion<'_>,
-        buffer: &DynamicsBuffer,
-    ) -> Result<(), DynamicsError> {
-        DynamicsError::check("positions", self.dof(), motion.q)?;
-        DynamicsError::check("speeds", self.dof(), motion.qd)?;
-        DynamicsError::check("accelerations", self.dof(), motion.qdd)?;
+    pub(crate) fn check_buffer(&self, buffer: &DynamicsBuffer) -> Result<(), DynamicsError> {
         DynamicsError::check("buffer", self.dof(), &buffer.angles_rad)
     }
 
-    /// Where each body is in its parent.
-    pub(crate) fn place(&self, q: &[f64], buffer: &mut DynamicsBuffer) {
+    /// Sine and cosine of every turning joint.
+    pub(crate) fn turn(&self, q: &[f64], buffer: &mut DynamicsBuffer) {
         for ((angle_rad, body), &q) in buffer.angles_rad.iter_mut().zip(&self.bodies).zip(q) {
-            *angle_rad = if body.turns { q } else { 0.0 };
+            *angle_rad = if body.frame.turns { q } else { 0.0 };
         }
         SinCos::of_many_into(&buffer.angles_rad, &mut buffer.turns);
-        for (((body, &q), turn), place) in
-            self.bodies.iter().zip(q).zip(&buffer.turns).zip(&mut buffer.parent_from_bodies)
-        {
-            *place = body.parent_from_body_at(q, turn);
-        }
     }
 }

@@ -1,14 +1,9 @@
 //! Energies and momentum of a moving robot.
 
 use congruent_description::RobotQ;
-use congruent_kinematics::{Pose, Wrench};
+use congruent_kinematics::{Pose, Twist, Wrench};
 
-use crate::{
-    body_tree::{BodyTree, JointMotion},
-    buffer::DynamicsBuffer,
-    error::DynamicsError,
-    inverse::add,
-};
+use crate::{body_tree::BodyTree, error::DynamicsError, spatial_inertia::SpatialInertia};
 
 /// Energy of all bodies that a joint moves, in J. Links that are fixed to the root have no part in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,28 +14,25 @@ pub struct Energy {
     pub potential_j: f64,
 }
 
+/// A body in motion, in the root's frame.
+struct MovingBody {
+    inertia_in_root: SpatialInertia,
+    twist_in_root: Twist,
+}
+
 impl BodyTree {
     /// Kinetic and potential energy.
     ///
     /// Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), eq. 2.67: `v' I v / 2`, body by body.
     ///
     /// # Errors
-    /// [`DynamicsError::Length`] if a vector or the buffer is another robot's.
-    pub fn energy(
-        &self,
-        q: &RobotQ,
-        qd: &[f64],
-        buffer: &mut DynamicsBuffer,
-    ) -> Result<Energy, DynamicsError> {
+    /// [`DynamicsError::Length`] if a vector is another robot's.
+    pub fn energy(&self, q: &RobotQ, qd: &[f64]) -> Result<Energy, DynamicsError> {
         let mut energy = Energy { kinetic_j: 0.0, potential_j: 0.0 };
-        self.visit_bodies(q, qd, buffer, |tree, joint, root_from_body, buffer| {
-            let inertia = &tree.bodies[joint].inertia;
-            let velocity = &buffer.motions[joint].velocity;
-            energy.kinetic_j += inertia.momentum(velocity).power(velocity) / 2.0;
-            let first_moment = root_from_body.rotation * inertia.first_moment_kg_m
-                + root_from_body.translation * inertia.mass_kg;
-            energy.potential_j -= tree.gravity_in_root.dot(&first_moment);
-        })?;
+        for MovingBody { inertia_in_root, twist_in_root } in self.moving_bodies(q, qd)? {
+            energy.kinetic_j += inertia_in_root.momentum(&twist_in_root).power(&twist_in_root) / 2.0;
+            energy.potential_j -= self.gravity_in_root.dot(&inertia_in_root.first_moment_kg_m);
+        }
         let armature = self.resistances.iter().zip(qd).map(|(resistance, qd)| resistance.armature * qd * qd);
         energy.kinetic_j += armature.sum::<f64>() / 2.0;
         Ok(energy)
@@ -50,43 +42,39 @@ impl BodyTree {
     /// N m s and N s.
     ///
     /// # Errors
-    /// [`DynamicsError::Length`] if a vector or the buffer is another robot's.
-    pub fn momentum_in_root(
-        &self,
-        q: &RobotQ,
-        qd: &[f64],
-        buffer: &mut DynamicsBuffer,
-    ) -> Result<Wrench, DynamicsError> {
-        let mut momentum = Wrench::zero();
-        self.visit_bodies(q, qd, buffer, |tree, joint, root_from_body, buffer| {
-            let in_body = tree.bodies[joint].inertia.momentum(&buffer.motions[joint].velocity);
-            add(&mut momentum, &in_body.transformed_by(root_from_body));
-        })?;
-        Ok(momentum)
+    /// [`DynamicsError::Length`] if a vector is another robot's.
+    pub fn momentum_in_root(&self, q: &RobotQ, qd: &[f64]) -> Result<Wrench, DynamicsError> {
+        let mut sum = Wrench::zero();
+        for MovingBody { inertia_in_root, twist_in_root } in self.moving_bodies(q, qd)? {
+            let momentum = inertia_in_root.momentum(&twist_in_root);
+            sum.moment += momentum.moment;
+            sum.force += momentum.force;
+        }
+        Ok(sum)
     }
 
-    /// Shows each body with its pose in the root, its velocity computed.
-    fn visit_bodies(
-        &self,
-        q: &RobotQ,
-        qd: &[f64],
-        buffer: &mut DynamicsBuffer,
-        mut each: impl FnMut(&Self, usize, &Pose, &DynamicsBuffer),
-    ) -> Result<(), DynamicsError> {
-        let zeros = std::mem::take(&mut buffer.zeros);
-        let motion = JointMotion { q, qd, qdd: &zeros };
-        let checked = self.check(&motion, buffer);
-        buffer.zeros = zeros;
-        checked?;
-        self.move_bodies(q, |joint| (qd[joint], 0.0), buffer);
-        for joint in 0..self.dof() {
-            // From here on poses in the root: a parent's is known before its children's.
-            if let Some(parent) = self.bodies[joint].parent {
-                buffer.parent_from_bodies[joint] =
-                    buffer.parent_from_bodies[parent] * buffer.parent_from_bodies[joint];
-            }
-            each(self, joint, &buffer.parent_from_bodies[joint], buffer);
+    /// Each body in the root's frame, parents first.
+    fn moving_bodies(&self, q: &RobotQ, qd: &[f64]) -> Result<Vec<MovingBody>, DynamicsError> {
+        DynamicsError::check("positions", self.dof(), q)?;
+        DynamicsError::check("speeds", self.dof(), qd)?;
+        let mut root_from_bodies: Vec<Pose> = Vec::with_capacity(self.dof());
+        let mut moving: Vec<MovingBody> = Vec::with_capacity(self.dof());
+        for (joint, body) in self.bodies.iter().enumerate() {
+            let (root_from_parent, parent) =
+                body.parent.map_or((Pose::identity(), Twist::zero()), |parent| {
+                    (root_from_bodies[parent], moving[parent].twist_in_root)
+                });
+            let root_from_body = root_from_parent * body.parent_from_body_at(q[joint]);
+            let axis_in_root = body.axis().transformed_by(&root_from_body);
+            moving.push(MovingBody {
+                inertia_in_root: body.spatial_inertia.transformed_by(&root_from_body),
+                twist_in_root: Twist {
+                    angular: parent.angular + axis_in_root.angular * qd[joint],
+                    linear: parent.linear + axis_in_root.linear * qd[joint],
+                },
+            });
+            root_from_bodies.push(root_from_body);
         }
-        Ok(())
+        Ok(moving)
     }
 }

@@ -1,15 +1,17 @@
 //! Forward dynamics: the accelerations that torques give, by the articulated body algorithm.
 
+#![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
+
 use congruent_description::RobotQ;
-use congruent_kinematics::{Pose, Twist, Wrench};
 use nalgebra::DMatrix;
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::{
     body_tree::BodyTree,
-    buffer::{BodyMotion, DynamicsBuffer, Release},
+    buffer::{DynamicsBuffer, Release},
+    columns::Column,
     error::DynamicsError,
-    inverse::add,
-    spatial_inertia::ArticulatedInertia,
+    rigid::{ArticulatedInertia, BodyMotion, BodyTwist},
 };
 
 /// Positions, speeds and torques of all moving joints.
@@ -72,86 +74,12 @@ impl BodyTree {
         DynamicsError::check("speeds", n, state.qd)?;
         DynamicsError::check("torques", n, state.tau)?;
         DynamicsError::check("accelerations", n, qdd)?;
-        DynamicsError::check("buffer", n, &buffer.angles_rad)?;
+        self.check_buffer(buffer)?;
         if self.has_mimics() {
             self.forward_reduced_into(state, buffer, qdd)
         } else {
-            self.articulated_into(state, buffer, qdd)
-        }
-    }
-
-    /// Every joint independent: outwards velocities, inwards inertias, outwards accelerations.
-    fn articulated_into(
-        &self,
-        state: &DrivenState<'_>,
-        buffer: &mut DynamicsBuffer,
-        qdd: &mut [f64],
-    ) -> Result<(), DynamicsError> {
-        self.place(state.q, buffer);
-        // At zero acceleration of the joints, `acceleration` holds the velocity products of this joint alone.
-        let still = BodyMotion::zero();
-        for (joint, body) in self.bodies.iter().enumerate() {
-            let parent = body.parent.map_or(&still, |parent| &buffer.motions[parent]);
-            let parent = BodyMotion { velocity: parent.velocity, acceleration: Twist::zero() };
-            let moved = body.moved(&parent, &buffer.parent_from_bodies[joint], (state.qd[joint], 0.0));
-            buffer.wrenches[joint] = body.inertia.velocity_wrench(&moved.velocity.angular);
-            buffer.articulated[joint] = ArticulatedInertia::of_rigid(&body.inertia);
-            buffer.motions[joint] = moved;
-        }
-        for (joint, body) in self.bodies.iter().enumerate().rev() {
-            self.release(joint, state, buffer)?;
-            let Some(parent) = body.parent else { continue };
-            let Release { along, inertia, torque } = buffer.releases[joint];
-            let yielding = buffer.articulated[joint].released(&along, inertia);
-            let mut wrench = yielding.wrench(&buffer.motions[joint].acceleration);
-            add(&mut wrench, &buffer.wrenches[joint]);
-            add(&mut wrench, &scaled(&along, torque / inertia));
-            let parent_from_body = &buffer.parent_from_bodies[joint];
-            buffer.articulated[parent] += yielding.transformed_by(parent_from_body);
-            add(&mut buffer.wrenches[parent], &wrench.transformed_by(parent_from_body));
-        }
-        self.accelerate(buffer, qdd);
-        Ok(())
-    }
-
-    /// The joint's inertia and the torque that bias wrenches leave to it.
-    #[inline]
-    fn release(
-        &self,
-        joint: usize,
-        state: &DrivenState<'_>,
-        buffer: &mut DynamicsBuffer,
-    ) -> Result<(), DynamicsError> {
-        let (body, resistance) = (&self.bodies[joint], &self.resistances[joint]);
-        let along = buffer.articulated[joint].wrench(&body.axis());
-        let inertia = body.along_axis(&along) + resistance.armature;
-        if !(inertia.is_finite() && inertia > 0.0) {
-            return Err(self.no_inertia(joint));
-        }
-        let driving = state.tau[joint] - resistance.against_speed(state.qd[joint]);
-        let torque = driving - body.along_axis(&buffer.wrenches[joint]);
-        buffer.releases[joint] = Release { along, inertia, torque };
-        Ok(())
-    }
-
-    /// Outwards: each joint's acceleration from its parent's.
-    fn accelerate(&self, buffer: &mut DynamicsBuffer, qdd: &mut [f64]) {
-        let root = self.root_motion();
-        for (joint, body) in self.bodies.iter().enumerate() {
-            let parent = body.parent.map_or(&root, |parent| &buffer.motions[parent]).acceleration;
-            let Pose { rotation, translation } = &buffer.parent_from_bodies[joint];
-            let linear = parent.linear + parent.angular.cross(translation);
-            let mut own = buffer.motions[joint].acceleration;
-            own.angular += rotation.tr_mul(&parent.angular);
-            own.linear += rotation.tr_mul(&linear);
-            let Release { along, inertia, torque } = &buffer.releases[joint];
-            qdd[joint] = (torque - along.power(&own)) / inertia;
-            if body.turns {
-                own.angular.z += qdd[joint];
-            } else {
-                own.linear.z += qdd[joint];
-            }
-            buffer.motions[joint].acceleration = own;
+            self.turn(state.q, buffer);
+            Arch::new().dispatch(ArticulatedBodies { tree: self, state, buffer, qdd })
         }
     }
 
@@ -172,27 +100,27 @@ impl BodyTree {
         buffer.reduced.fill(0.0);
         buffer.reduced_mass_matrix.fill(0.0);
         for joint in 0..self.dof() {
-            let (row, ratio) = self.independent(joint, buffer);
+            let (row, ratio) = self.driver(joint);
             let resisting = self.resistances[joint].against_speed(state.qd[joint]);
             buffer.reduced[row] += ratio * (state.tau[joint] - buffer.bias[joint] - resisting);
             for other in 0..self.dof() {
-                let (column, other_ratio) = self.independent(other, buffer);
+                let (column, other_ratio) = self.driver(other);
                 let entry = ratio * other_ratio * buffer.mass_matrix[(joint, other)];
                 buffer.reduced_mass_matrix[(row, column)] += entry;
             }
         }
         self.solve_reduced(buffer)?;
         for (joint, qdd) in qdd.iter_mut().enumerate() {
-            let (row, ratio) = self.independent(joint, buffer);
+            let (row, ratio) = self.driver(joint);
             *qdd = ratio * buffer.reduced[row];
         }
         Ok(())
     }
 
-    /// The independent coordinate that moves a joint, and by which ratio.
-    fn independent(&self, joint: usize, buffer: &DynamicsBuffer) -> (usize, f64) {
+    /// Which of the independent joints moves a joint, and by which ratio.
+    fn driver(&self, joint: usize) -> (usize, f64) {
         let (master, ratio) = self.mimics[joint].map_or((joint, 1.0), |mimic| (mimic.master, mimic.ratio));
-        let row = buffer.independent.iter().position(|&independent| independent == master);
+        let row = self.independent.iter().position(|&independent| independent == master);
         (row.expect("a mimicked joint is independent"), ratio)
     }
 
@@ -209,7 +137,7 @@ impl BodyTree {
                 } else if rest.is_finite() && rest > 0.0 {
                     matrix[(column, column)] = rest.sqrt();
                 } else {
-                    return Err(self.no_inertia(buffer.independent[column]));
+                    return Err(self.no_inertia(self.independent[column]));
                 }
             }
         }
@@ -225,6 +153,90 @@ impl BodyTree {
     }
 }
 
-fn scaled(wrench: &Wrench, by: f64) -> Wrench {
-    Wrench { moment: wrench.moment * by, force: wrench.force * by }
+/// The algorithm in the widest vectors that the machine has; every joint is independent.
+struct ArticulatedBodies<'a> {
+    tree: &'a BodyTree,
+    state: &'a DrivenState<'a>,
+    buffer: &'a mut DynamicsBuffer,
+    qdd: &'a mut [f64],
+}
+
+impl WithSimd for ArticulatedBodies<'_> {
+    type Output = Result<(), DynamicsError>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, _: S) -> Self::Output {
+        self.velocities();
+        for joint in (0..self.tree.dof()).rev() {
+            self.release(joint)?;
+        }
+        self.accelerate();
+        Ok(())
+    }
+}
+
+impl ArticulatedBodies<'_> {
+    /// Outwards: velocities. An acceleration holds the velocity products of its own joint for now.
+    #[inline(always)]
+    fn velocities(&mut self) {
+        for (joint, body) in self.tree.bodies.iter().enumerate() {
+            let angular_velocity =
+                body.parent.map_or(Column::ZERO, |parent| self.buffer.values[parent].motion.angular_velocity);
+            let parent = BodyMotion { angular_velocity, ..BodyMotion::ZERO };
+            let turn = &self.buffer.turns[joint];
+            let placement = body.frame.placement(self.state.q[joint], turn);
+            let motion = body.frame.carried(&parent, (placement.origin, turn), self.state.qd[joint]);
+            let values = &mut self.buffer.values[joint];
+            (values.placement, values.motion) = (placement, motion);
+            values.wrench = body.inertia.velocity_wrench(motion.angular_velocity);
+            values.articulated = ArticulatedInertia::of_rigid(&body.inertia);
+        }
+    }
+
+    /// Inwards: what a joint yields, and what its body asks of the parent after that.
+    #[inline(always)]
+    fn release(&mut self, joint: usize) -> Result<(), DynamicsError> {
+        let (body, resistance) = (&self.tree.bodies[joint], &self.tree.resistances[joint]);
+        let values = &mut self.buffer.values[joint];
+        let along = values.articulated.along_axis(&body.frame);
+        let inertia = body.frame.along_axis(&along) + resistance.armature;
+        if !(inertia.is_finite() && inertia > 0.0) {
+            return Err(self.tree.no_inertia(joint));
+        }
+        let driving = self.state.tau[joint] - resistance.against_speed(self.state.qd[joint]);
+        let torque = driving - body.frame.along_axis(&values.wrench);
+        values.release = Release { along, inertia, torque };
+        let Some(parent) = body.parent else { return Ok(()) };
+        let yielding = values.articulated.yielding(&along, inertia);
+        let bias = yielding.wrench(&values.motion.acceleration);
+        let wrench = values.wrench.plus(bias).plus(along.times(torque / inertia));
+        let placement = values.placement;
+        let parent = &mut self.buffer.values[parent];
+        parent.articulated = parent.articulated.with_child(&yielding, &placement);
+        parent.wrench = parent.wrench.plus(placement.wrench(&wrench));
+        Ok(())
+    }
+
+    /// Outwards: each joint's acceleration from its parent's.
+    #[inline(always)]
+    fn accelerate(&mut self) {
+        for (joint, body) in self.tree.bodies.iter().enumerate() {
+            let acceleration = body.parent.map_or_else(
+                || self.tree.root_acceleration(),
+                |parent| self.buffer.values[parent].motion.acceleration,
+            );
+            let still = BodyMotion { acceleration, ..BodyMotion::ZERO };
+            let values = &mut self.buffer.values[joint];
+            let carried =
+                body.frame.carried(&still, (values.placement.origin, &self.buffer.turns[joint]), 0.0);
+            let (products, carried) = (values.motion.acceleration, carried.acceleration);
+            let own = BodyTwist {
+                angular: products.angular + carried.angular,
+                linear: products.linear + carried.linear,
+            };
+            let Release { along, inertia, torque } = &values.release;
+            self.qdd[joint] = (torque - along.power(&own)) / inertia;
+            values.motion.acceleration = body.frame.accelerated(own, self.qdd[joint]);
+        }
+    }
 }

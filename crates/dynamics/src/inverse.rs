@@ -1,14 +1,16 @@
 //! Inverse dynamics: the joint torques of a motion, by the recursive Newton-Euler algorithm.
 
+#![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
+
 use congruent_description::RobotQ;
-use congruent_kinematics::{Pose, Twist, Wrench};
-use nalgebra::Vector3;
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::{
-    body_tree::{Body, BodyTree, JointMotion, JointResistance},
-    buffer::{BodyMotion, DynamicsBuffer},
+    body_tree::{BodyTree, JointMotion, JointResistance},
+    buffer::{BodyValues, DynamicsBuffer},
+    columns::Column,
     error::DynamicsError,
-    spatial_inertia::SpatialInertia,
+    rigid::{BodyMotion, BodyTwist},
 };
 
 impl BodyTree {
@@ -100,42 +102,74 @@ impl BodyTree {
         buffer: &mut DynamicsBuffer,
         tau: &mut [f64],
     ) -> Result<(), DynamicsError> {
-        self.check(motion, buffer)?;
+        self.check_motion(motion, buffer)?;
         DynamicsError::check("torques", self.dof(), tau)?;
-        self.move_bodies(motion.q, |joint| (motion.qd[joint], motion.qdd[joint]), buffer);
-        for (joint, body) in self.bodies.iter().enumerate() {
-            buffer.wrenches[joint] = body.inertia.wrench_of(&buffer.motions[joint]);
-        }
-        for (joint, body) in self.bodies.iter().enumerate().rev() {
-            let wrench = buffer.wrenches[joint];
-            tau[joint] = body.along_axis(&wrench);
-            if let Some(parent) = body.parent {
-                add(&mut buffer.wrenches[parent], &wrench.transformed_by(&buffer.parent_from_bodies[joint]));
-            }
-        }
+        self.turn(motion.q, buffer);
+        Arch::new().dispatch(NewtonEuler { tree: self, motion, buffer, tau });
         Ok(())
     }
 
-    /// Where each body is in its parent and how it moves, from the joints' speeds and accelerations.
-    #[inline]
-    pub(crate) fn move_bodies(
+    /// Compares the lengths of a motion and of the buffer.
+    pub(crate) fn check_motion(
         &self,
-        q: &RobotQ,
-        of_joint: impl Fn(usize) -> (f64, f64),
-        buffer: &mut DynamicsBuffer,
-    ) {
-        self.place(q, buffer);
-        let root = self.root_motion();
+        motion: &JointMotion<'_>,
+        buffer: &DynamicsBuffer,
+    ) -> Result<(), DynamicsError> {
+        DynamicsError::check("positions", self.dof(), motion.q)?;
+        DynamicsError::check("speeds", self.dof(), motion.qd)?;
+        DynamicsError::check("accelerations", self.dof(), motion.qdd)?;
+        self.check_buffer(buffer)
+    }
+
+    /// How each body moves, outwards from the root.
+    #[inline(always)]
+    pub(crate) fn move_bodies(&self, motion: &JointMotion<'_>, buffer: &mut DynamicsBuffer) {
+        let root = BodyMotion { acceleration: self.root_acceleration(), ..BodyMotion::ZERO };
         for (joint, body) in self.bodies.iter().enumerate() {
-            let parent = body.parent.map_or(&root, |parent| &buffer.motions[parent]);
-            buffer.motions[joint] = body.moved(parent, &buffer.parent_from_bodies[joint], of_joint(joint));
+            let parent = body.parent.map_or(root, |parent| buffer.values[parent].motion);
+            let turn = &buffer.turns[joint];
+            let placement = body.frame.placement(motion.q[joint], turn);
+            let mut moved = body.frame.carried(&parent, (placement.origin, turn), motion.qd[joint]);
+            moved.acceleration = body.frame.accelerated(moved.acceleration, motion.qdd[joint]);
+            let values = &mut buffer.values[joint];
+            (values.placement, values.motion) = (placement, moved);
         }
     }
 
     /// The root does not move; that it accelerates upwards is gravity for all that it carries.
-    pub(crate) fn root_motion(&self) -> BodyMotion {
-        let acceleration = Twist { angular: Vector3::zeros(), linear: -self.gravity_in_root };
-        BodyMotion { velocity: Twist::zero(), acceleration }
+    #[inline(always)]
+    pub(crate) fn root_acceleration(&self) -> BodyTwist {
+        BodyTwist { angular: Column::ZERO, linear: Column::from(-self.gravity_in_root) }
+    }
+}
+
+/// The algorithm in the widest vectors that the machine has.
+struct NewtonEuler<'a> {
+    tree: &'a BodyTree,
+    motion: &'a JointMotion<'a>,
+    buffer: &'a mut DynamicsBuffer,
+    tau: &'a mut [f64],
+}
+
+impl WithSimd for NewtonEuler<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { tree, motion, buffer, tau } = self;
+        tree.move_bodies(motion, buffer);
+        for (body, values) in tree.bodies.iter().zip(&mut buffer.values) {
+            values.wrench = body.inertia.wrench(&values.motion);
+        }
+        for (joint, body) in tree.bodies.iter().enumerate().rev() {
+            let BodyValues { placement, wrench, .. } = &buffer.values[joint];
+            tau[joint] = body.frame.along_axis(wrench);
+            if let Some(parent) = body.parent {
+                let carried = placement.wrench(wrench);
+                let values = &mut buffer.values[parent];
+                values.wrench = values.wrench.plus(carried);
+            }
+        }
     }
 }
 
@@ -147,82 +181,4 @@ impl JointResistance {
         let direction = if qd == 0.0 { 0.0 } else { qd.signum() };
         self.damping * qd + self.friction * direction
     }
-}
-
-impl Body {
-    /// The motion of the body from its parent's and its joint's speed and acceleration.
-    #[inline]
-    pub(crate) fn moved(
-        &self,
-        parent: &BodyMotion,
-        parent_from_body: &Pose,
-        (qd, qdd): (f64, f64),
-    ) -> BodyMotion {
-        let (rotation, origin) = (&parent_from_body.rotation, &parent_from_body.translation);
-        let (turning, turning_up) = (&parent.velocity.angular, &parent.acceleration.angular);
-        let swept = turning.cross(origin);
-        let linear = parent.acceleration.linear + turning_up.cross(origin) + turning.cross(&swept);
-        let mut velocity = Twist {
-            angular: rotation.tr_mul(turning),
-            linear: rotation.tr_mul(&(parent.velocity.linear + swept)),
-        };
-        let mut acceleration =
-            Twist { angular: rotation.tr_mul(turning_up), linear: rotation.tr_mul(&linear) };
-        // The angular velocity times the joint's own, which is along z.
-        let crossed = Vector3::new(velocity.angular.y * qd, -velocity.angular.x * qd, 0.0);
-        if self.turns {
-            acceleration.angular += crossed;
-            acceleration.angular.z += qdd;
-            velocity.angular.z += qd;
-        } else {
-            acceleration.linear += crossed * 2.0;
-            acceleration.linear.z += qdd;
-            velocity.linear.z += qd;
-        }
-        BodyMotion { velocity, acceleration }
-    }
-
-    /// The part of a wrench that the joint takes up.
-    #[inline]
-    pub(crate) fn along_axis(&self, wrench: &Wrench) -> f64 {
-        if self.turns { wrench.moment.z } else { wrench.force.z }
-    }
-
-    /// A unit of the joint's motion, in the body's frame.
-    #[inline]
-    pub(crate) fn axis(&self) -> Twist {
-        if self.turns {
-            Twist { angular: Vector3::z(), linear: Vector3::zeros() }
-        } else {
-            Twist { angular: Vector3::zeros(), linear: Vector3::z() }
-        }
-    }
-}
-
-impl SpatialInertia {
-    /// The wrench that makes the body move so.
-    ///
-    /// Source: Newton's and Euler's equations about a point that is not the centre of mass: Featherstone, *Rigid Body
-    /// Dynamics Algorithms* (2008), eq. 2.72, in classical accelerations.
-    #[inline]
-    pub(crate) fn wrench_of(&self, motion: &BodyMotion) -> Wrench {
-        let mut wrench = self.velocity_wrench(&motion.velocity.angular);
-        add(&mut wrench, &self.momentum(&motion.acceleration));
-        wrench
-    }
-
-    /// The part of it that is owed to turning.
-    #[inline]
-    pub(crate) fn velocity_wrench(&self, turning: &Vector3<f64>) -> Wrench {
-        Wrench {
-            moment: turning.cross(&(self.tensor_kg_m2 * turning)),
-            force: turning.cross(&turning.cross(&self.first_moment_kg_m)),
-        }
-    }
-}
-
-#[inline]
-pub(crate) fn add(sum: &mut Wrench, wrench: &Wrench) {
-    sum.moment += wrench.moment;
-    sum.force += wrench.force;
 }

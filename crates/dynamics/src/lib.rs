@@ -16,12 +16,14 @@
 mod base_parameters;
 mod body_tree;
 mod buffer;
+mod columns;
 mod energy;
 mod error;
 mod forward;
 mod inverse;
 mod mass_matrix;
 mod regressor;
+mod rigid;
 mod rollout;
 mod spatial_inertia;
 

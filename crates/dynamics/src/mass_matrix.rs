@@ -1,9 +1,16 @@
 //! The mass matrix, by the composite rigid body algorithm.
 
+#![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
+
 use congruent_description::RobotQ;
 use nalgebra::DMatrix;
+use pulp::{Arch, Simd, WithSimd};
 
-use crate::{body_tree::BodyTree, buffer::DynamicsBuffer, error::DynamicsError};
+use crate::{
+    body_tree::BodyTree,
+    buffer::{BodyValues, DynamicsBuffer},
+    error::DynamicsError,
+};
 
 impl BodyTree {
     /// Torques of unit accelerations, armature on the diagonal: symmetric, dof x dof, kg m^2 (kg m, kg).
@@ -20,31 +27,52 @@ impl BodyTree {
     ) -> Result<(), DynamicsError> {
         let n = self.dof();
         DynamicsError::check("positions", n, q)?;
-        DynamicsError::check("buffer", n, &buffer.angles_rad)?;
+        self.check_buffer(buffer)?;
         if mass_matrix.shape() != (n, n) {
             let found = mass_matrix.nrows();
             return Err(DynamicsError::Length { what: "mass matrix", expected: n, found });
         }
-        self.place(q, buffer);
-        for (composite, body) in buffer.composites.iter_mut().zip(&self.bodies) {
-            *composite = body.inertia;
-        }
+        self.turn(q, buffer);
         mass_matrix.fill(0.0);
-        for (joint, body) in self.bodies.iter().enumerate().rev() {
-            let composite = buffer.composites[joint];
-            let mut wrench = composite.momentum(&body.axis());
-            mass_matrix[(joint, joint)] = body.along_axis(&wrench) + self.resistances[joint].armature;
-            let (mut below, mut above) = (joint, body.parent);
-            if let Some(parent) = above {
-                buffer.composites[parent] += composite.transformed_by(&buffer.parent_from_bodies[joint]);
-            }
-            while let Some(ancestor) = above {
-                wrench = wrench.transformed_by(&buffer.parent_from_bodies[below]);
-                let entry = self.bodies[ancestor].along_axis(&wrench);
-                (mass_matrix[(joint, ancestor)], mass_matrix[(ancestor, joint)]) = (entry, entry);
-                (below, above) = (ancestor, self.bodies[ancestor].parent);
+        Arch::new().dispatch(CompositeBodies { tree: self, q, buffer, mass_matrix });
+        Ok(())
+    }
+}
+
+/// The algorithm in the widest vectors that the machine has.
+struct CompositeBodies<'a> {
+    tree: &'a BodyTree,
+    q: &'a RobotQ,
+    buffer: &'a mut DynamicsBuffer,
+    mass_matrix: &'a mut DMatrix<f64>,
+}
+
+impl WithSimd for CompositeBodies<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { tree, q, buffer, mass_matrix } = self;
+        for (joint, body) in tree.bodies.iter().enumerate() {
+            let values = &mut buffer.values[joint];
+            values.placement = body.frame.placement(q[joint], &buffer.turns[joint]);
+            values.composite = body.inertia;
+        }
+        for (joint, body) in tree.bodies.iter().enumerate().rev() {
+            let BodyValues { composite, placement, .. } = buffer.values[joint];
+            let own = composite.along_axis(&body.frame);
+            buffer.values[joint].wrench = own;
+            mass_matrix[(joint, joint)] = body.frame.along_axis(&own) + tree.resistances[joint].armature;
+            let Some(parent) = body.parent else { continue };
+            let above = &mut buffer.values[parent];
+            above.composite = above.composite.with_child(&composite, &placement);
+            // The wrenches of all joints that this one carries go on together: none waits for another.
+            let frame = &tree.bodies[parent].frame;
+            for (carried, values) in (joint..body.subtree_end).zip(&mut buffer.values[joint..]) {
+                values.wrench = placement.wrench(&values.wrench);
+                mass_matrix[(carried, parent)] = frame.along_axis(&values.wrench);
             }
         }
-        Ok(())
+        mass_matrix.fill_upper_triangle_with_lower_triangle();
     }
 }

@@ -1,12 +1,12 @@
 //! The regressor: joint torques are linear in the inertial parameters of the bodies.
 
-use congruent_kinematics::{Pose, Twist, Wrench};
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::DMatrix;
 
 use crate::{
     body_tree::{BodyTree, JointMotion},
-    buffer::{BodyMotion, DynamicsBuffer},
+    buffer::DynamicsBuffer,
     error::DynamicsError,
+    rigid::{BodyInertia, BodyWrench},
     spatial_inertia::{PARAMETERS, SpatialInertia},
 };
 
@@ -30,19 +30,18 @@ impl BodyTree {
         regressor: &mut DMatrix<f64>,
     ) -> Result<(), DynamicsError> {
         let n = self.dof();
-        self.check(motion, buffer)?;
+        self.check_motion(motion, buffer)?;
         if regressor.shape() != (n, PARAMETERS * n) {
             let found = regressor.nrows();
             return Err(DynamicsError::Length { what: "regressor", expected: n, found });
         }
-        self.move_bodies(motion.q, |joint| (motion.qd[joint], motion.qdd[joint]), buffer);
+        self.turn(motion.q, buffer);
+        self.move_bodies(motion, buffer);
         regressor.fill(0.0);
         for (joint, body) in self.bodies.iter().enumerate() {
-            let link_from_body = Pose::from_parts(body.body_from_link.transpose(), Vector3::zeros());
-            let in_link = buffer.motions[joint].transformed_by(&link_from_body);
             for parameter in 0..PARAMETERS {
-                let wrench = SpatialInertia::unit(parameter).wrench_of(&in_link);
-                let wrench = wrench.transformed_by(&link_from_body.inverse());
+                let in_body = unit(parameter).transformed_by(&body.link_from_body().inverse());
+                let wrench = BodyInertia::from(&in_body).wrench(&buffer.values[joint].motion);
                 self.project(joint, wrench, buffer, |row, torque| {
                     regressor[(row, PARAMETERS * joint + parameter)] = torque;
                 });
@@ -51,39 +50,27 @@ impl BodyTree {
         Ok(())
     }
 
-    /// What each joint above a body takes up of a wrench on it.
+    /// What each joint up to the root takes up of a wrench on a body.
     fn project(
         &self,
         body: usize,
-        mut wrench: Wrench,
+        mut wrench: BodyWrench,
         buffer: &DynamicsBuffer,
         mut each: impl FnMut(usize, f64),
     ) {
         let mut next = Some(body);
         while let Some(joint) = next {
-            each(joint, self.bodies[joint].along_axis(&wrench));
-            wrench = wrench.transformed_by(&buffer.parent_from_bodies[joint]);
-            next = self.bodies[joint].parent;
+            let body = &self.bodies[joint];
+            each(joint, body.frame.along_axis(&wrench));
+            wrench = buffer.values[joint].placement.wrench(&wrench);
+            next = body.parent;
         }
     }
 }
 
-impl SpatialInertia {
-    /// One parameter is 1, the others 0.
-    fn unit(parameter: usize) -> Self {
-        let mut parameters = [0.0; PARAMETERS];
-        parameters[parameter] = 1.0;
-        Self::from_parameters(parameters)
-    }
-}
-
-impl BodyMotion {
-    /// The same motion in the axes of a frame with the same origin.
-    fn transformed_by(&self, a_from_b: &Pose) -> Self {
-        let turned = |twist: &Twist| Twist {
-            angular: a_from_b.rotation * twist.angular,
-            linear: a_from_b.rotation * twist.linear,
-        };
-        Self { velocity: turned(&self.velocity), acceleration: turned(&self.acceleration) }
-    }
+/// One parameter is 1, the others 0.
+fn unit(parameter: usize) -> SpatialInertia {
+    let mut parameters = [0.0; PARAMETERS];
+    parameters[parameter] = 1.0;
+    SpatialInertia::from_parameters(parameters)
 }

@@ -4,7 +4,7 @@
 use std::ops::{Add, AddAssign};
 
 use congruent_description::Inertia;
-use congruent_kinematics::{Pose, Twist, Wrench, hat};
+use congruent_kinematics::{Pose, Twist, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
 /// Inertia of a rigid body in a frame; unlike mass and centre of mass, these numbers add.
@@ -152,70 +152,5 @@ impl AddAssign for SpatialInertia {
         self.mass_kg += other.mass_kg;
         self.first_moment_kg_m += other.first_moment_kg_m;
         self.tensor_kg_m2 += other.tensor_kg_m2;
-    }
-}
-
-/// Inertia of a body whose moving children are free to accelerate: wrench for an acceleration, as three blocks of a
-/// symmetric 6 x 6 matrix.
-///
-/// Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), section 7.2.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ArticulatedInertia {
-    /// Moment for an angular acceleration.
-    pub(crate) angular: Matrix3<f64>,
-    /// Moment for a linear acceleration; its transpose is force for an angular acceleration.
-    pub(crate) coupling: Matrix3<f64>,
-    /// Force for a linear acceleration.
-    pub(crate) linear: Matrix3<f64>,
-}
-
-impl ArticulatedInertia {
-    pub(crate) fn of_rigid(inertia: &SpatialInertia) -> Self {
-        Self {
-            angular: inertia.tensor_kg_m2,
-            coupling: hat(&inertia.first_moment_kg_m),
-            linear: Matrix3::from_diagonal_element(inertia.mass_kg),
-        }
-    }
-
-    /// The wrench that gives a body this acceleration.
-    #[inline]
-    pub(crate) fn wrench(&self, acceleration: &Twist) -> Wrench {
-        Wrench {
-            moment: self.angular * acceleration.angular + self.coupling * acceleration.linear,
-            force: self.coupling.tr_mul(&acceleration.angular) + self.linear * acceleration.linear,
-        }
-    }
-
-    /// Without the direction in which a joint lets go: `I - U U' / d`.
-    #[inline]
-    pub(crate) fn released(&self, along: &Wrench, inertia: f64) -> Self {
-        let scaled = Wrench { moment: along.moment / inertia, force: along.force / inertia };
-        Self {
-            angular: self.angular - along.moment * scaled.moment.transpose(),
-            coupling: self.coupling - along.moment * scaled.force.transpose(),
-            linear: self.linear - along.force * scaled.force.transpose(),
-        }
-    }
-
-    /// The same inertia in frame a, given in frame b.
-    #[inline]
-    pub(crate) fn transformed_by(&self, a_from_b: &Pose) -> Self {
-        let (turn, back) = (&a_from_b.rotation, a_from_b.rotation.transpose());
-        let lever = hat(&a_from_b.translation);
-        let turned = |block: &Matrix3<f64>| turn * block * back;
-        let (angular, coupling, linear) =
-            (turned(&self.angular), turned(&self.coupling), turned(&self.linear));
-        let moved = coupling + lever * linear;
-        Self { angular: angular - coupling * lever + lever * moved.transpose(), coupling: moved, linear }
-    }
-}
-
-impl AddAssign for ArticulatedInertia {
-    #[inline]
-    fn add_assign(&mut self, other: Self) {
-        self.angular += other.angular;
-        self.coupling += other.coupling;
-        self.linear += other.linear;
     }
 }

@@ -116,7 +116,7 @@ fn algorithms_agree_with_pinocchio() {
                 let found: Vec<f64> = matrix.row(row).iter().copied().collect();
                 assert_near(name, &found, &golden.vector(&rows[place]), &mut worst);
             }
-            let energy = tree.energy(&q, &qd, &mut buffer).unwrap();
+            let energy = tree.energy(&q, &qd).unwrap();
             let expected = ["kinetic_energy", "potential_energy"].map(|key| config[key].as_f64().unwrap());
             assert_near(name, &[energy.kinetic_j, energy.potential_j], &expected, &mut worst);
             checked += 1;

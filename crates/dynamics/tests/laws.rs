@@ -94,7 +94,7 @@ fn mass_matrix_and_bias_are_inverse_dynamics() {
         }
         assert_near(name, sum.as_slice(), &inverse(tree, q, [qd, qdd]));
         let qd = DVector::from_column_slice(qd);
-        let kinetic_j = tree.energy(q, qd.as_slice(), &mut tree.buffer()).unwrap().kinetic_j;
+        let kinetic_j = tree.energy(q, qd.as_slice()).unwrap().kinetic_j;
         assert_near(name, &[(qd.transpose() * &matrix * &qd)[0] / 2.0], &[kinetic_j]);
     });
 }
@@ -145,10 +145,10 @@ fn gravity_is_the_slope_of_potential_energy() {
         let still = vec![0.0; tree.dof()];
         let size = gravity.iter().fold(1.0_f64, |size, value| size.max(value.abs()));
         for joint in 0..tree.dof() {
-            let mut height = |by: f64| {
+            let height = |by: f64| {
                 let mut q = q.clone();
                 q[joint] += by;
-                tree.energy(&q, &still, &mut buffer).unwrap().potential_j
+                tree.energy(&q, &still).unwrap().potential_j
             };
             let slope = (height(STEP) - height(-STEP)) / (2.0 * STEP);
             assert!((slope - gravity[joint]).abs() < 1e-8 * size, "{name}: {slope} for {}", gravity[joint]);
@@ -162,13 +162,12 @@ fn a_rollout_conserves_energy() {
     for name in ROBOTS {
         let robot = load(name);
         let tree = BodyTree::new(&robot).without_resistances();
-        let mut buffer = tree.buffer();
         let torque: Vec<f64> = values(tree.dof(), 9);
         let start = random_configurations(&robot, 11, 1).remove(0);
         let mut rollout = Rollout::new(&tree, start.clone(), vec![0.0; tree.dof()]).unwrap();
-        let mut total = |rollout: &Rollout<'_>| {
+        let total = |rollout: &Rollout<'_>| {
             let state = rollout.state();
-            let energy = tree.energy(&state.q, &state.qd, &mut buffer).unwrap();
+            let energy = tree.energy(&state.q, &state.qd).unwrap();
             let work: f64 =
                 (0..tree.dof()).map(|joint| torque[joint] * (state.q[joint] - start[joint])).sum();
             energy.kinetic_j + energy.potential_j - work
@@ -197,7 +196,7 @@ fn momentum_is_that_of_the_links() {
             let center = root_from_link.transform_vector(&inertia.link_from_inertial.translation.vector);
             expected += (velocity.linear + velocity.angular.cross(&center)) * inertia.mass_kg;
         }
-        let found = tree.momentum_in_root(q, qd, &mut tree.buffer()).unwrap().force;
+        let found = tree.momentum_in_root(q, qd).unwrap().force;
         assert_near(name, found.as_slice(), expected.as_slice());
     });
 }

@@ -1,0 +1,289 @@
+//! Motions, wrenches and inertias of one body, in the frame of its joint, and their way to the parent's frame.
+
+#![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
+
+use congruent_kinematics::SinCos;
+
+use crate::{
+    columns::{Block, Column},
+    spatial_inertia::SpatialInertia,
+};
+
+/// An angular and a linear acceleration (of the point at the frame's origin); or both velocities.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BodyTwist {
+    pub(crate) angular: Column,
+    pub(crate) linear: Column,
+}
+
+/// How a body moves.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BodyMotion {
+    pub(crate) angular_velocity: Column,
+    pub(crate) acceleration: BodyTwist,
+}
+
+/// What acts on a body: moment about the frame's origin, and force.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BodyWrench {
+    pub(crate) moment: Column,
+    pub(crate) force: Column,
+}
+
+/// Where a body is in its parent.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Placement {
+    pub(crate) rotation: Block,
+    pub(crate) origin: Column,
+}
+
+/// [`SpatialInertia`] in columns.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BodyInertia {
+    pub(crate) mass_kg: f64,
+    pub(crate) first_moment: Column,
+    pub(crate) tensor: Block,
+}
+
+/// Inertia of a body whose moving children are free to accelerate: wrench for an acceleration, as three blocks of a
+/// symmetric 6 x 6 matrix.
+///
+/// Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), section 7.2.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ArticulatedInertia {
+    /// Moment for an angular acceleration.
+    pub(crate) angular: Block,
+    /// Moment for a linear acceleration; its transpose is force for an angular acceleration.
+    pub(crate) coupling: Block,
+    /// Force for a linear acceleration.
+    pub(crate) linear: Block,
+}
+
+/// A joint as its body sees it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct JointFrame {
+    pub(crate) turns: bool,
+    /// Axes of the body in the parent at position zero.
+    pub(crate) parent_from_body: Block,
+    /// Their inverse.
+    pub(crate) body_from_parent: Block,
+    /// Origin in the parent at position zero.
+    pub(crate) origin: Column,
+}
+
+impl BodyTwist {
+    pub(crate) const ZERO: Self = Self { angular: Column::ZERO, linear: Column::ZERO };
+}
+
+impl BodyMotion {
+    pub(crate) const ZERO: Self = Self { angular_velocity: Column::ZERO, acceleration: BodyTwist::ZERO };
+}
+
+impl BodyWrench {
+    pub(crate) const ZERO: Self = Self { moment: Column::ZERO, force: Column::ZERO };
+
+    #[inline(always)]
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self { moment: self.moment + other.moment, force: self.force + other.force }
+    }
+
+    #[inline(always)]
+    pub(crate) fn times(self, by: f64) -> Self {
+        Self { moment: self.moment * by, force: self.force * by }
+    }
+
+    #[inline(always)]
+    pub(crate) fn power(self, twist: &BodyTwist) -> f64 {
+        self.moment.dot(twist.angular) + self.force.dot(twist.linear)
+    }
+}
+
+impl JointFrame {
+    #[inline(always)]
+    pub(crate) fn placement(&self, q: f64, turn: &SinCos) -> Placement {
+        let [x, y, z] = self.parent_from_body.0;
+        let rotation = Block([x * turn.cos + y * turn.sin, y * turn.cos - x * turn.sin, z]);
+        let origin = if self.turns { self.origin } else { self.origin + z * q };
+        Placement { rotation, origin }
+    }
+
+    /// The body's motion by its parent's alone, and the velocity products of its joint.
+    ///
+    /// Source: Luh, Walker, Paul (1980), with the acceleration of the point at the frame's origin.
+    #[inline(always)]
+    pub(crate) fn carried(
+        &self,
+        parent: &BodyMotion,
+        (origin, turn): (Column, &SinCos),
+        qd: f64,
+    ) -> BodyMotion {
+        let BodyMotion { angular_velocity: turning, acceleration } = *parent;
+        let linear =
+            acceleration.linear + acceleration.angular.cross(origin) + turning.cross(turning.cross(origin));
+        let to_body = |v: Column| (self.body_from_parent * v).turned_about_z(-turn.sin, turn.cos);
+        let mut angular_velocity = to_body(turning);
+        let mut acceleration = BodyTwist { angular: to_body(acceleration.angular), linear: to_body(linear) };
+        // The angular velocity times the joint's own motion, which is along z.
+        let crossed = Column::new(angular_velocity[1] * qd, -angular_velocity[0] * qd, 0.0);
+        if self.turns {
+            acceleration.angular += crossed;
+            angular_velocity = angular_velocity.plus_z(qd);
+        } else {
+            acceleration.linear += crossed * 2.0;
+        }
+        BodyMotion { angular_velocity, acceleration }
+    }
+
+    /// With the joint's own acceleration.
+    #[inline(always)]
+    pub(crate) fn accelerated(&self, twist: BodyTwist, qdd: f64) -> BodyTwist {
+        if self.turns {
+            BodyTwist { angular: twist.angular.plus_z(qdd), ..twist }
+        } else {
+            BodyTwist { linear: twist.linear.plus_z(qdd), ..twist }
+        }
+    }
+
+    /// The part of a wrench that the joint takes up.
+    #[inline(always)]
+    pub(crate) fn along_axis(&self, wrench: &BodyWrench) -> f64 {
+        if self.turns { wrench.moment[2] } else { wrench.force[2] }
+    }
+}
+
+impl Placement {
+    pub(crate) const NONE: Self = Self { rotation: Block::ZERO, origin: Column::ZERO };
+
+    /// A wrench in the parent's frame.
+    #[inline(always)]
+    pub(crate) fn wrench(&self, in_body: &BodyWrench) -> BodyWrench {
+        let force = self.rotation * in_body.force;
+        BodyWrench { moment: self.rotation * in_body.moment + self.origin.cross(force), force }
+    }
+}
+
+impl BodyInertia {
+    pub(crate) const ZERO: Self = Self { mass_kg: 0.0, first_moment: Column::ZERO, tensor: Block::ZERO };
+
+    /// The wrench that makes the body move so.
+    ///
+    /// Source: Newton's and Euler's equations about a point that is not the centre of mass: Featherstone, *Rigid Body
+    /// Dynamics Algorithms* (2008), eq. 2.72, in classical accelerations.
+    #[inline(always)]
+    pub(crate) fn wrench(&self, motion: &BodyMotion) -> BodyWrench {
+        let BodyTwist { angular, linear } = motion.acceleration;
+        let h = self.first_moment;
+        let accelerating = BodyWrench {
+            moment: self.tensor * angular + h.cross(linear),
+            force: linear * self.mass_kg - h.cross(angular),
+        };
+        accelerating.plus(self.velocity_wrench(motion.angular_velocity))
+    }
+
+    /// The part of it that is owed to turning.
+    #[inline(always)]
+    pub(crate) fn velocity_wrench(&self, turning: Column) -> BodyWrench {
+        BodyWrench {
+            moment: turning.cross(self.tensor * turning),
+            force: turning.cross(turning.cross(self.first_moment)),
+        }
+    }
+
+    /// The wrench of a unit acceleration of the body's joint.
+    #[inline(always)]
+    pub(crate) fn along_axis(&self, joint: &JointFrame) -> BodyWrench {
+        let h = self.first_moment;
+        if joint.turns {
+            BodyWrench { moment: self.tensor.0[2], force: Column::new(-h[1], h[0], 0.0) }
+        } else {
+            BodyWrench { moment: Column::new(h[1], -h[0], 0.0), force: Column::new(0.0, 0.0, self.mass_kg) }
+        }
+    }
+
+    /// The same body with what is given in the frame of a child.
+    #[inline(always)]
+    pub(crate) fn with_child(&self, child: &Self, placement: &Placement) -> Self {
+        let Placement { rotation, origin } = *placement;
+        let turned = rotation * child.first_moment;
+        let by_mass = origin * child.mass_kg;
+        // `-[p][b] - [b][p]` for `b = R h + m p / 2`, as in `SpatialInertia::transformed_by`.
+        let b = turned + by_mass * 0.5;
+        let shifted = Block::diagonal(2.0 * origin.dot(b)).minus_outer(origin, b).minus_outer(b, origin);
+        Self {
+            mass_kg: self.mass_kg + child.mass_kg,
+            first_moment: self.first_moment + turned + by_mass,
+            tensor: self.tensor + child.tensor.turned(&rotation) + shifted,
+        }
+    }
+}
+
+impl From<&SpatialInertia> for BodyInertia {
+    fn from(inertia: &SpatialInertia) -> Self {
+        Self {
+            mass_kg: inertia.mass_kg,
+            first_moment: inertia.first_moment_kg_m.into(),
+            tensor: inertia.tensor_kg_m2.into(),
+        }
+    }
+}
+
+impl ArticulatedInertia {
+    pub(crate) const ZERO: Self = Self { angular: Block::ZERO, coupling: Block::ZERO, linear: Block::ZERO };
+
+    #[inline(always)]
+    pub(crate) fn of_rigid(inertia: &BodyInertia) -> Self {
+        let h = inertia.first_moment;
+        Self {
+            angular: inertia.tensor,
+            coupling: Block::diagonal(1.0).times_cross(h),
+            linear: Block::diagonal(inertia.mass_kg),
+        }
+    }
+
+    /// The wrench that gives a body this acceleration.
+    #[inline(always)]
+    pub(crate) fn wrench(&self, acceleration: &BodyTwist) -> BodyWrench {
+        let BodyTwist { angular, linear } = *acceleration;
+        BodyWrench {
+            moment: self.angular * angular + self.coupling * linear,
+            force: self.coupling.transposed() * angular + self.linear * linear,
+        }
+    }
+
+    /// The wrench of a unit acceleration of the body's joint.
+    #[inline(always)]
+    pub(crate) fn along_axis(&self, joint: &JointFrame) -> BodyWrench {
+        if joint.turns {
+            BodyWrench { moment: self.angular.0[2], force: self.coupling.row(2) }
+        } else {
+            BodyWrench { moment: self.coupling.0[2], force: self.linear.0[2] }
+        }
+    }
+
+    /// Without the direction in which a joint yields: `I - U U' / d`.
+    #[inline(always)]
+    pub(crate) fn yielding(&self, along: &BodyWrench, inertia: f64) -> Self {
+        let scaled = along.times(1.0 / inertia);
+        Self {
+            angular: self.angular.minus_outer(along.moment, scaled.moment),
+            coupling: self.coupling.minus_outer(along.moment, scaled.force),
+            linear: self.linear.minus_outer(along.force, scaled.force),
+        }
+    }
+
+    /// The same body with what is given in the frame of a child.
+    #[inline(always)]
+    pub(crate) fn with_child(&self, child: &Self, placement: &Placement) -> Self {
+        let Placement { rotation, origin } = placement;
+        let [angular, coupling, linear] =
+            [child.angular, child.coupling, child.linear].map(|block| block.turned(rotation));
+        // `A - B [p] + [p] (B + [p] C)'` and `B + [p] C`, with `[p] C = -(C [p])'` as `C` is symmetric.
+        let moved = coupling - linear.times_cross(*origin).transposed();
+        let shifted = coupling.times_cross(*origin) + moved.times_cross(*origin).transposed();
+        Self {
+            angular: self.angular + (angular - shifted),
+            coupling: self.coupling + moved,
+            linear: self.linear + linear,
+        }
+    }
+}
