@@ -9,6 +9,7 @@ use std::{
 const ARROWS: &[(&str, &[&str])] = &[
     ("description", &[]),
     ("kinematics", &["description"]),
+    ("dynamics", &["description", "kinematics"]),
     ("simulation", &["description"]),
     ("agreement", &["description", "kinematics"]),
     ("calibration", &["description", "kinematics"]),
@@ -20,6 +21,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "description",
             "kinematics",
+            "dynamics",
             "simulation",
             "agreement",
             "calibration",
@@ -41,8 +43,8 @@ const PLACES: &[(&str, &str)] = &[
     ("re_sdk_types::", "crates/recording/src"),
 ];
 
-/// Words that `kinematics` does without: no I/O, no clock, no printing.
-const NOT_IN_KINEMATICS: &[&str] =
+/// Words that `kinematics` and `dynamics` do without: no I/O, no clock, no printing.
+const NOT_IN_MATHEMATICS: &[&str] =
     &["std::fs", "std::io", "std::env", "std::time", "println!", "eprintln!", "rand::"];
 
 /// Longest file before its tests.
@@ -128,9 +130,12 @@ fn engines_stay_in_their_places() {
 }
 
 #[test]
-fn kinematics_is_pure() {
-    for (name, text) in all_sources().iter().filter(|(name, _)| name.starts_with("crates/kinematics/src")) {
-        for word in NOT_IN_KINEMATICS {
+fn mathematics_is_pure() {
+    let is_pure = |name: &str| {
+        ["crates/kinematics/src", "crates/dynamics/src"].iter().any(|place| name.starts_with(place))
+    };
+    for (name, text) in all_sources().iter().filter(|(name, _)| is_pure(name)) {
+        for word in NOT_IN_MATHEMATICS {
             assert!(!text.contains(word), "{name} has {word}");
         }
     }

@@ -33,7 +33,7 @@ pub struct JointResistance {
 #[derive(Debug, Clone)]
 pub struct BodyTree {
     /// One for each moving joint, parents first.
-    pub(crate) bodies: Vec<Body>,
+    pub(crate) bodies: Vec<TreeBody>,
     pub(crate) resistances: Vec<JointResistance>,
     pub(crate) gravity_in_root: Vector3<f64>,
     pub(crate) mimics: Vec<Option<Follower>>,
@@ -44,7 +44,7 @@ pub struct BodyTree {
 
 /// The body that one moving joint carries. Its frame has the joint's axis as z and the joint's origin.
 #[derive(Debug, Clone)]
-pub(crate) struct Body {
+pub(crate) struct TreeBody {
     /// The body that the joint moves against; `None` for the root.
     pub(crate) parent: Option<usize>,
     /// The bodies that this one carries are those after it up to here: a robot's joints are sorted depth first.
@@ -102,11 +102,10 @@ impl BodyTree {
             carriers[joint.child.get()] = if joint.kind.is_movable() {
                 let joint_from_body = Pose::from_parts(frame_about(&joint.axis_in_joint), Vector3::zeros());
                 let parent_from_body = parent_from_joint * joint_from_body;
-                let turns = joint.kind != JointKind::Prismatic;
-                tree.bodies.push(Body {
+                tree.bodies.push(TreeBody {
                     parent,
                     subtree_end: tree.bodies.len() + 1,
-                    frame: JointFrame::new(turns, &parent_from_body),
+                    frame: JointFrame::new(joint.kind, &parent_from_body),
                     inertia: BodyInertia::ZERO,
                     parent_from_body,
                     spatial_inertia: SpatialInertia::zero(),
@@ -227,7 +226,7 @@ impl BodyTree {
     }
 }
 
-impl Body {
+impl TreeBody {
     fn set_inertia(&mut self, inertia: SpatialInertia) {
         self.spatial_inertia = inertia;
         self.inertia = BodyInertia::from(&inertia);
@@ -252,9 +251,9 @@ impl Body {
 }
 
 impl JointFrame {
-    fn new(turns: bool, parent_from_body: &Pose) -> Self {
+    fn new(kind: JointKind, parent_from_body: &Pose) -> Self {
         Self {
-            turns,
+            turns: kind.is_angular(),
             parent_from_body: parent_from_body.rotation.into(),
             body_from_parent: parent_from_body.rotation.transpose().into(),
             origin: parent_from_body.translation.into(),

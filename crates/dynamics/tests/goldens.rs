@@ -10,8 +10,7 @@ use congruent_dynamics::{BodyTree, DrivenState, JointMotion, JointResistance, Ro
 use nalgebra::{DMatrix, Vector3};
 use serde_json::Value;
 
-/// Rounding, ours and the other program's, relative to the largest value of the vector; worst seen 4e-13 (baxter's
-/// grippers of 1e-4 kg beside an arm of 20 kg).
+/// Rounding, ours and the other program's, relative to the largest value of the vector; worst seen 3.8e-14 (accelerations).
 const RELATIVE: f64 = 1e-10;
 
 const ROBOTS: [&str; 8] =
@@ -55,14 +54,13 @@ fn reordered(values: &[f64], places: &[usize]) -> Vec<f64> {
 }
 
 #[track_caller]
-fn assert_near(what: &str, found: &[f64], expected: &[f64], worst: &mut f64) {
+fn assert_near(what: &str, found: &[f64], expected: &[f64]) {
     let size = expected.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
     for (found, expected) in found.iter().zip(expected) {
         let relative = (found - expected).abs() / size.max(f64::MIN_POSITIVE);
         // A vector of zeros has no scale of its own.
         let error = if size > 1e-9 { relative } else { (found - expected).abs() };
         assert!(error < RELATIVE, "{what}: {found} for {expected}, {error:e}");
-        *worst = worst.max(error);
     }
 }
 
@@ -97,7 +95,6 @@ impl Golden {
 #[test]
 fn algorithms_agree_with_pinocchio() {
     let Some(corpus) = corpus::corpus() else { return };
-    let mut worst = 0.0;
     for name in ROBOTS {
         let golden = golden(&corpus, name);
         let (tree, n) = (&golden.tree, golden.tree.dof());
@@ -107,29 +104,27 @@ fn algorithms_agree_with_pinocchio() {
             let [q, qd, qdd] = ["q", "v", "a"].map(|key| golden.vector(&config[key]));
             let q = RobotQ::from(q);
             tree.gravity_into(&q, &mut buffer, &mut tau).unwrap();
-            assert_near(name, &tau, &golden.vector(&config["gravity_torque"]), &mut worst);
+            assert_near(name, &tau, &golden.vector(&config["gravity_torque"]));
             tree.inverse_into(&JointMotion { q: &q, qd: &qd, qdd: &qdd }, &mut buffer, &mut tau).unwrap();
-            assert_near(name, &tau, &golden.vector(&config["rnea"]), &mut worst);
+            assert_near(name, &tau, &golden.vector(&config["rnea"]));
             tree.mass_matrix_into(&q, &mut buffer, &mut matrix).unwrap();
             let rows = array(&config["mass_matrix"]);
             for (row, &place) in golden.places.iter().enumerate() {
                 let found: Vec<f64> = matrix.row(row).iter().copied().collect();
-                assert_near(name, &found, &golden.vector(&rows[place]), &mut worst);
+                assert_near(name, &found, &golden.vector(&rows[place]));
             }
             let energy = tree.energy(&q, &qd).unwrap();
             let expected = ["kinetic_energy", "potential_energy"].map(|key| config[key].as_f64().unwrap());
-            assert_near(name, &[energy.kinetic_j, energy.potential_j], &expected, &mut worst);
+            assert_near(name, &[energy.kinetic_j, energy.potential_j], &expected);
             checked += 1;
         }
         assert!(checked == 51, "{name} has configurations");
     }
-    println!("worst relative error {worst:e}");
 }
 
 #[test]
 fn accelerations_agree_with_pinocchio() {
     let Some(corpus) = corpus::corpus() else { return };
-    let mut worst = 0.0;
     for name in ROBOTS {
         let golden = golden(&corpus, name);
         let (tree, n) = (&golden.tree, golden.tree.dof());
@@ -139,21 +134,22 @@ fn accelerations_agree_with_pinocchio() {
             let (q, qd) = (RobotQ::from(golden.vector(&config["q"])), golden.vector(&config["v"]));
             let state = DrivenState { q: &q, qd: &qd, tau: &zeros };
             independent.forward_into(&state, &mut buffer, &mut qdd).unwrap();
-            assert_near(name, &qdd, &golden.vector(&config["aba_zero_torque"]), &mut worst);
+            assert_near(name, &qdd, &golden.vector(&config["aba_zero_torque"]));
             if golden.robot.joints().iter().any(|joint| joint.mimic.is_some()) {
                 tree.forward_into(&state, &mut buffer, &mut qdd).unwrap();
-                assert_near(name, &qdd, &golden.vector(&config["aba_zero_torque_mimic"]), &mut worst);
+                assert_near(name, &qdd, &golden.vector(&config["aba_zero_torque_mimic"]));
             }
         }
     }
-    println!("worst relative error {worst:e}");
 }
+
+/// Step of our integration and of the reference's.
+const STEP_S: f64 = 1e-4;
 
 /// Every case within the first half second; damped ones to their end.
 #[test]
 fn motion_agrees_with_mujoco() {
     let Some(corpus) = corpus::corpus() else { return };
-    const STEP_S: f64 = 1e-4;
     for name in ["denso_hsr065", "iiwa14", "panda", "rrr_arm", "ur5e"] {
         let folder = corpus.join("robots").join(name);
         let reference = read(&folder.join("trajectories.json"));
@@ -161,38 +157,40 @@ fn motion_agrees_with_mujoco() {
         let names: Vec<&str> = array(&reference["joints"]).iter().map(text).collect();
         let places = places(&robot, &names);
         for case in array(&reference["cases"]) {
-            let vector = |value: &Value| reordered(&numbers(value), &places);
-            let resistance = |damping| JointResistance { damping, ..JointResistance::default() };
-            let resistances = vector(&case["damping"]).into_iter().map(resistance).collect();
-            let tree = BodyTree::new(&robot).with_resistances(resistances).unwrap();
-            let torque = vector(&case["torque"]);
-            let start = (RobotQ::from(vector(&case["q0"])), vector(&case["v0"]));
-            let mut rollout = Rollout::new(&tree, start.0, start.1).unwrap();
-            let is_damped = text(&case["case"]) == "passive_damped";
-            let uncertainty = numbers(&case["reference_uncertainty"]);
-            let times = numbers(&case["t"]);
-            // Two references that cross are no surer of it: the largest uncertainty so far counts.
-            let mut stated = 0.0_f64;
-            for (sample, q) in array(&case["q"]).iter().enumerate() {
-                stated = stated.max(uncertainty[sample]);
-                if times[sample] > 0.5 && !is_damped {
-                    break;
-                }
-                while rollout.state().time_s < times[sample] - STEP_S / 2.0 {
-                    rollout.step(STEP_S, |_, _, _, tau| tau.copy_from_slice(&torque)).unwrap();
-                }
-                let expected = vector(q);
-                let found = &rollout.state().q;
-                let error = found.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                let limit = UNCERTAINTIES * stated + PRINTED;
-                assert!(
-                    error <= limit,
-                    "{name} {}: {error:e} at {} s, at most {limit:e}",
-                    case["case"],
-                    times[sample]
-                );
-            }
+            assert_case(name, &robot, case, &places);
         }
+    }
+}
+
+#[track_caller]
+fn assert_case(name: &str, robot: &Robot, case: &Value, places: &[usize]) {
+    let vector = |value: &Value| reordered(&numbers(value), places);
+    let resistance = |damping| JointResistance { damping, ..JointResistance::default() };
+    let resistances = vector(&case["damping"]).into_iter().map(resistance).collect();
+    let tree = BodyTree::new(robot).with_resistances(resistances).expect("one for each joint");
+    let torque = vector(&case["torque"]);
+    let mut rollout = Rollout::new(&tree, RobotQ::from(vector(&case["q0"])), vector(&case["v0"]))
+        .expect("one value for each joint");
+    let last_s = if text(&case["case"]) == "passive_damped" { f64::INFINITY } else { 0.5 };
+    let (uncertainty, times) = (numbers(&case["reference_uncertainty"]), numbers(&case["t"]));
+    // Two references that cross are no surer of it: the largest uncertainty so far counts.
+    let mut stated = 0.0_f64;
+    for (sample, q) in array(&case["q"]).iter().enumerate().filter(|(sample, _)| times[*sample] <= last_s) {
+        stated = stated.max(uncertainty[sample]);
+        while rollout.state().time_s < times[sample] - STEP_S / 2.0 {
+            rollout
+                .step(STEP_S, |_, _, _, tau| tau.copy_from_slice(&torque))
+                .expect("every joint has inertia");
+        }
+        let found = &rollout.state().q;
+        let error = found.iter().zip(vector(q)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let limit = UNCERTAINTIES * stated + PRINTED;
+        assert!(
+            error <= limit,
+            "{name} {}: {error:e} at {} s, at most {limit:e}",
+            case["case"],
+            times[sample]
+        );
     }
 }
 

@@ -23,7 +23,8 @@ fn load(name: &str) -> Robot {
 
 /// Values between -1 and 1 that no law singles out.
 fn values(count: usize, seed: usize) -> Vec<f64> {
-    (0..count).map(|index| (12.9898 * (index + 17 * seed + 1) as f64).sin()).collect()
+    let number = |index: usize| f64::from(u32::try_from(index + 17 * seed + 1).expect("a small number"));
+    (0..count).map(|index| (12.9898 * number(index)).sin()).collect()
 }
 
 /// Resistances of any size, so that no term is forgotten.
@@ -35,7 +36,7 @@ fn resisting(robot: &Robot) -> BodyTree {
         JointResistance { damping, friction, armature }
     };
     let resistances = (0..tree.dof()).map(resistance).collect();
-    tree.with_resistances(resistances).unwrap()
+    tree.with_resistances(resistances).expect("one for each joint")
 }
 
 /// A robot in several states, with a tree of it.
@@ -63,7 +64,8 @@ fn assert_near(name: &str, found: &[f64], expected: &[f64]) {
 
 fn inverse(tree: &BodyTree, q: &RobotQ, [qd, qdd]: [&[f64]; 2]) -> Vec<f64> {
     let mut tau = vec![0.0; tree.dof()];
-    tree.inverse_into(&JointMotion { q, qd, qdd }, &mut tree.buffer(), &mut tau).unwrap();
+    let motion = JointMotion { q, qd, qdd };
+    tree.inverse_into(&motion, &mut tree.buffer(), &mut tau).expect("lengths agree");
     tau
 }
 
