@@ -32,13 +32,13 @@ impl Golden {
         joints.iter().map(|joint| joint["name"].as_str().expect("a name")).collect()
     }
 
-    /// Writes configurations as a batch for the command, with speeds where they have some.
+    /// Writes configurations as a batch for the command, with the speeds and accelerations that they have.
     pub(crate) fn write_batch(&self, configurations: &[&Value], path: &Path) {
         let named = |numbers: &Value| -> Map<String, Value> {
             let numbers = numbers.as_array().into_iter().flatten().cloned();
             self.joints().into_iter().map(str::to_owned).zip(numbers).collect()
         };
-        let by_name = |entry: &&Value| json!({ "q": named(&entry["q"]), "v": named(&entry["v"]) });
+        let by_name = |entry: &&Value| json!({ "q": named(&entry["q"]), "v": named(&entry["v"]), "a": named(&entry["a"]) });
         let batch: Vec<Value> = configurations.iter().map(by_name).collect();
         fs::write(path, json!(batch).to_string()).expect("a temporary file is written");
     }

@@ -16,6 +16,7 @@ mod conversions;
 mod corpus;
 mod diagnosis;
 mod diagnosis_chains;
+mod dynamics_goldens;
 mod forward_goldens;
 mod golden;
 mod jacobian_goldens;

@@ -104,6 +104,7 @@ fn documents_follow_their_schemas() {
         ("check", &["check", "robots/ur5e"]),
         ("check", &["check", "robots/cylindrical_rpp"]),
         ("fk", &["fk", "robots/ur5e", at]),
+        ("dynamics", &["dynamics", "robots/ur5e", "--payload", "2.5", at]),
         ("jacobian", &["jacobian", "robots/ur5e", at]),
         ("ik", &["ik", "robots/planar_2r", "--targets", &targets]),
         ("manipulability", &["manipulability", "robots/panda"]),

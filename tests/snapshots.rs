@@ -12,10 +12,11 @@ use crate::{
     corpus::workspace,
 };
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
     "run",
     "check",
     "fk",
+    "dynamics",
     "jacobian",
     "ik",
     "manipulability",
@@ -140,6 +141,11 @@ fn check() {
 fn fk() {
     prints("fk_urdf", "fk robots/ur5e --at elbow_joint=1.2", &[]);
     prints("fk_dh", "fk robots/ur5e --source dh --at elbow_joint=1.2", &[]);
+}
+
+#[test]
+fn dynamics() {
+    prints("dynamics", "dynamics robots/ur5e --at elbow_joint=1.2 --payload 2.5", &[]);
 }
 
 #[test]

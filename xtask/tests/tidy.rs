@@ -13,8 +13,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("simulation", &["description"]),
     ("agreement", &["description", "kinematics"]),
     ("calibration", &["description", "kinematics"]),
-    ("analysis", &["description", "kinematics"]),
-    ("twin", &["description", "kinematics", "simulation", "agreement"]),
+    ("analysis", &["description", "kinematics", "dynamics"]),
+    ("twin", &["description", "kinematics", "dynamics", "simulation", "agreement"]),
     ("recording", &["description", "kinematics", "simulation", "agreement", "twin"]),
     (
         "congruent",

@@ -84,7 +84,7 @@ pub fn jacobians_in_motion(
     states: &[JointState],
 ) -> Result<JacobianReport, KinematicsError> {
     let tree = UrdfTree::new(robot);
-    let at = |JointState { q, qd }: &JointState| {
+    let at = |JointState { q, qd, .. }: &JointState| {
         let jacobian = tree.jacobian(q, link, kind)?;
         let derivative = Some(JacobianBlocks::from(&jacobian.rate(qd)?));
         Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative })

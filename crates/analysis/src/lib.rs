@@ -4,6 +4,7 @@
 
 mod arm_joints;
 pub mod conversion;
+pub mod dynamics;
 pub mod forward;
 pub mod inverse;
 pub mod jacobians;

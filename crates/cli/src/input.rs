@@ -75,7 +75,18 @@ impl ConfigurationArguments {
         Ok(vec![configuration(&values, robot)?])
     }
 
-    /// The same with the velocities of the file.
+    /// The same with the velocities, accelerations and torques of the file; at rest and without torques if there
+    /// is none.
+    pub(crate) fn read_states_or_rest(&self, robot: &Robot) -> Result<Vec<JointState>, Failure> {
+        if self.configurations.is_some() {
+            return self.read_states(robot);
+        }
+        let zeros = vec![0.0; robot.dof()];
+        let rest = |q| JointState { q, qd: zeros.clone(), qdd: zeros.clone(), tau: zeros.clone() };
+        Ok(self.read(robot)?.into_iter().map(rest).collect())
+    }
+
+    /// The same with the velocities, accelerations and torques of the file.
     pub(crate) fn read_states(&self, robot: &Robot) -> Result<Vec<JointState>, Failure> {
         let Some(path) = &self.configurations else {
             let message = "joint velocities are read from a file of configurations, and none is given";

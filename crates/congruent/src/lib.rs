@@ -18,7 +18,7 @@ pub use nalgebra;
 pub mod schema;
 mod with_physics;
 
-pub use with_physics::{check, forward};
+pub use with_physics::{check, forward, joint_dynamics};
 
 /// What is wrong with an input, one finding in each line, without the lines of the file.
 pub fn listed(found: &[description::Diagnostic]) -> String {

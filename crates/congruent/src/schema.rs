@@ -3,8 +3,9 @@
 
 use congruent_agreement::compare::CheckReport;
 use congruent_analysis::{
-    conversion::ConversionReport, forward::ForwardReport, inverse::InverseReport, jacobians::JacobianReport,
-    manipulability::ManipulabilityReport, sensitivity::SensitivityReport, workspace::WorkspaceReport,
+    conversion::ConversionReport, dynamics::DynamicsReport, forward::ForwardReport, inverse::InverseReport,
+    jacobians::JacobianReport, manipulability::ManipulabilityReport, sensitivity::SensitivityReport,
+    workspace::WorkspaceReport,
 };
 use congruent_calibration::report::CalibrationReport;
 use congruent_description::{configurations_schema, robot_file_schema};
@@ -39,6 +40,7 @@ impl Document {
         Self::new("check", "report of one robot, printed by `check`", written::<CheckReport>),
         Self::new("fk", "link poses, printed by `fk`", written::<ForwardReport>),
         Self::new("jacobian", "Jacobians, printed by `jacobian`", written::<JacobianReport>),
+        Self::new("dynamics", "torques and accelerations, printed by `dynamics`", written::<DynamicsReport>),
         Self::new("ik", "solutions, printed by `ik`", written::<InverseReport>),
         Self::new(
             "manipulability",

@@ -1,10 +1,12 @@
 //! Questions about a robot that need the physics beside the analytical sources.
 
 use congruent_agreement::compare::{CheckError, CheckOptions, CheckReport};
+use congruent_analysis::dynamics::{DynamicsOptions, DynamicsReport, DynamicsSource, dynamics, robot_of};
 use congruent_analysis::forward::{ForwardError, ForwardReport, Source, forward_by_table};
-use congruent_description::{RobotDescription, RobotQ};
+use congruent_description::{Diagnostic, JointState, RobotDescription, RobotQ};
+use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_kinematics::{LinkPoses, LinkPosesError, ScrewTree, UrdfTree};
-use congruent_twin::source::SimulatedPoses;
+use congruent_twin::source::{SimulatedDynamics, SimulatedPoses};
 
 /// Compares table, URDF chain, screws and the physics twin of a robot.
 ///
@@ -32,4 +34,25 @@ pub fn forward(
         Source::Simulation => Box::new(SimulatedPoses::new(robot).map_err(LinkPosesError::source)?),
     };
     congruent_analysis::forward::forward(description, (source, &mut *link_poses), configurations)
+}
+
+/// Torques and accelerations at each state, by the equations of motion or by the physics.
+///
+/// # Errors
+/// What a source says that refuses the robot or a state; a payload without mass.
+pub fn joint_dynamics(
+    description: &RobotDescription,
+    source: DynamicsSource,
+    options: &DynamicsOptions,
+    states: &[JointState],
+) -> Result<DynamicsReport, Diagnostic> {
+    let robot = robot_of(description, options)?;
+    let refused = |error: &dyn std::error::Error| Diagnostic::error("dynamics::source", error.to_string());
+    let mut by: Box<dyn JointDynamics> = match source {
+        DynamicsSource::Model => Box::new(TreeDynamics::new(&robot)),
+        DynamicsSource::Simulation => {
+            Box::new(SimulatedDynamics::new(&robot).map_err(|error| refused(&error))?)
+        }
+    };
+    dynamics(&robot, options, (source, &mut *by), states).map_err(|error| refused(&error))
 }

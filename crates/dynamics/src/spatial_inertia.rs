@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign};
 
 use congruent_description::Inertia;
 use congruent_kinematics::{Pose, Twist, Wrench};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
 /// Inertia of a rigid body in a frame; unlike mass and centre of mass, these numbers add.
 ///
@@ -66,6 +66,27 @@ impl SpatialInertia {
             tensor_kg_m2: inertia.tensor_kg_m2,
         };
         about_center.transformed_by(&inertia.link_from_inertial.into())
+    }
+
+    /// The inertia of a link with these numbers; `None` without mass, as there is then no centre of mass.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_dynamics::SpatialInertia;
+    /// use nalgebra::Vector3;
+    /// let ball = SpatialInertia::point_mass(2.0, Vector3::new(0.5, 0.0, 0.0));
+    /// let inertia = ball.to_link().unwrap();
+    /// assert_eq!(inertia.link_from_inertial.translation.vector.x, 0.5);
+    /// assert_eq!(SpatialInertia::of_link(&inertia), ball);
+    /// ```
+    pub fn to_link(&self) -> Option<Inertia> {
+        let has_mass = self.mass_kg.is_finite() && self.mass_kg > 0.0;
+        let center = self.first_moment_kg_m / self.mass_kg;
+        has_mass.then(|| Inertia {
+            mass_kg: self.mass_kg,
+            link_from_inertial: Isometry3::from_parts(center.into(), UnitQuaternion::identity()),
+            tensor_kg_m2: self.tensor_kg_m2 - Self::point_mass(self.mass_kg, center).tensor_kg_m2,
+        })
     }
 
     /// The same body in frame a, given in frame b.

@@ -1,6 +1,7 @@
 //! Commands about one arm: what it reaches, how well, and how far it is from collisions.
 
 pub(crate) mod clearance;
+pub(crate) mod dynamics;
 pub(crate) mod fk;
 pub(crate) mod ik;
 pub(crate) mod jacobian;

@@ -50,13 +50,17 @@ pub fn configurations_schema() -> Schema {
     schema_for!(Vec<WrittenConfiguration>)
 }
 
-/// Positions and speeds of a robot: one entry for each movable joint.
+/// One entry of a batch in full: one value for each movable joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointState {
     /// Positions in rad and m.
     pub q: RobotQ,
     /// Speeds in rad/s and m/s.
     pub qd: Vec<f64>,
+    /// Accelerations in rad/s^2 and m/s^2.
+    pub qdd: Vec<f64>,
+    /// Torques in N m and forces in N.
+    pub tau: Vec<f64>,
 }
 
 /// Reads a file of configurations: a JSON array of `{"q": {joint: value}, ...}` in rad and m,
@@ -68,15 +72,20 @@ pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<RobotQ>, Ve
     read(path, robot, |written| configuration(&written.q, robot))
 }
 
-/// The same with the speeds `"v"`, in rad/s and m/s, missing ones 0; mimic joints have those that their
-/// masters imply.
+/// The same with the speeds `"v"`, the accelerations `"a"` and the torques `"tau"`, missing ones 0; mimic joints
+/// have the speeds and accelerations that their masters imply.
 ///
 /// # Errors
-/// As [`read_configurations`], or a mimic joint has another speed than its master implies.
+/// As [`read_configurations`], or a mimic joint has another speed or acceleration than its master implies.
 pub fn read_states(path: &Path, robot: &Robot) -> Result<Vec<JointState>, Vec<Diagnostic>> {
+    let in_ratio = |values: &BTreeMap<String, f64>| {
+        Ok::<_, Diagnostic>(
+            followed(values, robot, |robot, rates| robot.apply_mimic_to_speeds(rates))?.to_vec(),
+        )
+    };
     let state = |written: &WrittenConfiguration| {
-        let qd = followed(&written.v, robot, |robot, qd| robot.apply_mimic_to_speeds(qd))?.to_vec();
-        Ok(JointState { q: configuration(&written.q, robot)?, qd })
+        let (q, tau) = (configuration(&written.q, robot)?, place(&written.tau, robot)?.to_vec());
+        Ok(JointState { q, qd: in_ratio(&written.v)?, qdd: in_ratio(&written.a)?, tau })
     };
     read(path, robot, state)
 }

@@ -2,6 +2,7 @@
 
 use super::{
     error::RobotError,
+    inertia::Inertia,
     joint::{Joint, JointIndex, JointKind, JointParts, Mimic},
     link::{Link, LinkIndex},
     positions::RobotQ,
@@ -49,6 +50,38 @@ impl Robot {
             }
         }
         Self { name, links, joints, parent_joints, movable, coordinates }
+    }
+
+    /// The same tree with its joints changed in what is not the tree: kind, parent and child stay.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_description::parse_urdf;
+    /// let robot = parse_urdf(
+    ///     r#"<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">
+    ///       <parent link="a"/><child link="b"/><dynamics damping="0.1"/></joint></robot>"#,
+    /// ).unwrap();
+    /// let undamped = robot.with_joints(|joint| joint.damping = 0.0);
+    /// assert_eq!((robot.joints()[0].damping, undamped.joints()[0].damping), (0.1, 0.0));
+    /// ```
+    #[must_use]
+    pub fn with_joints(&self, mut change: impl FnMut(&mut Joint)) -> Self {
+        let mut changed = self.clone();
+        for (joint, before) in changed.joints.iter_mut().zip(&self.joints) {
+            change(joint);
+            (joint.kind, joint.parent, joint.child) = (before.kind, before.parent, before.child);
+        }
+        changed
+    }
+
+    /// The same robot with another inertia of one link.
+    ///
+    /// # Panics
+    /// If there is no such link.
+    #[must_use]
+    pub fn with_inertia(mut self, link: LinkIndex, inertia: Inertia) -> Self {
+        self.links[link.0].inertia = Some(inertia);
+        self
     }
 
     /// The robot's name.

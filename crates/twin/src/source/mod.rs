@@ -1,9 +1,11 @@
-//! Sources of link poses and of joint states. A run takes any source of joint states.
+//! Sources of link poses, of dynamics and of joint states. A run takes any source of joint states.
 
 mod joint_states;
+mod simulated_dynamics;
 mod simulated_poses;
 mod simulation;
 
 pub use joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError};
+pub use simulated_dynamics::SimulatedDynamics;
 pub use simulated_poses::SimulatedPoses;
 pub use simulation::SimulationSource;

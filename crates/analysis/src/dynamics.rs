@@ -1,0 +1,136 @@
+//! `congruent dynamics`: torques and accelerations of a robot at given states.
+
+use congruent_description::{Diagnostic, JointState, Robot, RobotDescription};
+use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError, JointMotion, SpatialInertia};
+use nalgebra::{DMatrix, Point3, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A source of joint torques and accelerations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DynamicsSource {
+    /// The equations of motion.
+    Model,
+    /// The physics engine.
+    Simulation,
+}
+
+/// A mass at the tool centre point, or beside it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct Payload {
+    /// Its mass.
+    pub mass_kg: f64,
+    /// Its place in the frame of the TCP (of the tip if no TCP is declared).
+    pub position_m: [f64; 3],
+}
+
+/// What a robot is asked about its dynamics beside its states.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DynamicsOptions {
+    /// With the damping and the dry friction of the description.
+    pub friction: bool,
+    /// A mass that the tool carries.
+    pub payload: Option<Payload>,
+}
+
+/// The dynamics at one state. Torques are in N m, those of prismatic joints in N.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct DynamicsResult {
+    /// Torques that hold the robot still.
+    pub gravity_n_m: Vec<f64>,
+    /// Torques for a unit acceleration of each joint: rows and columns in the order of `joints`.
+    pub mass_matrix: Vec<Vec<f64>>,
+    /// Torques of the speeds without acceleration, gravity among them.
+    pub bias_n_m: Vec<f64>,
+    /// Torques of the motion `q`, `v`, `a`.
+    pub inverse_dynamics_n_m: Vec<f64>,
+    /// Accelerations under `tau`, in rad/s^2 and m/s^2; mimic joints keep their ratio.
+    pub forward_dynamics: Vec<f64>,
+}
+
+/// The answer of `congruent dynamics`.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct DynamicsReport {
+    /// Name of the robot.
+    pub robot: String,
+    /// Movable joints, in the order of vectors; mimic joints are independent but in `forward_dynamics`.
+    pub joints: Vec<String>,
+    /// Unit of each joint's position: `rad` or `m`.
+    pub units: Vec<&'static str>,
+    /// The source.
+    pub source: DynamicsSource,
+    /// Whether damping and dry friction of the description take part in `inverse_dynamics_n_m` and
+    /// `forward_dynamics`.
+    pub friction: bool,
+    /// The mass that the tool carries.
+    pub payload: Option<Payload>,
+    /// One entry for each state, in input order.
+    pub results: Vec<DynamicsResult>,
+}
+
+/// The robot that is asked: with the payload, and without damping and friction unless they are wanted.
+///
+/// # Errors
+/// A payload without a positive mass.
+pub fn robot_of(description: &RobotDescription, options: &DynamicsOptions) -> Result<Robot, Diagnostic> {
+    let robot = if options.friction {
+        description.robot.clone()
+    } else {
+        description.robot.with_joints(|joint| (joint.damping, joint.friction) = (0.0, 0.0))
+    };
+    let Some(Payload { mass_kg, position_m }) = options.payload else { return Ok(robot) };
+    let tcp = Point3::from(Vector3::from(position_m));
+    let in_tip = description.tip_from_tcp.map_or(tcp, |tip_from_tcp| tip_from_tcp * tcp);
+    let carried = SpatialInertia::point_mass(mass_kg, in_tip.coords);
+    let own =
+        robot.link(description.tip).inertia.as_ref().map_or(SpatialInertia::zero(), SpatialInertia::of_link);
+    let inertia = Some(mass_kg).filter(|mass| *mass > 0.0).and_then(|_| (own + carried).to_link());
+    let inertia = inertia.ok_or_else(|| {
+        Diagnostic::error("dynamics::payload", format!("a payload of {mass_kg} kg is no mass above zero"))
+    })?;
+    Ok(robot.with_inertia(description.tip, inertia))
+}
+
+/// Dynamics at each state, by a source that was made for [`robot_of`] the description and the options.
+///
+/// # Errors
+/// [`JointDynamicsError`] if the source refuses a state.
+pub fn dynamics(
+    robot: &Robot,
+    options: &DynamicsOptions,
+    (source, by): (DynamicsSource, &mut dyn JointDynamics),
+    states: &[JointState],
+) -> Result<DynamicsReport, JointDynamicsError> {
+    let results = states.iter().map(|state| at(state, by)).collect::<Result<_, _>>()?;
+    let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+    Ok(DynamicsReport {
+        robot: robot.name().to_owned(),
+        joints: joints().map(|joint| joint.name.clone()).collect(),
+        units: joints().map(|joint| joint.kind.unit()).collect(),
+        source,
+        friction: options.friction,
+        payload: options.payload,
+        results,
+    })
+}
+
+fn at(state: &JointState, by: &mut dyn JointDynamics) -> Result<DynamicsResult, JointDynamicsError> {
+    let JointState { q, qd, qdd, tau } = state;
+    let n = qd.len();
+    let zeros = vec![0.0; n];
+    let [mut gravity, mut inverse, mut bias, mut forward] = std::array::from_fn(|_| vec![0.0; n]);
+    let mut matrix = DMatrix::zeros(n, n);
+    by.gravity_into(q, &mut gravity)?;
+    by.mass_matrix_into(q, &mut matrix)?;
+    by.inverse_into(&JointMotion { q, qd, qdd: &zeros }, &mut bias)?;
+    by.inverse_into(&JointMotion { q, qd, qdd }, &mut inverse)?;
+    by.forward_into(&DrivenState { q, qd, tau }, &mut forward)?;
+    Ok(DynamicsResult {
+        gravity_n_m: gravity,
+        mass_matrix: matrix.row_iter().map(|row| row.iter().copied().collect()).collect(),
+        bias_n_m: bias,
+        inverse_dynamics_n_m: inverse,
+        forward_dynamics: forward,
+    })
+}

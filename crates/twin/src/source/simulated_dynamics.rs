@@ -1,0 +1,137 @@
+//! Joint torques and accelerations by physics, for comparisons that do not know the engine.
+
+use congruent_description::{Robot, RobotQ};
+use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError};
+use congruent_simulation::{
+    Commands, Controller, JointsView, Setpoint, SimulationError, World, WorldSettings,
+};
+use nalgebra::DMatrix;
+
+/// The physics twin of a robot as a source of dynamics: it is stepped once from each state, with three lengths of
+/// step, and the accelerations are extrapolated to a step of no length.
+///
+/// Limits of position and effort are left out: a state outside of them has dynamics as well.
+pub struct SimulatedDynamics {
+    coupled: Stepped,
+    independent: Stepped,
+}
+
+/// Longest step: at it, half and a quarter of it extrapolation leaves some 1e-11 of the acceleration.
+const LONGEST_STEP_S: f64 = 1e-4;
+/// The engine damps implicitly; this part of the speed may be lost in a step.
+const DAMPED_SHARE: f64 = 0.01;
+
+impl std::fmt::Debug for SimulatedDynamics {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SimulatedDynamics").finish_non_exhaustive()
+    }
+}
+
+impl SimulatedDynamics {
+    /// Worlds with this robot and nothing else.
+    ///
+    /// # Errors
+    /// [`SimulationError`] if the robot cannot be simulated.
+    pub fn new(robot: &Robot) -> Result<Self, SimulationError> {
+        let unlimited = robot.with_joints(|joint| joint.limit = None);
+        let independent = unlimited.with_joints(|joint| joint.mimic = None);
+        Ok(Self { coupled: Stepped::new(unlimited)?, independent: Stepped::new(independent)? })
+    }
+}
+
+impl JointDynamics for SimulatedDynamics {
+    fn gravity_into(&mut self, q: &RobotQ, tau: &mut [f64]) -> Result<(), JointDynamicsError> {
+        let world = self.independent.placed(q)?;
+        tau.copy_from_slice(world.gravity_torque().as_slice());
+        Ok(())
+    }
+
+    fn mass_matrix_into(&mut self, q: &RobotQ, matrix: &mut DMatrix<f64>) -> Result<(), JointDynamicsError> {
+        matrix.copy_from(&self.independent.placed(q)?.mass_matrix());
+        Ok(())
+    }
+
+    fn independent_forward_into(
+        &mut self,
+        state: &DrivenState<'_>,
+        qdd: &mut [f64],
+    ) -> Result<(), JointDynamicsError> {
+        self.independent.accelerations_into(state, qdd).map_err(JointDynamicsError::source)
+    }
+
+    fn forward_into(&mut self, state: &DrivenState<'_>, qdd: &mut [f64]) -> Result<(), JointDynamicsError> {
+        self.coupled.accelerations_into(state, qdd).map_err(JointDynamicsError::source)
+    }
+}
+
+/// One robot in three worlds with steps of `h`, `h/2` and `h/4`.
+struct Stepped {
+    robot: Robot,
+    step_s: f64,
+    worlds: [World; 3],
+}
+
+impl Stepped {
+    fn new(robot: Robot) -> Result<Self, SimulationError> {
+        let longest = Self { worlds: worlds(&robot, LONGEST_STEP_S)?, robot, step_s: LONGEST_STEP_S };
+        let step_s = longest.undamped_step_s();
+        Ok(Self { worlds: worlds(&longest.robot, step_s)?, step_s, ..longest })
+    }
+
+    /// A step in which damping takes but a small share of a joint's speed, whatever the other joints do.
+    fn undamped_step_s(&self) -> f64 {
+        let Some(inverse) = self.worlds[0].mass_matrix().try_inverse() else { return LONGEST_STEP_S };
+        let joints = self.robot.movable_joints().iter().map(|&joint| self.robot.joint(joint));
+        let rates = joints.enumerate().map(|(row, joint)| joint.damping * inverse[(row, row)].abs());
+        let fastest = rates.fold(0.0, f64::max);
+        if fastest > 0.0 { LONGEST_STEP_S.min(DAMPED_SHARE / fastest) } else { LONGEST_STEP_S }
+    }
+
+    /// A world with the robot at rest.
+    fn placed(&mut self, q: &RobotQ) -> Result<&World, JointDynamicsError> {
+        let at_rest = vec![0.0; q.len()];
+        self.worlds[0].set_state(q, &at_rest).map_err(JointDynamicsError::source)?;
+        Ok(&self.worlds[0])
+    }
+
+    /// Richardson's extrapolation, twice: the scheme is of first order in the step.
+    fn accelerations_into(
+        &mut self,
+        state: &DrivenState<'_>,
+        qdd: &mut [f64],
+    ) -> Result<(), SimulationError> {
+        let mut torques = Torques(state.tau.to_vec());
+        let mut found = [const { Vec::new() }; 3];
+        for ((world, found), halvings) in self.worlds.iter_mut().zip(&mut found).zip(0..) {
+            world.set_state(state.q, state.qd)?;
+            world.step(&mut torques, &Setpoint { q: state.q, qd: state.qd })?;
+            let step_s = self.step_s / 2_f64.powi(halvings);
+            found.extend(world.qd().iter().zip(state.qd).map(|(after, before)| (after - before) / step_s));
+        }
+        let [whole, half, quarter] = &found;
+        for (joint, qdd) in qdd.iter_mut().enumerate() {
+            let coarse = 2.0 * half[joint] - whole[joint];
+            let fine = 2.0 * quarter[joint] - half[joint];
+            *qdd = (4.0 * fine - coarse) / 3.0;
+        }
+        Ok(())
+    }
+}
+
+fn worlds(robot: &Robot, step_s: f64) -> Result<[World; 3], SimulationError> {
+    let world = |step_s| World::new(robot, &WorldSettings { step_s, ..WorldSettings::default() });
+    Ok([world(step_s)?, world(step_s / 2.0)?, world(step_s / 4.0)?])
+}
+
+/// Exerts given torques.
+struct Torques(Vec<f64>);
+
+impl Controller for Torques {
+    fn name(&self) -> &'static str {
+        "torques"
+    }
+
+    fn command(&mut self, _: &JointsView<'_>, _: &Setpoint<'_>, commands: &mut Commands) {
+        commands.torque_mut().copy_from_slice(&self.0);
+    }
+}
