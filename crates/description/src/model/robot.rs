@@ -2,6 +2,7 @@
 
 use super::{
     error::RobotError,
+    inertia::Inertia,
     joint::{Joint, JointIndex, JointKind, JointParts, Mimic},
     link::{Link, LinkIndex},
     positions::RobotQ,
@@ -74,6 +75,11 @@ impl Robot {
     /// One link.
     pub fn link(&self, index: LinkIndex) -> &Link {
         &self.links[index.0]
+    }
+
+    /// Replaces the inertia of a link.
+    pub(crate) fn set_inertia(&mut self, link: LinkIndex, inertia: Inertia) {
+        self.links[link.0].inertia = Some(inertia);
     }
 
     /// One joint.
