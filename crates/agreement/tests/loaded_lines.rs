@@ -44,7 +44,7 @@ d_m = 0
 fn names_line_10(description: &RobotDescription, file: &Path) {
     let mut physics = UrdfTree::new(&description.robot);
     let options = CheckOptions { seed: 0, configurations: Vec::new() };
-    let report = check(description, &mut physics, &options).unwrap();
+    let report = check(description, Ok(&mut physics), &options).unwrap();
     let fault = &report.diagnosis[0].fault;
     assert_eq!((fault.joint.as_deref(), fault.line), (Some("a"), Some(10)), "{fault:?}");
     assert_eq!(fault.suggestion, "write a_m = 0.4");

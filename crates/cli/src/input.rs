@@ -7,8 +7,8 @@ use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
 
 use congruent::description::{
-    Diagnostic, JointState, Robot, RobotDescription, RobotQ, configuration, load_robot, read_configurations,
-    read_states,
+    Diagnostic, JointState, Robot, RobotDescription, RobotQ, RosPackages, Use, configuration,
+    load_robot_with, read_configurations, read_states,
 };
 
 use crate::{failure::Failure, print::Printer};
@@ -18,12 +18,37 @@ use crate::{failure::Failure, print::Printer};
 pub(crate) struct RobotArgument {
     /// A folder with robot.toml, a robot file, or a bare .urdf.
     pub(crate) robot: PathBuf,
+    #[command(flatten)]
+    packages: PackageArguments,
+}
+
+/// Where meshes in packages are.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PackageArguments {
+    /// Look for the packages of `package://` in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH` as well.
+    #[arg(long)]
+    ros_packages: bool,
+}
+
+impl PackageArguments {
+    /// The packages of the environment, which is not read if they were not asked for.
+    pub(crate) fn ros(&self) -> RosPackages {
+        if self.ros_packages { RosPackages::from_environment() } else { RosPackages::default() }
+    }
 }
 
 impl RobotArgument {
     /// Loads it and prints its warnings.
     pub(crate) fn load(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
-        let description = load_robot(&self.robot)?;
+        let description = load_robot_with(&self.robot, &self.packages.ros())?;
+        printer.warnings(&description.warnings);
+        Ok(description)
+    }
+
+    /// The same for a use that needs more than kinematics.
+    pub(crate) fn load_for(&self, needed: Use, printer: &Printer) -> Result<RobotDescription, Failure> {
+        let description = load_robot_with(&self.robot, &self.packages.ros())?;
+        description.for_use(needed)?;
         printer.warnings(&description.warnings);
         Ok(description)
     }

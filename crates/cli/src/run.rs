@@ -22,6 +22,7 @@ use serde::Serialize;
 
 use crate::{
     failure::{BROKEN, Failure},
+    input::PackageArguments,
     print::{Printer, Refusal},
 };
 
@@ -52,6 +53,8 @@ pub(crate) struct Arguments {
     /// Also write one JUnit file over all scenarios.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
+    #[command(flatten)]
+    packages: PackageArguments,
 }
 
 fn parse_override(text: &str) -> Result<Override, String> {
@@ -164,7 +167,8 @@ fn load(arguments: &Arguments, printer: &Printer) -> Result<Vec<RunSetup>, Failu
     let mut findings = Vec::new();
     let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
     for path in &arguments.scenarios {
-        match RunSetup::load(path, &overrides) {
+        let setup = RunSetup::load_with(path, &overrides, &arguments.packages.ros());
+        match setup.and_then(RunSetup::for_simulation) {
             Ok(setup) => {
                 let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
                 if let Some(other) = folders.insert(folder.clone(), path.clone()) {

@@ -3,51 +3,67 @@
 use congruent_agreement::compare::{CheckError, CheckOptions, CheckReport};
 use congruent_analysis::dynamics::{DynamicsOptions, DynamicsReport, DynamicsSource, dynamics, robot_of};
 use congruent_analysis::forward::{ForwardError, ForwardReport, Source, forward_by_table};
-use congruent_description::{Diagnostic, JointState, RobotDescription, RobotQ};
+use congruent_description::{Diagnostic, JointState, RobotDescription, RobotQ, Use};
 use congruent_dynamics::{JointDynamics, TreeDynamics};
-use congruent_kinematics::{LinkPoses, LinkPosesError, ScrewTree, UrdfTree};
+use congruent_kinematics::{LinkPoses, ScrewTree, UrdfTree};
 use congruent_twin::source::{SimulatedDynamics, SimulatedPoses};
 
-/// Compares table, URDF chain, screws and the physics twin of a robot.
+/// Compares table, URDF chain, screws and the physics twin of a robot. A robot that cannot be simulated is
+/// compared without the physics, and the report says why.
 ///
 /// # Errors
 /// [`CheckError`] if a source rejects the robot.
 pub fn check(description: &RobotDescription, options: &CheckOptions) -> Result<CheckReport, CheckError> {
-    let mut physics = SimulatedPoses::new(&description.robot).map_err(LinkPosesError::source)?;
-    congruent_agreement::compare::check(description, &mut physics, options)
+    let mut physics = physics(description);
+    let physics = physics.as_mut().map(|physics| physics as &mut dyn LinkPoses);
+    congruent_agreement::compare::check(description, physics.map_err(|found| found.clone()), options)
 }
 
 /// Poses of all links at each configuration, by a chosen source.
 ///
 /// # Errors
-/// [`ForwardError`] if the source does not exist or rejects the robot.
+/// What is wrong with the robot or with the configurations, if the source does not exist or rejects them.
 pub fn forward(
     description: &RobotDescription,
     source: Source,
     configurations: &[RobotQ],
-) -> Result<ForwardReport, ForwardError> {
+) -> Result<ForwardReport, Vec<Diagnostic>> {
     let robot = &description.robot;
     let mut link_poses: Box<dyn LinkPoses> = match source {
-        Source::Dh => return forward_by_table(description, configurations),
+        Source::Dh => return forward_by_table(description, configurations).map_err(refused),
         Source::Urdf => Box::new(UrdfTree::new(robot)),
         Source::Poe => Box::new(ScrewTree::new(robot)),
-        Source::Simulation => Box::new(SimulatedPoses::new(robot).map_err(LinkPosesError::source)?),
+        Source::Simulation => Box::new(physics(description)?),
     };
     congruent_analysis::forward::forward(description, (source, &mut *link_poses), configurations)
+        .map_err(refused)
+}
+
+fn refused(error: ForwardError) -> Vec<Diagnostic> {
+    vec![error.into()]
+}
+
+/// The physics of a robot, or the findings for which it cannot be built.
+fn physics(description: &RobotDescription) -> Result<SimulatedPoses, Vec<Diagnostic>> {
+    description.for_use(Use::Physics)?;
+    SimulatedPoses::new(&description.robot)
+        .map_err(|error| vec![Diagnostic::error("simulation::robot", error.to_string())])
 }
 
 /// Torques and accelerations at each state, by the equations of motion or by the physics.
 ///
 /// # Errors
-/// What a source says that refuses the robot or a state; a payload without mass.
+/// The findings for which the robot has no dynamics, or what a source says that refuses a state; a payload without
+/// mass.
 pub fn joint_dynamics(
     description: &RobotDescription,
     source: DynamicsSource,
     options: &DynamicsOptions,
     states: &[JointState],
-) -> Result<DynamicsReport, Diagnostic> {
+) -> Result<DynamicsReport, Vec<Diagnostic>> {
+    description.for_use(Use::Physics)?;
     let robot = robot_of(description, options)?;
-    let refused = |error: &dyn std::error::Error| Diagnostic::error("dynamics::source", error.to_string());
+    let refused = |error: &dyn std::error::Error| vec![Diagnostic::error("dynamics::source", error.to_string())];
     let mut by: Box<dyn JointDynamics> = match source {
         DynamicsSource::Model => Box::new(TreeDynamics::new(&robot)),
         DynamicsSource::Simulation => {

@@ -5,7 +5,7 @@ use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 use nalgebra::Isometry3;
 
 use crate::{
-    diagnostic::{Diagnostic, known_names},
+    diagnostic::{Diagnostic, Use, known_names},
     model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance},
     robot_file::RobotFilePlaces,
     urdf::UrdfPlaces,
@@ -44,13 +44,24 @@ pub struct RobotDescription {
     pub tolerance: Tolerance,
     /// Link pairs that an SRDF excludes from clearance, the smaller index first.
     pub disabled_collisions: BTreeSet<(LinkIndex, LinkIndex)>,
-    /// What is suspicious but does not stop the work.
+    /// What is suspicious, and what stops another use than kinematics.
     pub warnings: Vec<Diagnostic>,
     /// The texts of robot file and URDF.
     pub places: Places,
 }
 
 impl RobotDescription {
+    /// Whether the robot is fit for a use: whatever asks for more than kinematics asks here first.
+    ///
+    /// # Errors
+    /// The findings that stop this use, as errors.
+    pub fn for_use(&self, needed: Use) -> Result<(), Vec<Diagnostic>> {
+        let stopping = self.warnings.iter().filter(|found| found.stops == Some(needed));
+        let errors: Vec<Diagnostic> =
+            stopping.map(|found| found.clone().needed_by(Some(Use::Kinematics))).collect();
+        if errors.is_empty() { Ok(()) } else { Err(errors) }
+    }
+
     /// The same robot with another chain; a name that is left out keeps its link, but a new base alone
     /// has the tip of its own longest chain. The table is dropped if the chain is another one.
     ///

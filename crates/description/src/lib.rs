@@ -6,15 +6,14 @@
 mod configuration_file;
 mod description;
 mod diagnostic;
-mod diagnostics;
 pub mod display;
 mod file;
-mod finding;
 mod load;
 mod mesh;
 mod model;
 mod packages;
 mod robot_file;
+mod ros_packages;
 mod srdf;
 pub mod units;
 mod urdf;
@@ -25,11 +24,12 @@ pub use configuration_file::{
     JointState, JsonList, configuration, configurations_schema, read_configurations, read_states,
 };
 pub use description::{Places, RobotDescription};
-pub use diagnostic::{Diagnostic, Severity, SourceFile, known_names, line_column, nearest};
-pub use diagnostics::Diagnostics;
+pub use diagnostic::{
+    Diagnostic, Diagnostics, Finding, FindingPlace, Occurrence, Severity, SourceFile, Use, known_names,
+    line_column, nearest,
+};
 pub use file::read_text;
-pub use finding::Finding;
-pub use load::{load_robot, parse_robot};
+pub use load::{load_robot, load_robot_with, parse_robot};
 pub use model::{
     ArmQ, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
     JointLimit, JointParts, JointValues, Link, LinkIndex, Mesh, Mimic, Robot, RobotError, RobotQ, Shape,
@@ -38,6 +38,7 @@ pub use model::{
 pub use robot_file::{
     ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace, dh_section, robot_file_schema,
 };
+pub use ros_packages::RosPackages;
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use written::{
     array::fixed_array,

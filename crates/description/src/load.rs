@@ -11,15 +11,15 @@ use toml::Spanned;
 
 use crate::{
     description::{Places, RobotDescription},
-    diagnostic::{Diagnostic, SourceFile},
-    diagnostics::Diagnostics,
+    diagnostic::{Diagnostic, Diagnostics, SourceFile, Use},
     file::read_text,
-    mesh::{FindMesh, MeshStore},
+    mesh::MeshStore,
     model::{LinkIndex, Robot, Tolerance},
     packages::Packages,
     robot_file::{self, Declared, ROBOT_FILE, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
+    ros_packages::RosPackages,
     srdf::{self, SRDF_BYTES},
-    urdf::{self, URDF_BYTES, UrdfPlaces},
+    urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
     written::toml_text::parse_toml,
 };
 
@@ -30,9 +30,20 @@ const ACCEPTED: &str = "give a folder with robot.toml, a robot file (.toml) or a
 /// A bare URDF has its root as base, the leaf of its longest chain of moving joints as tip, and no
 /// Denavit-Hartenberg table.
 ///
+/// A fault that kinematics can do without, such as a missing mesh, refuses nothing here: it is a warning, and
+/// [`RobotDescription::for_use`] refuses the use that needs the part.
+///
 /// # Errors
 /// Every diagnostic, errors and warnings, if at least one is an error.
 pub fn load_robot(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
+    load_robot_with(path, &RosPackages::default())
+}
+
+/// The same with meshes in packages of ROS.
+///
+/// # Errors
+/// As [`load_robot`].
+pub fn load_robot_with(path: &Path, ros: &RosPackages) -> Result<RobotDescription, Vec<Diagnostic>> {
     let name = path.display();
     if path.is_dir() {
         let robot_file = path.join(ROBOT_FILE);
@@ -40,12 +51,12 @@ pub fn load_robot(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
             let message = format!("{name} is a directory without a {ROBOT_FILE}");
             return Err(vec![Diagnostic::error("load::no_robot_file", message).with_help(ACCEPTED)]);
         }
-        return load_robot_file(&robot_file);
+        return load_robot_file(&robot_file, ros);
     }
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        load_robot_file(path)
+        load_robot_file(path, ros)
     } else {
-        load_bare_urdf(path)
+        load_bare_urdf(path, ros)
     }
 }
 
@@ -58,8 +69,8 @@ fn open(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Vec<Diagnostic>
 
 /// The same from texts alone, whose paths only name them: nothing is opened.
 ///
-/// A URDF with meshes is refused, and of the robot file the keys `urdf`, `srdf` and `packages` are not
-/// followed.
+/// Meshes cannot be found, so a URDF with meshes is refused for clearance; of the robot file the keys `urdf`,
+/// `srdf` and `packages` are not followed.
 ///
 /// # Errors
 /// Every diagnostic, errors and warnings, if at least one is an error.
@@ -77,18 +88,26 @@ pub fn parse_robot(
     robot_file: Option<&Arc<SourceFile>>,
     urdf: &Arc<SourceFile>,
 ) -> Result<RobotDescription, Vec<Diagnostic>> {
-    let (robot, warnings) = read_urdf(urdf, &mut urdf::no_mesh)?;
-    let Some(robot_file) = robot_file else { return Ok(bare(urdf, robot, warnings)) };
+    let Some(robot_file) = robot_file else {
+        let inputs = UrdfInputs { find_mesh: &mut urdf::no_mesh, repairs: &Repairs::default() };
+        let (robot, warnings) = read_urdf(urdf, inputs)?;
+        return Ok(bare(urdf, robot, warnings));
+    };
     let mut diagnostics = Diagnostics::default();
-    diagnostics.extend(warnings);
-    let declared = parse_toml(&robot_file.text, &mut diagnostics)
-        .and_then(|written| declared(written, robot_file, urdf, robot, &mut diagnostics));
+    let written: Option<WrittenRobot> = parse_toml(&robot_file.text, &mut diagnostics);
+    let declared = written.and_then(|written| {
+        let repairs = written.repairs(robot_file);
+        let inputs = UrdfInputs { find_mesh: &mut urdf::no_mesh, repairs: &repairs };
+        let (robot, warnings) = read_urdf(urdf, inputs).map_err(|faults| diagnostics.extend(faults)).ok()?;
+        diagnostics.extend(warnings);
+        declared(written, robot_file, urdf, robot, &mut diagnostics)
+    });
     checked(declared, diagnostics, robot_file)
 }
 
-fn load_bare_urdf(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
+fn load_bare_urdf(path: &Path, ros: &RosPackages) -> Result<RobotDescription, Vec<Diagnostic>> {
     let urdf = open(path, URDF_BYTES)?;
-    let (robot, warnings) = load_urdf(&urdf, BTreeMap::new())?;
+    let (robot, warnings) = load_urdf(&urdf, (BTreeMap::new(), ros), &Repairs::default())?;
     Ok(bare(&urdf, robot, warnings))
 }
 
@@ -114,24 +133,25 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
 /// Reads a URDF with its meshes.
 fn load_urdf(
     source: &Arc<SourceFile>,
-    declared: BTreeMap<String, PathBuf>,
+    (declared, ros): (BTreeMap<String, PathBuf>, &RosPackages),
+    repairs: &Repairs,
 ) -> Result<(Robot, Vec<Diagnostic>), Vec<Diagnostic>> {
     let path = &source.path;
-    let packages = Packages::new(parent(path), declared).map_err(|error| {
+    let mut packages = Packages::new(parent(path), declared, ros.clone()).map_err(|error| {
         let message = format!("{}: its folder cannot be read: {error}", path.display());
         vec![Diagnostic::error("file::unreadable", message)]
     })?;
-    let mut meshes = MeshStore::new(&packages);
-    read_urdf(source, &mut |uri, scale| meshes.find(uri, scale))
+    let mut meshes = MeshStore::new(&mut packages);
+    read_urdf(source, UrdfInputs { find_mesh: &mut |uri, scale| meshes.find(uri, scale), repairs })
 }
 
 /// A robot with its warnings, or every diagnostic if one is an error.
 fn read_urdf(
     source: &Arc<SourceFile>,
-    find_mesh: &mut FindMesh<'_>,
+    inputs: UrdfInputs<'_, '_>,
 ) -> Result<(Robot, Vec<Diagnostic>), Vec<Diagnostic>> {
     let mut diagnostics = Diagnostics::default();
-    let robot = urdf::parse(&source.text, find_mesh, &mut diagnostics);
+    let robot = urdf::parse(&source.text, inputs, &mut diagnostics);
     let diagnostics = diagnostics.in_file(source);
     match robot {
         Some(robot) => Ok((robot, diagnostics)),
@@ -147,10 +167,10 @@ fn parent(path: &Path) -> &Path {
     }
 }
 
-fn load_robot_file(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
+fn load_robot_file(path: &Path, ros: &RosPackages) -> Result<RobotDescription, Vec<Diagnostic>> {
     let source = open(path, ROBOT_FILE_BYTES)?;
     let mut diagnostics = Diagnostics::default();
-    let description = read_robot_file(&source, &mut diagnostics);
+    let description = read_robot_file(&source, ros, &mut diagnostics);
     checked(description, diagnostics, &source)
 }
 
@@ -169,12 +189,17 @@ fn checked(
 }
 
 /// Everything about a robot file and the files that it names.
-fn read_robot_file(robot_file: &Arc<SourceFile>, diagnostics: &mut Diagnostics) -> Option<RobotDescription> {
+fn read_robot_file(
+    robot_file: &Arc<SourceFile>,
+    ros: &RosPackages,
+    diagnostics: &mut Diagnostics,
+) -> Option<RobotDescription> {
     let (written, urdf_path) = written_robot(robot_file, diagnostics)?;
     let folder = parent(&robot_file.path);
     let packages = declared_packages(&written, folder, diagnostics);
     let urdf = open(&urdf_path, URDF_BYTES);
-    let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, packages)?, urdf)));
+    let repairs = written.repairs(robot_file);
+    let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, (packages, ros), &repairs)?, urdf)));
     let ((robot, warnings), urdf) = match robot {
         Ok(read) => read,
         Err(faults) => {
@@ -231,7 +256,7 @@ fn disabled_collisions(
             pairs
         }
         Err(fault) => {
-            diagnostics.push(placed(fault, &srdf.span()));
+            diagnostics.push(placed(fault, &srdf.span()).needed_by(Some(Use::Clearance)));
             BTreeSet::new()
         }
     }

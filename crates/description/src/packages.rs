@@ -3,7 +3,7 @@
 //! One is the project folder. It is not the URDF's own, since real robots say `../meshes/x.stl`, but the
 //! nearest folder at or above the URDF that holds `package.xml`, `robot.toml` or `.git`; if none does,
 //! it is the folder above the URDF's. It is never `/` or a home folder. The others are the folders that
-//! a robot file declares under `packages`. Symbolic links are resolved before a path is compared with
+//! a robot file declares under `packages`, and packages of ROS if the user asks for them. Symbolic links are resolved before a path is compared with
 //! these folders, and nothing outside of them is opened.
 
 use std::{
@@ -12,7 +12,7 @@ use std::{
     path::{Component, Path, PathBuf},
 };
 
-use crate::diagnostic::Diagnostic;
+use crate::{diagnostic::Diagnostic, ros_packages::RosPackages};
 
 /// Names that mark the top folder of a project.
 const MARKS: [&str; 3] = ["package.xml", "robot.toml", ".git"];
@@ -22,21 +22,35 @@ const MARKS: [&str; 3] = ["package.xml", "robot.toml", ".git"];
 pub(crate) struct Packages {
     urdf_folder: PathBuf,
     project_folder: PathBuf,
-    declared: BTreeMap<String, PathBuf>,
+    /// Those of the robot file, and packages of ROS that were looked for, `None` if in vain.
+    known: BTreeMap<String, Option<PathBuf>>,
+    ros: RosPackages,
+}
+
+/// A file that a URI names.
+pub(crate) struct Resolved {
+    pub(crate) path: PathBuf,
+    /// What is wrong with the URI although its meaning is clear.
+    pub(crate) warning: Option<Diagnostic>,
 }
 
 impl Packages {
     /// For a URDF in `urdf_folder`; `declared` are folders of packages by name.
-    pub(crate) fn new(urdf_folder: &Path, declared: BTreeMap<String, PathBuf>) -> io::Result<Self> {
+    pub(crate) fn new(
+        urdf_folder: &Path,
+        declared: BTreeMap<String, PathBuf>,
+        ros: RosPackages,
+    ) -> io::Result<Self> {
         let urdf_folder = urdf_folder.canonicalize()?;
         let home = std::env::var_os("HOME").and_then(|home| Path::new(&home).canonicalize().ok());
         let project_folder = project_folder(&urdf_folder, home.as_deref());
-        Ok(Self { urdf_folder, project_folder, declared })
+        let known = declared.into_iter().map(|(name, folder)| (name, Some(folder))).collect();
+        Ok(Self { urdf_folder, project_folder, known, ros })
     }
 
     /// The regular file that `uri` names: `package://PKG/rest`, `file:///path` or a path relative
     /// to the URDF.
-    pub(crate) fn resolve(&self, uri: &str) -> Result<PathBuf, Diagnostic> {
+    pub(crate) fn resolve(&mut self, uri: &str) -> Result<Resolved, Diagnostic> {
         let mut tried = Vec::new();
         for candidate in self.candidates(uri)? {
             let outside = || {
@@ -44,9 +58,11 @@ impl Packages {
                     "mesh \"{uri}\" leaves the project folder {}: refused",
                     self.project_folder.display()
                 );
-                Diagnostic::error("mesh::outside", message).with_help(
-                    "mesh paths must stay inside the project; declare other folders under `packages` in robot.toml",
-                )
+                Diagnostic::error("mesh::outside", message)
+                    .one_of("meshes are outside of the project folder and were refused", uri)
+                    .with_help(
+                        "mesh paths must stay inside the project; declare other folders under `packages` in robot.toml",
+                    )
             };
             let candidate = normalised(&candidate);
             if !self.allows(&candidate) {
@@ -54,56 +70,59 @@ impl Packages {
             }
             match candidate.canonicalize() {
                 Ok(real) if !self.allows(&real) => return Err(outside()),
-                Ok(real) => return Ok(real),
+                Ok(path) => return Ok(Resolved { path, warning: three_slashes(uri) }),
                 Err(_) => tried.push(candidate.display().to_string()),
             }
         }
-        let help = match uri.strip_prefix("package://") {
-            Some(rest) => format!(
-                "tried {}; declare the folder of package \"{}\" under `packages` in robot.toml",
-                tried.join(", "),
-                rest.split('/').next().unwrap_or_default()
-            ),
-            None => format!("tried {}", tried.join(", ")),
-        };
         let message = format!("mesh file \"{uri}\" not found");
-        Err(Diagnostic::error("mesh::not_found", message).with_help(help))
+        let fault = Diagnostic::error("mesh::not_found", message).one_of("mesh files are not found", uri);
+        let tried = tried.join(", ");
+        Err(fault.with_help(match package_of(uri) {
+            Some((package, _)) => format!(
+                "tried {tried}; say where the package is in robot.toml: packages = {{ {package} = \"../{package}\" }}, \
+                 or look for it in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH with --ros-packages"
+            ),
+            None => format!("tried {tried}"),
+        }))
     }
 
     /// Whether a path is lexically inside an allowed folder.
     pub(crate) fn allows(&self, path: &Path) -> bool {
         let path = normalised(path);
-        std::iter::once(&self.project_folder).chain(self.declared.values()).any(|root| path.starts_with(root))
+        std::iter::once(&self.project_folder)
+            .chain(self.known.values().flatten())
+            .any(|root| path.starts_with(root))
     }
 
-    fn candidates(&self, uri: &str) -> Result<Vec<PathBuf>, Diagnostic> {
+    fn candidates(&mut self, uri: &str) -> Result<Vec<PathBuf>, Diagnostic> {
+        if let Some((package, rest)) = package_of(uri) {
+            return Ok(self.package_folders(package).into_iter().map(|folder| folder.join(rest)).collect());
+        }
         let Some((scheme, rest)) = uri.split_once("://") else {
             return Ok(vec![self.urdf_folder.join(uri)]);
         };
         match scheme.to_ascii_lowercase().as_str() {
             "file" => Ok(vec![self.urdf_folder.join(rest)]),
-            "package" => {
-                let (package, rest) = rest.split_once('/').unwrap_or((rest, ""));
-                Ok(self.package_folders(package).into_iter().map(|folder| folder.join(rest)).collect())
-            }
             "http" | "https" => {
                 let message =
                     format!("mesh \"{uri}\": network paths are not allowed, no connection was made");
                 Err(Diagnostic::error("mesh::network", message)
+                    .one_of("meshes are on the network, which is never used", uri)
                     .with_help("put the mesh beside the URDF and name it by a relative path"))
             }
             _ => {
                 let message = format!("mesh \"{uri}\": unknown scheme {scheme}://");
                 Err(Diagnostic::error("mesh::scheme", message)
+                    .one_of("meshes have an address of an unknown scheme", uri)
                     .with_help("use package://, file:// or a path relative to the URDF"))
             }
         }
     }
 
     /// The folders that may be a package: the declared one, or else every folder from the URDF's up to the
-    /// project folder that has its name or a child of that name.
-    fn package_folders(&self, package: &str) -> Vec<PathBuf> {
-        if let Some(folder) = self.declared.get(package) {
+    /// project folder that has its name or a child of that name, or else a package of ROS.
+    fn package_folders(&mut self, package: &str) -> Vec<PathBuf> {
+        if let Some(Some(folder)) = self.known.get(package) {
             return vec![folder.clone()];
         }
         let inside =
@@ -115,8 +134,31 @@ impl Packages {
             }
             folders.push(folder.join(package));
         }
-        folders
+        if folders.iter().any(|folder| folder.is_dir()) {
+            return folders;
+        }
+        let ros = &self.ros;
+        let found = self.known.entry(package.to_owned()).or_insert_with(|| ros.find(package));
+        found.clone().map_or(folders, |found| vec![found])
     }
+}
+
+/// Package and path of a `package://` address, of which some have a third slash.
+fn package_of(uri: &str) -> Option<(&str, &str)> {
+    let (scheme, rest) = uri.split_once("://")?;
+    let rest = rest.trim_start_matches('/');
+    scheme.eq_ignore_ascii_case("package").then(|| rest.split_once('/').unwrap_or((rest, "")))
+}
+
+fn three_slashes(uri: &str) -> Option<Diagnostic> {
+    let (package, _) = package_of(uri).filter(|_| uri.contains(":///"))?;
+    let message =
+        format!("mesh \"{uri}\": package: has three slashes; \"{package}\" is taken as the package");
+    Some(
+        Diagnostic::warning("mesh::package_slashes", message)
+            .one_of("mesh addresses have three slashes after package:, where there are two", uri)
+            .with_help("write package:// with two slashes"),
+    )
 }
 
 fn project_folder(urdf_folder: &Path, home: Option<&Path>) -> PathBuf {
@@ -159,60 +201,86 @@ mod tests {
         if let Some(mark) = mark {
             fs::write(top.path().join(mark), "").unwrap();
         }
-        let packages = Packages::new(&top.path().join("robot/urdf"), BTreeMap::new()).unwrap();
+        let packages =
+            Packages::new(&top.path().join("robot/urdf"), BTreeMap::new(), RosPackages::default()).unwrap();
         (top, packages)
     }
 
     #[track_caller]
-    fn found(packages: &Packages, uri: &str, end: &str) {
-        let path = packages.resolve(uri).unwrap();
+    fn found(packages: &mut Packages, uri: &str, end: &str) {
+        let path = packages.resolve(uri).unwrap().path;
         assert!(path.ends_with(end), "{}", path.display());
     }
 
     #[track_caller]
-    fn refused(packages: &Packages, uri: &str, code: &str) {
-        assert_eq!(packages.resolve(uri).unwrap_err().code, code, "{uri}");
+    fn refused(packages: &mut Packages, uri: &str, code: &str) {
+        assert_eq!(packages.resolve(uri).err().map(|fault| fault.code), Some(code), "{uri}");
     }
 
     #[test]
     fn meshes_inside_the_project_are_found() {
-        let (top, packages) = project(None);
-        found(&packages, "../meshes/a.stl", "robot/meshes/a.stl");
-        found(&packages, "package://pkg/b.stl", "urdf/pkg/b.stl");
-        found(&packages, "package://robot/meshes/a.stl", "robot/meshes/a.stl");
+        let (top, mut packages) = project(None);
+        found(&mut packages, "../meshes/a.stl", "robot/meshes/a.stl");
+        found(&mut packages, "package://pkg/b.stl", "urdf/pkg/b.stl");
+        found(&mut packages, "package://robot/meshes/a.stl", "robot/meshes/a.stl");
         let absolute = top.path().canonicalize().unwrap().join("robot/meshes/a.stl");
-        found(&packages, &format!("file://{}", absolute.display()), "robot/meshes/a.stl");
+        found(&mut packages, &format!("file://{}", absolute.display()), "robot/meshes/a.stl");
     }
 
     #[test]
     fn meshes_outside_the_project_are_refused() {
-        let (top, packages) = project(None);
-        refused(&packages, "../../outside/c.stl", "mesh::outside");
-        refused(&packages, "../../../../../../../../etc/hosts", "mesh::outside");
-        refused(&packages, "file:///etc/hosts", "mesh::outside");
-        refused(&packages, "package://../../outside/c.stl", "mesh::outside");
-        refused(&packages, "HTTP://127.0.0.1:9/a.stl", "mesh::network");
-        refused(&packages, "model://a.stl", "mesh::scheme");
-        refused(&packages, "nope.stl", "mesh::not_found");
-        refused(&packages, "package://other/b.stl", "mesh::not_found");
+        let (top, mut packages) = project(None);
+        refused(&mut packages, "../../outside/c.stl", "mesh::outside");
+        refused(&mut packages, "../../../../../../../../etc/hosts", "mesh::outside");
+        refused(&mut packages, "file:///etc/hosts", "mesh::outside");
+        refused(&mut packages, "package://../../outside/c.stl", "mesh::outside");
+        refused(&mut packages, "HTTP://127.0.0.1:9/a.stl", "mesh::network");
+        refused(&mut packages, "model://a.stl", "mesh::scheme");
+        refused(&mut packages, "nope.stl", "mesh::not_found");
+        refused(&mut packages, "package://other/b.stl", "mesh::not_found");
         #[cfg(unix)]
         {
             std::os::unix::fs::symlink(top.path().join("outside"), top.path().join("robot/link")).unwrap();
-            refused(&packages, "../link/c.stl", "mesh::outside");
+            refused(&mut packages, "../link/c.stl", "mesh::outside");
         }
     }
 
     #[test]
     fn a_mark_sets_the_project_folder_and_declared_folders_are_allowed() {
-        let (_top, packages) = project(Some(".git"));
-        found(&packages, "../../outside/c.stl", "outside/c.stl");
-        let (_top, packages) = project(Some("robot/urdf/package.xml"));
-        refused(&packages, "../meshes/a.stl", "mesh::outside");
+        let (_top, mut packages) = project(Some(".git"));
+        found(&mut packages, "../../outside/c.stl", "outside/c.stl");
+        let (_top, mut packages) = project(Some("robot/urdf/package.xml"));
+        refused(&mut packages, "../meshes/a.stl", "mesh::outside");
         let (top, _) = project(None);
         let declared =
             BTreeMap::from([("far".to_owned(), top.path().join("outside").canonicalize().unwrap())]);
-        let packages = Packages::new(&top.path().join("robot/urdf"), declared).unwrap();
-        found(&packages, "package://far/c.stl", "outside/c.stl");
+        let mut packages =
+            Packages::new(&top.path().join("robot/urdf"), declared, RosPackages::default()).unwrap();
+        found(&mut packages, "package://far/c.stl", "outside/c.stl");
+    }
+
+    #[test]
+    fn packages_of_ros_are_allowed_only_where_they_are_asked_for() {
+        let (top, mut packages) = project(None);
+        let far = top.path().join("ros/share/far");
+        fs::create_dir_all(&far).unwrap();
+        fs::write(far.join("d.stl"), "").unwrap();
+        fs::write(top.path().join("ros/share/e.stl"), "").unwrap();
+        refused(&mut packages, "package://far/d.stl", "mesh::not_found");
+        let ros = RosPackages { prefixes: vec![top.path().join("ros")], ..RosPackages::default() };
+        let mut packages = Packages::new(&top.path().join("robot/urdf"), BTreeMap::new(), ros).unwrap();
+        found(&mut packages, "package://far/d.stl", "far/d.stl");
+        // The package itself and nothing else.
+        refused(&mut packages, "package://far/../e.stl", "mesh::outside");
+        refused(&mut packages, "package://other/d.stl", "mesh::not_found");
+    }
+
+    #[test]
+    fn three_slashes_are_read_and_told() {
+        let (_top, mut packages) = project(None);
+        assert_eq!(packages.resolve("package://pkg/b.stl").ok().and_then(|found| found.warning), None);
+        let found = packages.resolve("package:///pkg/b.stl").ok().and_then(|found| found.warning);
+        assert_eq!(found.map(|found| found.code), Some("mesh::package_slashes"));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::{
 };
 
 use crate::{
-    diagnostic::{Diagnostic, SourceFile, known_names},
+    diagnostic::{Diagnostic, SourceFile, Use, known_names},
     model::{LinkIndex, Robot},
     xml,
 };
@@ -22,7 +22,7 @@ pub(crate) fn parse(
     let mut pairs = BTreeSet::new();
     let document = match xml::parse(&source.text) {
         Ok(document) => document,
-        Err(fault) => return (pairs, vec![fault.in_file(source)]),
+        Err(fault) => return (pairs, vec![fault.needed_by(Some(Use::Clearance)).in_file(source)]),
     };
     let mut diagnostics = Vec::new();
     let links: BTreeMap<&str, LinkIndex> =
@@ -33,6 +33,7 @@ pub(crate) fn parse(
             links.get(name).copied().or_else(|| {
                 let message = format!("<disable_collisions>: {key} \"{name}\" is no link of the robot");
                 let diagnostic = Diagnostic::warning("srdf::unknown_link", message)
+                    .one_of("times <disable_collisions> names no link of the robot", name)
                     .at(node.range())
                     .with_help(known_names(name, "links", links.keys().copied()));
                 diagnostics.push(diagnostic.in_file(source));
@@ -49,13 +50,11 @@ pub(crate) fn parse(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{diagnostics::Diagnostics, urdf};
 
     fn read(text: &str) -> (usize, Vec<String>) {
         let urdf = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'>\
                     <parent link='a'/><child link='b'/></joint></robot>";
-        let robot =
-            urdf::parse(urdf, &mut |_, _| unreachable!("no mesh"), &mut Diagnostics::default()).unwrap();
+        let robot = crate::parse_urdf(urdf).unwrap();
         let source = Arc::new(SourceFile { path: "r.srdf".into(), text: text.to_owned() });
         let (pairs, diagnostics) = parse(&source, &robot);
         (pairs.len(), diagnostics.into_iter().map(|found| found.message).collect())

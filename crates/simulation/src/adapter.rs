@@ -1,9 +1,8 @@
 //! The one file that converts types: nalgebra outside, glam inside rapier.
 
+use congruent_description::Inertia;
 use nalgebra::{Isometry3, Point3, Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use rapier3d_f64::prelude::{MassProperties, Pose, Rotation, Vector};
-
-use crate::lumping::BodyInertia;
 
 /// Principal inertias below this part of the largest are raised to it.
 ///
@@ -57,7 +56,7 @@ pub(crate) fn x_onto(axis: &Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
 
 /// Mass properties by our own diagonalisation: rapier's returns arbitrary axes if the
 /// principal inertias differ by less than about 1e-5 kg m^2.
-pub(crate) fn mass_properties(inertia: &BodyInertia) -> MassProperties {
+pub(crate) fn mass_properties(inertia: &Inertia) -> MassProperties {
     let eigen = inertia.tensor_kg_m2.symmetric_eigen();
     let mut axes = eigen.eigenvectors;
     if axes.determinant() < 0.0 {
@@ -67,7 +66,7 @@ pub(crate) fn mass_properties(inertia: &BodyInertia) -> MassProperties {
     let principal = eigen.eigenvalues.map(|value| if value.abs() < floor { floor } else { value });
     let frame = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
     MassProperties::with_principal_inertia_frame(
-        vector(&inertia.com_in_body),
+        vector(&inertia.link_from_inertial.translation.vector),
         inertia.mass_kg,
         vector(&principal),
         rotation(&frame),
@@ -110,7 +109,7 @@ mod tests {
         let frame = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1).to_rotation_matrix();
         let principal = Matrix3::from_diagonal(&Vector3::new(1e-6, 2e-6, 2.5e-6));
         let tensor_kg_m2 = frame.matrix() * principal * frame.matrix().transpose();
-        let inertia = BodyInertia { mass_kg: 0.1, com_in_body: Vector3::zeros(), tensor_kg_m2 };
+        let inertia = Inertia { mass_kg: 0.1, link_from_inertial: Isometry3::identity(), tensor_kg_m2 };
         let back = mass_properties(&inertia).reconstruct_inertia_matrix();
         for (row, column) in [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
             let error = back.col(column)[row] - tensor_kg_m2[(row, column)];

@@ -4,7 +4,7 @@
 //! Insertion order is row order, so body `i + 1`, multibody link `i + 1` and coordinate `i` are
 //! one and the same joint throughout the crate.
 
-use congruent_description::{Joint, JointIndex, Mimic, Robot};
+use congruent_description::{Inertia, Joint, JointIndex, Mimic, Robot};
 use rapier3d_f64::{
     dynamics::MultibodyDofCoupling,
     prelude::{
@@ -15,7 +15,7 @@ use rapier3d_f64::{
 use crate::{
     adapter, contact,
     error::SimulationError,
-    lumping::{Bodies, BodyInertia},
+    lumping::Bodies,
     sets::{EngineSets, EngineSlot},
     settings::{Obstacle, WorldSettings},
 };
@@ -64,7 +64,7 @@ pub(crate) fn build(
     Ok(Built { sets, handles, slots, multibody })
 }
 
-fn rigid_body(body: usize, inertia: &BodyInertia) -> RigidBodyBuilder {
+fn rigid_body(body: usize, inertia: &Inertia) -> RigidBodyBuilder {
     if body == 0 {
         return RigidBodyBuilder::fixed();
     }
@@ -125,7 +125,7 @@ fn slot(robot: &Robot, index: JointIndex) -> Result<EngineSlot, SimulationError>
         let (joint_name, unit) = (joint.name.clone(), joint.kind.unit());
         return Err(SimulationError::Limits { joint: joint_name, lower, upper, unit });
     }
-    let effort = joint.limit.map_or(0.0, |limit| limit.effort);
+    let effort = joint.limit.and_then(|limit| limit.effort).unwrap_or(0.0);
     Ok(EngineSlot {
         axis: if joint.kind.is_angular() { JointAxis::AngX } else { JointAxis::LinX },
         lower,

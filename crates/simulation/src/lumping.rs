@@ -1,17 +1,7 @@
 //! Bodies: links that are connected by fixed joints move as one, with one mass. Pure nalgebra.
 
 use congruent_description::{Inertia, JointKind, LinkIndex, Robot};
-use nalgebra::{Isometry3, Matrix3, Vector3};
-
-/// Inertia of a body; zero if none of its links has any.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BodyInertia {
-    pub mass_kg: f64,
-    /// Centre of mass in the frame of the body's first link, m.
-    pub com_in_body: Vector3<f64>,
-    /// About the centre of mass, axes of the body.
-    pub tensor_kg_m2: Matrix3<f64>,
-}
+use nalgebra::Isometry3;
 
 /// The body that a link is fixed to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +17,8 @@ pub(crate) struct LinkOnBody {
 pub(crate) struct Bodies {
     /// In the order of [`Robot::links`].
     pub links: Vec<LinkOnBody>,
-    pub inertias: Vec<BodyInertia>,
+    /// Of each body, in the axes of its first link; zero if none of its links has any.
+    pub inertias: Vec<Inertia>,
 }
 
 impl Bodies {
@@ -56,32 +47,15 @@ fn place(robot: &Robot, link: LinkIndex, before: &[LinkOnBody]) -> LinkOnBody {
     first_of(robot.coordinate(index).expect("a movable joint has a coordinate") + 1)
 }
 
-fn inertia(robot: &Robot, body: usize, links: &[LinkOnBody]) -> BodyInertia {
-    let parts = || {
-        let on_body = links.iter().zip(robot.links()).filter(move |(place, _)| place.body == body);
-        on_body.filter_map(|(place, link)| Some((place.body_from_link, link.inertia?)))
-    };
-    // Adding zero makes the sum of nothing, which is -0.0, plain zero.
-    let mass_kg = parts().map(|(_, part)| part.mass_kg).sum::<f64>() + 0.0;
-    let com = |(body_from_link, part): (Isometry3<f64>, Inertia)| {
-        (body_from_link * part.link_from_inertial).translation.vector
-    };
-    let weighted = parts().map(|part| part.1.mass_kg * com(part)).sum::<Vector3<f64>>();
-    let com_in_body = if mass_kg > 0.0 { weighted / mass_kg } else { Vector3::zeros() };
-    let about_com = |part: (Isometry3<f64>, Inertia)| {
-        let turn = (part.0.rotation * part.1.link_from_inertial.rotation).to_rotation_matrix();
-        let shift = com(part) - com_in_body;
-        let steiner = Matrix3::identity() * shift.norm_squared() - shift * shift.transpose();
-        turn.matrix() * part.1.tensor_kg_m2 * turn.matrix().transpose() + part.1.mass_kg * steiner
-    };
-    let tensor = parts().map(about_com).sum::<Matrix3<f64>>();
-    // Rounding may have made it asymmetric.
-    BodyInertia { mass_kg, com_in_body, tensor_kg_m2: (tensor + tensor.transpose()) * 0.5 }
+fn inertia(robot: &Robot, body: usize, links: &[LinkOnBody]) -> Inertia {
+    let on_body = links.iter().zip(robot.links()).filter(move |(place, _)| place.body == body);
+    Inertia::of_body(on_body.filter_map(|(place, link)| Some((place.body_from_link, link.inertia?))))
 }
 
 #[cfg(test)]
 mod tests {
     use congruent_description::{Joint, JointParts, Link};
+    use nalgebra::{Matrix3, Vector3};
 
     use super::*;
 
@@ -131,7 +105,7 @@ mod tests {
         assert_eq!(bodies.inertias[0].mass_kg.to_bits(), 0.0_f64.to_bits());
         let body = bodies.inertias[1];
         assert_eq!(body.mass_kg.to_bits(), 2.0_f64.to_bits());
-        assert!((body.com_in_body - Vector3::new(0.0, 2.0, 0.0)).amax() < ROUNDING);
+        assert!((body.link_from_inertial.translation.vector - Vector3::new(0.0, 2.0, 0.0)).amax() < ROUNDING);
         let expected = Matrix3::from_diagonal(&Vector3::new(0.0, 2.0, 2.0));
         assert!((body.tensor_kg_m2 - expected).amax() < ROUNDING, "{}", body.tensor_kg_m2);
     }

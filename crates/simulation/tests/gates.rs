@@ -284,7 +284,7 @@ fn a07_gravity_compensation() {
     for (name, golden) in goldens().into_iter().filter(|(_, golden)| has_dynamics(golden)) {
         let robot = changed(&golden.robot, |joint| {
             if let Some(limit) = &mut joint.limit {
-                limit.effort = 0.0;
+                limit.effort = Some(0.0);
             }
         });
         let config = golden.random().next().expect("a random configuration");

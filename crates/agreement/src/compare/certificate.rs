@@ -1,6 +1,8 @@
 //! The certificates of a robot: bounds of the difference of two of its models at link `tip` over the whole
 //! joint range. Table and URDF are known chains, the physics is the chain that was identified.
 
+use std::cell::RefCell;
+
 use congruent_description::{DhTable, JointValues, Mimic, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{
     DhChain, LinkPoses, Pose, PoseError, ScrewChain, Twist, UrdfTree, move_inside_limits, range,
@@ -101,42 +103,45 @@ pub(crate) fn worst(certificates: &[ReportedCertificate]) -> Option<Brackets> {
 }
 
 /// Brackets the disagreements of table and URDF and of table and physics at link `tip` relative to link
-/// `base`; of a robot without table that of URDF and physics.
+/// `base`; of a robot without table that of URDF and physics. Without physics its pairs are left out.
 ///
 /// # Errors
 /// [`CheckError`] if table and robot do not fit together, or if the physics rejects a configuration.
 pub(crate) fn certificates(
     description: &RobotDescription,
-    identified: &IdentifiedChain,
-    physics: &mut dyn LinkPoses,
+    physics: Option<(&IdentifiedChain, &mut dyn LinkPoses)>,
 ) -> Result<Vec<ReportedCertificate>, CheckError> {
     let robot = &description.robot;
     if robot.chain(description.base, description.tip).is_none() {
         return Ok(Vec::new());
     }
-    let (urdf, simulated) =
-        (ComparedChain::urdf(description)?, ComparedChain::physics(description, identified));
+    let urdf = ComparedChain::urdf(description)?;
+    let table = description.dh.as_ref().map(|table| ComparedChain::table(robot, table)).transpose()?;
+    let table_urdf = match &table {
+        Some(table) => certified(robot, [table, &urdf])?,
+        None => None,
+    };
+    let mut certificates = Vec::new();
+    if let Some(table) = &table {
+        let brackets = report(robot, [table, &urdf], table_urdf.clone())?;
+        certificates.push(ReportedCertificate::new(SourcePair::ModelUrdf, brackets, None));
+    }
+    let Some((identified, physics)) = physics else { return Ok(certificates) };
+    let simulated = ComparedChain::physics(description, identified, physics);
     let urdf_physics = if identified.premise.holds { certified(robot, [&urdf, &simulated])? } else { None };
-    let premise = Some(identified.premise);
-    let Some(table) = &description.dh else {
-        let brackets = report(robot, [&urdf, &simulated], urdf_physics, physics)?;
-        return Ok(vec![ReportedCertificate::new(SourcePair::UrdfSimulation, brackets, premise)]);
-    };
-    let table = ComparedChain::table(robot, table)?;
-    let table_urdf = certified(robot, [&table, &urdf])?;
-    let table_physics = match (&table_urdf, urdf_physics) {
-        (Some(table_urdf), Some(urdf_physics)) if is_rounding(&urdf_physics) => {
-            Some(through_intermediate(table_urdf, &urdf_physics))
+    let (pair, model, certificate) = match (&table, table_urdf, urdf_physics) {
+        (None, _, urdf_physics) => (SourcePair::UrdfSimulation, &urdf, urdf_physics),
+        (Some(table), Some(table_urdf), Some(urdf_physics)) if is_rounding(&urdf_physics) => {
+            (SourcePair::ModelSimulation, table, Some(through_intermediate(&table_urdf, &urdf_physics)))
         }
-        (_, Some(_)) => certified(robot, [&table, &simulated])?,
-        (_, None) => None,
+        (Some(table), _, Some(_)) => {
+            (SourcePair::ModelSimulation, table, certified(robot, [table, &simulated])?)
+        }
+        (Some(table), _, None) => (SourcePair::ModelSimulation, table, None),
     };
-    let of_urdf = report(robot, [&table, &urdf], table_urdf, physics)?;
-    let of_physics = report(robot, [&table, &simulated], table_physics, physics)?;
-    Ok(vec![
-        ReportedCertificate::new(SourcePair::ModelUrdf, of_urdf, None),
-        ReportedCertificate::new(SourcePair::ModelSimulation, of_physics, premise),
-    ])
+    let brackets = report(robot, [model, &simulated], certificate)?;
+    certificates.push(ReportedCertificate::new(pair, brackets, Some(identified.premise)));
+    Ok(certificates)
 }
 
 /// A model of the chain from base to tip.
@@ -148,8 +153,8 @@ struct ComparedChain<'a> {
     base_from_tip: Box<TipPose<'a>>,
 }
 
-/// Pose of the tip in the base; the physics is evaluated through its source of link poses.
-type TipPose<'a> = dyn Fn(&mut dyn LinkPoses, &RobotQ) -> Result<Pose, CheckError> + 'a;
+/// Pose of the tip in the base.
+type TipPose<'a> = dyn Fn(&RobotQ) -> Result<Pose, CheckError> + 'a;
 
 impl<'a> ComparedChain<'a> {
     fn table(robot: &Robot, table: &DhTable) -> Result<Self, CheckError> {
@@ -158,7 +163,7 @@ impl<'a> ComparedChain<'a> {
         Ok(Self {
             driven: DrivenScrews::new(robot, by_table.coordinates(), &chain),
             residual: PoseError::default(),
-            base_from_tip: Box::new(move |_, q| Ok(by_table.base_from_tip(q)?)),
+            base_from_tip: Box::new(move |q| Ok(by_table.base_from_tip(q)?)),
         })
     }
 
@@ -170,13 +175,18 @@ impl<'a> ComparedChain<'a> {
         Ok(Self {
             driven: DrivenScrews::new(robot, &coordinates, &chain),
             residual: PoseError::default(),
-            base_from_tip: Box::new(move |_, q| {
+            base_from_tip: Box::new(move |q| {
                 Ok(tree.root_from_link(q, base)?.inverse() * tree.root_from_link(q, tip)?)
             }),
         })
     }
 
-    fn physics(description: &'a RobotDescription, identified: &IdentifiedChain) -> Self {
+    fn physics(
+        description: &'a RobotDescription,
+        identified: &IdentifiedChain,
+        physics: &'a mut dyn LinkPoses,
+    ) -> Self {
+        let physics = RefCell::new(physics);
         let Premise { residual_m: position_m, residual_rad: orientation_rad, .. } = identified.premise;
         Self {
             driven: DrivenScrews::new(
@@ -185,7 +195,7 @@ impl<'a> ComparedChain<'a> {
                 &identified.chain,
             ),
             residual: PoseError { position_m, orientation_rad },
-            base_from_tip: Box::new(|physics, q| Ok(base_from_tip(description, physics, q)?)),
+            base_from_tip: Box::new(move |q| Ok(base_from_tip(description, &mut **physics.borrow_mut(), q)?)),
         }
     }
 }
@@ -237,13 +247,12 @@ fn report(
     robot: &Robot,
     chains: [&ComparedChain<'_>; 2],
     certificate: Option<Certificate>,
-    physics: &mut dyn LinkPoses,
 ) -> Result<Option<Brackets>, CheckError> {
     let Some(certificate) = certificate else { return Ok(None) };
-    let mut bracket = |Bracket { at, certified, .. }: Bracket, measure: fn(PoseError) -> f64| {
+    let bracket = |Bracket { at, certified, .. }: Bracket, measure: fn(PoseError) -> f64| {
         let mut at = RobotQ::from(at);
         robot.apply_mimic(&mut at);
-        let [a, b] = chains.map(|side| (side.base_from_tip)(physics, &at));
+        let [a, b] = chains.map(|side| (side.base_from_tip)(&at));
         let attained = measure(PoseError::between(&a?, &b?)).min(certified);
         let name = |index: usize| robot.joint(robot.movable_joints()[index]).name.clone();
         let driving = at.iter().enumerate().filter(|&(index, _)| drives(chains, index));

@@ -1,6 +1,6 @@
 //! The comparison of model, URDF and physics without motion: are they the same robot?
 
-use congruent_description::{Finding, JointValues, RobotDescription, RobotQ};
+use congruent_description::{Diagnostic, Finding, JointValues, RobotDescription, RobotQ};
 use congruent_kinematics::{
     KinematicsError, LinkPoses, Pose, PoseError, ScrewTree, UrdfTree, larger, sample_configurations,
 };
@@ -8,7 +8,9 @@ use congruent_kinematics::{
 use super::{
     basics::basics,
     certificate::{Brackets, certificates, worst},
-    check_report::{Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, WorstDifference},
+    check_report::{
+        Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, NotAsked, WorstDifference,
+    },
     error::CheckError,
     identified::IdentifiedChain,
     model::{Model, PoseSource},
@@ -33,18 +35,30 @@ pub const RANDOM_CONFIGURATIONS: usize = 200;
 /// compared with a fitted constant and only shown; they follow from the tip: two chains that agree at the
 /// tip for every configuration have the same axes.
 ///
+/// `physics` may be the findings for which it cannot be asked: the others are compared, and the report says so.
+///
 /// # Errors
 /// [`CheckError`] if a source rejects the robot.
 pub fn check(
     description: &RobotDescription,
-    physics: &mut dyn LinkPoses,
+    physics: Result<&mut dyn LinkPoses, Vec<Diagnostic>>,
     options: &CheckOptions,
 ) -> Result<CheckReport, CheckError> {
     let robot = &description.robot;
     let mut configurations = sample_configurations(robot, options.seed, RANDOM_CONFIGURATIONS);
+    let (mut physics, not_asked) = match physics {
+        Ok(physics) => (Some(physics), Vec::new()),
+        Err(findings) => (None, vec![not_asked(&findings)]),
+    };
+    let identified = match &mut physics {
+        Some(physics) => Some(IdentifiedChain::new(description, &mut **physics, &configurations)?),
+        None => None,
+    };
+    let certificates = match (&identified, &mut physics) {
+        (Some(identified), Some(physics)) => certificates(description, Some((identified, &mut **physics)))?,
+        _ => certificates(description, None)?,
+    };
     let mut sources = LinkPoseSources::new(description, physics)?;
-    let identified = IdentifiedChain::new(description, sources.physics, &configurations)?;
-    let certificates = certificates(description, &identified, sources.physics)?;
     // The worst configurations of the certificates count for the verdict: random ones seldom find them.
     let brackets = certificates.iter().filter_map(|certificate| certificate.brackets.as_ref());
     configurations.extend(brackets.flat_map(|brackets| brackets.attained_at(robot)));
@@ -57,7 +71,9 @@ pub fn check(
     let urdf = vec![PoseSource::Urdf; robot.links().len()];
     let all = |_| true;
     running.push(RunningComparison::new(SourcePair::PoeUrdf, poe_urdf, &urdf, all));
-    running.push(RunningComparison::new(SourcePair::UrdfSimulation, urdf_simulation, &urdf, all));
+    if sources.physics.is_some() {
+        running.push(RunningComparison::new(SourcePair::UrdfSimulation, urdf_simulation, &urdf, all));
+    }
     let requested_from = configurations.len();
     configurations.extend_from_slice(&options.configurations);
     let mut requested = Vec::with_capacity(options.configurations.len());
@@ -71,13 +87,13 @@ pub fn check(
     }
     let comparisons: Vec<Comparison> =
         running.iter().map(|comparison| comparison.finish(description, &configurations)).collect();
-    let diagnoses = diagnose_models(description, &identified.chain, &configurations);
+    let chain = identified.as_ref().map(|identified| &identified.chain);
+    let diagnoses = diagnose_models(description, chain, &configurations);
     let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
-    let agree = comparisons.iter().all(|comparison| comparison.verdict == Agreement::Agree);
     let brackets = worst(&certificates);
     Ok(CheckReport {
         robot: robot.name().to_owned(),
-        verdict: if agree { Agreement::Agree } else { Agreement::Disagree },
+        verdict: verdict(&comparisons),
         worst: worst_of(&comparisons),
         tolerance: description.tolerance,
         configurations: configurations.len(),
@@ -91,8 +107,24 @@ pub fn check(
         diagnosis: named.map(|diagnosis| diagnosis.causes.clone()).unwrap_or_default(),
         indistinguishable: named.map(|diagnosis| diagnosis.indistinguishable.clone()).unwrap_or_default(),
         diagnoses,
+        not_asked,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     })
+}
+
+fn not_asked(findings: &[Diagnostic]) -> NotAsked {
+    NotAsked { source: "simulation", findings: findings.iter().map(Finding::from).collect() }
+}
+
+/// Screws are made from the URDF chain: alone they show that two computations agree, not two descriptions.
+fn verdict(comparisons: &[Comparison]) -> Agreement {
+    if comparisons.iter().any(|comparison| comparison.verdict != Agreement::Agree) {
+        Agreement::Disagree
+    } else if comparisons.iter().any(|comparison| comparison.name != SourcePair::PoeUrdf) {
+        Agreement::Agree
+    } else {
+        Agreement::NothingCompared
+    }
 }
 
 /// The largest difference of all comparisons, separately in position and in orientation.
@@ -104,7 +136,7 @@ fn worst_of(comparisons: &[Comparison]) -> WorstDifference {
         WorstDifference { error: PoseError { orientation_rad, ..furthest.error }, ..furthest }
     };
     let worst = comparisons.iter().map(|comparison| comparison.worst.clone());
-    worst.reduce(further).expect("screws and physics are always compared with the URDF")
+    worst.reduce(further).expect("screws are always compared with the URDF")
 }
 
 /// Poses of all links at one configuration, by each source.
@@ -112,14 +144,17 @@ struct LinkPoseSources<'a> {
     model: Model,
     urdf: UrdfTree,
     screws: ScrewTree,
-    physics: &'a mut dyn LinkPoses,
+    physics: Option<&'a mut dyn LinkPoses>,
     by_urdf: Vec<Pose>,
     by_screws: Vec<Pose>,
     by_physics: Vec<Pose>,
 }
 
 impl<'a> LinkPoseSources<'a> {
-    fn new(description: &RobotDescription, physics: &'a mut dyn LinkPoses) -> Result<Self, KinematicsError> {
+    fn new(
+        description: &RobotDescription,
+        physics: Option<&'a mut dyn LinkPoses>,
+    ) -> Result<Self, KinematicsError> {
         let robot = &description.robot;
         let links = robot.links().len();
         Ok(Self {
@@ -137,7 +172,9 @@ impl<'a> LinkPoseSources<'a> {
         self.model.root_from_links(q)?;
         self.urdf.root_from_links_into(q, &mut self.by_urdf)?;
         self.screws.root_from_links_into(q, &mut self.by_screws)?;
-        self.physics.root_from_links_into(q, &mut self.by_physics)?;
+        if let Some(physics) = &mut self.physics {
+            physics.root_from_links_into(q, &mut self.by_physics)?;
+        }
         Ok(())
     }
 }

@@ -25,6 +25,9 @@ pub enum Agreement {
     Agree,
     /// Beyond tolerance somewhere.
     Disagree,
+    /// There is one description of the robot and nothing to compare it with: no table, and the physics could not
+    /// be asked.
+    NothingCompared,
 }
 
 impl fmt::Display for Agreement {
@@ -72,12 +75,21 @@ pub struct LinkDifference {
     pub error: PoseError,
 }
 
+/// A source that could not be asked.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct NotAsked {
+    /// The source: `simulation`.
+    pub source: &'static str,
+    /// Why.
+    pub findings: Vec<Finding>,
+}
+
 /// The answer of `congruent check` for one robot.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CheckReport {
     /// Name of the robot.
     pub robot: String,
-    /// Whether all sources agree.
+    /// Whether all sources that were asked agree.
     pub verdict: Agreement,
     /// The worst of all comparisons.
     pub worst: WorstDifference,
@@ -108,6 +120,9 @@ pub struct CheckReport {
     pub indistinguishable: Vec<ReportedAlternative>,
     /// The diagnoses, two models of the chain each.
     pub diagnoses: Vec<ReportedDiagnosis>,
+    /// Sources that could not be asked: the verdict says nothing about them.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub not_asked: Vec<NotAsked>,
     /// Warnings about the input.
     pub warnings: Vec<Finding>,
 }

@@ -12,6 +12,8 @@ pub(crate) mod model;
 pub use basics::{Basics, BySource, CoordinateUnit, SingleJointMotion, TcpDisplacement};
 pub use certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate};
 pub use check::{CheckOptions, RANDOM_CONFIGURATIONS, check};
-pub use check_report::{Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, WorstDifference};
+pub use check_report::{
+    Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, NotAsked, WorstDifference,
+};
 pub use error::CheckError;
 pub use model::{Model, PoseSource};

@@ -13,10 +13,10 @@ use crate::{
 /// The diagnosis of each pair of models of the chain from base to tip.
 ///
 /// `configurations` are configurations of the whole robot at which residuals are measured, `physics` is the
-/// chain that was identified from the physics.
+/// chain that was identified from the physics, `None` if it could not be asked.
 pub fn diagnose_models(
     description: &RobotDescription,
-    physics: &ScrewChain,
+    physics: Option<&ScrewChain>,
     configurations: &[RobotQ],
 ) -> Vec<ReportedDiagnosis> {
     let robot = &description.robot;
@@ -27,22 +27,24 @@ pub fn diagnose_models(
         chain.iter().copied().filter(|&joint| robot.joint(joint).kind.is_movable()).collect();
     let coordinates: Vec<usize> = moving.iter().filter_map(|&joint| robot.coordinate(joint)).collect();
     let places = description.places.robot_file.as_deref();
-    let physics = ReferenceModel::from_screws(physics);
+    let physics = physics.map(ReferenceModel::from_screws);
     let criterion = Criterion {
         tolerance: description.tolerance,
         configurations: configurations.iter().map(|q| q.of_chain(&coordinates)).collect(),
     };
     let names = ModelNames { description, moving, chain, places, urdf: description.places.urdf.as_ref() };
-    let pairs = if let Some(candidate) = candidate(&names) {
-        let against_physics = ModelPair { candidate: candidate.clone(), reference: physics };
-        vec![
-            (SourcePair::ModelUrdf, ModelPair { candidate, reference: urdf }),
-            (SourcePair::ModelSimulation, against_physics),
-        ]
-    } else {
-        let candidate = Candidate::from_screws(&urdf.screws());
-        vec![(SourcePair::UrdfSimulation, ModelPair { candidate, reference: physics })]
-    };
+    let candidate = candidate(&names);
+    let mut pairs = Vec::new();
+    if let Some(candidate) = candidate.clone() {
+        pairs.push((SourcePair::ModelUrdf, ModelPair { candidate, reference: urdf.clone() }));
+    }
+    pairs.extend(physics.map(|reference| match candidate {
+        Some(candidate) => (SourcePair::ModelSimulation, ModelPair { candidate, reference }),
+        None => {
+            let candidate = Candidate::from_screws(&urdf.screws());
+            (SourcePair::UrdfSimulation, ModelPair { candidate, reference })
+        }
+    }));
     let diagnosis = |(pair, models): &(SourcePair, ModelPair)| {
         reported_diagnosis(*pair, models, &diagnose(models, &criterion), &names)
     };

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use congruent::{
-    description::Diagnostic,
+    description::{Diagnostic, Use},
     twin::proximity::{DistanceReport, Overlap, PairChoice, distances},
 };
 
@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load(printer)?;
+    let description = arguments.robot.load_for(Use::Clearance, printer)?;
     let configurations = arguments.configurations.read(&description.robot)?;
     let choice = if arguments.all_pairs { PairChoice::All } else { PairChoice::Usual };
     let overlap = if arguments.penetration { Overlap::Depth } else { Overlap::Zero };

@@ -2,10 +2,7 @@
 
 use std::fmt::Write;
 
-use congruent::{
-    analysis::forward::{ForwardReport, Source},
-    description::Diagnostic,
-};
+use congruent::analysis::forward::{ForwardReport, Source};
 
 use crate::{
     failure::Failure,
@@ -28,8 +25,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.robot.load(printer)?;
     let configurations = arguments.configurations.read(&description.robot)?;
-    let report =
-        congruent::forward(&description, arguments.source, &configurations).map_err(Diagnostic::from)?;
+    let report = congruent::forward(&description, arguments.source, &configurations)?;
     printer.result(&report, text)?;
     Ok(0)
 }

@@ -4,16 +4,21 @@ use std::path::PathBuf;
 
 use congruent::{
     agreement::compare::{Agreement, CheckOptions, CheckReport},
-    description::{Diagnostic, load_robot, read_configurations},
+    description::{Diagnostic, load_robot_with, read_configurations},
 };
 
 use super::check_text::{basics, text};
-use crate::{failure::Failure, print::Printer};
+use crate::{
+    failure::{FAILED, Failure, NOTHING},
+    input::PackageArguments,
+    print::Printer,
+};
 
 /// Whether a robot's table, its URDF and its physics twin are the same robot.
 ///
 /// Compared at zero, one axis at a time, at 200 seeded random configurations within the limits,
-/// at the limits, and at the worst configurations of the certificates. Exit code 1 if they disagree.
+/// at the limits, and at the worst configurations of the certificates. Exit code 1 if they disagree, 4 if
+/// there is neither a table nor a robot that can be simulated, so that nothing was compared.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Folders with robot.toml, robot files, or bare .urdf files.
@@ -29,12 +34,15 @@ pub(crate) struct Arguments {
     /// Also show the pose of the TCP at zero and its motion with each joint; JSON always has both.
     #[arg(long)]
     basics: bool,
+    #[command(flatten)]
+    packages: PackageArguments,
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut reports = Vec::with_capacity(arguments.robots.len());
+    let ros = arguments.packages.ros();
     for path in &arguments.robots {
-        let description = load_robot(path)?;
+        let description = load_robot_with(path, &ros)?;
         printer.warnings(&description.warnings);
         let configurations = match &arguments.configurations {
             Some(path) => read_configurations(path, &description.robot)?,
@@ -49,10 +57,22 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         let basics = if arguments.basics { basics(&report.basics) } else { String::new() };
         text(report) + &basics
     };
-    let all_agree = reports.iter().all(|report| report.verdict == Agreement::Agree);
+    let code =
+        reports.iter().map(exit_code).max_by_key(|code| FROM_BEST.iter().position(|known| known == code));
     match &reports[..] {
         [report] => printer.result(report, text)?,
         reports => printer.result(&reports, |reports| reports.iter().map(text).collect())?,
     }
-    Ok(u8::from(!all_agree))
+    Ok(code.unwrap_or(NOTHING))
+}
+
+/// Exit codes of a check, the best first.
+const FROM_BEST: [u8; 3] = [0, FAILED, NOTHING];
+
+fn exit_code(report: &CheckReport) -> u8 {
+    match report.verdict {
+        Agreement::Agree => 0,
+        Agreement::Disagree => FAILED,
+        Agreement::NothingCompared => NOTHING,
+    }
 }

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use congruent::{
     agreement::{
         compare::{
-            Agreement, Basics, Brackets, BySource, CheckReport, Comparison, CoordinateUnit, PoseSource,
-            Premise, ReportedBracket, ReportedCertificate,
+            Agreement, Basics, Brackets, BySource, CheckReport, Comparison, CoordinateUnit, NotAsked,
+            PoseSource, Premise, ReportedBracket, ReportedCertificate,
         },
         diagnosis::Invariant,
         report::{Fault, ReportedCause, ReportedDiagnosis},
@@ -22,7 +22,7 @@ pub(super) fn text(report: &CheckReport) -> String {
         text,
         "{}: {}, worst {} over {} configurations (tolerance {:e} m, {:e} rad)",
         report.robot,
-        report.verdict,
+        verdict(report.verdict),
         length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),
         report.configurations,
         report.tolerance.position_m,
@@ -30,6 +30,11 @@ pub(super) fn text(report: &CheckReport) -> String {
     );
     for comparison in &report.comparisons {
         compared(&mut text, comparison);
+    }
+    for NotAsked { findings, .. } in &report.not_asked {
+        for finding in findings {
+            let _ = writeln!(text, "  not asked the physics: {}", finding.message);
+        }
     }
     if report.verdict == Agreement::Disagree {
         let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, report.worst.at.listed(4));
@@ -43,6 +48,15 @@ pub(super) fn text(report: &CheckReport) -> String {
         diagnosed(&mut text, diagnosis);
     }
     text
+}
+
+fn verdict(verdict: Agreement) -> String {
+    match verdict {
+        Agreement::NothingCompared => {
+            "NOTHING COMPARED: there is no [dh] table, and the physics could not be asked".to_owned()
+        }
+        verdict => verdict.to_string(),
+    }
 }
 
 /// The first checks: the pose of the TCP at zero and its motion with each joint.
@@ -95,7 +109,7 @@ fn to_mm(metres: f64) -> f64 {
 
 /// The certificate: a bound over the whole joint range, not a sample.
 fn certified(text: &mut String, report: &CheckReport) {
-    if report.verdict == Agreement::Agree {
+    if report.verdict != Agreement::Disagree {
         report.certificates.iter().for_each(|certificate| narrow(text, certificate));
         return;
     }

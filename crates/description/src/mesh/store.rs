@@ -8,7 +8,12 @@ use super::{
     format::MeshFormat,
     mesh_file::{FURTHEST_M, MeshError, MeshFile},
 };
-use crate::{diagnostic::Diagnostic, file::read_bytes, model::Mesh, packages::Packages};
+use crate::{
+    diagnostic::Diagnostic,
+    file::read_bytes,
+    model::Mesh,
+    packages::{Packages, Resolved},
+};
 
 /// The largest mesh file that is read.
 const MESH_BYTES: u64 = 256 << 20;
@@ -24,30 +29,33 @@ pub(crate) type FindMesh<'a> = dyn FnMut(&str, Vector3<f64>) -> Result<FoundMesh
 
 /// Reads meshes inside the folders that `packages` allows.
 pub(crate) struct MeshStore<'a> {
-    packages: &'a Packages,
+    packages: &'a mut Packages,
     /// By file and the bits of the scale.
     read: BTreeMap<(PathBuf, [u64; 3]), Arc<Mesh>>,
 }
 
 impl<'a> MeshStore<'a> {
-    pub(crate) fn new(packages: &'a Packages) -> Self {
+    pub(crate) fn new(packages: &'a mut Packages) -> Self {
         Self { packages, read: BTreeMap::new() }
     }
 
     /// The mesh that a URDF names by `uri`, in metres, scaled.
     pub(crate) fn find(&mut self, uri: &str, scale: Vector3<f64>) -> Result<FoundMesh, Diagnostic> {
-        let path = self.packages.resolve(uri)?;
+        let Resolved { path, warning } = self.packages.resolve(uri)?;
         let key = (path.clone(), scale.map(f64::to_bits).into());
         if let Some(mesh) = self.read.get(&key) {
-            return Ok(FoundMesh { mesh: Arc::clone(mesh), warnings: Vec::new() });
+            return Ok(FoundMesh { mesh: Arc::clone(mesh), warnings: warning.into_iter().collect() });
         }
         let extension = path.extension().unwrap_or_default().to_string_lossy().into_owned();
-        let refused =
-            |error: MeshError| Diagnostic::error("mesh::invalid", format!("mesh \"{uri}\": {error}"));
+        let refused = |error: MeshError| {
+            Diagnostic::error("mesh::invalid", format!("mesh \"{uri}\": {error}"))
+                .one_of("mesh files cannot be used", uri)
+        };
         // A format that is not read is not opened either.
         let format = MeshFormat::of(&extension).map_err(refused)?;
         let read = format.parse(&read_bytes(&path, MESH_BYTES)?).map_err(refused)?;
-        let warnings = self.warnings(uri, &path, &read);
+        let mut warnings = self.warnings(uri, &path, &read);
+        warnings.extend(warning);
         let mesh = Arc::new(scaled(path, read, scale).map_err(refused)?);
         self.read.insert(key, Arc::clone(&mesh));
         Ok(FoundMesh { mesh, warnings })
@@ -64,7 +72,10 @@ impl<'a> MeshStore<'a> {
         let mut warnings: Vec<_> = mesh.material_libraries.iter().filter(outside).map(leaves).collect();
         if mesh.triangles.is_empty() {
             let message = format!("mesh \"{uri}\": the scene is empty, the link has no shape here");
-            warnings.push(Diagnostic::warning("mesh::empty", message));
+            warnings.push(
+                Diagnostic::warning("mesh::empty", message)
+                    .one_of("meshes are empty scenes, so their links have no shape there", uri),
+            );
         }
         warnings
     }
@@ -90,6 +101,7 @@ fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Result<Mesh, Me
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ros_packages::RosPackages;
 
     const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
@@ -97,8 +109,8 @@ mod tests {
     fn a_file_is_read_once_for_each_scale_and_mirroring_keeps_the_outside_out() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("a.obj"), TRIANGLE).unwrap();
-        let packages = Packages::new(folder.path(), BTreeMap::new()).unwrap();
-        let mut store = MeshStore::new(&packages);
+        let mut packages = Packages::new(folder.path(), BTreeMap::new(), RosPackages::default()).unwrap();
+        let mut store = MeshStore::new(&mut packages);
         let mut find = |scale| store.find("a.obj", scale).unwrap().mesh;
         let once = Vector3::new(1.0, 1.0, 1.0);
         assert!(Arc::ptr_eq(&find(once), &find(once)));
@@ -115,8 +127,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("a.obj"), format!("mtllib /etc/hosts\nmtllib b.mtl\n{TRIANGLE}"))
             .unwrap();
-        let packages = Packages::new(folder.path(), BTreeMap::new()).unwrap();
-        let found = MeshStore::new(&packages).find("a.obj", Vector3::new(1.0, 1.0, 1.0)).unwrap();
+        let mut packages = Packages::new(folder.path(), BTreeMap::new(), RosPackages::default()).unwrap();
+        let found = MeshStore::new(&mut packages).find("a.obj", Vector3::new(1.0, 1.0, 1.0)).unwrap();
         let messages: Vec<_> = found.warnings.into_iter().map(|warning| warning.message).collect();
         assert_eq!(messages, ["mesh \"a.obj\": mtllib \"/etc/hosts\" leaves the project folder"]);
     }

@@ -1,6 +1,6 @@
-//! Mass, centre of mass and rotational inertia of a link.
+//! Mass, centre of mass and rotational inertia of a link, or of several that move as one.
 
-use nalgebra::{Isometry3, Matrix3};
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
 /// Inertia of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,4 +11,34 @@ pub struct Inertia {
     pub link_from_inertial: Isometry3<f64>,
     /// Rotational inertia about the centre of mass, in the axes of the inertial frame.
     pub tensor_kg_m2: Matrix3<f64>,
+}
+
+impl Inertia {
+    /// The inertia of links that move as one, each with its pose in the body, in the axes of the body; zero if
+    /// there are none. Source: the parallel axis theorem.
+    pub fn of_body(parts: impl Iterator<Item = (Isometry3<f64>, Self)> + Clone) -> Self {
+        // Adding zero makes the sum of nothing, which is -0.0, plain zero.
+        let mass_kg = parts.clone().map(|(_, part)| part.mass_kg).sum::<f64>() + 0.0;
+        let com = |(body_from_link, part): (Isometry3<f64>, Self)| {
+            (body_from_link * part.link_from_inertial).translation.vector
+        };
+        let weighted = parts.clone().map(|part| part.1.mass_kg * com(part)).sum::<Vector3<f64>>();
+        let com_in_body = if mass_kg > 0.0 { weighted / mass_kg } else { Vector3::zeros() };
+        let about_com = |part: (Isometry3<f64>, Self)| {
+            let turn = (part.0.rotation * part.1.link_from_inertial.rotation).to_rotation_matrix();
+            let shift = com(part) - com_in_body;
+            let steiner = Matrix3::identity() * shift.norm_squared() - shift * shift.transpose();
+            turn.matrix() * part.1.tensor_kg_m2 * turn.matrix().transpose() + part.1.mass_kg * steiner
+        };
+        let tensor = parts.map(about_com).sum::<Matrix3<f64>>();
+        Self {
+            mass_kg,
+            link_from_inertial: Isometry3::from_parts(
+                Translation3::from(com_in_body),
+                UnitQuaternion::identity(),
+            ),
+            // Rounding may have made it asymmetric.
+            tensor_kg_m2: (tensor + tensor.transpose()) * 0.5,
+        }
+    }
 }

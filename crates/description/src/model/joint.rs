@@ -65,10 +65,10 @@ pub struct JointLimit {
     pub lower: f64,
     /// Largest allowed position; infinity for a continuous joint.
     pub upper: f64,
-    /// Largest allowed speed.
-    pub velocity: f64,
-    /// Largest force or torque of the actuator.
-    pub effort: f64,
+    /// Largest allowed speed; `None` if the description gives none.
+    pub velocity: Option<f64>,
+    /// Largest force or torque of the actuator; `None` if the description gives none.
+    pub effort: Option<f64>,
 }
 
 /// A joint whose position follows another: `q = multiplier * q_master + offset`.

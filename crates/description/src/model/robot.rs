@@ -109,6 +109,11 @@ impl Robot {
         &self.links[index.0]
     }
 
+    /// Replaces the inertia of a link.
+    pub(crate) fn set_inertia(&mut self, link: LinkIndex, inertia: Inertia) {
+        self.links[link.0].inertia = Some(inertia);
+    }
+
     /// One joint.
     pub fn joint(&self, index: JointIndex) -> &Joint {
         &self.joints[index.0]

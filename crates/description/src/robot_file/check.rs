@@ -8,8 +8,7 @@ use super::{
     written::{WrittenDh, WrittenRobot, WrittenTolerance},
 };
 use crate::{
-    diagnostic::{Diagnostic, known_names},
-    diagnostics::Diagnostics,
+    diagnostic::{Diagnostic, Diagnostics, known_names},
     model::{DhConvention, DhTable, JointIndex, LinkIndex, Robot, Tolerance},
     units::Unit,
     written::transform::WrittenTransform,

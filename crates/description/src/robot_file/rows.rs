@@ -6,8 +6,7 @@ use toml::Spanned;
 
 use super::written::{WrittenDh, WrittenRow};
 use crate::{
-    diagnostic::{Diagnostic, known_names, line_column},
-    diagnostics::Diagnostics,
+    diagnostic::{Diagnostic, Diagnostics, known_names, line_column},
     model::{DhRow, DhRowKind, JointIndex, Robot},
     units::Unit,
 };

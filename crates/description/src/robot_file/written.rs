@@ -1,14 +1,16 @@
 //! A robot file as it is written: keys and units, nothing checked. The comments are the descriptions of the
 //! robot file's JSON schema, so they speak to people who write robot files.
 
-use std::{collections::BTreeMap, path::PathBuf};
+use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
 
 use crate::{
+    diagnostic::SourceFile,
     model::{DhConvention, DhRowKind},
+    urdf::Repairs,
     written::transform::WrittenTransform,
 };
 
@@ -45,6 +47,10 @@ pub(crate) struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, String>")]
     pub(crate) packages: BTreeMap<String, Spanned<PathBuf>>,
+    /// What is done about a link's inertia that no body has: LINK = "repair".
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, WrittenInertia>")]
+    pub(crate) inertia: BTreeMap<String, Spanned<WrittenInertia>>,
     /// The Denavit-Hartenberg table; without one the URDF is compared with the physics alone.
     #[serde(default)]
     #[schemars(with = "WrittenDh")]
@@ -57,6 +63,25 @@ pub(crate) struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "WrittenTolerance")]
     pub(crate) tolerance: Option<WrittenTolerance>,
+}
+
+impl WrittenRobot {
+    /// The links whose inertia is to be repaired.
+    pub(crate) fn repairs(&self, source: &Arc<SourceFile>) -> Repairs {
+        let links = self.inertia.iter().map(|(link, choice)| match choice.get_ref() {
+            WrittenInertia::Repair => (link.clone(), choice.span()),
+        });
+        Repairs { links: links.collect(), source: Some(Arc::clone(source)) }
+    }
+}
+
+/// What is done about an inertia that no body has.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "InertiaChoice")]
+pub(crate) enum WrittenInertia {
+    /// The nearest inertia that a body can have is taken: same mass, same principal axes.
+    Repair,
 }
 
 /// A Denavit-Hartenberg table.

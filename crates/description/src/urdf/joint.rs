@@ -11,8 +11,7 @@ use super::{
     pose,
 };
 use crate::{
-    diagnostic::Diagnostic,
-    diagnostics::Diagnostics,
+    diagnostic::{Diagnostic, Diagnostics, Use},
     model::{Joint, JointKind, JointLimit, JointParts, LinkIndex},
 };
 
@@ -31,7 +30,8 @@ struct JointReader<'a, 'f> {
 /// Reads a joint. Its links are found by name when the tree is built; a value that is wrong is replaced
 /// by a valid one, so that the rest can be checked.
 pub(super) fn read(joint: &urdf_rs::Joint, node: Node<'_, '_>, diagnostics: &mut Diagnostics) -> JointParts {
-    let parent_from_joint = pose::read(&joint.origin, node, node, diagnostics);
+    let place = pose::Place { parent: node, owner: node, needed_by: Some(Use::Kinematics) };
+    let parent_from_joint = pose::read(&joint.origin, place, diagnostics);
     let mut reader = JointReader { joint, node, diagnostics };
     let kind = reader.kind();
     let read = Joint {
@@ -59,6 +59,11 @@ impl JointReader<'_, '_> {
     fn report(&mut self, diagnostic: Diagnostic, child: &str) {
         let message = format!("{}: {}", label(self.node), diagnostic.message);
         self.diagnostics.push(Diagnostic { message, ..diagnostic }.at(place(self.node, child)));
+    }
+
+    /// A value that only forces need.
+    fn physics(&mut self, code: &'static str, what: String, child: &str) {
+        self.report(Diagnostic::error(code, what).needed_by(Some(Use::Physics)), child);
     }
 
     fn error(&mut self, code: &'static str, what: impl Into<String>, child: &str) {
@@ -126,12 +131,8 @@ impl JointReader<'_, '_> {
         }
         let limit = &self.joint.limit;
         let written = written.filter(|_| kind.is_movable())?;
-        for (key, value) in [("effort", limit.effort), ("velocity", limit.velocity)] {
-            if value < 0.0 {
-                self.error("urdf::limit", format!("limit {key} {value} is negative"), "limit");
-            }
-        }
-        let (velocity, effort) = (limit.velocity, limit.effort);
+        let effort = self.capability("effort", limit.effort, written);
+        let velocity = self.capability("velocity", limit.velocity, written);
         if kind == JointKind::Continuous {
             // Exporters write zeros for "none".
             if (limit.lower.is_finite() && limit.lower != 0.0)
@@ -143,6 +144,14 @@ impl JointReader<'_, '_> {
         }
         self.range(kind, written);
         Some(JointLimit { lower: limit.lower, upper: limit.upper, velocity, effort })
+    }
+
+    /// The largest effort or velocity; `None` if the file gives none.
+    fn capability(&mut self, key: &str, value: f64, written: Node<'_, '_>) -> Option<f64> {
+        if value < 0.0 {
+            self.physics("urdf::limit", format!("limit {key} {value} is negative"), "limit");
+        }
+        written.has_attribute(key).then_some(value)
     }
 
     fn range(&mut self, kind: JointKind, written: Node<'_, '_>) {
@@ -170,7 +179,7 @@ impl JointReader<'_, '_> {
     fn loss(&mut self, key: &str, value: Option<f64>) -> f64 {
         let value = value.unwrap_or(0.0);
         if value < 0.0 {
-            self.error("urdf::dynamics", format!("{key} {value} is negative"), "dynamics");
+            self.physics("urdf::dynamics", format!("{key} {value} is negative"), "dynamics");
         }
         value
     }

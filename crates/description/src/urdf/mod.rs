@@ -2,18 +2,19 @@
 //!
 //! Four passes, each of which relies on what the one before has checked:
 //! 1. `xml`: tokens, then the tree; refuses what would overflow a stack or the memory;
-//! 2. `grammar`: the XML with positions against the grammar of URDF, every number token by token;
+//! 2. `grammar`: the XML with positions against the grammar of URDF, every number token by token; parts that
+//!    are wrong and that kinematics can do without are blanked;
 //! 3. `urdf-rs`: the structure. It accepts much that is wrong (it drops vector tokens that are no
 //!    numbers, it cannot tell a missing element from its default), which is why pass 2 exists;
-//! 4. `joint`, `link`, `shape`: what the values mean, then the tree.
+//! 4. `joint`, `link`, `shape`: what the values mean, then the tree, then `inertial`: the bodies.
 //!
 //! Every value is taken from `urdf-rs`; pass 2 reads the same text but only judges it. The one
 //! exception is `quat_xyzw`, which `urdf-rs` turns into angles and loses up to 4 mrad near a pitch
 //! of a quarter turn: it is taken from the XML.
 
-mod body;
 mod dialect;
 mod grammar;
+mod inertial;
 mod joint;
 mod link;
 mod node;
@@ -25,14 +26,17 @@ mod write;
 pub use places::UrdfPlaces;
 pub use write::urdf_text;
 
+use std::ops::Range;
+
 use nalgebra::Vector3;
 use roxmltree::Node;
 
-use self::node::{elements, last, place, spans, tag};
+pub(crate) use inertial::Repairs;
+
+use self::node::{elements, last, place, tag};
 
 use crate::{
-    diagnostic::{Diagnostic, known_names},
-    diagnostics::Diagnostics,
+    diagnostic::{Diagnostic, Diagnostics, known_names},
     mesh::{FindMesh, FoundMesh},
     model::{Link, Robot, RobotError},
     xml,
@@ -43,16 +47,25 @@ pub(crate) const URDF_BYTES: u64 = 16 << 20;
 /// The largest number of links: far above any robot, far below what would take minutes.
 const MOST_LINKS: usize = 10_000;
 
+/// What a URDF is read with: its meshes, and what the robot file says about its links.
+pub(crate) struct UrdfInputs<'a, 'm> {
+    pub(crate) find_mesh: &'a mut FindMesh<'m>,
+    pub(crate) repairs: &'a Repairs,
+}
+
 /// Reads a robot; `None` if `diagnostics` holds an error.
+///
+/// A part that kinematics can do without is left out if it cannot be read, with a finding that says which use
+/// it stops.
 pub(crate) fn parse(
     text: &str,
-    find_mesh: &mut FindMesh<'_>,
+    mut inputs: UrdfInputs<'_, '_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Robot> {
     let document = diagnostics.keep(xml::parse(text).map_err(dialect::explain))?;
     let root = document.root_element();
     diagnostics.keep(dialect::check(root))?;
-    grammar::check(root, diagnostics);
+    let unread = grammar::check(root, diagnostics);
     let links = elements(root, "link").count();
     if links > MOST_LINKS {
         let message = format!("too many links: {links}, the limit is {MOST_LINKS}");
@@ -61,28 +74,54 @@ pub(crate) fn parse(
     if diagnostics.has_error() {
         return None;
     }
+    if unread.is_empty() {
+        return read(root, &mut inputs, diagnostics);
+    }
+    let readable = blanked(text, &unread);
+    let document = diagnostics.keep(xml::parse(&readable))?;
+    read(document.root_element(), &mut inputs, diagnostics)
+}
+
+/// The text without some ranges, all other places unchanged.
+fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
+    let mut bytes = text.as_bytes().to_vec();
+    for byte in ranges.iter().flat_map(|range| range.clone()) {
+        if bytes[byte] != b'\n' {
+            bytes[byte] = b' ';
+        }
+    }
+    // Ranges are whole elements and attributes, so no character is cut.
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Reads what the grammar has accepted.
+fn read(root: Node<'_, '_>, inputs: &mut UrdfInputs<'_, '_>, diagnostics: &mut Diagnostics) -> Option<Robot> {
     let urdf = diagnostics.keep(urdf_rs::read_from_string(&without_text(root)).map_err(|error| {
         // Whatever the grammar lets through and urdf-rs does not.
         Diagnostic::error("urdf::structure", format!("not a valid URDF: {error}")).at(tag(root))
     }))?;
-    let robot = build(&urdf, root, find_mesh, diagnostics)?;
+    let mut robot = build(&urdf, root, inputs.find_mesh, diagnostics)?;
     if diagnostics.has_error() {
         return None;
     }
-    body::check(&robot, &spans(root, "link"), diagnostics);
-    Some(robot)
+    inertial::judge(&mut robot, root, inputs.repairs, diagnostics);
+    (!diagnostics.has_error()).then_some(robot)
 }
 
 /// Reads a robot from URDF text alone; meshes cannot be found, so it may name none.
 ///
+/// The robot is fit for every use. [`parse_robot`](crate::parse_robot) reads one that is fit for some.
+///
 /// # Errors
-/// Every diagnostic, errors and warnings, if at least one is an error.
+/// Every diagnostic if at least one is an error or stops a use.
 /// # Examples
 /// See [`urdf_text`].
 pub fn parse_urdf(text: &str) -> Result<Robot, Vec<Diagnostic>> {
     let mut diagnostics = Diagnostics::default();
-    let robot = parse(text, &mut no_mesh, &mut diagnostics);
-    robot.ok_or_else(|| diagnostics.into_vec())
+    let inputs = UrdfInputs { find_mesh: &mut no_mesh, repairs: &Repairs::default() };
+    let robot = parse(text, inputs, &mut diagnostics);
+    let found = diagnostics.into_vec();
+    robot.filter(|_| found.iter().all(|found| found.stops.is_none())).ok_or(found)
 }
 
 /// Refuses every mesh: for texts without a folder.

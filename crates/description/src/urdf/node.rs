@@ -1,16 +1,12 @@
 //! Elements of a URDF's XML, and the spans at which messages show them.
 
-use std::{collections::BTreeMap, ops::Range};
+use std::ops::Range;
 
 use roxmltree::Node;
 
 /// The last element with this name: of two that share one, the second is at fault.
 pub(super) fn last<'a, 'i>(root: Node<'a, 'i>, tag_name: &str, name: &str) -> Option<Node<'a, 'i>> {
     elements(root, tag_name).filter(|node| node.attribute("name") == Some(name)).last()
-}
-
-pub(super) fn spans<'a>(root: Node<'a, '_>, tag_name: &'a str) -> BTreeMap<&'a str, Range<usize>> {
-    elements(root, tag_name).filter_map(|node| Some((node.attribute("name")?, tag(node)))).collect()
 }
 
 /// The child elements with this name, in file order.

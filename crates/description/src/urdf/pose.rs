@@ -6,18 +6,29 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use roxmltree::Node;
 
 use super::node::{element, label, place, tag};
-use crate::{diagnostic::Diagnostic, diagnostics::Diagnostics, written::rpy::rotation_from_rpy_fixed_xyz};
+use crate::{
+    diagnostic::{Diagnostic, Diagnostics, Use},
+    written::rpy::rotation_from_rpy_fixed_xyz,
+};
 
 /// Longer offsets between the parts of one robot are taken for millimetres.
 pub(super) const LARGEST_PLAUSIBLE_M: f64 = 10.0;
 
-/// The pose that `<origin>` in `parent` gives; the identity if there is none.
-///
-/// `owner` is the link or joint that warnings name.
+/// Where an `<origin>` is.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a, 'i> {
+    /// The element that it is in.
+    pub(super) parent: Node<'a, 'i>,
+    /// The link or joint that warnings name.
+    pub(super) owner: Node<'a, 'i>,
+    /// The use that cannot go on without the pose.
+    pub(super) needed_by: Option<Use>,
+}
+
+/// The pose that an `<origin>` gives; the identity if there is none.
 pub(super) fn read(
     pose: &urdf_rs::Pose,
-    parent: Node<'_, '_>,
-    owner: Node<'_, '_>,
+    Place { parent, owner, needed_by }: Place<'_, '_>,
     diagnostics: &mut Diagnostics,
 ) -> Isometry3<f64> {
     let (xyz, rpy) = (pose.xyz.0, pose.rpy.0);
@@ -25,6 +36,7 @@ pub(super) fn read(
         let message = format!("{}: origin {length} is more than {LARGEST_PLAUSIBLE_M} m away", label(owner));
         diagnostics.push(
             Diagnostic::warning("urdf::millimetres", message)
+                .one_of(format!("origins are more than {LARGEST_PLAUSIBLE_M} m away, of"), label(owner))
                 .at(place(parent, "origin"))
                 .with_help("millimetres instead of metres?"),
         );
@@ -34,7 +46,8 @@ pub(super) fn read(
     if let Some(quaternion) = origin.and_then(|origin| origin.attribute("quat_xyzw")) {
         let rotation = from_quaternion(quaternion).unwrap_or_else(|| {
             let message = format!("{}: quat_xyzw = \"{quaternion}\" is zero", label(owner));
-            diagnostics.push(Diagnostic::error("urdf::quaternion", message).at(origin.map_or(0..0, tag)));
+            let fault = Diagnostic::error("urdf::quaternion", message).needed_by(needed_by);
+            diagnostics.push(fault.at(origin.map_or(0..0, tag)));
             UnitQuaternion::identity()
         });
         return Isometry3::from_parts(translation, rotation);
@@ -43,6 +56,7 @@ pub(super) fn read(
         let message = format!("{}: rpy {angle} is more than a full turn in radians", label(owner));
         diagnostics.push(
             Diagnostic::warning("urdf::degrees", message)
+                .one_of("origins have an rpy of more than a full turn in radians, of", label(owner))
                 .at(place(parent, "origin"))
                 .with_help("degrees instead of radians?"),
         );

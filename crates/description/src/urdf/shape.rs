@@ -10,8 +10,7 @@ use super::{
     pose,
 };
 use crate::{
-    diagnostic::Diagnostic,
-    diagnostics::Diagnostics,
+    diagnostic::{Diagnostic, Diagnostics, Use},
     mesh::FindMesh,
     model::{Geometry, Mesh, Shape},
 };
@@ -43,23 +42,24 @@ impl ShapeReader<'_, '_> {
             own_color(material).or_else(|| self.colors.get(material.name.as_str()).copied())
         };
         let color_rgba = visual.material.as_ref().and_then(color);
-        let shape = self.shape(&visual.origin, &visual.geometry, node)?;
+        let shape = self.shape(&visual.origin, &visual.geometry, (node, None))?;
         Some(Shape { color_rgba, ..shape })
     }
 
     /// A collision shape; `None` if something is wrong with it.
     pub(super) fn collision(&mut self, collision: &urdf_rs::Collision, node: Node<'_, '_>) -> Option<Shape> {
-        self.shape(&collision.origin, &collision.geometry, node)
+        self.shape(&collision.origin, &collision.geometry, (node, Some(Use::Clearance)))
     }
 
     fn shape(
         &mut self,
         origin: &urdf_rs::Pose,
         geometry: &urdf_rs::Geometry,
-        node: Node<'_, '_>,
+        (node, needed_by): (Node<'_, '_>, Option<Use>),
     ) -> Option<Shape> {
         let owner = node.parent_element().unwrap_or(node);
-        let link_from_shape = pose::read(origin, node, owner, self.diagnostics);
+        let link_from_shape =
+            pose::read(origin, pose::Place { parent: node, owner, needed_by }, self.diagnostics);
         let place =
             element(node, "geometry").and_then(|geometry| geometry.first_element_child()).unwrap_or(node);
         let geometry = match self.geometry(geometry) {
@@ -68,7 +68,7 @@ impl ShapeReader<'_, '_> {
                 geometry
             }
             Err(fault) => {
-                self.diagnostics.push(placed(fault, owner, place));
+                self.diagnostics.push(placed(fault, owner, place).needed_by(needed_by));
                 return None;
             }
         };

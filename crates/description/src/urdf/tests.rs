@@ -8,7 +8,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::*;
 use crate::{
-    diagnostic::{Severity, line_column},
+    diagnostic::{Severity, Use, line_column},
     model::{Geometry, JointKind},
 };
 
@@ -35,7 +35,8 @@ const INERTIAL: &str =
 fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>) {
     let mut diagnostics = Diagnostics::default();
     let mut no_mesh = |uri: &str, _| Err(Diagnostic::error("mesh::none", format!("no mesh {uri}")));
-    let robot = parse(text, &mut no_mesh, &mut diagnostics);
+    let inputs = UrdfInputs { find_mesh: &mut no_mesh, repairs: &Repairs::default() };
+    let robot = parse(text, inputs, &mut diagnostics);
     (robot, diagnostics.into_vec())
 }
 
@@ -67,10 +68,24 @@ fn joint_warning(joint: &str, code: &str, message: &str) {
     one(&arm(joint, INERTIAL), Severity::Warning, 5, code, message);
 }
 
+/// The text has exactly this finding, which stops this use and no other.
 #[track_caller]
-fn link_error(link: &str, code: &str, message: &str) {
-    let text = arm(LIMIT, &format!("{link}{INERTIAL}"));
-    one(&text, Severity::Error, 8, code, message);
+fn stops(text: &str, line: usize, stopped: Option<Use>, (code, message): (&str, &str)) -> Robot {
+    one(text, Severity::Warning, line, code, message);
+    let (robot, found) = read(text);
+    assert_eq!(found[0].stops, stopped, "{}", found[0].message);
+    robot.unwrap()
+}
+
+/// Elements beside a good inertial.
+#[track_caller]
+fn link_stops(link: &str, stopped: Option<Use>, found: (&str, &str)) -> Robot {
+    stops(&arm(LIMIT, &format!("{link}{INERTIAL}")), 8, stopped, found)
+}
+
+#[track_caller]
+fn joint_stops(joint: &str, stopped: Option<Use>, found: (&str, &str)) -> Robot {
+    stops(&arm(joint, INERTIAL), 5, stopped, found)
 }
 
 #[test]
@@ -127,16 +142,6 @@ fn joints_are_checked() {
         "urdf::limit",
         "lower limit 1 is above upper limit 0",
     );
-    joint_error(
-        "<limit lower='0' upper='1' effort='1'/>",
-        "urdf::missing_attribute",
-        "<limit> has no velocity",
-    );
-    joint_error(
-        "<limit lower='0' upper='1' effort='-1' velocity='1'/>",
-        "urdf::limit",
-        "effort -1 is negative",
-    );
     joint_error(&format!("{LIMIT}<axis xyz='0 0 0'/>"), "urdf::axis", "zero vector");
     joint_error(&format!("{LIMIT}<axis xyz='1.7e308 1.7e308 0'/>"), "urdf::axis", "larger than any number");
     joint_error(
@@ -146,7 +151,6 @@ fn joints_are_checked() {
     );
     joint_error(&format!("{LIMIT}<axis xyz='0 0'/>"), "urdf::number", "expected 3 numbers, found 2");
     joint_error(&format!("{LIMIT}{LIMIT}"), "urdf::repeated_element", "<limit> is given twice");
-    joint_error(&format!("{LIMIT}<dynamics damping='-1'/>"), "urdf::dynamics", "damping -1 is negative");
     joint_error(&format!("{LIMIT}<mimic joint='j'/>"), "urdf::tree", "mimics itself");
     joint_error(&format!("{LIMIT}<mimic joint='k'/>"), "urdf::tree", "mimicked joint \"k\" not found");
     let text = arm("", INERTIAL);
@@ -226,15 +230,157 @@ fn escaped_names_arrive() {
 #[test]
 fn shapes_are_checked() {
     let shape = |shape: &str| format!("<collision><geometry>{shape}</geometry></collision>");
-    link_error(&shape(""), "urdf::geometry", "<geometry> has no shape");
-    link_error(&shape("<box size='1 0 1'/>"), "urdf::geometry", "box size 0 must be positive");
-    link_error(&shape("<cylinder radius='-1' length='1'/>"), "urdf::geometry", "cylinder radius -1");
-    link_error(&shape("<cone radius='1'/>"), "urdf::geometry", "unknown shape <cone>");
-    link_error(&shape("<capsule radius='1' length='1'/>"), "urdf::geometry", "<capsule> is not supported");
-    link_error(&shape("<sphere radius='1'/><box size='1 1 1'/>"), "urdf::geometry", "more than one shape");
-    link_error(&shape("<mesh filename='a.stl' scale='0 1 1'/>"), "urdf::scale", "flattens");
-    link_error(&shape("<mesh filename='a.stl'/>"), "mesh::none", "link \"tip\": no mesh a.stl");
-    link_error("<visual/>", "urdf::missing_element", "<visual> has no <geometry>");
+    for (shape, code, message) in [
+        (shape(""), "urdf::geometry", "<geometry> has no shape"),
+        (shape("<box size='1 0 1'/>"), "urdf::geometry", "box size 0 must be positive"),
+        (shape("<box size='1 1'/>"), "urdf::number", "expected 3 numbers, found 2"),
+        (shape("<cylinder radius='-1' length='1'/>"), "urdf::geometry", "cylinder radius -1"),
+        (shape("<capsule radius='1' length='1'/>"), "urdf::geometry", "<capsule> is not supported"),
+        (shape("<sphere radius='1'/><box size='1 1 1'/>"), "urdf::geometry", "more than one shape"),
+        (shape("<mesh filename='a.stl' scale='0 1 1'/>"), "urdf::scale", "flattens"),
+        (shape("<mesh filename='a.stl'/>"), "mesh::none", "link \"tip\": no mesh a.stl"),
+        ("<colision/>".to_owned(), "urdf::unknown_element", "did you mean <collision>?"),
+        ("<collision/>".to_owned(), "urdf::missing_element", "<collision> has no <geometry>"),
+    ] {
+        let robot = link_stops(&shape, Some(Use::Clearance), (code, message));
+        assert_eq!(robot.links()[1].collisions, [], "{shape}");
+        // What is only drawn stops nothing.
+        let drawn = shape.replace("collision", "visual").replace("colision", "visaul");
+        let robot = link_stops(&drawn, None, (code, &message.replace("collision", "visual")));
+        assert_eq!(robot.links()[1].visuals, [], "{drawn}");
+    }
+}
+
+#[test]
+fn what_is_drawn_keeps_what_can_be_read_of_it() {
+    let visual =
+        |material: &str| format!("<visual><geometry><sphere radius='1'/></geometry>{material}</visual>");
+    let red = "<color rgba='1 0 0 1'/>";
+    let cases = [
+        (format!("<material name='m'>{red}<texture/></material>"), "<texture> has no filename", true),
+        ("<material name='m'><color rgba='1 0 0'/></material>".to_owned(), "expected 4 numbers", false),
+        ("<material name='m'><color rgba='a 0 0 1'/></material>".to_owned(), "\"a\" is not a number", false),
+        (format!("<material>{red}</material>"), "<material> has no name", false),
+    ];
+    for (material, message, is_red) in cases {
+        let (robot, found) = read(&arm(LIMIT, &format!("{}{INERTIAL}", visual(&material))));
+        assert_eq!(found.len(), 1, "{found:#?}");
+        assert!(found[0].message.contains(message) && found[0].stops.is_none(), "{found:#?}");
+        let color = robot.unwrap().links()[1].visuals[0].color_rgba;
+        assert_eq!(color.is_some(), is_red, "{material}");
+    }
+}
+
+#[test]
+fn forces_need_what_kinematics_does_not() {
+    let physics = Some(Use::Physics);
+    let limit = |rest: &str| format!("<limit lower='0' upper='1' {rest}/>");
+    let of = |robot: Robot| robot.joints()[0].limit.unwrap();
+    let read = of(joint_stops(
+        &limit("effort='1'"),
+        None,
+        ("urdf::missing_attribute", "<limit> has no velocity: it is taken as unlimited"),
+    ));
+    assert_eq!((read.effort, read.velocity, read.upper), (Some(1.0), None, 1.0));
+    let read = of(joint_stops(&limit("effort='many' velocity='1'"), physics, ("urdf::number", "\"many\"")));
+    assert_eq!((read.effort, read.velocity), (None, Some(1.0)));
+    joint_stops(&limit("effort='-1' velocity='1'"), physics, ("urdf::limit", "effort -1 is negative"));
+    joint_stops(&format!("{LIMIT}<dynamics damping='-1'/>"), physics, ("urdf::dynamics", "damping -1"));
+    joint_stops(&format!("{LIMIT}<dynamics damping='a'/>"), physics, ("urdf::number", "\"a\" is not"));
+    joint_stops(&format!("{LIMIT}<safety_controller/>"), None, ("urdf::missing_attribute", "k_velocity"));
+    // A fixed joint needs none of it.
+    good(&arm("<limit lower='0' upper='1'/>", "").replace("revolute", "fixed"));
+}
+
+#[test]
+fn an_inertial_that_cannot_be_read_is_none() {
+    for (inertial, code, message) in [
+        (INERTIAL.replace("\"2\"", "\"2kg\""), "urdf::number", "\"2kg\" is not a number"),
+        (INERTIAL.replace("<mass value=\"2\"/>", ""), "urdf::missing_element", "<inertial> has no <mass>"),
+        (INERTIAL.replace("izz", "izzz"), "urdf::unknown_attribute", "did you mean \"izz\"?"),
+        (format!("{INERTIAL}{INERTIAL}"), "urdf::repeated_element", "<inertial> is given twice"),
+    ] {
+        let (robot, found) = read(&arm(LIMIT, &inertial));
+        assert_eq!((found[1].code, found[1].stops), (code, Some(Use::Physics)), "{found:#?}");
+        assert!(found[1].message.contains(message), "{found:#?}");
+        assert_eq!(robot.unwrap().links()[1].inertia, None);
+    }
+}
+
+/// `arm` with a third link, welded to the second.
+fn welded(tip: &str, tool: &str) -> String {
+    arm(LIMIT, tip).replace(
+        "</robot>",
+        &format!(
+            "<link name=\"tool\">{tool}</link><joint name=\"weld\" type=\"fixed\">\
+             <parent link=\"tip\"/><child link=\"tool\"/></joint>\n</robot>"
+        ),
+    )
+}
+
+fn inertial(mass: &str, [ixx, iyy, izz]: [f64; 3]) -> String {
+    format!(
+        "<inertial><mass value=\"{mass}\"/><inertia ixx=\"{ixx}\" iyy=\"{iyy}\" izz=\"{izz}\" ixy=\"0\" \
+         ixz=\"0\" iyz=\"0\"/></inertial>"
+    )
+}
+
+#[test]
+fn an_impossible_inertia_stops_physics_and_stays_as_it_is_written() {
+    for (mass, moments, code, message) in [
+        ("-2", [1.0; 3], "urdf::mass", "link \"tip\": mass -2 is negative"),
+        (
+            "2",
+            [-1.0, 1.0, 1.0],
+            "urdf::inertia",
+            "not positive definite: its smallest principal moment is -1",
+        ),
+        ("2", [3.0, 1.0, 1.0], "urdf::inertia", "its largest principal moment, 3 kg m2, exceeds the sum of"),
+    ] {
+        let text = arm(LIMIT, &inertial(mass, moments));
+        let robot = stops(&text, 8, Some(Use::Physics), (code, message));
+        assert_eq!(robot.links()[1].inertia.unwrap().tensor_kg_m2[(0, 0)], moments[0]);
+        // The root's body stands still.
+        let root = arm(LIMIT, INERTIAL).replace(
+            "<link name=\"base\"/>",
+            &format!("<link name=\"base\">{}</link>", inertial(mass, moments)),
+        );
+        stops(&root, 2, None, (code, "it cannot move, so it does not matter"));
+    }
+}
+
+#[test]
+fn welded_links_are_judged_as_one_body() {
+    let impossible = inertial("0.1", [0.3, 0.1, 0.1]);
+    let possible = ("urdf::inertia", "with the links that it is fixed to it is possible");
+    stops(&welded(INERTIAL, &impossible), 10, None, possible);
+    // Neither of two links without mass is a fault beside one that has some.
+    good(&welded(INERTIAL, ""));
+    good(&welded("", INERTIAL));
+    // A body that is impossible as a whole.
+    let (_, found) = read(&welded(&inertial("0.001", [0.001; 3]), &impossible));
+    assert_eq!(found[0].stops, Some(Use::Physics), "{found:#?}");
+}
+
+/// Several findings of a kind, and the lines that mend them, which can be pasted.
+#[test]
+fn impossible_inertias_are_one_finding_with_the_lines_that_mend_them() {
+    let impossible = inertial("1", [3.0, 1.0, 1.0]);
+    let text = welded(&impossible, &impossible)
+        .replace("type=\"fixed\"", "type=\"continuous\"")
+        .replace("\"tool\"", "\"tool 1\"");
+    let (_, found) = read(&text);
+    let [found] = &found[..] else { panic!("{found:#?}") };
+    assert_eq!(found.message, "2 links have an inertia that breaks the triangle inequality: tip, tool 1");
+    assert_eq!(
+        found.help.as_deref(),
+        Some(
+            "correct it in the URDF, or take the nearest possible inertia by these lines of robot.toml:\n\
+             [inertia]\ntip = \"repair\"\n\"tool 1\" = \"repair\""
+        )
+    );
+    let own: Vec<&str> = found.occurrences.iter().map(|found| found.message.as_str()).collect();
+    assert!(own[1].starts_with("link \"tool 1\": inertia breaks the triangle inequality"), "{own:?}");
 }
 
 #[test]

@@ -48,8 +48,12 @@ fn write_joint(text: &mut String, joint: &Joint, robot: &Robot) {
         let range = joint.position_range().map_or(String::new(), |(lower, upper)| {
             format!("lower=\"{}\" upper=\"{}\" ", number(lower), number(upper))
         });
-        let (effort, velocity) = (number(limit.effort), number(limit.velocity));
-        let _ = writeln!(text, "    <limit {range}effort=\"{effort}\" velocity=\"{velocity}\"/>");
+        let capability = |key: &str, value: Option<f64>| {
+            value.map_or(String::new(), |value| format!("{key}=\"{}\" ", number(value)))
+        };
+        let (effort, velocity) = (capability("effort", limit.effort), capability("velocity", limit.velocity));
+        let attributes = format!("{range}{effort}{velocity}");
+        let _ = writeln!(text, "    <limit {}/>", attributes.trim_end());
     }
     if let Some(mimic) = joint.mimic {
         let master = escaped(&robot.joint(mimic.master).name);

@@ -11,10 +11,7 @@ use toml::{
     de::{DeTable, DeValue, Error},
 };
 
-use crate::{
-    diagnostic::{Diagnostic, known_names},
-    diagnostics::Diagnostics,
-};
+use crate::diagnostic::{Diagnostic, Diagnostics, known_names};
 
 /// Parses `text`; faults go to `diagnostics`.
 ///

@@ -198,7 +198,7 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
-    use crate::{diagnostics::Diagnostics, written::toml_text::parse_toml};
+    use crate::{diagnostic::Diagnostics, written::toml_text::parse_toml};
 
     fn read(text: &str) -> Result<Isometry3<f64>, Diagnostic> {
         let mut diagnostics = Diagnostics::default();

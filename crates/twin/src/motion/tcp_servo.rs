@@ -100,7 +100,7 @@ impl<'a> ServoController<'a> {
         let share = -(-servo.gain_per_s * moved_s).exp_m1();
         let joints = self.solver.arm().joints();
         let times_too_fast = |(joint, change): (&ArmJoint, &f64)| {
-            let fastest = self.robot.joint(joint.joint).limit.map_or(0.0, |limit| limit.velocity);
+            let fastest = self.robot.joint(joint.joint).limit.and_then(|limit| limit.velocity).unwrap_or(0.0);
             if fastest > 0.0 { share * change.abs() / (fastest * moved_s) } else { 0.0 }
         };
         let slower = joints.iter().zip(&self.change).map(times_too_fast).fold(1.0, f64::max);

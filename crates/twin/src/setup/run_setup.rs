@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::{
-    Diagnostic, Diagnostics, JointKind, Robot, RobotDescription, RobotQ, load_robot,
+    Diagnostic, Diagnostics, JointKind, Robot, RobotDescription, RobotQ, RosPackages, Use, load_robot_with,
 };
 use congruent_kinematics::move_inside_limits;
 use congruent_simulation::{Gains, Obstacle, controller_names};
@@ -57,9 +57,21 @@ impl RunSetup {
     /// # Errors
     /// Every finding, if at least one is an error.
     pub fn load(path: &Path, overrides: &[Override]) -> Result<Self, Vec<Diagnostic>> {
+        Self::load_with(path, overrides, &RosPackages::default())
+    }
+
+    /// The same with meshes in packages of ROS.
+    ///
+    /// # Errors
+    /// As [`RunSetup::load`].
+    pub fn load_with(
+        path: &Path,
+        overrides: &[Override],
+        ros: &RosPackages,
+    ) -> Result<Self, Vec<Diagnostic>> {
         let file = ScenarioFile::read(path, overrides)?;
         let in_file = |findings: Vec<Diagnostic>| findings.into_iter().map(|finding| file.mark(finding));
-        let description = match load_robot(&file.robot_path()) {
+        let description = match load_robot_with(&file.robot_path(), ros) {
             Ok(description) => description,
             Err(mut findings) => {
                 findings.extend(in_file(vec![robot_refused(&file)]));
@@ -120,6 +132,9 @@ impl RunSetup {
             found.keep(RunningCheck::examine(check, place.key("check").item(index)));
         }
         found.extend(unexpected(&scenario, place.key("expect")));
+        if needs_shapes(&scenario) {
+            keep_all(&mut found, description.for_use(Use::Clearance));
+        }
         let (Some(trajectory), Some(clock), Some(obstacles), Some(zones)) =
             (trajectory, clock, obstacles, zones)
         else {
@@ -147,6 +162,15 @@ impl RunSetup {
         })
     }
 
+    /// The same if its robot can be simulated: another source of joint states needs no inertias.
+    ///
+    /// # Errors
+    /// What is missing.
+    pub fn for_simulation(self) -> Result<Self, Vec<Diagnostic>> {
+        self.description.for_use(Use::Physics)?;
+        Ok(self)
+    }
+
     /// The checks, each before its first sample.
     pub fn checks(&self) -> Vec<RunningCheck> {
         let checks = self.scenario.check.iter().zip(&self.check_lines);
@@ -158,6 +182,12 @@ impl RunSetup {
         let controller = &self.scenario.controller;
         Gains { stiffness: controller.stiffness, damping: controller.damping }
     }
+}
+
+/// Whether distances or contacts decide something: without obstacles nothing can be touched.
+fn needs_shapes(scenario: &Scenario) -> bool {
+    let measures = |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Zone);
+    !scenario.obstacle.is_empty() || scenario.check.iter().any(measures)
 }
 
 /// The value of `result`; its faults are kept in `findings`.

@@ -1,6 +1,6 @@
 //! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
-use congruent_description::RobotQ;
+use congruent_description::{Diagnostic, RobotQ, Use};
 use congruent_simulation::{Controller, Setpoint, World, WorldSettings, controller};
 use nalgebra::Isometry3;
 
@@ -31,7 +31,10 @@ impl<'a> SimulationSource<'a> {
     /// # Errors
     /// [`SourceError`] if the robot cannot be simulated as the scenario asks.
     pub fn new(setup: &'a RunSetup) -> Result<Self, SourceError> {
-        let robot = &setup.description.robot;
+        let description = &setup.description;
+        let refused = |mut found: Vec<Diagnostic>| SourceError::new(found.swap_remove(0));
+        description.for_use(Use::Physics).map_err(refused)?;
+        let robot = &description.robot;
         let settings = WorldSettings {
             step_s: setup.clock.step_s,
             gravity_in_world: setup.clock.gravity_in_world,
@@ -45,8 +48,7 @@ impl<'a> SimulationSource<'a> {
             measured_q: world.q().clone(),
             world,
             controller: controller(kind, setup.gains()).map_err(SourceError::new)?,
-            reference: ReferenceGenerator::new(&setup.trajectory, &setup.description)
-                .map_err(SourceError::new)?,
+            reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
         })
     }
 }

@@ -6,7 +6,6 @@ use super::*;
 use crate::{
     diagnostic::{Severity, line_column},
     model::{DhRowKind, JointKind},
-    urdf,
     written::toml_text::parse_toml,
 };
 
@@ -26,7 +25,7 @@ fn robot() -> Robot {
         joint("b", "prismatic", "one", "two", ""),
         joint("flange", "fixed", "two", "tip", ""),
     );
-    urdf::parse(&text, &mut |_, _| unreachable!("no mesh"), &mut Diagnostics::default()).unwrap()
+    crate::parse_urdf(&text).unwrap_or_else(|found| panic!("{found:#?}"))
 }
 
 const GOOD: &str = "\

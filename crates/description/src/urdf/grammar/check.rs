@@ -9,23 +9,28 @@ use roxmltree::{Attribute as XmlAttribute, Node};
 
 use super::{
     number,
-    rules::{Attribute, AttributeValue, Child, Element, Occurs, ROBOT},
+    rules::{Attribute, AttributeValue, Child, Element, Needed, Occurs, ROBOT},
 };
 use crate::{
-    diagnostic::{Diagnostic, known_names},
-    diagnostics::Diagnostics,
+    diagnostic::{Diagnostic, Diagnostics, Use, known_names},
     urdf::node::{elements, label, tag},
 };
 
 /// The longest name without a warning: what a file system allows.
 const LONGEST_NAME: usize = 255;
 
-/// Checks a whole document.
-pub(crate) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) {
+/// Checks a whole document. Returns what must not be read: parts with a fault that kinematics can do without.
+pub(crate) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) -> Vec<Range<usize>> {
     if root.attribute("name").is_none_or(str::is_empty) {
         diagnostics.push(Diagnostic::warning("urdf::robot_name", "the robot has no name").at(tag(root)));
     }
-    let mut check = GrammarCheck { version: version(root), owner: "robot".to_owned(), diagnostics };
+    let mut check = GrammarCheck {
+        version: version(root),
+        owner: "robot".to_owned(),
+        part: Part { needed_by: Some(Use::Kinematics), ranges: Vec::new() },
+        unread: Vec::new(),
+        diagnostics,
+    };
     check.attributes(root, &ROBOT);
     check.unknown_children(root, &ROBOT);
     for child in ROBOT.children {
@@ -35,6 +40,7 @@ pub(crate) fn check(root: Node<'_, '_>, diagnostics: &mut Diagnostics) {
             check.name(node);
         }
     }
+    check.unread
 }
 
 /// `version="1.1"` as numbers; 1.0 if it is missing or no version, as in urdfdom.
@@ -46,20 +52,54 @@ fn version(root: Node<'_, '_>) -> (u32, u32) {
     root.attribute("version").and_then(parse).unwrap_or((1, 0))
 }
 
+/// A part of the document that is read or left out as a whole.
+#[derive(Clone)]
+struct Part {
+    /// The use that cannot go on without it.
+    needed_by: Option<Use>,
+    ranges: Vec<Range<usize>>,
+}
+
+impl Part {
+    /// The part that these ranges are in: themselves, unless they are needed as what they are in.
+    fn inner(&self, needed: Needed, ranges: Vec<Range<usize>>) -> Self {
+        match needed {
+            Needed::AsItsParent => self.clone(),
+            Needed::For(needed_by) => Self { needed_by, ranges },
+        }
+    }
+}
+
 struct GrammarCheck<'f> {
     version: (u32, u32),
     /// The link, joint or material that is read: every diagnostic begins with it.
     owner: String,
+    part: Part,
+    unread: Vec<Range<usize>>,
     diagnostics: &'f mut Diagnostics,
 }
 
 impl GrammarCheck<'_> {
+    /// A fault of the part that is checked.
     fn report(&mut self, code: &'static str, what: &str, at: Range<usize>) {
-        self.diagnostics.push(Diagnostic::error(code, format!("{}: {what}", self.owner)).at(at));
+        let part = self.part.clone();
+        self.report_in(&part, Diagnostic::error(code, what), at);
+    }
+
+    fn report_in(&mut self, part: &Part, fault: Diagnostic, at: Range<usize>) {
+        let message = format!("{}: {}", self.owner, fault.message);
+        let kind = format!("times {}", fault.message);
+        let fault = Diagnostic { message, ..fault }.one_of(kind, &self.owner);
+        self.diagnostics.push(fault.needed_by(part.needed_by).at(at));
+        if part.needed_by != Some(Use::Kinematics) {
+            self.unread.extend(part.ranges.iter().cloned());
+        }
     }
 
     /// Recursion ends with the grammar, whose deepest path has six elements.
     fn element(&mut self, node: Node<'_, '_>, rules: &Element) {
+        let inner = self.part.inner(rules.needed, vec![node.range()]);
+        let outer = std::mem::replace(&mut self.part, inner);
         self.attributes(node, rules);
         self.unknown_children(node, rules);
         for child in rules.children {
@@ -76,14 +116,19 @@ impl GrammarCheck<'_> {
         if rules.name == "limit" && self.version < (1, 2) {
             self.limit(node);
         }
+        self.part = outer;
     }
 
-    /// Before version 1.2 both must be given; `urdf-rs` would take a missing effort as zero.
+    /// Before version 1.2 both must be given. Nothing is taken in their place: a limit that is missing limits
+    /// nothing.
     fn limit(&mut self, node: Node<'_, '_>) {
-        for key in ["effort", "velocity"] {
-            if !node.has_attribute(key) {
-                self.report("urdf::missing_attribute", &format!("<limit> has no {key}"), tag(node));
-            }
+        let is_fixed = node.parent().is_some_and(|joint| joint.attribute("type") == Some("fixed"));
+        for key in ["effort", "velocity"].into_iter().filter(|key| !is_fixed && !node.has_attribute(*key)) {
+            let fault = Diagnostic::error(
+                "urdf::missing_attribute",
+                format!("<limit> has no {key}: it is taken as unlimited"),
+            );
+            self.report_in(&Part { needed_by: None, ranges: Vec::new() }, fault, tag(node));
         }
     }
 
@@ -99,7 +144,9 @@ impl GrammarCheck<'_> {
                 self.report("urdf::missing_element", &what, tag(parent));
             }
             (_, Some(second)) if child.occurs != Occurs::AnyNumber => {
-                self.report("urdf::repeated_element", &format!("<{name}> is given twice"), tag(second));
+                let all = elements(parent, name).map(|node| node.range()).collect();
+                let fault = Diagnostic::error("urdf::repeated_element", format!("<{name}> is given twice"));
+                self.report_in(&self.part.inner(child.element.needed, all), fault, tag(second));
             }
             _ => {}
         }
@@ -131,12 +178,13 @@ impl GrammarCheck<'_> {
             AttributeValue::Word(words) => (!words.contains(&value))
                 .then(|| ("urdf::unknown_type", known_names(value, "types", words.iter().copied()))),
         };
+        let part = self.part.inner(known.needed, vec![attribute.range()]);
         if let Some((code, fault)) = fault {
             let what = match known.value {
                 AttributeValue::Word(_) => format!("unknown {} \"{value}\"; {fault}", known.name),
                 _ => format!("<{}> {} = \"{value}\": {fault}", rules.name, known.name),
             };
-            self.report(code, &what, attribute.range());
+            self.report_in(&part, Diagnostic::error(code, what), attribute.range());
         } else if known.name == "quat_xyzw" && self.version < (1, 1) {
             let what = "unknown attribute \"quat_xyzw\": it needs <robot version=\"1.1\">";
             self.report("urdf::quaternion", what, attribute.range());
@@ -145,9 +193,11 @@ impl GrammarCheck<'_> {
 
     fn unknown_attribute(&mut self, rules: &Element, attribute: &XmlAttribute<'_, '_>) {
         let name = attribute.name();
-        if let Some(meant) = misspelt(name, rules.attributes.iter().map(|known| known.name)) {
-            let what = format!("<{}>: unknown attribute \"{name}\" (did you mean \"{meant}\"?)", rules.name);
-            self.report("urdf::unknown_attribute", &what, attribute.range());
+        if let Some(meant) = misspelt(name, rules.attributes, |known| known.name) {
+            let what =
+                format!("<{}>: unknown attribute \"{name}\" (did you mean \"{}\"?)", rules.name, meant.name);
+            let part = self.part.inner(meant.needed, vec![attribute.range()]);
+            self.report_in(&part, Diagnostic::error("urdf::unknown_attribute", what), attribute.range());
         }
     }
 
@@ -158,9 +208,10 @@ impl GrammarCheck<'_> {
             if node.tag_name().namespace().is_some() || known().any(|known| known == name) {
                 continue;
             }
-            if let Some(meant) = misspelt(name, known()) {
-                let what = format!("unknown element <{name}> (did you mean <{meant}>?)");
-                self.report("urdf::unknown_element", &what, tag(node));
+            if let Some(meant) = misspelt(name, rules.children, |child| child.element.name) {
+                let what = format!("unknown element <{name}> (did you mean <{}>?)", meant.element.name);
+                let part = self.part.inner(meant.element.needed, vec![node.range()]);
+                self.report_in(&part, Diagnostic::error("urdf::unknown_element", what), tag(node));
             } else if rules.is_choice {
                 let what = format!(
                     "unknown shape <{name}>; {}",
@@ -187,12 +238,14 @@ impl GrammarCheck<'_> {
     }
 }
 
-/// The known name that `name` is a misspelling of: other case, or at most one letter in three wrong.
-fn misspelt<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+/// The known thing whose name `name` is a misspelling of: other case, or at most one letter in three wrong.
+fn misspelt<'a, T>(name: &str, known: &'a [T], name_of: impl Fn(&T) -> &'static str) -> Option<&'a T> {
     const MOST_WRONG: usize = 2;
+    let wrong = |known: &T| strsim::damerau_levenshtein(&name.to_lowercase(), name_of(known));
     known
-        .map(|known| (strsim::damerau_levenshtein(&name.to_lowercase(), known), known))
-        .filter(|(wrong, known)| *wrong <= MOST_WRONG && wrong * 3 <= known.len())
+        .iter()
+        .map(|known| (wrong(known), known))
+        .filter(|(wrong, known)| *wrong <= MOST_WRONG && wrong * 3 <= name_of(known).len())
         .min_by_key(|(wrong, _)| *wrong)
         .map(|(_, known)| known)
 }
@@ -204,7 +257,7 @@ mod tests {
     #[track_caller]
     fn check(name: &str, expected: Option<&str>) {
         let known = ["origin", "limit", "axis", "xyz", "collision", "joint", "safety_controller"];
-        assert_eq!(misspelt(name, known.into_iter()), expected, "{name}");
+        assert_eq!(misspelt(name, &known, |known| known).copied(), expected, "{name}");
     }
 
     #[test]

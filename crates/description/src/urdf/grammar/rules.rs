@@ -4,9 +4,23 @@
 //! Source: the XML reference of URDF (wiki.ros.org/urdf/XML) and the schema of urdfdom, up to
 //! version 1.2. Required is what `urdf-rs` cannot do without.
 
+use crate::diagnostic::Use;
+
+/// What an element or an attribute is needed for: a fault in it stops that use and no other.
+#[derive(Clone, Copy)]
+pub(super) enum Needed {
+    /// For the same as what it is in.
+    AsItsParent,
+    /// For this use; `None` if the robot can do without it.
+    For(Option<Use>),
+}
+
+use Needed::{AsItsParent, For};
+
 /// An element: what may be in it.
 pub(super) struct Element {
     pub(super) name: &'static str,
+    pub(super) needed: Needed,
     pub(super) attributes: &'static [Attribute],
     pub(super) children: &'static [Child],
     /// Whether exactly one of the children must be there and no other element may.
@@ -18,6 +32,7 @@ pub(super) struct Attribute {
     pub(super) name: &'static str,
     pub(super) value: AttributeValue,
     pub(super) is_required: bool,
+    pub(super) needed: Needed,
 }
 
 /// What an attribute holds.
@@ -51,15 +66,27 @@ const fn element(
     attributes: &'static [Attribute],
     children: &'static [Child],
 ) -> Element {
-    Element { name, attributes, children, is_choice: false }
+    Element { name, needed: AsItsParent, attributes, children, is_choice: false }
+}
+
+impl Element {
+    const fn needed_for(self, needed: Option<Use>) -> Self {
+        Self { needed: For(needed), ..self }
+    }
+}
+
+impl Attribute {
+    const fn needed_for(self, needed: Option<Use>) -> Self {
+        Self { needed: For(needed), ..self }
+    }
 }
 
 const fn required(name: &'static str, value: AttributeValue) -> Attribute {
-    Attribute { name, value, is_required: true }
+    Attribute { name, value, is_required: true, needed: AsItsParent }
 }
 
 const fn optional(name: &'static str, value: AttributeValue) -> Attribute {
-    Attribute { name, value, is_required: false }
+    Attribute { name, value, is_required: false, needed: AsItsParent }
 }
 
 const fn once(element: &'static Element) -> Child {
@@ -95,7 +122,8 @@ static LINK: Element = element(
     &[at_most_once(&INERTIAL), any_number(&VISUAL), any_number(&COLLISION)],
 );
 
-static INERTIAL: Element = element("inertial", &[], &[at_most_once(&ORIGIN), once(&MASS), once(&INERTIA)]);
+static INERTIAL: Element = element("inertial", &[], &[at_most_once(&ORIGIN), once(&MASS), once(&INERTIA)])
+    .needed_for(Some(Use::Physics));
 
 static MASS: Element = element("mass", &[required("value", NUMBER)], &[]);
 
@@ -122,17 +150,20 @@ static VISUAL: Element = element(
     "visual",
     &[optional("name", Text)],
     &[at_most_once(&ORIGIN), once(&GEOMETRY), at_most_once(&MATERIAL)],
-);
+)
+.needed_for(None);
 
 static COLLISION: Element = element(
     "collision",
     &[optional("name", Text)],
     // urdf-rs does not read a collision's material, so nothing in it is judged.
     &[at_most_once(&ORIGIN), once(&GEOMETRY), any_number(&UNREAD_MATERIAL)],
-);
+)
+.needed_for(Some(Use::Clearance));
 
 static GEOMETRY: Element = Element {
     name: "geometry",
+    needed: AsItsParent,
     attributes: &[],
     children: &[
         at_most_once(&BOX),
@@ -156,13 +187,14 @@ static SPHERE: Element = element("sphere", &[required("radius", NUMBER)], &[]);
 static MESH: Element = element("mesh", &[required("filename", Name), optional("scale", Numbers(3))], &[]);
 
 static MATERIAL: Element =
-    element("material", &[required("name", Text)], &[at_most_once(&COLOR), at_most_once(&TEXTURE)]);
+    element("material", &[required("name", Text)], &[at_most_once(&COLOR), at_most_once(&TEXTURE)])
+        .needed_for(None);
 
 static UNREAD_MATERIAL: Element = element("material", &[], &[]);
 
-static COLOR: Element = element("color", &[required("rgba", Numbers(4))], &[]);
+static COLOR: Element = element("color", &[required("rgba", Numbers(4))], &[]).needed_for(None);
 
-static TEXTURE: Element = element("texture", &[required("filename", Text)], &[]);
+static TEXTURE: Element = element("texture", &[required("filename", Text)], &[]).needed_for(None);
 
 static JOINT: Element = element(
     "joint",
@@ -191,17 +223,18 @@ static LIMIT: Element = element(
     &[
         optional("lower", NUMBER),
         optional("upper", NUMBER),
-        optional("effort", NUMBER),
-        optional("velocity", NUMBER),
-        optional("acceleration", NUMBER),
-        optional("deceleration", NUMBER),
-        optional("jerk", NUMBER),
+        optional("effort", NUMBER).needed_for(Some(Use::Physics)),
+        optional("velocity", NUMBER).needed_for(Some(Use::Physics)),
+        optional("acceleration", NUMBER).needed_for(None),
+        optional("deceleration", NUMBER).needed_for(None),
+        optional("jerk", NUMBER).needed_for(None),
     ],
     &[],
 );
 
 static DYNAMICS: Element =
-    element("dynamics", &[optional("damping", NUMBER), optional("friction", NUMBER)], &[]);
+    element("dynamics", &[optional("damping", NUMBER), optional("friction", NUMBER)], &[])
+        .needed_for(Some(Use::Physics));
 
 static MIMIC: Element = element(
     "mimic",
@@ -213,7 +246,8 @@ static CALIBRATION: Element = element(
     "calibration",
     &[optional("rising", NUMBER), optional("falling", NUMBER), optional("reference_position", NUMBER)],
     &[],
-);
+)
+.needed_for(None);
 
 static SAFETY_CONTROLLER: Element = element(
     "safety_controller",
@@ -224,4 +258,5 @@ static SAFETY_CONTROLLER: Element = element(
         optional("soft_upper_limit", NUMBER),
     ],
     &[],
-);
+)
+.needed_for(None);

@@ -159,7 +159,7 @@ impl IkSolver {
     /// # let slide = Joint {
     /// #     name: "slide".into(), kind: JointKind::Prismatic, parent: single.root(), child: single.root(),
     /// #     parent_from_joint: Isometry3::identity(), axis_in_joint: Vector3::x_axis(),
-    /// #     limit: Some(JointLimit { lower: 0., upper: 0.5, velocity: 1., effort: 1. }),
+    /// #     limit: Some(JointLimit { lower: 0., upper: 0.5, velocity: None, effort: None }),
     /// #     damping: 0., friction: 0., mimic: None,
     /// # };
     /// # let parts = JointParts { joint: slide, parent: "base".into(), child: "tip".into(), mimic: None };

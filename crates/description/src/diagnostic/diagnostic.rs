@@ -44,6 +44,29 @@ pub enum Severity {
     Error,
 }
 
+/// What a robot is used for. Each use needs other parts of its description.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Use {
+    /// Poses of links: the tree and its joints. Every other use needs it.
+    Kinematics,
+    /// Distances and contacts: collision shapes with their meshes.
+    Clearance,
+    /// Motion under forces: inertias, damping, friction and efforts.
+    Physics,
+}
+
+/// One of several findings that are told as one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Occurrence {
+    /// Its own message.
+    pub message: String,
+    /// The thing that it is about, if it has a name.
+    pub name: Option<String>,
+    /// Byte range in the file.
+    pub span: Option<Range<usize>>,
+}
+
 /// One fault of an input, or one thing in it that is suspicious.
 ///
 /// A parser knows the span, its caller the file: [`Diagnostic::in_file`] adds the file.
@@ -51,10 +74,17 @@ pub enum Severity {
 pub struct Diagnostic {
     /// Whether work can go on.
     pub severity: Severity,
+    /// Of a warning: the use of the robot that cannot go on because of it.
+    pub stops: Option<Use>,
     /// Stable name, `area::fault`, that tools may match on.
     pub code: &'static str,
     /// What is wrong: a lowercase fragment that names the thing and the value.
     pub message: String,
+    /// What several findings of this kind have in common, as words after their number, and the name of the
+    /// thing that this one is about.
+    pub kind: Option<(String, String)>,
+    /// All findings that this one stands for, itself the first; empty if it is the only one of its kind.
+    pub occurrences: Vec<Occurrence>,
     /// What to do about it.
     pub help: Option<String>,
     /// Byte range in the file; `None` if it is about the file as a whole.
@@ -68,8 +98,11 @@ impl Diagnostic {
     pub fn error(code: &'static str, message: impl Into<String>) -> Self {
         Self {
             severity: Severity::Error,
+            stops: None,
             code,
             message: message.into(),
+            kind: None,
+            occurrences: Vec::new(),
             help: None,
             span: None,
             source: None,
@@ -79,6 +112,23 @@ impl Diagnostic {
     /// A diagnostic that does not stop the work.
     pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
+    }
+
+    /// The same for what needs the part of the robot that is at fault: an error if that is kinematics, without
+    /// which there is no robot, otherwise a warning.
+    #[must_use]
+    pub fn needed_by(self, needed_by: Option<Use>) -> Self {
+        let (severity, stops) = match needed_by {
+            Some(Use::Kinematics) => (Severity::Error, None),
+            other => (Severity::Warning, other),
+        };
+        Self { severity, stops, ..self }
+    }
+
+    /// Makes it one of a kind: several are told as one, as in "12 `kind`: `name`, ...".
+    #[must_use]
+    pub fn one_of(self, kind: impl Into<String>, name: impl Into<String>) -> Self {
+        Self { kind: Some((kind.into(), name.into())), ..self }
     }
 
     /// Adds what to do.

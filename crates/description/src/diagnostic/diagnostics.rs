@@ -1,0 +1,185 @@
+//! Collects diagnostics, so that reading does not stop at the first fault. Warnings of one kind become one.
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use super::diagnostic::{Diagnostic, Occurrence, Severity, SourceFile, Use, line_column};
+
+/// The diagnostics of one input so far.
+#[derive(Debug, Default)]
+pub struct Diagnostics(Vec<Diagnostic>);
+
+impl Diagnostics {
+    /// Adds a diagnostic.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.0.push(diagnostic);
+    }
+
+    /// Adds diagnostics.
+    pub fn extend(&mut self, diagnostics: impl IntoIterator<Item = Diagnostic>) {
+        self.0.extend(diagnostics);
+    }
+
+    /// The value of `result`; an error is added here.
+    pub fn keep<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
+        result.map_err(|diagnostic| self.push(diagnostic)).ok()
+    }
+
+    /// Changes every diagnostic.
+    #[must_use]
+    pub fn map(self, change: impl FnMut(Diagnostic) -> Diagnostic) -> Self {
+        Self(self.0.into_iter().map(change).collect())
+    }
+
+    /// Whether any of them stops the work.
+    pub fn has_error(&self) -> bool {
+        self.0.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+
+    /// All diagnostics in the order of the text; warnings of one kind in one file are one, at the place of the
+    /// first.
+    pub fn into_vec(mut self) -> Vec<Diagnostic> {
+        self.0.sort_by(|one, other| place(one).cmp(&place(other)));
+        let mut told: Vec<Diagnostic> = Vec::with_capacity(self.0.len());
+        let mut first_of_kind = BTreeMap::new();
+        for diagnostic in self.0 {
+            // Errors stay apart: each must be corrected by itself.
+            let first = match diagnostic.severity {
+                Severity::Warning => *first_of_kind.entry(kind(&diagnostic)).or_insert(told.len()),
+                Severity::Error => told.len(),
+            };
+            match told.get_mut(first) {
+                Some(first) => join(first, diagnostic),
+                None => told.push(diagnostic),
+            }
+        }
+        for several in told.iter_mut().filter(|found| !found.occurrences.is_empty()) {
+            several.message = headline(several);
+        }
+        told
+    }
+
+    /// All diagnostics in the order of the text, each marked as being about `source` unless it
+    /// already says otherwise.
+    pub fn in_file(self, source: &Arc<SourceFile>) -> Vec<Diagnostic> {
+        self.map(|diagnostic| diagnostic.in_file(source)).into_vec()
+    }
+}
+
+/// By file, first the one that is being read, then by place in it.
+fn place(diagnostic: &Diagnostic) -> (Option<&Path>, Option<usize>) {
+    (file(diagnostic), diagnostic.span.as_ref().map(|span| span.start))
+}
+
+fn file(diagnostic: &Diagnostic) -> Option<&Path> {
+    diagnostic.source.as_ref().map(|source| source.path.as_path())
+}
+
+/// What warnings that are told as one have in common.
+fn kind(found: &Diagnostic) -> (Option<PathBuf>, &'static str, Option<Use>, Option<String>) {
+    let kind = found.kind.as_ref().map(|(kind, _)| kind.clone());
+    (file(found).map(Path::to_owned), found.code, found.stops, kind)
+}
+
+fn join(first: &mut Diagnostic, other: Diagnostic) {
+    if first.occurrences.is_empty() {
+        first.occurrences = occurrences(first.clone());
+    }
+    first.occurrences.extend(occurrences(other));
+}
+
+fn occurrences(found: Diagnostic) -> Vec<Occurrence> {
+    if found.occurrences.is_empty() {
+        let name = found.kind.map(|(_, name)| name);
+        vec![Occurrence { message: found.message, name, span: found.span }]
+    } else {
+        found.occurrences
+    }
+}
+
+/// One message for all: their number and their names, or the first message and the lines of the others.
+fn headline(found: &Diagnostic) -> String {
+    const MOST_LISTED: usize = 20;
+    let Diagnostic { occurrences, source, .. } = found;
+    let listed = |words: Vec<String>| {
+        let rest = words.len().saturating_sub(MOST_LISTED);
+        let more = if rest == 0 { String::new() } else { format!(" and {rest} more") };
+        words[..words.len().min(MOST_LISTED)].join(", ") + &more
+    };
+    if let Some((kind, _)) = &found.kind {
+        let names = occurrences.iter().filter_map(|found| found.name.clone()).collect();
+        return format!("{} {kind}: {}", occurrences.len(), listed(names));
+    }
+    let (first, others) = (&occurrences[0].message, &occurrences[1..]);
+    let line = |found: &Occurrence| {
+        let (source, span) = (source.as_ref()?, found.span.as_ref()?);
+        Some(line_column(&source.text, span.start).0.to_string())
+    };
+    let lines: Vec<String> = others.iter().filter_map(line).collect();
+    let places = if lines.is_empty() { String::new() } else { format!(", at lines {}", listed(lines)) };
+    format!("{first} (and {} more of this kind{places})", others.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source() -> Arc<SourceFile> {
+        Arc::new(SourceFile { path: "a.urdf".into(), text: "1\n2\n3\n4\n".to_owned() })
+    }
+
+    #[test]
+    fn warnings_of_one_kind_are_one() {
+        let massless = |name: &str, at| {
+            Diagnostic::warning("a::massless", format!("link {name} has no mass"))
+                .one_of("links have no mass", name)
+                .at(at..at + 1)
+        };
+        let mut found = Diagnostics::default();
+        found.extend([massless("c", 4), massless("a", 0), Diagnostic::warning("a::other", "other").at(2..3)]);
+        let once = found.in_file(&source());
+        let messages: Vec<&str> = once.iter().map(|found| found.message.as_str()).collect();
+        assert_eq!(messages, ["2 links have no mass: a, c", "other"]);
+        assert_eq!(once[0].line_column(), Some((1, 1)));
+        // A list that is joined to another one is joined once more.
+        let mut again = Diagnostics::default();
+        again.extend(once);
+        again.push(massless("d", 6).in_file(&source()));
+        let again = again.into_vec();
+        assert_eq!(again[0].message, "3 links have no mass: a, c, d");
+        let own: Vec<&str> = again[0].occurrences.iter().map(|found| found.message.as_str()).collect();
+        assert_eq!(own, ["link a has no mass", "link c has no mass", "link d has no mass"]);
+    }
+
+    #[test]
+    fn without_names_the_lines_are_listed_and_errors_stay_apart() {
+        let mut found = Diagnostics::default();
+        for at in [0, 4, 6] {
+            found.push(Diagnostic::warning("a::b", format!("odd {at}")).at(at..at));
+            found.push(Diagnostic::error("a::c", format!("wrong {at}")).at(at..at));
+        }
+        let found = found.in_file(&source());
+        let messages: Vec<&str> = found.iter().map(|found| found.message.as_str()).collect();
+        assert_eq!(
+            messages,
+            ["odd 0 (and 2 more of this kind, at lines 3, 4)", "wrong 0", "wrong 4", "wrong 6"]
+        );
+    }
+
+    #[test]
+    fn what_stops_one_use_is_not_joined_with_what_stops_none() {
+        let mut found = Diagnostics::default();
+        found.push(Diagnostic::error("a::b", "drawn").needed_by(None));
+        found.push(Diagnostic::error("a::b", "touched").needed_by(Some(Use::Clearance)));
+        found.push(Diagnostic::error("a::b", "moved").needed_by(Some(Use::Kinematics)));
+        let found = found.into_vec();
+        let grades: Vec<_> = found.iter().map(|found| (found.severity, found.stops)).collect();
+        assert_eq!(
+            grades,
+            [(Severity::Warning, None), (Severity::Warning, Some(Use::Clearance)), (Severity::Error, None)]
+        );
+    }
+}

@@ -1,0 +1,10 @@
+//! What is wrong with an input: a diagnostic, several of them, and their form in JSON.
+
+#[expect(clippy::module_inception, reason = "the type of this module")]
+mod diagnostic;
+mod diagnostics;
+mod finding;
+
+pub use diagnostic::{Diagnostic, Occurrence, Severity, SourceFile, Use, known_names, line_column, nearest};
+pub use diagnostics::Diagnostics;
+pub use finding::{Finding, FindingPlace};

@@ -1,0 +1,234 @@
+//! Inertia of what moves. Links that fixed joints hold together are one body and are judged as one: frames
+//! without mass, such as `tool0`, are normal on a body that has some, and the body that stands still needs none.
+
+use std::{collections::BTreeMap, fmt::Write};
+
+use nalgebra::Isometry3;
+use roxmltree::Node;
+
+use super::{
+    possible::{Impossible, UNIT, principal_moments, suspicious_size},
+    repair::{Repairs, nearest_possible},
+};
+use crate::{
+    diagnostic::{Diagnostic, Diagnostics, Use, known_names},
+    display::quantity,
+    model::{Inertia, LinkIndex, Robot},
+    urdf::node::{element, elements, place, tag},
+};
+
+/// Repairs what the robot file asks for, then reports impossible inertias and moving bodies without mass.
+pub(in crate::urdf) fn judge(
+    robot: &mut Robot,
+    root: Node<'_, '_>,
+    repairs: &Repairs,
+    diagnostics: &mut Diagnostics,
+) {
+    for (name, at) in &repairs.links {
+        let told = repair(robot, name).unwrap_or_else(|fault| fault).at(at.clone());
+        diagnostics.push(match &repairs.source {
+            Some(source) => told.in_file(source),
+            None => told,
+        });
+    }
+    let nodes: BTreeMap<&str, Node<'_, '_>> =
+        elements(root, "link").filter_map(|node| Some((node.attribute("name")?, node))).collect();
+    let judge = Judge { robot, nodes, bodies: Bodies::of(robot), diagnostics };
+    judge.all();
+}
+
+/// Replaces the tensor of a link by the nearest possible one.
+fn repair(robot: &mut Robot, name: &str) -> Result<Diagnostic, Diagnostic> {
+    const CODE: &str = "robot_file::inertia";
+    let refused = |what: String| Diagnostic::error(CODE, format!("[inertia] {name}: {what}"));
+    let Some(link) = robot.find_link(name) else {
+        let links = robot.links().iter().map(|link| link.name.as_str());
+        return Err(
+            refused("the robot has no such link".to_owned()).with_help(known_names(name, "links", links))
+        );
+    };
+    let Some(inertia) = robot.link(link).inertia else {
+        return Err(refused(
+            "the link has no <inertial> that could be read, so there is nothing to repair".to_owned(),
+        )
+        .with_help("give it an <inertial> with mass and inertia in the URDF"));
+    };
+    if inertia.mass_kg <= 0.0 {
+        let what = format!(
+            "its mass of {} is not positive, and no mass is nearest to it",
+            quantity(inertia.mass_kg, "kg")
+        );
+        return Err(refused(what).with_help("correct <mass> in the URDF"));
+    }
+    if Impossible::of(&inertia).is_none() {
+        let message = format!("[inertia] {name}: the inertia in the URDF is possible, nothing is repaired");
+        return Ok(Diagnostic::warning(CODE, message).with_help("remove the line"));
+    }
+    let tensor_kg_m2 = nearest_possible(&inertia.tensor_kg_m2);
+    let listed = |tensor| principal_moments(tensor).map(|moment| quantity(moment, UNIT)).join(", ");
+    let message = format!(
+        "link \"{name}\": inertia repaired: principal moments {} in the URDF, {} here, {} away in the Frobenius norm",
+        listed(&inertia.tensor_kg_m2),
+        listed(&tensor_kg_m2),
+        quantity((tensor_kg_m2 - inertia.tensor_kg_m2).norm(), UNIT)
+    );
+    robot.set_inertia(link, Inertia { tensor_kg_m2, ..inertia });
+    Ok(Diagnostic::warning(CODE, message))
+}
+
+/// The body of each link and its pose in it, in the order of the links; a body has the index of its first link.
+struct Bodies(Vec<(usize, Isometry3<f64>)>);
+
+impl Bodies {
+    fn of(robot: &Robot) -> Self {
+        let mut bodies: Vec<(usize, Isometry3<f64>)> = Vec::with_capacity(robot.links().len());
+        // Parents come first, so a link's body is known when the link is reached.
+        for link in robot.link_indices() {
+            let above = robot.parent_joint(link).map(|joint| robot.joint(joint));
+            bodies.push(match above {
+                Some(joint) if !joint.kind.is_movable() => {
+                    let (body, body_from_parent) = bodies[joint.parent.get()];
+                    (body, body_from_parent * joint.parent_from_joint)
+                }
+                _ => (link.get(), Isometry3::identity()),
+            });
+        }
+        Self(bodies)
+    }
+
+    fn inertia(&self, robot: &Robot, body: usize) -> Inertia {
+        let on_body = self.0.iter().zip(robot.links()).filter(move |((of, _), _)| *of == body);
+        Inertia::of_body(
+            on_body.filter_map(|((_, body_from_link), link)| Some((*body_from_link, link.inertia?))),
+        )
+    }
+}
+
+struct Judge<'a, 'd> {
+    robot: &'a Robot,
+    nodes: BTreeMap<&'a str, Node<'a, 'a>>,
+    bodies: Bodies,
+    diagnostics: &'d mut Diagnostics,
+}
+
+impl Judge<'_, '_> {
+    fn all(mut self) {
+        let robot = self.robot;
+        let impossible: Vec<(LinkIndex, Impossible)> = robot
+            .link_indices()
+            .filter_map(|link| Some((link, Impossible::of(robot.link(link).inertia.as_ref()?)?)))
+            .collect();
+        let mut sums = BTreeMap::new();
+        for (link, _) in &impossible {
+            let (body, _) = self.bodies.0[link.get()];
+            sums.entry(body).or_insert_with(|| Impossible::of(&self.bodies.inertia(robot, body)).is_none());
+        }
+        let stops = |link: LinkIndex| {
+            let (body, _) = self.bodies.0[link.get()];
+            body != 0 && !sums[&body]
+        };
+        let (stopping, harmless): (Vec<_>, Vec<_>) = impossible.iter().partition(|(link, _)| stops(*link));
+        let help = how_to_mend(
+            stopping
+                .iter()
+                .map(|(link, _)| robot.link(*link))
+                .map(|link| (link.name.as_str(), link.inertia.is_some_and(|inertia| inertia.mass_kg > 0.0))),
+        );
+        for (link, fault) in stopping {
+            self.impossible(link, fault, Some((Use::Physics, &help)));
+        }
+        for (link, fault) in harmless {
+            self.impossible(link, fault, None);
+        }
+        self.sizes();
+        self.massless(&sums);
+    }
+
+    fn impossible(&mut self, link: LinkIndex, fault: Impossible, stops: Option<(Use, &str)>) {
+        let name = self.robot.link(link).name.as_str();
+        let (but, kind_but) = match stops {
+            Some(_) => ("", ""),
+            None if self.bodies.0[link.get()].0 == 0 => {
+                ("; it cannot move, so it does not matter", ", which cannot move")
+            }
+            None => (
+                "; with the links that it is fixed to it is possible",
+                " and are possible with those that they are fixed to",
+            ),
+        };
+        let message = format!("link \"{name}\": {}{but}", fault.message());
+        let kind = format!("{}{kind_but}", fault.kind());
+        let found =
+            Diagnostic::error(fault.code(), message).one_of(kind, name).needed_by(stops.map(|stops| stops.0));
+        let found = match stops {
+            Some((_, help)) => found.with_help(help),
+            None => found,
+        };
+        self.report(found, name, fault.element());
+    }
+
+    /// Reports at an element of a link's `<inertial>`, or at the link.
+    fn report(&mut self, found: Diagnostic, name: &str, child: &str) {
+        let node = self.nodes.get(name);
+        let inertial = node.and_then(|node| element(*node, "inertial"));
+        let at = inertial.map(|inertial| place(inertial, child)).or(node.map(|node| tag(*node)));
+        self.diagnostics.push(found.at(at.unwrap_or(0..0)));
+    }
+
+    fn sizes(&mut self) {
+        for link in self.robot.links() {
+            if let Some(what) = link.inertia.as_ref().and_then(suspicious_size) {
+                let found =
+                    Diagnostic::warning("urdf::inertia_size", format!("link \"{}\": {what}", link.name))
+                        .one_of("links have an inertia that is far too large for their mass", &link.name)
+                        .with_help("kg mm^2 instead of kg m^2?");
+                self.report(found, &link.name, "inertia");
+            }
+        }
+    }
+
+    /// Warns of moving bodies without mass, if they are not at fault already.
+    fn massless(&mut self, judged: &BTreeMap<usize, bool>) {
+        let mut mass_kg = vec![0.0; self.robot.links().len()];
+        for ((body, _), link) in self.bodies.0.iter().zip(self.robot.links()) {
+            mass_kg[*body] += link.inertia.map_or(0.0, |inertia| inertia.mass_kg);
+        }
+        for (index, link) in self.robot.links().iter().enumerate().skip(1) {
+            if self.bodies.0[index].0 != index || mass_kg[index] > 0.0 || judged.get(&index) == Some(&false) {
+                continue;
+            }
+            let what = if link.inertia.is_some() { "its mass is zero" } else { "has no <inertial>" };
+            let message =
+                format!("link \"{}\" moves but {what}: it cannot be simulated with forces", link.name);
+            let at = self.nodes.get(link.name.as_str()).map_or(0..0, |node| tag(*node));
+            self.diagnostics.push(
+                Diagnostic::warning("urdf::massless", message)
+                    .one_of(
+                        "links move but have no mass, so they cannot be simulated with forces",
+                        &link.name,
+                    )
+                    .at(at)
+                    .with_help("give it an <inertial> with mass and inertia"),
+            );
+        }
+    }
+}
+
+/// The lines of a robot file that mend these links, of which a repair needs a positive mass.
+fn how_to_mend<'a>(links: impl Iterator<Item = (&'a str, bool)>) -> String {
+    const MOST_LINES: usize = 40;
+    let mut help = String::from("correct it in the URDF");
+    let repairable: Vec<&str> =
+        links.filter_map(|(name, has_mass)| has_mass.then_some(name)).take(MOST_LINES).collect();
+    if !repairable.is_empty() {
+        help.push_str(", or take the nearest possible inertia by these lines of robot.toml:\n[inertia]");
+    }
+    for name in repairable {
+        let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        let _ = match name.chars().all(is_bare) {
+            true => write!(help, "\n{name} = \"repair\""),
+            false => write!(help, "\n{} = \"repair\"", toml::Value::from(name)),
+        };
+    }
+    help
+}

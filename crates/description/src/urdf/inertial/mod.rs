@@ -1,0 +1,8 @@
+//! `<inertial>`: which inertias a body can have, the nearest possible one, and the bodies that need one.
+
+mod bodies;
+mod possible;
+mod repair;
+
+pub(super) use bodies::judge;
+pub(crate) use repair::Repairs;
