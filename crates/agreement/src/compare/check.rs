@@ -76,7 +76,10 @@ pub fn check(
     let agree = comparisons.iter().all(|comparison| comparison.verdict == Agreement::Agree);
     let brackets = worst(&certificates);
     Ok(CheckReport {
+        file: description.path.display().to_string(),
         robot: robot.name().to_owned(),
+        chain: description.reported_chain(),
+        table_compared: description.dh.is_some(),
         verdict: if agree { Agreement::Agree } else { Agreement::Disagree },
         worst: worst_of(&comparisons),
         tolerance: description.tolerance,

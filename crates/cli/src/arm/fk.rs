@@ -9,7 +9,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::{ConfigurationArguments, RobotArgument, named},
+    input::{ArmArguments, ConfigurationArguments, named},
     print::Printer,
 };
 
@@ -17,7 +17,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
+    arm: ArmArguments,
     /// The source of the poses.
     #[arg(long, default_value = "urdf", value_parser = named::<Source>())]
     source: Source,
@@ -26,8 +26,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load(printer)?;
-    let configurations = arguments.configurations.read(&description.robot)?;
+    let mut description = arguments.arm.load(printer)?;
+    let configurations = arguments.configurations.read(&mut description, printer)?;
     let report =
         congruent::forward(&description, arguments.source, &configurations).map_err(Diagnostic::from)?;
     printer.result(&report, text)?;
@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 }
 
 fn text(report: &ForwardReport) -> String {
-    let mut text = String::new();
+    let mut text = format!("{}\n", report.chain);
     let width =
         report.results.iter().flat_map(|poses| &poses.links).map(|(name, _)| name.len()).max().unwrap_or(0);
     for (index, poses) in report.results.iter().enumerate() {

@@ -8,7 +8,11 @@ use congruent::{
 };
 
 use super::check_text::{basics, text};
-use crate::{failure::Failure, print::Printer};
+use crate::{
+    failure::Failure,
+    input::{ChainArguments, with_warning},
+    print::Printer,
+};
 
 /// Whether a robot's table, its URDF and its physics twin are the same robot.
 ///
@@ -16,9 +20,11 @@ use crate::{failure::Failure, print::Printer};
 /// at the limits, and at the worst configurations of the certificates. Exit code 1 if they disagree.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Folders with robot.toml, robot files, or bare .urdf files.
+    /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
     #[arg(required = true)]
     robots: Vec<PathBuf>,
+    #[command(flatten)]
+    chain: ChainArguments,
     /// Seed of the random configurations.
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -34,10 +40,12 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut reports = Vec::with_capacity(arguments.robots.len());
     for path in &arguments.robots {
-        let description = load_robot(path)?;
-        printer.warnings(&description.warnings);
+        let mut description = arguments.chain.choose(load_robot(path)?, printer)?;
         let configurations = match &arguments.configurations {
-            Some(path) => read_configurations(path, &description.robot)?,
+            Some(path) => {
+                let read = read_configurations(path, &description.robot)?;
+                with_warning(read, &mut description, printer)
+            }
             None => Vec::new(),
         };
         let report =
