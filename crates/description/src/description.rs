@@ -108,9 +108,11 @@ impl RobotDescription {
     fn drop_table(&mut self, (base, tip): (LinkIndex, LinkIndex)) {
         if self.dh.take().is_some() {
             let message = format!(
-                "the [dh] table leads from \"{}\" to \"{}\": without a table for this chain only the URDF is used",
+                "the [dh] table leads from \"{}\" to \"{}\", not from \"{}\" to \"{}\": it is not used",
                 self.name_of(base),
-                self.name_of(tip)
+                self.name_of(tip),
+                self.name_of(self.base),
+                self.name_of(self.tip)
             );
             self.warnings.push(Diagnostic::warning(TABLE_DROPPED, message));
         }

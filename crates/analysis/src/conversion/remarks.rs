@@ -21,17 +21,14 @@ pub(super) fn rounded(pairs: &[RoundedReport], against_source: &Proof) -> Option
             (true, false) => angle(pair.angle_rad),
             _ => length(pair.distance_m),
         };
-        format!(
-            "{a} and {b} are taken as {}, which they are within {off}",
-            serde_name(&pair.relation).replace('_', "-")
-        )
+        format!("{a} and {b} {} (off by {off})", serde_name(&pair.relation).replace('_', "-"))
     };
     let listed: Vec<String> = pairs.iter().map(sentence).collect();
     let Proof { position_m, orientation_rad, configurations, .. } = *against_source;
     let message = format!(
-        "rounded values in the source: its axes of {}; the table differs from the source by up to {} at \
-         {configurations} configurations",
-        listed.join("; of "),
+        "the source has rounded values, axes are taken as they are meant: {}; the table differs from the source by \
+         up to {} at {configurations} configurations",
+        listed.join(", "),
         length_and_angle(position_m, orientation_rad)
     );
     (!pairs.is_empty()).then(|| {
