@@ -1,6 +1,11 @@
 //! Runs the built command as a user does.
 
-use std::{ffi::OsStr, path::Path, process::Command};
+use std::{
+    ffi::OsStr,
+    io::Write,
+    path::Path,
+    process::{Command, Output, Stdio},
+};
 
 use serde_json::Value;
 
@@ -23,17 +28,34 @@ impl Answer {
 
 /// Runs `congruent` with these arguments, from the root of the workspace.
 pub(crate) fn congruent<S: AsRef<OsStr>>(arguments: &[S]) -> Answer {
-    let output = Command::new(env!("CARGO_BIN_EXE_congruent"))
+    answer(&command(arguments).output().expect("the command starts"))
+}
+
+/// The same with this text on standard input.
+pub(crate) fn congruent_with_input<S: AsRef<OsStr>>(arguments: &[S], input: &str) -> Answer {
+    let mut command = command(arguments);
+    let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = pipes.spawn().expect("the command starts");
+    // A command that refuses its arguments reads nothing.
+    let _ = child.stdin.take().expect("it is a pipe").write_all(input.as_bytes());
+    answer(&child.wait_with_output().expect("the command ends"))
+}
+
+fn command<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_congruent"));
+    command
         .args(arguments)
         .current_dir(crate::corpus::workspace())
         .env_remove("GITHUB_ACTIONS")
-        .env_remove("COLUMNS") // the width of help
-        .output()
-        .expect("the command starts");
+        .env_remove("COLUMNS"); // the width of help
+    command
+}
+
+fn answer(output: &Output) -> Answer {
     Answer {
         code: output.status.code().expect("the command ends by itself"),
-        stdout: String::from_utf8(output.stdout).expect("the command prints UTF-8"),
-        stderr: String::from_utf8(output.stderr).expect("the command prints UTF-8"),
+        stdout: String::from_utf8(output.stdout.clone()).expect("the command prints UTF-8"),
+        stderr: String::from_utf8(output.stderr.clone()).expect("the command prints UTF-8"),
     }
 }
 

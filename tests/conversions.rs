@@ -43,7 +43,7 @@ fn proved(answer: &Answer) -> Value {
 fn goes_round(urdf: &Path, chain: &[&str]) {
     for convention in CONVENTIONS {
         let path = text(urdf);
-        let mut arguments = vec!["derive", &path, "--convention", convention];
+        let mut arguments = vec!["derive", &path, "--convention", convention, "--exact"];
         arguments.extend(chain);
         let report = proved(&congruent_json(&arguments));
         let printed = congruent(&arguments).stdout;
@@ -148,18 +148,129 @@ fn two_joints(roll: &str) -> (tempfile::TempDir, String) {
 #[test]
 fn nearly_parallel_axes_are_refused_and_simplified_only_on_demand() {
     let (_folder, path) = two_joints("3.14159265");
-    let refused = congruent(&["derive", &path, "--convention", "standard"]);
+    let refused = congruent(&["derive", &path, "--convention", "standard", "--exact"]);
     assert_eq!(refused.code, 2, "{}", refused.stdout);
-    for word in ["shoulder", "elbow", "3.590e-9 rad from parallel", "--accuracy"] {
+    for word in ["shoulder", "elbow", "3.59 nrad from parallel", "--accuracy"] {
         assert!(refused.stderr.contains(word), "no {word:?} in {}", refused.stderr);
     }
-    let coarse = congruent_json(&["derive", &path, "--convention", "standard", "--accuracy", "1e-7"]).json();
+    let coarse = ["derive", &path, "--convention", "standard", "--exact", "--accuracy", "1e-7"];
+    let coarse = congruent_json(&coarse).json();
     assert_eq!(coarse["axes"][0]["relation"], "anti_parallel");
     let worst = coarse["proof"]["worst"].as_f64().unwrap();
     assert!(worst > 1e-9 && worst < 1e-8, "{worst:e}");
     // A turn that says the half turn with all its digits is exactly anti-parallel.
     let (_folder, path) = two_joints("3.141592653589793");
     goes_round(Path::new(&path), &[]);
+}
+
+/// A quarter turn or a half turn with this many digits: the axes are taken as anti-parallel, and said so.
+#[test]
+fn axes_that_are_parallel_but_for_rounding_are_taken_as_parallel() {
+    for (roll, off_by) in [("3.14159", 2.653_589_793_2e-6), ("-3.1415", 9.265_358_979_3e-5)] {
+        let (_folder, path) = two_joints(roll);
+        let answer = congruent_json(&["derive", &path, "--convention", "standard"]);
+        assert_eq!(answer.code, 0, "{}", answer.stderr);
+        for word in ["convert::rounded_axes", "shoulder and elbow", "--exact"] {
+            assert!(
+                congruent(&["derive", &path, "--convention", "standard"]).stderr.contains(word),
+                "{word}"
+            );
+        }
+        let report = answer.json();
+        let rounded = &report["rounded_axes"][0];
+        assert_eq!((&rounded["relation"], &rounded["joints"][1]), (&"anti_parallel".into(), &"elbow".into()));
+        assert!((rounded["angle_rad"].as_f64().unwrap() - off_by).abs() < 1e-12, "{rounded}");
+        let row = &report["table"]["rows"][0];
+        // The axes are 0.5 m apart in the URDF: 0.3 m along x and 0.4 m along y.
+        assert!((row["a_m"].as_f64().unwrap() - 0.5).abs() < ACCURACY, "{row}");
+        assert!(row["d_m"].as_f64().unwrap().abs() < 1.0, "{row}");
+        // A turn of the second axis by this angle at the flange, which is 0.2 m from the joint.
+        let proof = &report["proof"];
+        let (position_m, orientation_rad) =
+            (proof["position_m"].as_f64().unwrap(), proof["orientation_rad"].as_f64().unwrap());
+        assert!(position_m > 0.1 * off_by && position_m <= 0.4 * off_by + ACCURACY, "{position_m:e}");
+        assert!(
+            orientation_rad > off_by && orientation_rad <= 2.0 * off_by + ACCURACY,
+            "{orientation_rad:e}"
+        );
+    }
+}
+
+#[test]
+fn a_robot_file_that_is_derived_agrees_at_once() {
+    let (folder, path) = two_joints("3.1415");
+    fs::create_dir(folder.path().join("models")).unwrap();
+    let output = text(&folder.path().join("models/robot.toml"));
+    let derive = |more: &[&str]| {
+        let mut arguments = vec!["derive", &path, "--convention", "modified", "--output", &output];
+        arguments.extend(more);
+        congruent(&arguments)
+    };
+    let written = derive(&[]);
+    assert_eq!(written.code, 0, "{}", written.stderr);
+    assert!(written.stdout.ends_with(&format!("written to {output}\n")), "{}", written.stdout);
+    let robot_file: toml::Value = toml::from_str(&fs::read_to_string(&output).unwrap()).unwrap();
+    assert_eq!(robot_file["urdf"].as_str(), Some("../two.urdf"));
+    assert_eq!((robot_file["base"].as_str(), robot_file["tip"].as_str()), (Some("base"), Some("tip")));
+    let checked = congruent_json(&["check", &output]);
+    assert_eq!(checked.code, 0, "{}{}", checked.stdout, checked.stderr);
+    assert_eq!(
+        (&checked.json()["verdict"], &checked.json()["table_compared"]),
+        (&"agree".into(), &true.into())
+    );
+    let again = derive(&[]);
+    assert!(again.code == 2 && again.stderr.contains("exists"), "{}", again.stderr);
+    assert_eq!(derive(&["--force"]).code, 0);
+}
+
+#[test]
+fn nothing_that_exists_is_lost_by_an_output() {
+    let (folder, path) = two_joints("0.3");
+    let before = fs::read(&path).unwrap();
+    let linked = folder.path().join("linked.toml");
+    fs::hard_link(&path, &linked).unwrap();
+    for (output, says) in [
+        (text(&linked), "is a file that is read"),
+        (text(folder.path()), "ends in .toml"),
+        (path.clone(), "ends in .toml"),
+        (text(&folder.path().join("nowhere/robot.toml")), "cannot write"),
+    ] {
+        let refused =
+            congruent(&["derive", &path, "--convention", "standard", "--force", "--output", &output]);
+        assert_eq!(refused.code, 2, "{output}: {}", refused.stdout);
+        assert!(refused.stderr.contains(says), "{output}: {}", refused.stderr);
+    }
+    let urdf = congruent(&["convert", &path, "--to", "urdf", "--force", "--output", &path]);
+    assert!(urdf.code == 2 && urdf.stderr.contains("is a file that is read"), "{}", urdf.stderr);
+    // A robot file beside the URDF of another robot's meshes that it cannot reach.
+    let output = folder.path().join("robot.toml");
+    fs::write(&output, "kept").unwrap();
+    let refused = congruent(&[
+        "derive",
+        &path,
+        "--convention",
+        "standard",
+        "--tip",
+        "base",
+        "--output",
+        &text(&output),
+        "--force",
+    ]);
+    assert_eq!(refused.code, 2, "{}", refused.stderr);
+    assert_eq!((fs::read(&path).unwrap(), fs::read(&output).unwrap()), (before, b"kept".to_vec()));
+    let left = fs::read_dir(folder.path()).unwrap().count();
+    assert_eq!(left, 3);
+}
+
+#[test]
+fn lengths_that_no_arm_has_are_warned_of() {
+    let (_folder, path) = two_joints("0.001");
+    let answer = congruent(&["derive", &path, "--convention", "standard", "--accuracy", "1e-9"]);
+    assert_eq!(answer.code, 0, "{}", answer.stderr);
+    // Lines 0.5 m apart in projection that differ by 0.001 rad meet some 400 m away.
+    for word in ["convert::far_normal", "d of shoulder is 400 m", "0.0573 deg from parallel"] {
+        assert!(answer.stderr.contains(word), "no {word:?} in {}", answer.stderr);
+    }
 }
 
 #[test]
@@ -183,7 +294,8 @@ fn a_chain_that_does_not_move_has_no_table() {
 fn a_mimic_joint_in_the_chain_is_noted() {
     let Some(corpus) = corpus() else { return };
     let urdf = text(&corpus.join("robots/xarm7_gripper/robot.urdf"));
-    let report = proved(&congruent_json(&["derive", &urdf, "--convention", "standard"]));
+    let derive = ["derive", &urdf, "--convention", "standard", "--tip", "left_finger", "--exact"];
+    let report = proved(&congruent_json(&derive));
     let notes = report["notes"].to_string();
     assert!(notes.contains("left_finger_joint") && notes.contains("drive_joint"), "{notes}");
 }

@@ -8,6 +8,7 @@ mod bad_input;
 mod calibration;
 mod calibration_input;
 mod calibration_verdicts;
+mod chains;
 mod check_configurations;
 mod check_tables;
 mod clearance_goldens;

@@ -1,6 +1,6 @@
 //! `congruent dynamics`: torques and accelerations of a robot at given states.
 
-use congruent_description::{Diagnostic, JointState, Robot, RobotDescription};
+use congruent_description::{Diagnostic, JointState, ReportedChain, Robot, RobotDescription};
 use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError, JointMotion, SpatialInertia};
 use nalgebra::{DMatrix, Point3, Vector3};
 use schemars::JsonSchema;
@@ -54,6 +54,8 @@ pub struct DynamicsResult {
 pub struct DynamicsReport {
     /// Name of the robot.
     pub robot: String,
+    /// Base and tip, on which a payload hangs.
+    pub chain: ReportedChain,
     /// Movable joints, in the order of vectors; mimic joints are independent but in `forward_dynamics`.
     pub joints: Vec<String>,
     /// Unit of each joint's position: `rad` or `m`.
@@ -92,12 +94,12 @@ pub fn robot_of(description: &RobotDescription, options: &DynamicsOptions) -> Re
     Ok(robot.with_inertia(description.tip, inertia))
 }
 
-/// Dynamics at each state, by a source that was made for [`robot_of`] the description and the options.
+/// Dynamics at each state, by a source that was made for the robot: [`robot_of`] the description and the options.
 ///
 /// # Errors
 /// [`JointDynamicsError`] if the source refuses a state.
 pub fn dynamics(
-    robot: &Robot,
+    (description, robot): (&RobotDescription, &Robot),
     options: &DynamicsOptions,
     (source, by): (DynamicsSource, &mut dyn JointDynamics),
     states: &[JointState],
@@ -106,6 +108,7 @@ pub fn dynamics(
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     Ok(DynamicsReport {
         robot: robot.name().to_owned(),
+        chain: description.reported_chain(),
         joints: joints().map(|joint| joint.name.clone()).collect(),
         units: joints().map(|joint| joint.kind.unit()).collect(),
         source,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{Diagnostic, RobotDescription, RobotQ};
+use congruent_description::{Diagnostic, Finding, ReportedChain, RobotDescription, RobotQ};
 use congruent_kinematics::{
     DhChain, KinematicsError, LinkPoses, LinkPosesError, Pose, ReportedPose, UrdfTree,
 };
@@ -44,12 +44,17 @@ fn as_map<S: serde::Serializer>(poses: &[(String, ReportedPose)], serializer: S)
 pub struct ForwardReport {
     /// Name of the robot.
     pub robot: String,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
     /// Movable joints, in the order of configuration vectors.
     pub joints: Vec<String>,
     /// The source.
     pub source: Source,
     /// One entry for each configuration, in input order.
     pub results: Vec<ReportedLinkPoses>,
+    /// Warnings about the input.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
 }
 
 /// Why a source has no poses.
@@ -110,9 +115,11 @@ fn report(description: &RobotDescription, source: Source, results: Vec<ReportedL
     let robot = &description.robot;
     ForwardReport {
         robot: robot.name().to_owned(),
+        chain: description.reported_chain(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         source,
         results,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
     }
 }
 

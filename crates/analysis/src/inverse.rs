@@ -3,7 +3,8 @@
 use std::{collections::BTreeMap, f64::consts::TAU, ops::Range, path::Path};
 
 use congruent_description::{
-    ArmQ, Diagnostic, Finding, JointValues, JsonList, Robot, RobotDescription, configuration, read_text,
+    ArmQ, Diagnostic, Finding, JointValues, JsonList, ReportedChain, Robot, RobotDescription, configuration,
+    read_text, unique_names,
 };
 use congruent_kinematics::{Arm, IkResult, IkSolver, IkTarget, KinematicsError, Pose};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
@@ -33,7 +34,7 @@ const QUATERNION_NORM: f64 = 1e-6;
 struct WrittenTarget {
     translation_m: [f64; 3],
     quaternion_wxyz: Option<[f64; 4]>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unique_names")]
     start: BTreeMap<String, f64>,
 }
 
@@ -60,13 +61,15 @@ pub struct InverseTargets {
 pub struct InverseReport {
     /// Name of the robot.
     pub robot: String,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
     /// The arm's independent joints, base to tip.
     pub joints: Vec<String>,
     /// How it was solved.
     pub method: IkMethod,
     /// One entry for each target, in input order.
     pub results: Vec<InverseSolution>,
-    /// Starts outside the limits.
+    /// Warnings about the input, among them starts outside the limits.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
 }
@@ -178,10 +181,11 @@ pub fn inverse(
     }
     Ok(InverseReport {
         robot: description.robot.name().to_owned(),
+        chain: description.reported_chain(),
         joints,
         method: options.method,
         results,
-        warnings: warnings.iter().map(Finding::from).collect(),
+        warnings: description.warnings.iter().chain(warnings).map(Finding::from).collect(),
     })
 }
 

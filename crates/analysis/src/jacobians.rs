@@ -1,6 +1,6 @@
 //! `congruent jacobian`: the velocity of a link by the velocities of the joints.
 
-use congruent_description::{JointState, LinkIndex, Robot, RobotQ};
+use congruent_description::{Finding, JointState, LinkIndex, ReportedChain, RobotDescription, RobotQ};
 use congruent_kinematics::{Jacobian, KinematicsError, UrdfTree};
 use nalgebra::Matrix3xX;
 use schemars::JsonSchema;
@@ -44,6 +44,8 @@ pub struct JacobianResult {
 pub struct JacobianReport {
     /// Name of the robot.
     pub robot: String,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
     /// Movable joints, in the order of columns; mimic joints have columns of their own.
     pub joints: Vec<String>,
     /// The link that moves.
@@ -52,6 +54,9 @@ pub struct JacobianReport {
     pub kind: JacobianKind,
     /// One entry for each configuration, in input order.
     pub results: Vec<JacobianResult>,
+    /// Warnings about the input.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
 }
 
 /// Jacobians of one link at each configuration, from the URDF chain.
@@ -59,18 +64,18 @@ pub struct JacobianReport {
 /// # Errors
 /// [`KinematicsError::JointCount`] for a configuration of another length.
 pub fn jacobians(
-    robot: &Robot,
+    description: &RobotDescription,
     link: LinkIndex,
     kind: JacobianKind,
     configurations: &[RobotQ],
 ) -> Result<JacobianReport, KinematicsError> {
-    let tree = UrdfTree::new(robot);
+    let tree = UrdfTree::new(&description.robot);
     let at = |q: &RobotQ| {
         let jacobian = tree.jacobian(q, link, kind)?;
         Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative: None })
     };
     let results = configurations.iter().map(at).collect::<Result<_, KinematicsError>>()?;
-    Ok(report(robot, link, kind, results))
+    Ok(report(description, link, kind, results))
 }
 
 /// Jacobians of one link and their time derivatives, from the URDF chain.
@@ -78,32 +83,35 @@ pub fn jacobians(
 /// # Errors
 /// [`KinematicsError::JointCount`] for positions or velocities of another length.
 pub fn jacobians_in_motion(
-    robot: &Robot,
+    description: &RobotDescription,
     link: LinkIndex,
     kind: JacobianKind,
     states: &[JointState],
 ) -> Result<JacobianReport, KinematicsError> {
-    let tree = UrdfTree::new(robot);
+    let tree = UrdfTree::new(&description.robot);
     let at = |JointState { q, qd, .. }: &JointState| {
         let jacobian = tree.jacobian(q, link, kind)?;
         let derivative = Some(JacobianBlocks::from(&jacobian.rate(qd)?));
         Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative })
     };
     let results = states.iter().map(at).collect::<Result<_, KinematicsError>>()?;
-    Ok(report(robot, link, kind, results))
+    Ok(report(description, link, kind, results))
 }
 
 fn report(
-    robot: &Robot,
+    description: &RobotDescription,
     link: LinkIndex,
     kind: JacobianKind,
     results: Vec<JacobianResult>,
 ) -> JacobianReport {
+    let robot = &description.robot;
     JacobianReport {
+        chain: description.reported_chain(),
         robot: robot.name().to_owned(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         link: robot.link(link).name.clone(),
         kind,
         results,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
     }
 }

@@ -1,6 +1,6 @@
 //! `congruent manipulability`: how well the tool moves in each direction.
 
-use congruent_description::{JointValues, LinkIndex, RobotDescription, RobotQ};
+use congruent_description::{Finding, JointValues, LinkIndex, ReportedChain, RobotDescription, RobotQ};
 use congruent_kinematics::{
     Arm, Dexterity, KinematicsError, Manipulability, Pose, UrdfTree, VelocityEllipsoid,
 };
@@ -18,12 +18,17 @@ use crate::{
 pub struct ManipulabilityReport {
     /// Name of the robot.
     pub robot: String,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
     /// The arm's independent joints, base to tip.
     pub joints: Vec<String>,
     /// The length that makes metres and radians comparable in `whole`.
     pub metres_per_rad: f64,
     /// One entry for each configuration.
     pub results: Vec<ConfigurationDexterity>,
+    /// Warnings about the input.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
 }
 
 /// Dexterity at one configuration.
@@ -111,9 +116,11 @@ pub fn manipulability(
     }
     Ok(ManipulabilityReport {
         robot: description.robot.name().to_owned(),
+        chain: description.reported_chain(),
         metres_per_rad: arm.metres_per_rad(),
         joints,
         results,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
     })
 }
 

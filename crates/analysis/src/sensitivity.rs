@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use congruent_description::{ArmQ, DhRow, DhRowKind, DhTable, JointValues, RobotDescription, RobotQ};
+use congruent_description::{
+    ArmQ, DhRow, DhRowKind, DhTable, Finding, JointValues, ReportedChain, RobotDescription, RobotQ,
+};
 use congruent_kinematics::{
     Arm, ArmJoint, DhChain, Displacement, KinematicsError, Pose, Sampling, displacement,
 };
@@ -24,12 +26,17 @@ const LENGTH_M: f64 = 1e-3;
 pub struct SensitivityReport {
     /// Name of the robot.
     pub robot: String,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
     /// Random configurations behind each mean.
     pub samples: usize,
     /// Their seed.
     pub seed: u64,
     /// One entry for each length factor.
     pub arms: Vec<ArmSensitivity>,
+    /// Warnings about the input.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
 }
 
 /// The robot, or one like it with all lengths and strokes multiplied.
@@ -118,9 +125,11 @@ pub fn sensitivity(
     };
     Ok(SensitivityReport {
         robot: description.robot.name().to_owned(),
+        chain: description.reported_chain(),
         samples: sampling.samples,
         seed: sampling.seed,
         arms: length_factors.iter().map(scaled).collect(),
+        warnings: description.warnings.iter().map(Finding::from).collect(),
     })
 }
 

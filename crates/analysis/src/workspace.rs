@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use congruent_description::{JointValues, RobotDescription};
+use congruent_description::{Finding, JointValues, ReportedChain, RobotDescription};
 use congruent_kinematics::{Arm, KinematicsError, Sampling, Workspace};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -17,6 +17,8 @@ use crate::{
 pub struct WorkspaceReport {
     /// Name of the robot.
     pub robot: String,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
     /// Random configurations.
     pub samples: usize,
     /// Their seed.
@@ -33,6 +35,9 @@ pub struct WorkspaceReport {
     pub area_m2: Option<f64>,
     /// Edge of the cells that were counted.
     pub cell_m: f64,
+    /// Warnings about the input.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
 }
 
 /// An extreme distance from the base.
@@ -62,6 +67,7 @@ pub fn workspace(
     });
     let report = WorkspaceReport {
         robot: description.robot.name().to_owned(),
+        chain: description.reported_chain(),
         samples: sampling.samples,
         seed: sampling.seed,
         reach,
@@ -70,6 +76,7 @@ pub fn workspace(
         volume_m3: of_size(3),
         area_m2: of_size(2),
         cell_m: found.cell_m,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
     };
     Ok((report, found))
 }

@@ -7,8 +7,8 @@ use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
 
 use congruent::description::{
-    Diagnostic, JointState, Robot, RobotDescription, RobotQ, RosPackages, Use, configuration,
-    load_robot_with, read_configurations, read_states,
+    Configurations, Diagnostic, JointState, Robot, RobotDescription, RobotQ, RosPackages, Use, configuration,
+    load_robot_with, outside_limits, outside_limits_warning, read_configurations, read_states, units::Unit,
 };
 
 use crate::{failure::Failure, print::Printer};
@@ -16,7 +16,7 @@ use crate::{failure::Failure, print::Printer};
 /// A robot on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct RobotArgument {
-    /// A folder with robot.toml, a robot file, or a bare .urdf.
+    /// A folder with robot.toml, a robot file, a bare .urdf, or - for a URDF on standard input.
     pub(crate) robot: PathBuf,
     #[command(flatten)]
     packages: PackageArguments,
@@ -38,16 +38,14 @@ impl PackageArguments {
 }
 
 impl RobotArgument {
-    /// Loads it and prints its warnings.
-    pub(crate) fn load(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
-        let description = load_robot_with(&self.robot, &self.packages.ros())?;
-        printer.warnings(&description.warnings);
-        Ok(description)
+    /// Loads it without a word.
+    fn read(&self) -> Result<RobotDescription, Failure> {
+        Ok(load_robot_with(&self.robot, &self.packages.ros())?)
     }
 
-    /// The same for a use that needs more than kinematics.
+    /// Loads it for a use that needs more than kinematics, and prints its warnings.
     pub(crate) fn load_for(&self, needed: Use, printer: &Printer) -> Result<RobotDescription, Failure> {
-        let description = load_robot_with(&self.robot, &self.packages.ros())?;
+        let description = self.read()?;
         description.for_use(needed)?;
         printer.warnings(&description.warnings);
         Ok(description)
@@ -66,72 +64,156 @@ pub(crate) struct ChainArguments {
 }
 
 impl ChainArguments {
-    /// The robot along that chain.
-    pub(crate) fn choose(&self, description: RobotDescription) -> Result<RobotDescription, Failure> {
-        Ok(description.with_chain(self.base.as_deref(), self.tip.as_deref())?)
+    /// The robot along that chain; prints its warnings.
+    pub(crate) fn choose(
+        &self,
+        description: RobotDescription,
+        printer: &Printer,
+    ) -> Result<RobotDescription, Failure> {
+        let description = description.with_chain(self.base.as_deref(), self.tip.as_deref())?;
+        printer.warnings(&description.warnings);
+        Ok(description)
+    }
+}
+
+/// A robot with a chain.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ArmArguments {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgument,
+    #[command(flatten)]
+    pub(crate) chain: ChainArguments,
+}
+
+impl ArmArguments {
+    /// Loads the robot along its chain and prints its warnings.
+    pub(crate) fn load(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
+        self.chain.choose(self.robot.read()?, printer)
+    }
+
+    /// The same without its table, which a command does not need.
+    pub(crate) fn load_urdf(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
+        let mut description = self.robot.read()?;
+        description.dh = None;
+        self.chain.choose(description, printer)
     }
 }
 
 /// Configurations on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConfigurationArguments {
-    /// A JSON array of {"q": {"joint": value}} in rad and m; joints that are not named are at 0.
+    /// A JSON array of {"q": {"joint": value}} in rad and m, or - for standard input; joints that are not named
+    /// are at 0.
     #[arg(long, value_name = "FILE", conflicts_with = "at")]
     configurations: Option<PathBuf>,
-    /// One joint's position in rad or m; may be given several times.
+    /// One joint's position in rad or m, or with a unit as 90deg, 1.57rad, 0.1m, 100mm; may be given several
+    /// times.
     #[arg(long, value_name = "JOINT=VALUE")]
     at: Vec<String>,
 }
 
 impl ConfigurationArguments {
-    /// The configuration vectors: those of the file, or the one of `--at`, or zero.
-    pub(crate) fn read(&self, robot: &Robot) -> Result<Vec<RobotQ>, Failure> {
+    /// The configuration vectors: those of the file, or the one of `--at`, or zero. Values outside the limits
+    /// are warnings of the description.
+    pub(crate) fn read(
+        &self,
+        description: &mut RobotDescription,
+        printer: &Printer,
+    ) -> Result<Vec<RobotQ>, Failure> {
         if let Some(path) = &self.configurations {
-            return Ok(read_configurations(path, robot)?);
+            let read = read_configurations(path, &description.robot)?;
+            return Ok(with_warning(read, description, printer));
         }
+        let robot = &description.robot;
         let mut values = BTreeMap::new();
         for assignment in &self.at {
-            let (joint, value) = parse(assignment)?;
+            let (joint, value) = position(assignment, robot)?;
             if let Some(before) = values.insert(joint, value) {
                 let message = format!("--at {assignment}: the joint is given as {before} already");
                 return Err(Diagnostic::error("cli::at", message).into());
             }
         }
-        Ok(vec![configuration(&values, robot)?])
+        let q = configuration(&values, robot)?;
+        let warning = outside_limits_warning(&outside_limits(&values, robot));
+        Ok(with_warning(Configurations { entries: vec![q], warning }, description, printer))
     }
 
     /// The same with the velocities, accelerations and torques of the file; at rest and without torques if there
     /// is none.
-    pub(crate) fn read_states_or_rest(&self, robot: &Robot) -> Result<Vec<JointState>, Failure> {
+    pub(crate) fn read_states_or_rest(
+        &self,
+        description: &mut RobotDescription,
+        printer: &Printer,
+    ) -> Result<Vec<JointState>, Failure> {
         if self.configurations.is_some() {
-            return self.read_states(robot);
+            return self.read_states(description, printer);
         }
-        let zeros = vec![0.0; robot.dof()];
+        let zeros = vec![0.0; description.robot.dof()];
         let rest = |q| JointState { q, qd: zeros.clone(), qdd: zeros.clone(), tau: zeros.clone() };
-        Ok(self.read(robot)?.into_iter().map(rest).collect())
+        Ok(self.read(description, printer)?.into_iter().map(rest).collect())
     }
 
     /// The same with the velocities, accelerations and torques of the file.
-    pub(crate) fn read_states(&self, robot: &Robot) -> Result<Vec<JointState>, Failure> {
+    pub(crate) fn read_states(
+        &self,
+        description: &mut RobotDescription,
+        printer: &Printer,
+    ) -> Result<Vec<JointState>, Failure> {
         let Some(path) = &self.configurations else {
             let message = "joint velocities are read from a file of configurations, and none is given";
             return Err(Diagnostic::error("cli::velocities", message)
                 .with_help(r#"--configurations FILE with [{"q": {"joint": 0.1}, "v": {"joint": 0.2}}]"#)
                 .into());
         };
-        Ok(read_states(path, robot)?)
+        Ok(with_warning(read_states(path, &description.robot)?, description, printer))
     }
 }
 
-fn parse(assignment: &str) -> Result<(String, f64), Diagnostic> {
-    let value = |(joint, value): (&str, &str)| {
-        let value: f64 = value.trim().parse().ok().filter(|value: &f64| value.is_finite())?;
-        Some((joint.trim().to_owned(), value))
+/// The entries; their warning is printed and becomes one of the description, whose warnings are in each report.
+pub(crate) fn with_warning<T>(
+    read: Configurations<T>,
+    description: &mut RobotDescription,
+    printer: &Printer,
+) -> Vec<T> {
+    printer.warnings(read.warning.as_slice());
+    description.warnings.extend(read.warning);
+    read.entries
+}
+
+/// The units in which positions may be given, with the unit of the coordinate that they belong to. A longer
+/// name comes before one that it ends with.
+const UNITS: [(&str, &str, fn(f64) -> f64); 4] = [
+    ("deg", "rad", |value| Unit::Angle.convert(value)),
+    ("rad", "rad", |value| value),
+    ("mm", "m", |value| Unit::Length.convert(value)),
+    ("m", "m", |value| value),
+];
+
+/// `JOINT=VALUE` as a name and a position in rad or m.
+fn position(assignment: &str, robot: &Robot) -> Result<(String, f64), Diagnostic> {
+    let refused = |why: &str| {
+        Diagnostic::error("cli::at", format!("--at \"{assignment}\" {why}")).with_help(
+            "for example --at elbow_joint=1.57 or --at elbow_joint=90deg, --at lift=0.1 or --at lift=100mm",
+        )
     };
-    assignment.split_once('=').and_then(value).ok_or_else(|| {
-        Diagnostic::error("cli::at", format!("--at \"{assignment}\" is not JOINT=VALUE"))
-            .with_help("for example --at elbow_joint=1.57, in rad or m")
-    })
+    let (joint, written) = assignment.split_once('=').ok_or_else(|| refused("is not JOINT=VALUE"))?;
+    let (joint, written) = (joint.trim(), written.trim());
+    let unit = UNITS.iter().find(|(name, ..)| written.ends_with(name));
+    let number = unit.map_or(written, |(name, ..)| written[..written.len() - name.len()].trim_end());
+    let value: f64 = number.parse().map_err(|_| refused("is not JOINT=VALUE"))?;
+    let value = unit.map_or(value, |(.., convert)| convert(value));
+    if !value.is_finite() {
+        return Err(refused("is not a finite number"));
+    }
+    // An unknown joint is reported with the known ones, by whoever uses the name.
+    let coordinate = robot.find_joint(joint).map_or("", |joint| robot.joint(joint).kind.unit());
+    if let Some((name, of, _)) = unit
+        && !coordinate.is_empty()
+        && *of != coordinate
+    {
+        return Err(refused(&format!("is in {name}, but the joint's position is in {coordinate}")));
+    }
+    Ok((joint.to_owned(), value))
 }
 
 /// Parses an enum of the library by the names that it has in JSON, with its documentation as help.

@@ -7,6 +7,7 @@ mod input;
 #[cfg(feature = "recording")]
 mod inspect;
 mod model;
+mod output_file;
 mod plot_file;
 mod print;
 mod run;

@@ -63,12 +63,13 @@ pub fn joint_dynamics(
 ) -> Result<DynamicsReport, Vec<Diagnostic>> {
     description.for_use(Use::Physics)?;
     let robot = robot_of(description, options)?;
-    let refused = |error: &dyn std::error::Error| vec![Diagnostic::error("dynamics::source", error.to_string())];
+    let refused =
+        |error: &dyn std::error::Error| vec![Diagnostic::error("dynamics::source", error.to_string())];
     let mut by: Box<dyn JointDynamics> = match source {
         DynamicsSource::Model => Box::new(TreeDynamics::new(&robot)),
         DynamicsSource::Simulation => {
             Box::new(SimulatedDynamics::new(&robot).map_err(|error| refused(&error))?)
         }
     };
-    dynamics(&robot, options, (source, &mut *by), states).map_err(|error| refused(&error))
+    dynamics((description, &robot), options, (source, &mut *by), states).map_err(|error| refused(&error))
 }

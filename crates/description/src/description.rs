@@ -1,10 +1,15 @@
 //! Everything that a robot file declares, loaded and checked: what every command starts from.
 
-use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::PathBuf,
+    sync::Arc,
+};
 
 use nalgebra::Isometry3;
 
 use crate::{
+    chain::{ChainEnd, ChainEnds, ReportedChain, choose_tip},
     diagnostic::{Diagnostic, Use, known_names},
     model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance},
     robot_file::RobotFilePlaces,
@@ -19,6 +24,18 @@ pub struct Places {
     pub robot_file: Option<Arc<RobotFilePlaces>>,
     /// The URDF; `None` if the robot was made without one.
     pub urdf: Option<UrdfPlaces>,
+}
+
+/// The code of the warning that a table is not used since it is of another chain.
+pub const TABLE_DROPPED: &str = "chain::table_dropped";
+
+/// Files and folders that a robot file names besides the URDF.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct NamedFiles {
+    /// The SRDF.
+    pub srdf: Option<PathBuf>,
+    /// Folders of packages by name.
+    pub packages: BTreeMap<String, PathBuf>,
 }
 
 /// A robot with its analytical model, as a robot file (or a bare URDF) declares them.
@@ -36,12 +53,16 @@ pub struct RobotDescription {
     pub base: LinkIndex,
     /// The link that the model's last frame is declared in; it hangs below the body of `base`.
     pub tip: LinkIndex,
+    /// Who named these two links.
+    pub chain_ends: ChainEnds,
     /// The Denavit-Hartenberg table; `None` for a bare URDF.
     pub dh: Option<DhTable>,
     /// Pose of the tool centre point in link `tip`; `None` if no tool is declared.
     pub tip_from_tcp: Option<Isometry3<f64>>,
     /// How far model and twin may be apart and still count as the same.
     pub tolerance: Tolerance,
+    /// The other files and folders that the robot file names.
+    pub named_files: NamedFiles,
     /// Link pairs that an SRDF excludes from clearance, the smaller index first.
     pub disabled_collisions: BTreeSet<(LinkIndex, LinkIndex)>,
     /// What is suspicious, and what stops another use than kinematics.
@@ -62,8 +83,8 @@ impl RobotDescription {
         if errors.is_empty() { Ok(()) } else { Err(errors) }
     }
 
-    /// The same robot with another chain; a name that is left out keeps its link, but a new base alone
-    /// has the tip of its own longest chain. The table is dropped if the chain is another one.
+    /// The same robot with another chain; a name that is left out keeps its link, but a new base alone has a
+    /// tip that is chosen. The table is dropped, with a warning, if the chain is another one.
     ///
     /// # Errors
     /// A link is unknown, or `tip` does not hang below `base`.
@@ -71,24 +92,87 @@ impl RobotDescription {
         let before = (self.base, self.tip);
         if let Some(base) = base {
             self.base = self.link("base", base)?;
-            self.tip = self.robot.tip_of_longest_chain(self.base);
+            self.chain_ends.base = ChainEnd::Given;
         }
         if let Some(tip) = tip {
             self.tip = self.link("tip", tip)?;
+            self.chain_ends.tip = ChainEnd::Given;
+        } else if base.is_some() {
+            self.tip = choose_tip(&self.robot, self.base).tip;
+            self.chain_ends.tip = ChainEnd::Chosen;
         }
         if self.robot.chain(self.base, self.tip).is_none() {
-            let name = |link| &self.robot.link(link).name;
-            let message =
-                format!("tip \"{}\" does not hang below base \"{}\"", name(self.tip), name(self.base));
+            let message = format!(
+                "tip \"{}\" does not hang below base \"{}\"",
+                self.name_of(self.tip),
+                self.name_of(self.base)
+            );
             return Err(Diagnostic::error("chain::broken", message)
                 .with_help("no chain of joints leads from base down to tip"));
         }
         if before != (self.base, self.tip) {
-            self.dh = None;
-            self.tip_from_tcp = None;
-            self.places.robot_file = None;
+            self.drop_table(before);
         }
-        Ok(self)
+        Ok(self.with_doubts())
+    }
+
+    fn drop_table(&mut self, (base, tip): (LinkIndex, LinkIndex)) {
+        if self.dh.take().is_some() {
+            let message = format!(
+                "the [dh] table leads from \"{}\" to \"{}\", not from \"{}\" to \"{}\": it is not used",
+                self.name_of(base),
+                self.name_of(tip),
+                self.name_of(self.base),
+                self.name_of(self.tip)
+            );
+            self.warnings.push(Diagnostic::warning(TABLE_DROPPED, message));
+        }
+        self.tip_from_tcp = None;
+        self.places.robot_file = None;
+    }
+
+    /// Warns if the tip was chosen among several that are as good, once the chain is what it is.
+    #[must_use]
+    pub(crate) fn with_doubts(mut self) -> Self {
+        const SEVERAL: &str = "chain::several_tips";
+        const MOST_NAMED: usize = 10;
+        self.warnings.retain(|warning| warning.code != SEVERAL);
+        if self.chain_ends.tip != ChainEnd::Chosen {
+            return self;
+        }
+        let others = choose_tip(&self.robot, self.base).others;
+        if !others.is_empty() {
+            let more = others.len().saturating_sub(MOST_NAMED);
+            let others: Vec<&str> =
+                others.into_iter().take(MOST_NAMED).map(|link| self.name_of(link)).collect();
+            let message = format!(
+                "the robot has several chains of about the same length: the one to \"{}\" was taken, others end at {}{}",
+                self.name_of(self.tip),
+                others.join(", "),
+                if more == 0 { String::new() } else { format!(" and {more} more") }
+            );
+            self.warnings.push(
+                Diagnostic::warning(SEVERAL, message)
+                    .with_help("choose with --tip, or with the keys base and tip of a robot file"),
+            );
+        }
+        self
+    }
+
+    /// The chain, as reports name it.
+    pub fn reported_chain(&self) -> ReportedChain {
+        let joints = self.moving_chain().into_iter().map(|joint| self.robot.joint(joint).name.clone());
+        ReportedChain {
+            base: self.name_of(self.base).to_owned(),
+            base_is: self.chain_ends.base,
+            tip: self.name_of(self.tip).to_owned(),
+            tip_is: self.chain_ends.tip,
+            joints: joints.collect(),
+        }
+    }
+
+    fn name_of(&self, link: LinkIndex) -> &str {
+        &self.robot.link(link).name
     }
 
     /// The moving joints from base to tip, mimic joints among them.

@@ -1,56 +1,169 @@
-//! Opens files; nothing else in this crate does. Kind and size are checked before the content is read: a
-//! pipe would block its reader, and a huge file would fill the memory.
+//! Opens files; nothing else in this crate does. Kind and size are checked before the content is read: a pipe
+//! that nobody writes to would block its reader, and a huge file would fill the memory. What a person names may
+//! be a pipe or standard input, what a file names may not.
 
 use std::{
-    fs::File,
+    fs::{File, Metadata},
     io::{self, Read},
-    path::Path,
-    sync::Arc,
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+        mpsc,
+    },
+    time::Duration,
 };
 
-use crate::diagnostic::{Diagnostic, SourceFile, line_column};
+use crate::diagnostic::{Diagnostic, SourceFile, line_column, nearest};
+
+/// The names of standard input.
+const STANDARD_INPUT: [&str; 2] = ["-", "/dev/stdin"];
+/// How long a pipe may have no writer. Kind: judgement; a shell opens its end within milliseconds.
+const WRITER_WAIT: Duration = Duration::from_secs(1);
+/// Entries of a folder among which a name like the missing one is looked for.
+const MOST_ENTRIES: usize = 10_000;
+
+/// Whether a path means standard input.
+pub fn is_standard_input(path: &Path) -> bool {
+    STANDARD_INPUT.iter().any(|name| path == Path::new(name))
+}
 
 /// The bytes of a regular file of at most `most_bytes`.
 pub(crate) fn read_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
+    let metadata = metadata(path)?;
+    if !metadata.is_file() {
+        return Err(not_regular(path));
+    }
+    // One byte more than allowed is asked for: the file may have grown since its size was read.
+    if metadata.len() > most_bytes {
+        return Err(too_large(path, metadata.len(), most_bytes));
+    }
+    let file = File::open(path).map_err(|error| unreadable(path, &error))?;
+    read_at_most(file, path, most_bytes)
+}
+
+/// The bytes of what a person names: a regular file, a pipe or standard input.
+fn read_named_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
+    if is_standard_input(path) {
+        return read_at_most(standard_input(path)?.lock(), path, most_bytes);
+    }
+    if is_pipe(&metadata(path)?) {
+        read_at_most(open_pipe(path)?, path, most_bytes)
+    } else {
+        read_bytes(path, most_bytes)
+    }
+}
+
+/// Standard input, of which there is one.
+fn standard_input(path: &Path) -> Result<io::Stdin, Diagnostic> {
+    static IS_TAKEN: AtomicBool = AtomicBool::new(false);
+    if IS_TAKEN.swap(true, Ordering::Relaxed) {
+        let message = format!("{}: standard input is read already, for another argument", path.display());
+        return Err(Diagnostic::error("file::standard_input", message)
+            .with_help("give one of the arguments as a file"));
+    }
+    Ok(io::stdin())
+}
+
+#[cfg(unix)]
+fn is_pipe(metadata: &Metadata) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type())
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &Metadata) -> bool {
+    false
+}
+
+/// Opening blocks until a program writes to the pipe, so another thread does it and is left alone after a while.
+fn open_pipe(path: &Path) -> Result<File, Diagnostic> {
+    let (sender, receiver) = mpsc::channel();
+    let pipe: PathBuf = path.to_owned();
+    std::thread::spawn(move || sender.send(File::open(pipe)));
+    match receiver.recv_timeout(WRITER_WAIT) {
+        Ok(opened) => opened.map_err(|error| unreadable(path, &error)),
+        Err(_) => {
+            let message = format!("{} is a pipe that no program writes to", path.display());
+            Err(Diagnostic::error("file::no_writer", message))
+        }
+    }
+}
+
+fn metadata(path: &Path) -> Result<Metadata, Diagnostic> {
+    let metadata = std::fs::metadata(path).map_err(|error| unreadable(path, &error))?;
+    if metadata.is_dir() {
+        let message = format!("{} is a directory, not a file", path.display());
+        return Err(Diagnostic::error("file::directory", message));
+    }
+    Ok(metadata)
+}
+
+fn read_at_most(from: impl Read, path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
+    let mut bytes = Vec::new();
+    from.take(most_bytes + 1).read_to_end(&mut bytes).map_err(|error| unreadable(path, &error))?;
+    let length = bytes.len() as u64;
+    if length > most_bytes { Err(too_large(path, length, most_bytes)) } else { Ok(bytes) }
+}
+
+fn not_regular(path: &Path) -> Diagnostic {
+    let message = format!("{} is not a regular file but a pipe, socket or device", path.display());
+    Diagnostic::error("file::not_regular", message)
+}
+
+fn too_large(path: &Path, length: u64, most_bytes: u64) -> Diagnostic {
+    let message = format!("{} is too large: {length} bytes, the limit is {most_bytes}", path.display());
+    Diagnostic::error("file::too_large", message)
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
     let name = path.display();
-    let unreadable = |error: io::Error| match error.kind() {
-        io::ErrorKind::NotFound => Diagnostic::error("file::not_found", format!("{name} does not exist")),
+    match error.kind() {
+        io::ErrorKind::NotFound => not_found(path, format!("{name} does not exist")),
         io::ErrorKind::PermissionDenied => {
             Diagnostic::error("file::permission", format!("{name}: permission denied"))
         }
         _ => Diagnostic::error("file::unreadable", format!("{name} cannot be read: {error}")),
-    };
-    let metadata = std::fs::metadata(path).map_err(unreadable)?;
-    if metadata.is_dir() {
-        return Err(Diagnostic::error("file::directory", format!("{name} is a directory, not a file")));
     }
-    if !metadata.is_file() {
-        let message = format!("{name} is not a regular file but a pipe, socket or device");
-        return Err(Diagnostic::error("file::not_regular", message));
-    }
-    // One byte more than allowed is asked for: the file may have grown since its size was read.
-    let mut bytes = Vec::new();
-    if metadata.len() <= most_bytes {
-        let file = File::open(path).map_err(unreadable)?;
-        file.take(most_bytes + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    }
-    let length = metadata.len().max(bytes.len() as u64);
-    if length > most_bytes {
-        let message = format!("{name} is too large: {length} bytes, the limit is {most_bytes}");
-        return Err(Diagnostic::error("file::too_large", message));
-    }
-    Ok(bytes)
 }
 
-/// The text of a regular file of at most `most_bytes`, without a byte order mark.
+/// A missing file, with the name in its folder that is most like it as help.
+pub(crate) fn not_found(path: &Path, message: String) -> Diagnostic {
+    let fault = Diagnostic::error("file::not_found", message);
+    match similar(path) {
+        Some(similar) => fault.with_help(format!("did you mean {}?", similar.display())),
+        None => fault,
+    }
+}
+
+/// The path in the same folder whose name is most like this one's.
+fn similar(path: &Path) -> Option<PathBuf> {
+    let name = path.file_name()?.to_str()?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let entries = std::fs::read_dir(folder).ok()?.take(MOST_ENTRIES).filter_map(Result::ok);
+    let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    // The order of a folder is that of the file system.
+    names.sort();
+    nearest(name, names.iter().map(String::as_str)).map(|name| path.with_file_name(name))
+}
+
+/// The text of a regular file of at most `most_bytes`, which another file names.
+pub(crate) fn read_regular_text(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
+    text_of(path, &read_bytes(path, most_bytes)?)
+}
+
+/// The text of a file of at most `most_bytes`, without a byte order mark. `path` is what a person names: a
+/// regular file, a pipe, or `-` for standard input, which can be read once.
 ///
 /// # Errors
 /// The file cannot be read or is no UTF-8 text; the fault comes with as much of the text as is
 /// needed to show its place.
 pub fn read_text(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
+    text_of(path, &read_named_bytes(path, most_bytes)?)
+}
+
+fn text_of(path: &Path, bytes: &[u8]) -> Result<Arc<SourceFile>, Diagnostic> {
     let source = |text: &str| Arc::new(SourceFile { path: path.to_owned(), text: text.to_owned() });
-    let bytes = read_bytes(path, most_bytes)?;
-    match decode(&bytes) {
+    match decode(bytes) {
         Ok(text) => Ok(source(text)),
         Err((fault, readable)) => Err(fault.in_file(&source(readable))),
     }
@@ -126,6 +239,33 @@ mod tests {
     #[test]
     #[cfg(unix)]
     fn a_device_is_not_opened() {
-        assert_eq!(read_bytes(Path::new("/dev/zero"), 9).unwrap_err().code, "file::not_regular");
+        assert_eq!(read_text(Path::new("/dev/zero"), 9).unwrap_err().code, "file::not_regular");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_pipe_is_read_if_a_person_names_it_and_if_a_program_writes_to_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let make = |name: &str| {
+            let pipe = folder.path().join(name);
+            assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+            pipe
+        };
+        let (silent, pipe) = (make("silent"), make("pipe"));
+        assert_eq!(read_text(&silent, 9).unwrap_err().code, "file::no_writer");
+        assert_eq!(read_bytes(&pipe, 9).unwrap_err().code, "file::not_regular");
+        let to = pipe.clone();
+        let writer = std::thread::spawn(move || std::fs::write(to, "written"));
+        assert_eq!(read_text(&pipe, 9).unwrap().text, "written");
+        writer.join().unwrap().unwrap();
+    }
+
+    #[test]
+    fn a_missing_file_is_answered_with_the_name_most_like_it() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("ur5e.toml"), "a").unwrap();
+        let help = |name: &str| read_text(&folder.path().join(name), 9).unwrap_err().help;
+        assert!(help("ur5.toml").unwrap().ends_with("ur5e.toml?"));
+        assert_eq!(help("panda"), None);
     }
 }

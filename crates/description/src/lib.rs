@@ -3,6 +3,7 @@
 //!
 //! Parsers take text and give a value or diagnostics; only `file.rs` opens files.
 
+mod chain;
 mod configuration_file;
 mod description;
 mod diagnostic;
@@ -20,15 +21,17 @@ mod urdf;
 mod written;
 mod xml;
 
+pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use configuration_file::{
-    JointState, JsonList, configuration, configurations_schema, read_configurations, read_states,
+    Configurations, JointState, JsonList, configuration, configurations_schema, outside_limits,
+    outside_limits_warning, read_configurations, read_states, unique_names,
 };
-pub use description::{Places, RobotDescription};
+pub use description::{NamedFiles, Places, RobotDescription, TABLE_DROPPED};
 pub use diagnostic::{
     Diagnostic, Diagnostics, Finding, FindingPlace, Occurrence, Severity, SourceFile, Use, known_names,
     line_column, nearest,
 };
-pub use file::read_text;
+pub use file::{is_standard_input, read_text};
 pub use load::{load_robot, load_robot_with, parse_robot};
 pub use model::{
     ArmQ, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
@@ -37,6 +40,7 @@ pub use model::{
 };
 pub use robot_file::{
     ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace, dh_section, robot_file_schema,
+    robot_file_text,
 };
 pub use ros_packages::RosPackages;
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};

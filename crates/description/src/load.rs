@@ -10,9 +10,10 @@ use std::{
 use toml::Spanned;
 
 use crate::{
-    description::{Places, RobotDescription},
+    chain::{ChainEnds, choose_tip},
+    description::{NamedFiles, Places, RobotDescription},
     diagnostic::{Diagnostic, Diagnostics, SourceFile, Use},
-    file::read_text,
+    file::{is_standard_input, not_found, read_regular_text, read_text},
     mesh::MeshStore,
     model::{LinkIndex, Robot, Tolerance},
     packages::Packages,
@@ -23,12 +24,14 @@ use crate::{
     written::toml_text::parse_toml,
 };
 
-const ACCEPTED: &str = "give a folder with robot.toml, a robot file (.toml) or a .urdf";
+const ACCEPTED: &str =
+    "give a folder with robot.toml, a robot file (.toml), a .urdf, or - for a URDF on standard input";
 
-/// Loads a robot: a folder with `robot.toml`, that file under any name, or a bare `.urdf`.
+/// Loads a robot: a folder with `robot.toml`, that file under any name, or a bare `.urdf`, which may come from
+/// a pipe or as `-` from standard input.
 ///
-/// A bare URDF has its root as base, the leaf of its longest chain of moving joints as tip, and no
-/// Denavit-Hartenberg table.
+/// A bare URDF has its root as base, the frame for tools at the end of its longest chain of moving joints (before
+/// a gripper) as tip, and no Denavit-Hartenberg table.
 ///
 /// A fault that kinematics can do without, such as a missing mesh, refuses nothing here: it is a warning, and
 /// [`RobotDescription::for_use`] refuses the use that needs the part.
@@ -62,8 +65,8 @@ pub fn load_robot_with(path: &Path, ros: &RosPackages) -> Result<RobotDescriptio
 
 fn open(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Vec<Diagnostic>> {
     read_text(path, most_bytes).map_err(|fault| {
-        let is_missing = fault.code == "file::not_found";
-        vec![if is_missing { fault.with_help(ACCEPTED) } else { fault }]
+        let is_helpless = fault.code == "file::not_found" && fault.help.is_none();
+        vec![if is_helpless { fault.with_help(ACCEPTED) } else { fault }]
     })
 }
 
@@ -119,15 +122,18 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
         name: robot.name().to_owned(),
         urdf_path: urdf.path.clone(),
         base,
-        tip: robot.tip_of_longest_chain(base),
+        tip: choose_tip(&robot, base).tip,
+        chain_ends: ChainEnds::default(),
         robot,
         dh: None,
         tip_from_tcp: None,
         tolerance: Tolerance::default(),
+        named_files: NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings,
         places: Places { robot_file: None, urdf: Some(UrdfPlaces::new(Arc::clone(urdf))) },
     }
+    .with_doubts()
 }
 
 /// Reads a URDF with its meshes.
@@ -159,10 +165,10 @@ fn read_urdf(
     }
 }
 
-/// The folder of a file; a bare file name is in the current one.
+/// The folder of a file; a bare file name is in the current one, and so is what standard input names.
 fn parent(path: &Path) -> &Path {
     match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        Some(parent) if !parent.as_os_str().is_empty() && !is_standard_input(path) => parent,
         _ => Path::new("."),
     }
 }
@@ -183,7 +189,9 @@ fn checked(
     let is_refused = diagnostics.has_error();
     let diagnostics = diagnostics.in_file(robot_file);
     match description {
-        Some(description) if !is_refused => Ok(RobotDescription { warnings: diagnostics, ..description }),
+        Some(description) if !is_refused => {
+            Ok(RobotDescription { warnings: diagnostics, ..description }.with_doubts())
+        }
         _ => Err(diagnostics),
     }
 }
@@ -197,8 +205,12 @@ fn read_robot_file(
     let (written, urdf_path) = written_robot(robot_file, diagnostics)?;
     let folder = parent(&robot_file.path);
     let packages = declared_packages(&written, folder, diagnostics);
-    let urdf = open(&urdf_path, URDF_BYTES);
+    let named_files = NamedFiles {
+        srdf: written.srdf.as_ref().map(|srdf| folder.join(srdf.get_ref())),
+        packages: packages.clone(),
+    };
     let repairs = written.repairs(robot_file);
+    let urdf = read_regular_text(&urdf_path, URDF_BYTES).map_err(Vec::from);
     let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, (packages, ros), &repairs)?, urdf)));
     let ((robot, warnings), urdf) = match robot {
         Ok(read) => read,
@@ -212,7 +224,7 @@ fn read_robot_file(
     let srdf = written.srdf.clone();
     let disabled_collisions = disabled_collisions(srdf.as_ref(), folder, &robot, diagnostics);
     let description = declared(written, robot_file, &urdf, robot, diagnostics)?;
-    Some(RobotDescription { disabled_collisions, ..description })
+    Some(RobotDescription { disabled_collisions, named_files, ..description })
 }
 
 /// What a robot file declares about its robot; SRDF and warnings are left to the caller.
@@ -224,7 +236,7 @@ fn declared(
     diagnostics: &mut Diagnostics,
 ) -> Option<RobotDescription> {
     let declared = robot_file::check(&written, &robot_file.text, &robot, diagnostics);
-    let Declared { base, tip, dh, tip_from_tcp, tolerance } = declared?;
+    let Declared { base, tip, chain_ends, dh, tip_from_tcp, tolerance } = declared?;
     let table = written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh)));
     Some(RobotDescription {
         path: robot_file.path.clone(),
@@ -233,9 +245,11 @@ fn declared(
         robot,
         base,
         tip,
+        chain_ends,
         dh,
         tip_from_tcp,
         tolerance,
+        named_files: NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings: Vec::new(),
         places: Places { robot_file: table, urdf: Some(UrdfPlaces::new(Arc::clone(urdf))) },
@@ -249,7 +263,7 @@ fn disabled_collisions(
     diagnostics: &mut Diagnostics,
 ) -> BTreeSet<(LinkIndex, LinkIndex)> {
     let Some(srdf) = srdf else { return BTreeSet::new() };
-    match read_text(&folder.join(srdf.get_ref()), SRDF_BYTES) {
+    match read_regular_text(&folder.join(srdf.get_ref()), SRDF_BYTES) {
         Ok(source) => {
             let (pairs, faults) = srdf::parse(&source, robot);
             diagnostics.extend(faults);
@@ -278,7 +292,7 @@ fn written_robot(robot_file: &SourceFile, diagnostics: &mut Diagnostics) -> Opti
     if !urdf_path.exists() {
         let message =
             format!("urdf = \"{}\": {} does not exist", urdf.get_ref().display(), urdf_path.display());
-        diagnostics.push(Diagnostic::error("file::not_found", message).at(urdf.span()));
+        diagnostics.push(not_found(&urdf_path, message).at(urdf.span()));
         return None;
     }
     Some((written, urdf_path))

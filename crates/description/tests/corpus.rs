@@ -50,10 +50,33 @@ fn every_real_robot_loads() {
         let known: &[&str] = match folder.file_name().and_then(|name| name.to_str()) {
             Some("fanuc_m10ia") => &["urdf::massless"; 6],
             Some("denso_hsr065") => &["mesh::empty"],
+            Some("baxter") => &["chain::several_tips"],
             _ => &[],
         };
         let found: Vec<&str> = loaded.warnings.iter().map(|warning| warning.code).collect();
         assert_eq!(found, known, "{}", lines(&loaded.warnings));
+    }
+}
+
+/// The frames that the vendors' manuals and drivers call the tool's, by robot.
+#[test]
+fn the_chain_ends_where_tools_are_programmed() {
+    let Some(corpus) = corpus::corpus() else { return };
+    let expected = [
+        ("baxter", "right_gripper", 7),
+        ("denso_hsr065", "J4", 4),
+        ("fanuc_m10ia", "tool0", 6),
+        ("iiwa14", "iiwa_link_ee", 7),
+        ("panda", "panda_hand_tcp", 7),
+        ("rrr_arm", "gripper_frame_cp", 4),
+        ("so100", "gripper", 5),
+        ("ur5e", "tool0", 6),
+        ("xarm7_gripper", "link_tcp", 7),
+    ];
+    for (name, tip, joints) in expected {
+        let loaded = load_robot(&corpus.join("robots").join(name).join("robot.urdf")).expect("it loads");
+        let chain = loaded.reported_chain();
+        assert_eq!((chain.tip.as_str(), chain.joints.len()), (tip, joints), "{name}");
     }
 }
 

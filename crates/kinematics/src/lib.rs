@@ -26,8 +26,9 @@ pub use arm::{
 };
 pub use chain::{
     Axes, AxisPair, AxisRelation, Choice, DeriveError, DhChain, DhDerivation, DhDerivatives, DhFrames,
-    DhRowTwists, FreeChoice, Jacobian, JacobianKind, ModifiedDh, NotADhTransform, Proof, ScrewChain,
-    ScrewDerivatives, ScrewTree, SerialChain, SerialDh, SinCos, StandardDh, UrdfTree, derive_dh,
+    DhRowTwists, FreeChoice, Jacobian, JacobianKind, ModifiedDh, NotADhTransform, Proof, ROUNDED_M,
+    ROUNDED_RAD, RoundedPair, ScrewChain, ScrewDerivatives, ScrewTree, SerialChain, SerialDh, SinCos,
+    StandardDh, UrdfTree, derive_dh, without_rounding,
 };
 pub use configurations::{
     AxisStep, axis_steps, move_inside_limits, random_configurations, range, sample_configurations,

@@ -13,8 +13,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use congruent_description::{ChainQ, DhConvention, DhRowKind};
 use congruent_kinematics::{
-    AxisRelation, Choice, DeriveError, DhDerivation, ModifiedDh, NotADhTransform, Pose, Proof, Screw,
-    ScrewChain, SerialDh, StandardDh, Twist, derive_dh,
+    AxisRelation, Choice, DeriveError, DhDerivation, ModifiedDh, NotADhTransform, Pose, Proof, ROUNDED_M,
+    ROUNDED_RAD, Screw, ScrewChain, SerialDh, StandardDh, Twist, derive_dh, without_rounding,
 };
 use nalgebra::{Isometry3, Point3, Unit, UnitQuaternion, Vector3};
 use proptest::prelude::*;
@@ -232,6 +232,48 @@ fn a_coarser_accuracy_simplifies_and_shows_what_it_costs() {
     let found = &mut |q: &ChainQ| coarse.dh.base_from_tip(q).unwrap();
     let proof = Proof::of(2, &[], found, &mut |q| chain.base_from_tip(q).unwrap());
     assert!(proof.worst() > 1e-10 && proof.worst() < 1e-8, "{proof:?}");
+}
+
+/// The axes stand 0.3 m and 0.4 m apart and are turned by what 1.5707 for a quarter turn leaves.
+#[test]
+fn axes_that_rounding_leaves_nearly_parallel_are_parallel_through_their_origins() {
+    let off = FRAC_PI_2 - 1.5707;
+    let origin = Vector3::new(0.3, 0.4, 0.1);
+    for (sense, relation) in [(1.0, AxisRelation::Parallel), (-1.0, AxisRelation::AntiParallel)] {
+        let second = turn([0., off.sin() * sense, off.cos() * sense], origin.into());
+        let written = chain(&[turn([0., 0., 1.], [0.; 3]), second]);
+        let (mended, pairs) = without_rounding(&written, &[Vector3::zeros(), origin], ACCURACY).unwrap();
+        let [pair] = pairs[..] else { panic!("{pairs:?}") };
+        assert_eq!((pair.joint, pair.relation, pair.distance_m), (0, relation, 0.0));
+        assert!(within(pair.angle_rad - off.sin(), 1e-15), "{pair:?}");
+        let plain = turn([0., 0., sense], origin.into());
+        assert_eq!(mended.twists_in_base[1].angular, plain.angular);
+        assert!(within((mended.twists_in_base[1].linear - plain.linear).norm(), 1e-15), "{mended:?}");
+        let row = derived(&mended).dh.rows[0];
+        assert!(within(row.a_m - 0.5, 1e-15) && row.d_m == 0.0, "{row:?}");
+        // Two of them and more are a real angle.
+        let real =
+            chain(&[turn([0., 0., 1.], [0.; 3]), turn([0., 2.1 * ROUNDED_RAD / 2.0, 1.], origin.into())]);
+        assert_eq!(without_rounding(&real, &[], ACCURACY).unwrap(), (real, Vec::new()));
+    }
+}
+
+#[test]
+fn axes_that_rounding_leaves_apart_meet_or_are_one_line() {
+    let first = turn([0., 0., 1.], [0.; 3]);
+    let mended = |second: Twist| {
+        let (mended, pairs) = without_rounding(&chain(&[first, second]), &[], ACCURACY).unwrap();
+        (mended.twists_in_base[1], pairs.first().map(|pair| (pair.relation, pair.distance_m)))
+    };
+    let (across, along) = (turn([0., 1., 0.], [2e-5, 0., 0.3]), turn([0., 0., 1.], [0., 3e-5, 0.3]));
+    assert_eq!(mended(across), (turn([0., 1., 0.], [0., 0., 0.3]), Some((AxisRelation::Intersecting, 2e-5))));
+    assert_eq!(mended(along), (turn([0., 0., 1.], [0.; 3]), Some((AxisRelation::Coincident, 3e-5))));
+    for apart in [2.0 * ROUNDED_M, 1e-12] {
+        let as_it_is = turn([0., 1., 0.], [apart, 0., 0.3]);
+        assert_eq!(mended(as_it_is), (as_it_is, None));
+    }
+    let (quill, pair) = mended(slide([1e-5, 0., 1.]));
+    assert_eq!((quill, pair.unwrap().0), (slide([0., 0., 1.]), AxisRelation::Parallel));
 }
 
 #[test]

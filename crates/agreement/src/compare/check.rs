@@ -92,7 +92,10 @@ pub fn check(
     let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
     let brackets = worst(&certificates);
     Ok(CheckReport {
+        file: description.path.display().to_string(),
         robot: robot.name().to_owned(),
+        chain: description.reported_chain(),
+        table_compared: description.dh.is_some(),
         verdict: verdict(&comparisons),
         worst: worst_of(&comparisons),
         tolerance: description.tolerance,

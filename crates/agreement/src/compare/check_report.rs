@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use congruent_description::{Finding, JointValues, Tolerance};
+use congruent_description::{Finding, JointValues, ReportedChain, Tolerance};
 use congruent_kinematics::PoseError;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -87,8 +87,14 @@ pub struct NotAsked {
 /// The answer of `congruent check` for one robot.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CheckReport {
+    /// The robot file, or the URDF if there is none.
+    pub file: String,
     /// Name of the robot.
     pub robot: String,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
+    /// Whether a table was compared; if not, the URDF, its screws and the physics are compared with each other.
+    pub table_compared: bool,
     /// Whether all sources that were asked agree.
     pub verdict: Agreement,
     /// The worst of all comparisons.

@@ -1,16 +1,20 @@
 //! One model of a chain written as another, and the proof of it.
 
 use congruent_description::{
-    ChainQ, DhConvention, Diagnostic, JointIndex, RobotDescription, RobotQ, dh_section, parse_urdf, urdf_text,
+    ChainQ, DhConvention, Diagnostic, JointIndex, RobotDescription, RobotQ, dh_section,
+    display::{angle, length},
+    parse_urdf, urdf_text,
 };
 use congruent_kinematics::{
     DeriveError, Pose, Proof, ScrewChain, SerialDh, UrdfTree, derive_dh, sample_configurations,
+    without_rounding,
 };
 
 use super::{
     converted_model::ConvertedModel,
-    options::{Conversion, ConversionTarget},
-    report::{ConversionReport, PoeReport, ProofReport, TableReport},
+    options::{Conversion, ConversionTarget, RoundedAxes},
+    remarks,
+    report::{ConversionReport, PoeReport, ProofReport, RoundedReport, TableReport},
     tree,
 };
 
@@ -28,17 +32,25 @@ pub fn convert(
     let model = ConvertedModel::new(description, conversion.from)?;
     let mut report = ConversionReport::new(&model, conversion);
     let proof = match conversion.to {
-        ConversionTarget::Standard => to_table(&model, DhConvention::Standard, conversion, &mut report)?,
-        ConversionTarget::Modified => to_table(&model, DhConvention::Modified, conversion, &mut report)?,
+        ConversionTarget::Standard => return to_table(&model, DhConvention::Standard, conversion, report),
+        ConversionTarget::Modified => return to_table(&model, DhConvention::Modified, conversion, report),
         ConversionTarget::Poe => to_screws(&model, conversion, &mut report),
         ConversionTarget::Urdf => to_urdf(&model, conversion, &mut report)?,
     };
     report.proof = ProofReport::new(&proof, conversion);
-    // A residual that is no number proves nothing either.
-    if !matches!(proof.worst().partial_cmp(&conversion.accuracy), Some(order) if order.is_le()) {
-        return Err(unproved(&report));
-    }
+    within_limit(&proof, &report)?;
     Ok(report)
+}
+
+fn within_limit(proof: &Proof, report: &ConversionReport) -> Result<(), Diagnostic> {
+    // A residual that is no number proves nothing either.
+    let is_within = matches!(proof.worst().partial_cmp(&report.proof.limit), Some(order) if order.is_le());
+    if is_within { Ok(()) } else { Err(unproved(report, proof)) }
+}
+
+fn configurations(model: &ConvertedModel<'_>, conversion: &Conversion) -> Vec<ChainQ> {
+    let sampled = sample_configurations(&model.description.robot, conversion.seed, RANDOM_CONFIGURATIONS);
+    sampled.iter().map(|q| q.of_chain(&model.coordinates)).collect()
 }
 
 fn prove(
@@ -46,27 +58,24 @@ fn prove(
     conversion: &Conversion,
     found: &mut dyn FnMut(&ChainQ) -> Pose,
 ) -> Proof {
-    let configurations: Vec<ChainQ> =
-        sample_configurations(&model.description.robot, conversion.seed, RANDOM_CONFIGURATIONS)
-            .iter()
-            .map(|q| q.of_chain(&model.coordinates))
-            .collect();
-    let mut expected = model.forward();
-    Proof::of(model.joints.len(), &configurations, found, &mut expected)
+    Proof::of(model.joints.len(), &configurations(model, conversion), found, &mut model.forward())
 }
 
 fn to_table(
     model: &ConvertedModel<'_>,
     convention: DhConvention,
     conversion: &Conversion,
-    report: &mut ConversionReport,
-) -> Result<Proof, Diagnostic> {
+    mut report: ConversionReport,
+) -> Result<ConversionReport, Diagnostic> {
+    let mut mended = None;
     let dh = if let Some(declared) = model.declared() {
         SerialDh::from_table(declared).to_convention(convention)
     } else {
-        let derivation = derive_dh(&model.screws(), convention, conversion.accuracy)
-            .map_err(|error| no_table(&error, model))?;
+        let chain = without_rounded_axes(model, conversion, &mut report)?;
+        let derivation =
+            derive_dh(&chain, convention, conversion.accuracy).map_err(|error| no_table(&error, model))?;
         report.keep_choices(&derivation, model);
+        mended = Some(chain).filter(|_| !report.rounded_axes.is_empty());
         derivation.dh
     };
     let robot = &model.description.robot;
@@ -76,7 +85,50 @@ fn to_table(
     // The proof is of the table as it is written, with constants in quaternions.
     let written = SerialDh::from_table(&table);
     let mut found = |q: &ChainQ| written.base_from_tip(q).expect("one position for each row");
-    Ok(prove(model, conversion, &mut found))
+    let proof = prove(model, conversion, &mut found);
+    report.proof = ProofReport::new(&proof, conversion);
+    match &mended {
+        None => within_limit(&proof, &report)?,
+        Some(chain) => {
+            let mut expected = |q: &ChainQ| chain.base_from_tip(q).expect("one position for each screw");
+            let of_mended = configurations(model, conversion);
+            within_limit(&Proof::of(model.joints.len(), &of_mended, &mut found, &mut expected), &report)?;
+        }
+    }
+    let warnings =
+        [remarks::rounded(&report.rounded_axes, &proof), remarks::far(&report, reach_m(model, conversion))];
+    warnings.into_iter().flatten().for_each(|warning| report.warn(warning));
+    Ok(report)
+}
+
+/// The model's screws with axes that are parallel or meet but for rounding as such, unless they are kept.
+fn without_rounded_axes(
+    model: &ConvertedModel<'_>,
+    conversion: &Conversion,
+    report: &mut ConversionReport,
+) -> Result<ScrewChain, Diagnostic> {
+    let screws = model.screws();
+    if conversion.rounded_axes == RoundedAxes::Kept {
+        return Ok(screws);
+    }
+    let (chain, pairs) = without_rounding(&screws, &model.origins(), conversion.accuracy)
+        .map_err(|error| no_table(&error, model))?;
+    let name = |joint: usize| model.joint_name(joint).to_owned();
+    let reported = pairs.into_iter().map(|pair| RoundedReport {
+        joints: [name(pair.joint), name(pair.joint + 1)],
+        relation: pair.relation,
+        angle_rad: pair.angle_rad,
+        distance_m: pair.distance_m,
+    });
+    report.rounded_axes = reported.collect();
+    Ok(chain)
+}
+
+/// The largest distance of the tip from the base at the configurations of the proof.
+fn reach_m(model: &ConvertedModel<'_>, conversion: &Conversion) -> f64 {
+    let mut forward = model.forward();
+    let distances = configurations(model, conversion).into_iter().map(|q| forward(&q).translation.norm());
+    distances.fold(0.0, f64::max)
 }
 
 fn to_screws(model: &ConvertedModel<'_>, conversion: &Conversion, report: &mut ConversionReport) -> Proof {
@@ -130,20 +182,21 @@ fn no_table(error: &DeriveError, model: &ConvertedModel<'_>) -> Diagnostic {
     Diagnostic::error("convert::no_table", message).with_help("choose a chain with --base and --tip")
 }
 
-fn unproved(report: &ConversionReport) -> Diagnostic {
+fn unproved(report: &ConversionReport, proof: &Proof) -> Diagnostic {
     let furthest = report.axes.iter().max_by(|a, b| a.normal_at_m.abs().total_cmp(&b.normal_at_m.abs()));
     let why = furthest.map_or(String::new(), |pair| {
         format!(
-            ": the axes of \"{}\" and \"{}\" are {:.3e} rad from parallel, so their common normal lies {:.3e} m away",
+            ": the axes of \"{}\" and \"{}\" are {} from parallel, so their common normal lies {} away",
             pair.joints[0],
             pair.joints[1],
-            pair.angle_rad.min(std::f64::consts::PI - pair.angle_rad),
-            pair.normal_at_m.abs()
+            angle(pair.angle_rad.min(std::f64::consts::PI - pair.angle_rad)),
+            length(pair.normal_at_m.abs())
         )
     });
     let message = format!(
-        "the result has an error of {:.3e} (limit {:e}){why}",
-        report.proof.worst, report.proof.limit
+        "the result has an error of {:.1e} rad or m (limit {:e}){why}",
+        proof.worst(),
+        report.proof.limit
     );
     Diagnostic::error("convert::unproved", message).with_help(
         "a coarser --accuracy, say 1e-9, takes such axes as parallel; the error of this is reported",

@@ -3,6 +3,8 @@
 use congruent_description::{ChainQ, DhTable, Diagnostic, JointIndex, RobotDescription, RobotQ};
 use congruent_kinematics::{DhChain, Pose, ScrewChain, SerialDh, UrdfTree};
 
+use nalgebra::Vector3;
+
 use super::options::ConversionSource;
 
 /// One model of a chain.
@@ -56,6 +58,17 @@ impl<'a> ConvertedModel<'a> {
             Some(table) => SerialDh::from_table(table).screw_chain(),
             None => ScrewChain::identify(self.joints.len(), self.forward()),
         }
+    }
+
+    /// Origins of the joints at zero, in the base.
+    pub(super) fn origins(&self) -> Vec<Vector3<f64>> {
+        let RobotDescription { robot, base, .. } = self.description;
+        let tree = UrdfTree::new(robot);
+        let zero = RobotQ::zeros(robot.dof());
+        let root_from = |link| tree.root_from_link(&zero, link).expect("the robot's own configuration");
+        let base_from_root = root_from(*base).inverse();
+        let origin = |&joint: &JointIndex| (base_from_root * root_from(robot.joint(joint).child)).translation;
+        self.joints.iter().map(origin).collect()
     }
 
     /// `base_from_tip` at the positions of the joints, by the same arithmetic as `congruent check`.

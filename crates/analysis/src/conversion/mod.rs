@@ -4,11 +4,13 @@
 mod convert;
 mod converted_model;
 mod options;
+mod remarks;
 mod report;
 mod tree;
 
 pub use convert::convert;
-pub use options::{Conversion, ConversionSource, ConversionTarget, DEFAULT_ACCURACY};
+pub use options::{Conversion, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, RoundedAxes};
 pub use report::{
-    AxisReport, ChoiceReport, ConversionReport, PoeReport, ProofReport, RowReport, ScrewReport, TableReport,
+    AxisReport, ChoiceReport, ConversionReport, PoeReport, ProofReport, RoundedReport, RowReport,
+    ScrewReport, TableReport,
 };

@@ -30,6 +30,16 @@ pub enum ConversionSource {
     Urdf,
 }
 
+/// What a table makes of axes that are parallel or meet but for rounded values, as a quarter turn of 1.5708.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RoundedAxes {
+    /// They are taken as parallel or as meeting; the table is off by what the rounding makes.
+    #[default]
+    Mended,
+    /// They stay as they are; the table is exact, and its values may be huge.
+    Kept,
+}
+
 /// How a model is converted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Conversion {
@@ -41,4 +51,6 @@ pub struct Conversion {
     pub accuracy: f64,
     /// Seed of the random configurations.
     pub seed: u64,
+    /// What a table makes of axes that are parallel or meet but for rounded values.
+    pub rounded_axes: RoundedAxes,
 }

@@ -1,6 +1,8 @@
 //! The answer of `congruent derive` and `congruent convert`.
 
-use congruent_description::{DhConvention, DhRow, DhRowKind, DhTable, Finding, Robot};
+use congruent_description::{
+    DhConvention, DhRow, DhRowKind, DhTable, Diagnostic, Finding, ReportedChain, Robot,
+};
 use congruent_kinematics::{
     AxisRelation, Choice, DhDerivation, Pose, Proof, ReportedPose, ScrewChain, Twist,
 };
@@ -12,9 +14,6 @@ use super::{
     options::{Conversion, ConversionSource, ConversionTarget},
 };
 
-/// A common normal beyond this is noted: no arm is built so, and its values cannot be checked by hand.
-const FAR_M: f64 = 100.0;
-
 /// A converted model with its proof.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ConversionReport {
@@ -24,6 +23,8 @@ pub struct ConversionReport {
     pub from: ConversionSource,
     /// The model that it was converted to.
     pub to: ConversionTarget,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
     /// The link that the model starts from.
     pub base: String,
     /// The link that it ends at.
@@ -44,14 +45,22 @@ pub struct ConversionReport {
     pub urdf: Option<String>,
     /// Relations of consecutive axes, if a table was derived from them.
     pub axes: Vec<AxisReport>,
+    /// Pairs of axes that were taken as parallel, as meeting or as one line, which they are not in the source but
+    /// for rounding.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rounded_axes: Vec<RoundedReport>,
     /// The free choices of the derivation, and what was taken.
     pub free_choices: Vec<ChoiceReport>,
     /// What else a reader must know.
     pub notes: Vec<String>,
-    /// Errors of the result against its source.
+    /// Errors of the result against its source. If axes were taken as parallel or as meeting, they are what that
+    /// changes, and the limit is kept against the source with such axes.
     pub proof: ProofReport,
-    /// Warnings about the input.
+    /// Warnings about the input and the result.
     pub warnings: Vec<Finding>,
+    /// Those about the result.
+    #[serde(skip)]
+    pub findings: Vec<Diagnostic>,
 }
 
 /// A table as programs read it.
@@ -125,6 +134,19 @@ pub struct AxisReport {
     pub normal_at_m: f64,
 }
 
+/// Two consecutive axes that were taken as what they are but for rounding.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct RoundedReport {
+    /// The two joints.
+    pub joints: [String; 2],
+    /// What their axes were taken as.
+    pub relation: AxisRelation,
+    /// The angle by which they are not.
+    pub angle_rad: f64,
+    /// The distance by which they are not.
+    pub distance_m: f64,
+}
+
 /// Something that the axes do not determine.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ChoiceReport {
@@ -170,6 +192,7 @@ impl ConversionReport {
             robot: description.name.clone(),
             from: model.source,
             to: conversion.to,
+            chain: description.reported_chain(),
             base: robot.link(description.base).name.clone(),
             tip: robot.link(description.tip).name.clone(),
             joints: (0..model.joints.len()).map(|joint| model.joint_name(joint).to_owned()).collect(),
@@ -178,11 +201,19 @@ impl ConversionReport {
             poe: None,
             urdf: None,
             axes: Vec::new(),
+            rounded_axes: Vec::new(),
             free_choices: Vec::new(),
             notes: notes(model),
             proof: ProofReport::new(&Proof::default(), conversion),
             warnings: description.warnings.iter().map(Finding::from).collect(),
+            findings: Vec::new(),
         }
+    }
+
+    /// Adds a warning about the result.
+    pub(super) fn warn(&mut self, warning: Diagnostic) {
+        self.warnings.push((&warning).into());
+        self.findings.push(warning);
     }
 
     pub(super) fn keep_choices(&mut self, derivation: &DhDerivation, model: &ConvertedModel<'_>) {
@@ -201,15 +232,6 @@ impl ConversionReport {
             text: free.choice.to_string(),
         });
         self.free_choices = choices.collect();
-        for pair in self.axes.iter().filter(|pair| pair.normal_at_m.abs() > FAR_M) {
-            self.notes.push(format!(
-                "the axes of \"{}\" and \"{}\" are nearly parallel: their common normal is {:.3e} m away; a coarser \
-                 --accuracy takes them as parallel",
-                pair.joints[0],
-                pair.joints[1],
-                pair.normal_at_m.abs()
-            ));
-        }
         self.notes
             .push("z axes point in the positive direction of the joints, so every sign is 1".to_owned());
     }

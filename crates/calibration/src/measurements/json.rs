@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{Diagnostic, JsonList, Robot, configuration, line_column, units::Unit};
+use congruent_description::{
+    Diagnostic, JsonList, Robot, configuration, line_column, unique_names, units::Unit,
+};
 use serde::Deserialize;
 
 use super::{
@@ -21,6 +23,7 @@ const LIST: JsonList = JsonList {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WrittenMeasurement {
+    #[serde(deserialize_with = "unique_names")]
     q: BTreeMap<String, f64>,
     translation_m: Option<Vec<f64>>,
     translation_mm: Option<Vec<f64>>,

@@ -1,6 +1,6 @@
 //! From computed values to the report.
 
-use congruent_description::{DhRowKind, JointValues};
+use congruent_description::{DhRowKind, Finding, JointValues};
 
 use super::{
     calibration_report::{
@@ -52,6 +52,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
     let row_residuals = rows(computed, &nominal);
     let mut report = CalibrationReport {
         robot: robot.name().to_owned(),
+        chain: computed.description.reported_chain(),
         model: if computed.nominal.table.is_some() { CalibratedModel::Dh } else { CalibratedModel::Urdf },
         measured_frame: measured_frame.to_owned(),
         rows: computed.rows.len(),
@@ -83,6 +84,7 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
             .collect(),
         cost_curve: curve(computed),
         next: next(computed),
+        warnings: computed.description.warnings.iter().map(Finding::from).collect(),
     };
     report.statements = statements::statements(&report);
     report

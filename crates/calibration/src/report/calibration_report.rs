@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::JointValues;
+use congruent_description::{Finding, JointValues, ReportedChain};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -13,6 +13,8 @@ use crate::estimation::{Loss, ParameterUnit};
 pub struct CalibrationReport {
     /// Name of the robot.
     pub robot: String,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
     /// The model that is corrected.
     pub model: CalibratedModel,
     /// The frame whose pose was measured: a link's name, or `tcp`.
@@ -60,6 +62,9 @@ pub struct CalibrationReport {
     pub cost_curve: Option<CostCurve>,
     /// The most informative configurations to measure next, the best first.
     pub next: Vec<SuggestedConfiguration>,
+    /// Warnings about the input.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
 }
 
 /// Which model of the robot is corrected.

@@ -31,8 +31,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load_for(Use::Clearance, printer)?;
-    let configurations = arguments.configurations.read(&description.robot)?;
+    let mut description = arguments.robot.load_for(Use::Clearance, printer)?;
+    let configurations = arguments.configurations.read(&mut description, printer)?;
     let choice = if arguments.all_pairs { PairChoice::All } else { PairChoice::Usual };
     let overlap = if arguments.penetration { Overlap::Depth } else { Overlap::Zero };
     let report = distances(&description, &[], (choice, overlap), &configurations)

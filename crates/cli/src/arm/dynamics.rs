@@ -9,7 +9,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::{ConfigurationArguments, RobotArgument, named},
+    input::{ArmArguments, ConfigurationArguments, named},
     print::Printer,
 };
 
@@ -20,7 +20,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
+    arm: ArmArguments,
     /// The source of torques and accelerations.
     #[arg(long, default_value = "model", value_parser = named::<DynamicsSource>())]
     source: DynamicsSource,
@@ -50,8 +50,8 @@ fn payload(text: &str) -> Result<Payload, String> {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load(printer)?;
-    let states = arguments.configurations.read_states_or_rest(&description.robot)?;
+    let mut description = arguments.arm.load_urdf(printer)?;
+    let states = arguments.configurations.read_states_or_rest(&mut description, printer)?;
     let options = DynamicsOptions { friction: arguments.friction, payload: arguments.payload };
     let report = congruent::joint_dynamics(&description, arguments.source, &options, &states)?;
     printer.result(&report, text)?;
@@ -65,7 +65,7 @@ fn text(report: &DynamicsReport) -> String {
     if let Some(Payload { mass_kg, position_m: [x, y, z] }) = report.payload {
         let _ = write!(text, ", with {mass_kg} kg at ({x}, {y}, {z}) m from the TCP");
     }
-    text.push('\n');
+    let _ = writeln!(text, "\n  {}", report.chain);
     for (index, result) in report.results.iter().enumerate() {
         let _ = writeln!(text, "state {}", index + 1);
         state(&mut text, report, result);

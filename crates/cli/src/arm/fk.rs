@@ -6,7 +6,7 @@ use congruent::analysis::forward::{ForwardReport, Source};
 
 use crate::{
     failure::Failure,
-    input::{ConfigurationArguments, RobotArgument, named},
+    input::{ArmArguments, ConfigurationArguments, named},
     print::Printer,
 };
 
@@ -14,7 +14,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
+    arm: ArmArguments,
     /// The source of the poses.
     #[arg(long, default_value = "urdf", value_parser = named::<Source>())]
     source: Source,
@@ -23,15 +23,15 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load(printer)?;
-    let configurations = arguments.configurations.read(&description.robot)?;
+    let mut description = arguments.arm.load(printer)?;
+    let configurations = arguments.configurations.read(&mut description, printer)?;
     let report = congruent::forward(&description, arguments.source, &configurations)?;
     printer.result(&report, text)?;
     Ok(0)
 }
 
 fn text(report: &ForwardReport) -> String {
-    let mut text = String::new();
+    let mut text = format!("{}\n", report.chain);
     let width =
         report.results.iter().flat_map(|poses| &poses.links).map(|(name, _)| name.len()).max().unwrap_or(0);
     for (index, poses) in report.results.iter().enumerate() {

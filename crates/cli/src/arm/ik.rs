@@ -9,7 +9,7 @@ use congruent::{
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},
-    input::{RobotArgument, named},
+    input::{ArmArguments, named},
     print::Printer,
 };
 
@@ -20,8 +20,8 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
-    /// A JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint":
+    arm: ArmArguments,
+    /// A file (or -) with a JSON array of `{"translation_m": [x, y, z], "quaternion_wxyz": [w, x, y, z], "start": {"joint":
     /// value}}`; without a quaternion any orientation will do. Poses are in link `base`.
     #[arg(long, value_name = "FILE")]
     targets: PathBuf,
@@ -48,7 +48,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load(printer)?;
+    let description = arguments.arm.load(printer)?;
     let mut targets = read_targets(&arguments.targets, &description.robot)?;
     printer.warnings(&targets.warnings);
     if arguments.position_only {
@@ -74,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 }
 
 fn text(report: &InverseReport) -> String {
-    let mut text = String::new();
+    let mut text = format!("{}\n", report.chain);
     let width = report.joints.iter().map(String::len).max().unwrap_or(0);
     if report.results.is_empty() {
         text += "the file has no target\n";

@@ -9,7 +9,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::{ConfigurationArguments, RobotArgument, named},
+    input::{ArmArguments, ConfigurationArguments, named},
     print::Printer,
 };
 
@@ -17,7 +17,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
+    arm: ArmArguments,
     /// The link that moves; the model's tip if it is left out.
     #[arg(long, value_name = "NAME")]
     link: Option<String>,
@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load(printer)?;
+    let mut description = arguments.arm.load(printer)?;
     let robot = &description.robot;
     let link = match &arguments.link {
         None => description.tip,
@@ -44,9 +44,11 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     };
     let kind = arguments.kind;
     let report = if arguments.derivative {
-        jacobians_in_motion(robot, link, kind, &arguments.configurations.read_states(robot)?)
+        let states = arguments.configurations.read_states(&mut description, printer)?;
+        jacobians_in_motion(&description, link, kind, &states)
     } else {
-        jacobians(robot, link, kind, &arguments.configurations.read(robot)?)
+        let configurations = arguments.configurations.read(&mut description, printer)?;
+        jacobians(&description, link, kind, &configurations)
     }
     .map_err(|error| Diagnostic::error("jacobian::configuration", error.to_string()))?;
     printer.result(&report, text)?;
@@ -55,7 +57,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 
 fn text(report: &JacobianReport) -> String {
     let mut text = format!(
-        "{} Jacobian of {}, columns: {}\n",
+        "{}\n{} Jacobian of {}, columns: {}\n",
+        report.chain,
         serde_name(&report.kind),
         report.link,
         report.joints.join(", ")

@@ -11,7 +11,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::{ConfigurationArguments, RobotArgument},
+    input::{ArmArguments, ConfigurationArguments},
     plot_file::PlotArgument,
     print::Printer,
 };
@@ -23,7 +23,7 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
+    arm: ArmArguments,
     #[command(flatten)]
     configurations: ConfigurationArguments,
     #[command(flatten)]
@@ -31,8 +31,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load(printer)?;
-    let configurations = arguments.configurations.read(&description.robot)?;
+    let mut description = arguments.arm.load(printer)?;
+    let configurations = arguments.configurations.read(&mut description, printer)?;
     let report = manipulability(&description, &configurations)
         .map_err(|error| Diagnostic::error("manipulability::robot", error.to_string()))?;
     if let (Some(q), Some(result)) = (configurations.first(), report.results.first()) {
@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 }
 
 fn text(report: &ManipulabilityReport) -> String {
-    let mut text = String::new();
+    let mut text = format!("{}\n", report.chain);
     for (index, result) in report.results.iter().enumerate() {
         let [x, y, z] = result.tcp_in_base_m;
         let _ = writeln!(text, "configuration {}: tool at {x:.6}, {y:.6}, {z:.6} m in the base", index + 1);

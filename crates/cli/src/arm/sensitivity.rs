@@ -8,7 +8,7 @@ use congruent::{
     kinematics::Sampling,
 };
 
-use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, print::Printer};
+use crate::{failure::Failure, input::ArmArguments, plot_file::PlotArgument, print::Printer};
 
 /// How far the tool is displaced by 1 degree or 1 mm in each joint's zero and each DH parameter.
 ///
@@ -16,7 +16,7 @@ use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, pri
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
+    arm: ArmArguments,
     /// Number of random configurations.
     #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     samples: u32,
@@ -36,7 +36,7 @@ fn factor(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load(printer)?;
+    let description = arguments.arm.load(printer)?;
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
     let report = sensitivity(&description, &arguments.length_factors, sampling)
         .map_err(|error| Diagnostic::error("sensitivity::robot", error.to_string()))?;
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 }
 
 fn text(report: &SensitivityReport) -> String {
-    let mut text = String::new();
+    let mut text = format!("{}\n", report.chain);
     for arm in &report.arms {
         let _ = writeln!(
             text,

@@ -8,7 +8,7 @@ use congruent::{
     kinematics::Sampling,
 };
 
-use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, print::Printer};
+use crate::{failure::Failure, input::ArmArguments, plot_file::PlotArgument, print::Printer};
 
 /// The positions of the tool within the joint limits: reach, bounding box, volume or area.
 ///
@@ -16,7 +16,7 @@ use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, pri
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
+    arm: ArmArguments,
     /// Number of random configurations.
     #[arg(long, default_value_t = 400_000, value_parser = clap::value_parser!(u32).range(1..=50_000_000))]
     samples: u32,
@@ -28,7 +28,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load(printer)?;
+    let description = arguments.arm.load(printer)?;
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
     let (report, found) = workspace(&description, sampling)
         .map_err(|error| Diagnostic::error("workspace::robot", error.to_string()))?;
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 }
 
 fn text(report: &WorkspaceReport) -> String {
-    let mut text = String::new();
+    let mut text = format!("{}\n", report.chain);
     let _ = writeln!(text, "{}: the tool in link base, {} configurations", report.robot, report.samples);
     for (name, reach) in ["nearest", "farthest"].iter().zip(&report.reach) {
         let _ = writeln!(text, "  {name:8} {:9.6} m at {}", reach.distance_m, reach.at.listed(4));

@@ -18,7 +18,7 @@ use congruent::{
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},
-    input::{RobotArgument, named},
+    input::{ArmArguments, named},
     print::Printer,
 };
 
@@ -35,8 +35,8 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
-    /// CSV or JSON file of joint positions and measured poses or points.
+    arm: ArmArguments,
+    /// CSV or JSON file of joint positions and measured poses or points, or - for standard input.
     measurements: PathBuf,
     /// Corrections that are estimated: zero-offsets, dh, axes, base, tool, all, or single corrections such as
     /// elbow_joint.zero, elbow_joint.a, base.yaw; may be given several times.
@@ -69,7 +69,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.robot.load(printer)?;
+    let description = arguments.arm.load(printer)?;
     let needed = needed_coordinates(&description)?;
     let rows = read_measurements(&arguments.measurements, &description.robot, &needed)?;
     let options = arguments.options(&rows)?;
@@ -131,6 +131,7 @@ fn text(report: &CalibrationReport) -> String {
         "{}: {} measurements of {} ({} components), model {}",
         report.robot, report.rows, report.measured_frame, report.components, report.model
     );
+    let _ = writeln!(text, "  {}", report.chain);
     for statement in &report.statements {
         let _ = writeln!(text, "  {statement}");
     }

@@ -10,7 +10,7 @@ use congruent::{
 use super::check_text::{basics, text};
 use crate::{
     failure::{FAILED, Failure, NOTHING},
-    input::PackageArguments,
+    input::{ChainArguments, PackageArguments, with_warning},
     print::Printer,
 };
 
@@ -21,9 +21,11 @@ use crate::{
 /// there is neither a table nor a robot that can be simulated, so that nothing was compared.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Folders with robot.toml, robot files, or bare .urdf files.
+    /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
     #[arg(required = true)]
     robots: Vec<PathBuf>,
+    #[command(flatten)]
+    chain: ChainArguments,
     /// Seed of the random configurations.
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -42,10 +44,12 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let mut reports = Vec::with_capacity(arguments.robots.len());
     let ros = arguments.packages.ros();
     for path in &arguments.robots {
-        let description = load_robot_with(path, &ros)?;
-        printer.warnings(&description.warnings);
+        let mut description = arguments.chain.choose(load_robot_with(path, &ros)?, printer)?;
         let configurations = match &arguments.configurations {
-            Some(path) => read_configurations(path, &description.robot)?,
+            Some(path) => {
+                let read = read_configurations(path, &description.robot)?;
+                with_warning(read, &mut description, printer)
+            }
             None => Vec::new(),
         };
         let report =

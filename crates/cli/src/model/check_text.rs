@@ -21,13 +21,21 @@ pub(super) fn text(report: &CheckReport) -> String {
     let _ = writeln!(
         text,
         "{}: {}, worst {} over {} configurations (tolerance {:e} m, {:e} rad)",
-        report.robot,
+        report.file,
         verdict(report.verdict),
         length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),
         report.configurations,
         report.tolerance.position_m,
         report.tolerance.orientation_rad
     );
+    let _ = writeln!(text, "  {}", report.chain);
+    if !report.table_compared {
+        let sources = match report.verdict {
+            Agreement::Agree => "the URDF, its screws and the physics agree; ",
+            Agreement::Disagree | Agreement::NothingCompared => "",
+        };
+        let _ = writeln!(text, "  {sources}no table was compared");
+    }
     for comparison in &report.comparisons {
         compared(&mut text, comparison);
     }

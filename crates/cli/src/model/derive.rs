@@ -1,29 +1,31 @@
 //! `congruent derive`: a Denavit-Hartenberg table from a URDF.
 
 use clap::ValueEnum;
-use congruent::analysis::conversion::{Conversion, ConversionSource, ConversionTarget, convert};
+use congruent::analysis::conversion::{ConversionSource, ConversionTarget};
 
 use crate::{
     failure::Failure,
-    input::{ChainArguments, RobotArgument},
-    model::convert::{AccuracyArguments, text},
+    input::ArmArguments,
+    model::{convert::AccuracyArguments, written_model::answer},
+    output_file::OutputArgument,
     print::Printer,
 };
 
 /// A Denavit-Hartenberg table from the axes of a URDF, proved by comparing back.
 ///
-/// Prints the section `[dh]` of a robot file, with the free choices beside it.
+/// Prints the section `[dh]` of a robot file, with the free choices beside it, or writes a whole robot file with
+/// --output. Axes that are parallel or meet but for rounded values of the URDF are taken as such, and told.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
-    robot: RobotArgument,
+    arm: ArmArguments,
     /// Which equation the rows stand for; the same values are another robot in the other one.
     #[arg(long, value_enum)]
     convention: ConventionArgument,
     #[command(flatten)]
-    chain: ChainArguments,
-    #[command(flatten)]
     accuracy: AccuracyArguments,
+    #[command(flatten)]
+    output: OutputArgument,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -35,14 +37,11 @@ enum ConventionArgument {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let description = arguments.chain.choose(arguments.robot.load(printer)?)?;
+    let description = arguments.arm.load_urdf(printer)?;
     let to = match arguments.convention {
         ConventionArgument::Standard => ConversionTarget::Standard,
         ConventionArgument::Modified => ConversionTarget::Modified,
     };
-    let AccuracyArguments { accuracy, seed } = arguments.accuracy;
-    let report =
-        convert(&description, &Conversion { from: Some(ConversionSource::Urdf), to, accuracy, seed })?;
-    printer.result(&report, text)?;
-    Ok(0)
+    let conversion = arguments.accuracy.conversion(Some(ConversionSource::Urdf), to);
+    answer(&description, &conversion, &arguments.output, printer)
 }

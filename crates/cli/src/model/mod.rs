@@ -5,3 +5,4 @@ pub(crate) mod check;
 mod check_text;
 pub(crate) mod convert;
 pub(crate) mod derive;
+mod written_model;

@@ -1,8 +1,10 @@
 //! Configurations by joint name, as batch commands read them: JSON, SI units.
 
 mod json_list;
+mod outside;
+mod unique;
 
-use std::{collections::BTreeMap, path::Path};
+use std::{collections::BTreeMap, ops::Range, path::Path};
 
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
@@ -13,7 +15,11 @@ use crate::{
     model::{Robot, RobotQ},
 };
 
-pub use self::json_list::JsonList;
+pub use self::{
+    json_list::JsonList,
+    outside::{outside_limits, outside_limits_warning},
+    unique::unique_names,
+};
 
 /// How far a given mimic position or speed may be from what its master implies. Kind: digits of the file.
 const MIMIC_DIGITS: f64 = 1e-9;
@@ -32,16 +38,16 @@ const MOST_BYTES: u64 = 256 << 20;
 #[schemars(rename = "Configuration")]
 struct WrittenConfiguration {
     /// Positions in rad and m; joints that are not named are at 0.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unique_names")]
     q: BTreeMap<String, f64>,
     /// Velocities in rad/s and m/s.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unique_names")]
     v: BTreeMap<String, f64>,
     /// Torques in N m and forces in N.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unique_names")]
     tau: BTreeMap<String, f64>,
     /// Accelerations in rad/s² and m/s².
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unique_names")]
     a: BTreeMap<String, f64>,
 }
 
@@ -63,12 +69,21 @@ pub struct JointState {
     pub tau: Vec<f64>,
 }
 
+/// The entries of a file of configurations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Configurations<T> {
+    /// In the order of the file, at least one.
+    pub entries: Vec<T>,
+    /// Given positions outside the joint limits.
+    pub warning: Option<Diagnostic>,
+}
+
 /// Reads a file of configurations: a JSON array of `{"q": {joint: value}, ...}` in rad and m,
 /// missing joints 0. The result holds configuration vectors of the robot.
 ///
 /// # Errors
-/// The file cannot be read, is no such array, or names an unknown joint.
-pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<RobotQ>, Vec<Diagnostic>> {
+/// The file cannot be read, is no such array, is empty, or names an unknown joint.
+pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Configurations<RobotQ>, Vec<Diagnostic>> {
     read(path, robot, |written| configuration(&written.q, robot))
 }
 
@@ -77,7 +92,7 @@ pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Vec<RobotQ>, Ve
 ///
 /// # Errors
 /// As [`read_configurations`], or a mimic joint has another speed or acceleration than its master implies.
-pub fn read_states(path: &Path, robot: &Robot) -> Result<Vec<JointState>, Vec<Diagnostic>> {
+pub fn read_states(path: &Path, robot: &Robot) -> Result<Configurations<JointState>, Vec<Diagnostic>> {
     let in_ratio = |values: &BTreeMap<String, f64>| {
         Ok::<_, Diagnostic>(
             followed(values, robot, |robot, rates| robot.apply_mimic_to_speeds(rates))?.to_vec(),
@@ -94,16 +109,34 @@ fn read<T>(
     path: &Path,
     robot: &Robot,
     vectors: impl Fn(&WrittenConfiguration) -> Result<T, Diagnostic>,
-) -> Result<Vec<T>, Vec<Diagnostic>> {
+) -> Result<Configurations<T>, Vec<Diagnostic>> {
     let source = read_text(path, MOST_BYTES)?;
-    let entry = |written: WrittenConfiguration, _| {
+    let (mut index, mut outside, mut first_outside) = (0, Vec::new(), None);
+    let entry = |written: WrittenConfiguration, place: Range<usize>| {
+        index += 1;
         for group in [&written.v, &written.tau, &written.a] {
-            place(group, robot)?;
+            self::place(group, robot)?;
         }
+        let found = outside_limits(&written.q, robot);
+        if !found.is_empty() {
+            first_outside.get_or_insert(place);
+        }
+        outside.extend(found.into_iter().map(|what| format!("configuration {index}: {what}")));
         vectors(&written)
     };
-    LIST.read(&source.text, entry)
-        .map_err(|faults| faults.into_iter().map(|fault| fault.in_file(&source)).collect())
+    let entries = LIST
+        .read(&source.text, entry)
+        .and_then(|entries| if entries.is_empty() { Err(vec![no_entry()]) } else { Ok(entries) })
+        .map_err(|faults| faults.into_iter().map(|fault| fault.in_file(&source)).collect::<Vec<_>>())?;
+    let warning = outside_limits_warning(&outside)
+        .map(|warning| warning.at(first_outside.unwrap_or_default()).in_file(&source));
+    Ok(Configurations { entries, warning })
+}
+
+fn no_entry() -> Diagnostic {
+    Diagnostic::error("configurations::none", "there are no configurations in the list")
+        .at(0..0)
+        .with_help(r#"one configuration with all joints at 0 is [{"q": {}}]"#)
 }
 
 /// The configuration vector that has these joints at these positions (rad or m), others at 0,

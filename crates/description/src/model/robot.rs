@@ -177,24 +177,6 @@ impl Robot {
         Some(joints)
     }
 
-    /// The deepest link below `base`, counted in moving joints, then in joints: the flange's last frame.
-    /// Of several the first in file order.
-    pub fn tip_of_longest_chain(&self, base: LinkIndex) -> LinkIndex {
-        let mut depths: Vec<Option<(usize, usize)>> = vec![None; self.links.len()];
-        depths[base.0] = Some((0, 0));
-        let mut best = (base, (0, 0));
-        // Parents come first, so a link's depth is known when its children are reached.
-        for joint in &self.joints {
-            let Some((moving, all)) = depths[joint.parent.0] else { continue };
-            let depth = (moving + usize::from(joint.kind.is_movable()), all + 1);
-            depths[joint.child.0] = Some(depth);
-            if depth > best.1 {
-                best = (joint.child, depth);
-            }
-        }
-        best.0
-    }
-
     /// The link nearest to the root that `link` is rigidly attached to: links with the same
     /// answer move as one body.
     pub fn body(&self, mut link: LinkIndex) -> LinkIndex {

@@ -8,6 +8,7 @@ use super::{
     written::{WrittenDh, WrittenRobot, WrittenTolerance},
 };
 use crate::{
+    chain::{ChainEnd, ChainEnds, choose_tip},
     diagnostic::{Diagnostic, Diagnostics, known_names},
     model::{DhConvention, DhTable, JointIndex, LinkIndex, Robot, Tolerance},
     units::Unit,
@@ -19,6 +20,7 @@ use crate::{
 pub(crate) struct Declared {
     pub(crate) base: LinkIndex,
     pub(crate) tip: LinkIndex,
+    pub(crate) chain_ends: ChainEnds,
     pub(crate) dh: Option<DhTable>,
     pub(crate) tip_from_tcp: Option<Isometry3<f64>>,
     pub(crate) tolerance: Tolerance,
@@ -40,7 +42,9 @@ pub(crate) fn check(
         Some(dh) => Some(table(dh, &context, diagnostics)?),
         None => None,
     };
-    Some(Declared { base, tip, dh, tip_from_tcp, tolerance })
+    let end = |written: &Option<_>| if written.is_some() { ChainEnd::Declared } else { ChainEnd::Chosen };
+    let chain_ends = ChainEnds { base: end(&written.base), tip: end(&written.tip) };
+    Some(Declared { base, tip, chain_ends, dh, tip_from_tcp, tolerance })
 }
 
 fn chain(
@@ -63,7 +67,7 @@ fn chain(
     let base = written.base.as_ref().map_or(Some(robot.root()), |name| link("base", name));
     let tip = written.tip.as_ref().map(|name| link("tip", name));
     let base = base?;
-    let tip = tip.unwrap_or_else(|| Some(robot.tip_of_longest_chain(base)))?;
+    let tip = tip.unwrap_or_else(|| Some(choose_tip(robot, base).tip))?;
     let Some(joints) = robot.chain(base, tip) else {
         let (base, tip) = (&robot.link(base).name, &robot.link(tip).name);
         let message = format!("tip \"{tip}\" does not hang below base \"{base}\"");

@@ -8,7 +8,7 @@ mod written;
 
 pub(crate) use check::{Declared, check};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
-pub use write::dh_section;
+pub use write::{dh_section, robot_file_text};
 pub(crate) use written::WrittenRobot;
 pub use written::robot_file_schema;
 

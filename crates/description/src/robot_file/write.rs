@@ -1,11 +1,15 @@
 //! The `[dh]` section of a robot file as text, which the reader of this crate gives back unchanged.
 
-use std::fmt::Write;
+use std::{
+    fmt::Write,
+    path::{Component, Path},
+};
 
 use nalgebra::{Isometry3, Vector3};
 
 use crate::{
-    model::{DhTable, Robot},
+    description::RobotDescription,
+    model::{DhTable, Robot, Tolerance},
     written::{
         number::{number, numbers, short_degrees},
         rpy::rpy_fixed_xyz_rad,
@@ -30,6 +34,54 @@ pub fn dh_section(table: &DhTable, robot: &Robot) -> String {
         let _ = writeln!(text, "sign = {}", if row.sign < 0.0 { "-1" } else { "1" });
     }
     text
+}
+
+/// A whole robot file for the chain of `description`, with a section `[dh]`, to be written into `folder`. Paths
+/// are those of the description, so that `folder` and they must be absolute, or relative to the same folder.
+pub fn robot_file_text(
+    description: &RobotDescription,
+    dh_section: &str,
+    folder: &Path,
+    tolerance: Tolerance,
+) -> String {
+    let named = |path: &Path| quoted(&relative(folder, path));
+    let link = |link| quoted(&description.robot.link(link).name);
+    let mut text =
+        format!("name = {}\nurdf = {}\n", quoted(&description.name), named(&description.urdf_path));
+    if let Some(srdf) = &description.named_files.srdf {
+        let _ = writeln!(text, "srdf = {}", named(srdf));
+    }
+    let _ = writeln!(text, "base = {}\ntip = {}", link(description.base), link(description.tip));
+    if let Some(tip_from_tcp) = &description.tip_from_tcp {
+        let _ = writeln!(text, "tcp = {}", transform(tip_from_tcp));
+    }
+    let packages = description.named_files.packages.iter();
+    let packages: Vec<String> =
+        packages.map(|(name, path)| format!("{} = {}", quoted(name), named(path))).collect();
+    if !packages.is_empty() {
+        let _ = writeln!(text, "packages = {{ {} }}", packages.join(", "));
+    }
+    if tolerance != Tolerance::default() {
+        let Tolerance { position_m, orientation_rad } = tolerance;
+        let _ = writeln!(
+            text,
+            "tolerance = {{ position_m = {position_m:e}, orientation_rad = {orientation_rad:e} }}"
+        );
+    }
+    text + "\n" + dh_section
+}
+
+/// `path` as seen from `folder`, with `/` between its parts as in every robot file.
+fn relative(folder: &Path, path: &Path) -> String {
+    let shared = folder.components().zip(path.components()).take_while(|(a, b)| a == b).count();
+    // Without a common root there is no way from one to the other.
+    if shared == 0 && path.is_absolute() {
+        return path.display().to_string();
+    }
+    let up = folder.components().skip(shared).map(|_| Component::ParentDir);
+    let parts = up.chain(path.components().skip(shared)).map(|part| part.as_os_str().to_string_lossy());
+    let parts: Vec<_> = parts.collect();
+    if parts.is_empty() { ".".to_owned() } else { parts.join("/") }
 }
 
 fn quoted(text: &str) -> String {
@@ -60,4 +112,18 @@ fn transform(pose: &Isometry3<f64>) -> String {
 /// Whether a pose moves nothing, to the last digit.
 fn is_identity(pose: &Isometry3<f64>) -> bool {
     pose.translation.vector == Vector3::zeros() && pose.rotation.angle() == 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_lead_from_the_folder_to_the_file() {
+        let from = |folder: &str, path: &str| relative(Path::new(folder), Path::new(path));
+        assert_eq!(from("/a/b", "/a/b/r.urdf"), "r.urdf");
+        assert_eq!(from("/a/b/c", "/a/d/r.urdf"), "../../d/r.urdf");
+        assert_eq!(from("/a", "/a"), ".");
+        assert_eq!(from("a", "/b"), "/b");
+    }
 }

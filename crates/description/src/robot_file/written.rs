@@ -39,7 +39,7 @@ pub(crate) struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "String")]
     pub(crate) base: Option<Spanned<String>>,
-    /// Last link of the chain; the end of the longest chain by default.
+    /// Last link of the chain; by default the frame for tools at the end of the longest chain, before a gripper.
     #[serde(default)]
     #[schemars(with = "String")]
     pub(crate) tip: Option<Spanned<String>>,

@@ -25,7 +25,8 @@ pub(crate) mod urdf;
 pub use axes::Axes;
 pub use dh::{
     AxisPair, AxisRelation, Choice, DeriveError, DhChain, DhDerivation, DhDerivatives, DhFrames, DhRowTwists,
-    FreeChoice, ModifiedDh, NotADhTransform, SerialDh, StandardDh, derive_dh,
+    FreeChoice, ModifiedDh, NotADhTransform, ROUNDED_M, ROUNDED_RAD, RoundedPair, SerialDh, StandardDh,
+    derive_dh, without_rounding,
 };
 pub use jacobian::{Jacobian, JacobianKind};
 pub use proof::Proof;

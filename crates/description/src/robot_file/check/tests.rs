@@ -108,7 +108,9 @@ fn base_and_tip_have_defaults() {
     let (declared, _) = read("urdf = 'r.urdf'");
     let (declared, robot) = (declared.unwrap(), robot());
     assert_eq!(declared.base, robot.root());
-    assert_eq!(robot.link(declared.tip).name, "tip");
+    // One joint carries two that move together: fingers.
+    assert_eq!(robot.link(declared.tip).name, "one");
+    assert_eq!(declared.chain_ends, ChainEnds { base: ChainEnd::Chosen, tip: ChainEnd::Chosen });
 }
 
 #[test]

@@ -12,7 +12,10 @@ pub(crate) mod standard;
 pub use chain::{DhChain, DhFrames};
 pub use conditions::NotADhTransform;
 pub use derivatives::{DhDerivatives, DhRowTwists};
-pub use derive::{AxisPair, AxisRelation, Choice, DeriveError, DhDerivation, FreeChoice, derive_dh};
+pub use derive::{
+    AxisPair, AxisRelation, Choice, DeriveError, DhDerivation, FreeChoice, ROUNDED_M, ROUNDED_RAD,
+    RoundedPair, derive_dh, without_rounding,
+};
 pub use modified::ModifiedDh;
 pub use serial::SerialDh;
 pub use standard::StandardDh;

@@ -6,7 +6,9 @@ use std::{
     sync::Arc,
 };
 
-use congruent_description::{Diagnostic, Diagnostics, SourceFile, known_names, read_text, toml_text};
+use congruent_description::{
+    Diagnostic, Diagnostics, SourceFile, is_standard_input, known_names, read_text, toml_text,
+};
 use congruent_simulation::controller_names;
 use serde::Deserialize;
 use toml::{Spanned, de::DeTable};
@@ -82,7 +84,8 @@ impl ScenarioFile {
 
     /// The robot's path, relative to the folder of the file.
     pub fn robot_path(&self) -> PathBuf {
-        self.path().parent().unwrap_or(Path::new("")).join(&self.scenario.robot)
+        let folder = self.path().parent().filter(|_| !is_standard_input(self.path()));
+        folder.unwrap_or(Path::new("")).join(&self.scenario.robot)
     }
 
     /// The places of its values.

@@ -70,6 +70,15 @@ pub(super) enum MotionAxis {
     Slide(Vector3<f64>),
 }
 
+impl MotionAxis {
+    pub(super) fn direction(&self) -> Vector3<f64> {
+        match self {
+            Self::Turn(line) => line.direction,
+            Self::Slide(direction) => *direction,
+        }
+    }
+}
+
 /// All axes of a chain at position zero; `accuracy` is how far a joint may be from a plain turn or shift.
 pub(super) fn axes(chain: &ScrewChain, accuracy: f64) -> Result<Vec<MotionAxis>, DeriveError> {
     if chain.twists_in_base.is_empty() {

@@ -25,7 +25,7 @@ use crate::{
 const NEARLY_PARALLEL_RAD: f64 = 0.1;
 /// Axes closer than this part of the accuracy count as parallel, or as one line: the table has then
 /// room for ten such simplifications.
-const PARALLEL_PART: f64 = 0.1;
+pub(super) const PARALLEL_PART: f64 = 0.1;
 /// Values closer to a short one than this part of the accuracy are written short.
 const TIDY_PART: f64 = 0.01;
 

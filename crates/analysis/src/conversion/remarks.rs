@@ -1,0 +1,71 @@
+//! What a reader of a converted model must be warned of: axes that were taken as parallel, and huge values.
+
+use congruent_description::{
+    Diagnostic,
+    display::{angle, length, length_and_angle},
+    serde_name,
+};
+use congruent_kinematics::Proof;
+
+use super::report::{ConversionReport, RoundedReport};
+
+/// A length of a table beyond this multiple of the reach is warned of: no arm is built so.
+const FAR_REACHES: f64 = 100.0;
+
+/// That axes were taken as what they are but for rounding, and what it changes.
+pub(super) fn rounded(pairs: &[RoundedReport], against_source: &Proof) -> Option<Diagnostic> {
+    let sentence = |pair: &RoundedReport| {
+        let [a, b] = &pair.joints;
+        let off = match (pair.angle_rad > 0.0, pair.distance_m > 0.0) {
+            (true, true) => length_and_angle(pair.distance_m, pair.angle_rad),
+            (true, false) => angle(pair.angle_rad),
+            _ => length(pair.distance_m),
+        };
+        format!("{a} and {b} {} (off by {off})", serde_name(&pair.relation).replace('_', "-"))
+    };
+    let listed: Vec<String> = pairs.iter().map(sentence).collect();
+    let Proof { position_m, orientation_rad, configurations, .. } = *against_source;
+    let message = format!(
+        "the source has rounded values, axes are taken as they are meant: {}; the table differs from the source by \
+         up to {} at {configurations} configurations",
+        listed.join(", "),
+        length_and_angle(position_m, orientation_rad)
+    );
+    (!pairs.is_empty()).then(|| {
+        Diagnostic::warning("convert::rounded_axes", message).with_help(
+            "write quarter turns with all digits (1.5707963267948966), or keep the axes with --exact",
+        )
+    })
+}
+
+/// That rows have lengths which no arm of this reach has.
+pub(super) fn far(report: &ConversionReport, reach_m: f64) -> Option<Diagnostic> {
+    let rows = report.table.iter().flat_map(|table| &table.rows);
+    let values =
+        rows.flat_map(|row| [("a", row.a_m), ("d", row.d_m)].map(|(entry, value)| (row, entry, value)));
+    let is_far = |value: f64| value.abs() > FAR_REACHES * reach_m;
+    let far: Vec<String> = values
+        .filter(|(.., value)| is_far(*value))
+        .map(|(row, entry, value)| format!("{entry} of {} is {}", row.joint, length(value)))
+        .collect();
+    let pairs = report.axes.iter().filter(|pair| is_far(pair.normal_at_m)).map(|pair| {
+        let from_parallel = pair.angle_rad.min(std::f64::consts::PI - pair.angle_rad);
+        format!(
+            "; the axes of {} and {} are {} from parallel",
+            pair.joints[0],
+            pair.joints[1],
+            angle(from_parallel)
+        )
+    });
+    let message = format!(
+        "an arm that reaches {} has no such lengths: {}{}",
+        length(reach_m),
+        far.join(", "),
+        pairs.collect::<String>()
+    );
+    (!far.is_empty()).then(|| {
+        Diagnostic::warning("convert::far_normal", message).with_help(
+            "the table is right within its accuracy; a coarser --accuracy takes such axes as parallel",
+        )
+    })
+}

@@ -1,0 +1,218 @@
+//! Where the chain of a robot ends if nobody says it: at the frame for tools before the gripper.
+//!
+//! The chain follows the branch with most moving joints. Where several branches have as many, they are the
+//! fingers of a gripper if the chain has as many joints behind it already, and the chain ends before them;
+//! otherwise they are limbs, of which the first is taken and the others are candidates.
+
+use super::frame_name::{is_jaw, preference};
+use crate::model::{JointIndex, LinkIndex, Robot};
+
+/// The tip that was chosen, and those that might have been meant as well.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct ChosenTip {
+    pub(crate) tip: LinkIndex,
+    /// Tips of limbs as long as this one; empty if there is no doubt.
+    pub(crate) others: Vec<LinkIndex>,
+}
+
+/// The tip of the chain that starts at `base`.
+pub(crate) fn choose_tip(robot: &Robot, base: LinkIndex) -> ChosenTip {
+    let bodies = Bodies::new(robot);
+    let (tip, doubts) = bodies.follow(robot.body(base), Vec::new());
+    let others = doubts.into_iter().map(|passed| bodies.follow_branch(&passed)).filter(|&other| other != tip);
+    ChosenTip { tip, others: others.collect() }
+}
+
+/// The robot as bodies: links that are joined by moving joints only.
+struct Bodies<'a> {
+    robot: &'a Robot,
+    /// For each link, the most moving joints that follow each other below its body.
+    depths: Vec<usize>,
+}
+
+impl<'a> Bodies<'a> {
+    fn new(robot: &'a Robot) -> Self {
+        let mut depths = vec![0; robot.links().len()];
+        // Children come after their parents, so from the end each depth is complete if it is used.
+        for joint in robot.joints().iter().rev() {
+            let depth = depths[joint.child.get()] + usize::from(joint.kind.is_movable());
+            let parent = &mut depths[joint.parent.get()];
+            *parent = depth.max(*parent);
+        }
+        Self { robot, depths }
+    }
+
+    /// Moving joints from this one on.
+    fn depth(&self, branch: JointIndex) -> usize {
+        1 + self.depths[self.robot.joint(branch).child.get()]
+    }
+
+    /// The tip from `link` on, after these moving joints, and for each limb as long as the one that was
+    /// followed the joints that lead into it.
+    fn follow(&self, mut link: LinkIndex, mut passed: Vec<JointIndex>) -> (LinkIndex, Vec<Vec<JointIndex>>) {
+        let mut doubts = Vec::new();
+        loop {
+            let body = self.body(link);
+            let branches = self.branches(&body, &passed);
+            let Some(deepest) = branches.iter().map(|&branch| self.depth(branch)).max() else {
+                return (self.frame(&body), doubts);
+            };
+            let is_shorter = |&branch: &JointIndex| self.depth(branch) + 1 < deepest.max(2);
+            let equal: Vec<JointIndex> = branches.into_iter().filter(|branch| !is_shorter(branch)).collect();
+            let are_fingers = equal.len() > 1 && passed.len() >= deepest;
+            let is_gripper =
+                !passed.is_empty() && deepest == 1 && equal.iter().all(|&one| is_jaw(self.robot.joint(one)));
+            if are_fingers || is_gripper {
+                return (self.frame(&body), doubts);
+            }
+            let first = equal.iter().position(|&branch| self.depth(branch) == deepest).unwrap_or(0);
+            doubts.extend(
+                equal
+                    .iter()
+                    .enumerate()
+                    .filter(|(at, _)| *at != first)
+                    .map(|(_, &branch)| passed.iter().copied().chain([branch]).collect()),
+            );
+            passed.push(equal[first]);
+            link = self.robot.joint(equal[first]).child;
+        }
+    }
+
+    fn follow_branch(&self, passed: &[JointIndex]) -> LinkIndex {
+        let last = *passed.last().expect("a limb begins with a joint");
+        self.follow(self.robot.joint(last).child, passed.to_vec()).0
+    }
+
+    /// The links that hang on `link` by fixed joints, each with the number of those.
+    fn body(&self, link: LinkIndex) -> Vec<(LinkIndex, usize)> {
+        let mut distances = vec![None; self.robot.links().len()];
+        distances[link.get()] = Some(0);
+        let mut body = vec![(link, 0)];
+        for joint in self.robot.joints().iter().filter(|joint| !joint.kind.is_movable()) {
+            let Some(distance) = distances[joint.parent.get()] else { continue };
+            distances[joint.child.get()] = Some(distance + 1);
+            body.push((joint.child, distance + 1));
+        }
+        body
+    }
+
+    /// The moving joints that leave a body, without linkages: what only follows joints of the chain is no
+    /// continuation of it.
+    fn branches(&self, body: &[(LinkIndex, usize)], passed: &[JointIndex]) -> Vec<JointIndex> {
+        let leaves = |joint: JointIndex| {
+            let joint = self.robot.joint(joint);
+            body.iter().any(|(link, _)| *link == joint.parent)
+        };
+        let movable = self.robot.movable_joints().iter().copied();
+        movable.filter(|&joint| leaves(joint) && !self.is_linkage(joint, passed)).collect()
+    }
+
+    /// Whether all moving joints from this one on follow joints of the chain.
+    fn is_linkage(&self, branch: JointIndex, passed: &[JointIndex]) -> bool {
+        let mut is_below = vec![false; self.robot.links().len()];
+        is_below[self.robot.joint(branch).child.get()] = true;
+        let follows = |joint: JointIndex| {
+            self.robot.joint(joint).mimic.is_some_and(|mimic| passed.contains(&mimic.master))
+        };
+        if !follows(branch) {
+            return false;
+        }
+        let mut all = true;
+        for (index, joint) in self.robot.joints().iter().enumerate() {
+            if is_below[joint.parent.get()] {
+                is_below[joint.child.get()] = true;
+                all &= !joint.kind.is_movable() || follows(JointIndex(index));
+            }
+        }
+        all
+    }
+
+    /// The frame of a body in which a tool is programmed.
+    fn frame(&self, body: &[(LinkIndex, usize)]) -> LinkIndex {
+        let rank =
+            |&(link, distance): &(LinkIndex, usize)| preference(self.robot.link(link), distance, link.get());
+        body.iter().max_by_key(|each| rank(each)).map_or(self.robot.root(), |(link, _)| *link)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::urdf::parse_urdf;
+
+    /// A robot from lines `parent kind child [mimic joint]`; a joint has its child's name.
+    fn robot(lines: &[&str]) -> Robot {
+        let (mut links, mut joints) = (String::from("<link name='base'/>"), String::new());
+        for line in lines {
+            let words: Vec<&str> = line.split(' ').collect();
+            let (parent, kind, child) = (words[0], words[1], words[2]);
+            let mimic = words.get(3).map_or(String::new(), |master| format!("<mimic joint='{master}'/>"));
+            links += &format!("<link name='{child}'/>");
+            joints += &format!(
+                "<joint name='{child}' type='{kind}'><parent link='{parent}'/><child link='{child}'/>{mimic}\
+                 <limit lower='0' upper='1' effort='1' velocity='1'/></joint>"
+            );
+        }
+        parse_urdf(&format!("<robot name='r'>{links}{joints}</robot>")).unwrap()
+    }
+
+    #[track_caller]
+    fn check(lines: &[&str], tip: &str, others: &[&str]) {
+        let robot = robot(lines);
+        let chosen = choose_tip(&robot, robot.root());
+        let name = |link: LinkIndex| robot.link(link).name.as_str();
+        assert_eq!(name(chosen.tip), tip);
+        assert_eq!(chosen.others.into_iter().map(name).collect::<Vec<_>>(), others);
+    }
+
+    const ARM: [&str; 2] = ["base revolute upper", "upper revolute lower"];
+
+    #[test]
+    fn fingers_are_not_part_of_the_arm() {
+        let fingers = ["lower prismatic left", "lower prismatic right left"];
+        check(&[&ARM[..], &fingers].concat(), "lower", &[]);
+        let palm = ["lower fixed camera", "lower fixed palm", "palm fixed grasp"];
+        check(&[&ARM[..], &palm, &["palm prismatic left", "palm prismatic right"]].concat(), "grasp", &[]);
+        let unequal = ["lower revolute thumb", "lower revolute index", "index revolute index_end"];
+        check(&[&ARM[..], &unequal].concat(), "lower", &[]);
+        check(&[&ARM[..], &["lower revolute gripper_jaw"]].concat(), "lower", &[]);
+        check(&[&ARM[..], &["lower revolute gripper_roll"]].concat(), "gripper_roll", &[]);
+        check(&[&ARM[..], &["lower prismatic quill"]].concat(), "quill", &[]);
+    }
+
+    #[test]
+    fn of_limbs_the_first_is_taken_and_the_others_are_named() {
+        let arms = [
+            "base revolute l1",
+            "l1 revolute l2",
+            "base revolute head",
+            "base revolute r1",
+            "r1 revolute r2",
+        ];
+        check(&arms, "l2", &["head", "r2"]);
+        let torso = [
+            "base revolute torso",
+            "torso revolute r1",
+            "r1 revolute r2",
+            "torso revolute l1",
+            "l1 revolute l2",
+        ];
+        check(&torso, "r2", &["l2"]);
+        let wheels = ["base continuous wheel_1", "base continuous wheel_2"];
+        check(&[&wheels[..], &ARM, &["lower revolute wrist"]].concat(), "wrist", &[]);
+    }
+
+    #[test]
+    fn a_linkage_that_follows_the_arm_is_no_branch() {
+        let linkage = ["upper revolute rod upper", "lower revolute wrist", "wrist fixed flange"];
+        check(&[&ARM[..], &linkage].concat(), "flange", &[]);
+    }
+
+    #[test]
+    fn a_frame_for_tools_comes_before_a_deeper_one() {
+        let camera = ["lower fixed tool0", "lower fixed mount", "mount fixed lens"];
+        check(&[&ARM[..], &camera].concat(), "tool0", &[]);
+        check(&["base fixed stand"], "stand", &[]);
+        check(&[], "base", &[]);
+    }
+}

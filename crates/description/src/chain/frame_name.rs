@@ -1,0 +1,53 @@
+//! What names of links and joints say about a tool: the one place that reads a meaning out of names, and only
+//! if no chain is declared.
+
+use std::cmp::Reverse;
+
+use crate::model::{Joint, Link};
+
+/// Words for the frames in which tools are programmed, the most specific last.
+const TOOL_FRAMES: [&[&str]; 4] =
+    [&["flange"], &["ee", "eef", "effector", "endpoint"], &["tool", "tool0"], &["tcp"]];
+/// Words that only say that something is a link or a frame.
+const FILLERS: [&str; 3] = ["link", "frame", "joint"];
+/// Words for joints that open and close a gripper.
+const JAWS: [&str; 6] = ["gripper", "finger", "jaw", "knuckle", "claw", "thumb"];
+/// Words for joints that turn a gripper and belong to the arm.
+const TURNS: [&str; 6] = ["roll", "pitch", "yaw", "rotate", "rotation", "wrist"];
+
+fn words(name: &str) -> impl DoubleEndedIterator<Item = String> {
+    name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).map(str::to_ascii_lowercase)
+}
+
+/// How much a link's name says that tools are programmed in its frame: 0 if it says nothing.
+pub(super) fn tool_rank(link: &Link) -> usize {
+    let Some(last) = words(&link.name).rev().find(|word| !FILLERS.contains(&word.as_str())) else { return 0 };
+    TOOL_FRAMES.iter().position(|names| names.contains(&last.as_str())).map_or(0, |rank| rank + 1)
+}
+
+/// Order of the frames of the last body: by name, then the farther in joints, then those that are frames and
+/// nothing else, then by file order.
+pub(super) fn preference(link: &Link, fixed_joints: usize, index: usize) -> impl Ord + use<> {
+    let is_frame = link.inertia.is_none() && link.visuals.is_empty() && link.collisions.is_empty();
+    (tool_rank(link), fixed_joints, is_frame, Reverse(index))
+}
+
+/// Whether a joint opens and closes a gripper, by its name.
+pub(super) fn is_jaw(joint: &Joint) -> bool {
+    let has = |known: &[&str]| words(&joint.name).any(|word| known.contains(&word.as_str()));
+    has(&JAWS) && !has(&TURNS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_word_of_a_name_counts() {
+        let rank = |name: &str| tool_rank(&Link { name: name.to_owned(), ..Link::default() });
+        let ranks =
+            ["flange", "iiwa_link_ee", "ee_link", "left_tool0", "r_gripper_tool_frame", "panda_hand_tcp"];
+        assert_eq!(ranks.map(rank), [1, 2, 2, 3, 3, 4]);
+        assert_eq!(["tool_changer", "tool0_controller", "steel", "link", ""].map(rank), [0; 5]);
+    }
+}

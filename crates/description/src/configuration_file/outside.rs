@@ -1,0 +1,35 @@
+//! Given positions outside the limits of their joints: one finding for all of them.
+
+use std::collections::BTreeMap;
+
+use crate::{diagnostic::Diagnostic, display::quantity, model::Robot};
+
+/// Values that one finding lists.
+const MOST_LISTED: usize = 10;
+
+/// One sentence for each of these positions (rad or m) that is outside the limits of its joint.
+pub fn outside_limits(values: &BTreeMap<String, f64>, robot: &Robot) -> Vec<String> {
+    let sentence = |(name, &value): (&String, &f64)| {
+        let joint = robot.joint(robot.find_joint(name)?);
+        let (lower, upper) = joint.position_range()?;
+        let [shown, lower_shown, upper_shown] =
+            [value, lower, upper].map(|each| quantity(each, joint.kind.unit()));
+        (value < lower || value > upper)
+            .then(|| format!("{name} at {shown} (limits {lower_shown} to {upper_shown})"))
+    };
+    values.iter().filter_map(sentence).collect()
+}
+
+/// The warning that lists such sentences; `None` if there are none.
+pub fn outside_limits_warning(found: &[String]) -> Option<Diagnostic> {
+    let listed = found.iter().take(MOST_LISTED).cloned().collect::<Vec<_>>().join(", ");
+    let more = match found.len().saturating_sub(MOST_LISTED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let message = format!("outside the joint limits: {listed}{more}");
+    (!found.is_empty()).then(|| {
+        Diagnostic::warning("configurations::outside_limits", message)
+            .with_help("the result is computed for these positions, which the robot cannot take")
+    })
+}
