@@ -27,3 +27,4 @@ mod schemas;
 mod servo;
 mod snapshots;
 mod suggestions;
+mod uses;

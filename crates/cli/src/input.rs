@@ -40,12 +40,10 @@ impl PackageArguments {
 impl RobotArgument {
     /// Loads it and prints its warnings.
     pub(crate) fn load(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
-        let description = load_robot_with(&self.robot, &self.packages.ros())?;
-        printer.warnings(&description.warnings);
-        Ok(description)
+        self.load_for(Use::Kinematics, printer)
     }
 
-    /// The same for a use that needs more than kinematics.
+    /// The same for a use, which is refused before anything is printed.
     pub(crate) fn load_for(&self, needed: Use, printer: &Printer) -> Result<RobotDescription, Failure> {
         let description = load_robot_with(&self.robot, &self.packages.ros())?;
         description.for_use(needed)?;

@@ -25,7 +25,7 @@ pub use configuration_file::{
 };
 pub use description::{Places, RobotDescription};
 pub use diagnostic::{
-    Diagnostic, Diagnostics, Finding, FindingPlace, Occurrence, Severity, SourceFile, Use, known_names,
+    Diagnostic, Diagnostics, Finding, FindingPlace, Kind, Occurrence, Severity, SourceFile, Use, known_names,
     line_column, nearest,
 };
 pub use file::read_text;
