@@ -280,8 +280,9 @@ fn a_malformed_urdf() {
     bench.refused("planar_2r.urdf", 0, &["robot"]);
 }
 
+/// The mesh is only drawn, so the run goes on.
 #[test]
-fn a_missing_mesh() {
+fn a_missing_mesh_of_a_visual_is_a_warning() {
     let bench = Workbench::new();
     let urdf = fs::read_to_string(bench.path("robot/planar_2r.urdf")).unwrap();
     let start = urdf.find("<geometry>").unwrap();
@@ -289,7 +290,13 @@ fn a_missing_mesh() {
     let line = urdf[..start].matches('\n').count() as u64 + 1;
     let mesh = "<geometry><mesh filename=\"nowhere.stl\"/>";
     bench.write("robot/planar_2r.urdf", &format!("{}{mesh}{}", &urdf[..start], &urdf[end..]));
-    bench.refused("planar_2r.urdf", line, &["nowhere.stl", "not found"]);
+    let arguments =
+        ["run", &text(&bench.path("scenario.toml")), "--no-recording", "--out", &text(&bench.path("out"))];
+    let answer = congruent_json(&arguments);
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+    let warning = &answer.json()["warnings"][0];
+    assert_eq!((warning["code"].as_str(), warning["line"].as_u64()), (Some("mesh::not_found"), Some(line)));
+    assert!(congruent(&arguments).stderr.contains("nowhere.stl"));
 }
 
 #[test]

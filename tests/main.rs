@@ -29,3 +29,4 @@ mod schemas;
 mod servo;
 mod snapshots;
 mod suggestions;
+mod uses;

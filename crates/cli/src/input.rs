@@ -43,7 +43,7 @@ impl RobotArgument {
         Ok(load_robot_with(&self.robot, &self.packages.ros())?)
     }
 
-    /// Loads it for a use that needs more than kinematics, and prints its warnings.
+    /// Loads it for a use, which is refused before anything is printed, and prints its warnings.
     pub(crate) fn load_for(&self, needed: Use, printer: &Printer) -> Result<RobotDescription, Failure> {
         let description = self.read()?;
         description.for_use(needed)?;
@@ -88,7 +88,14 @@ pub(crate) struct ArmArguments {
 impl ArmArguments {
     /// Loads the robot along its chain and prints its warnings.
     pub(crate) fn load(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
-        self.chain.choose(self.robot.read()?, printer)
+        self.load_for(Use::Kinematics, printer)
+    }
+
+    /// The same for a use, which is refused before anything is printed.
+    pub(crate) fn load_for(&self, needed: Use, printer: &Printer) -> Result<RobotDescription, Failure> {
+        let description = self.robot.read()?;
+        description.for_use(needed)?;
+        self.chain.choose(description, printer)
     }
 
     /// The same without its table, which a command does not need.

@@ -7,7 +7,7 @@ use std::{
 };
 
 use clap::ValueEnum;
-use congruent::description::{Diagnostic, Finding};
+use congruent::description::{Diagnostic, Finding, serde_name};
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
 
@@ -160,6 +160,9 @@ pub(crate) fn rendered(finding: &Diagnostic) -> String {
 /// are cut.
 fn shortened(finding: &Diagnostic) -> Diagnostic {
     let mut shortened = finding.clone();
+    if let Some(stopped) = finding.stops {
+        let _ = write!(shortened.message, " (stops {} alone)", serde_name(&stopped));
+    }
     clip(&mut shortened.message);
     shortened.help.as_mut().map(clip);
     if let (Some(source), Some(span), Some((line, column))) =

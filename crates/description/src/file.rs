@@ -165,23 +165,27 @@ fn text_of(path: &Path, bytes: &[u8]) -> Result<Arc<SourceFile>, Diagnostic> {
     let source = |text: &str| Arc::new(SourceFile { path: path.to_owned(), text: text.to_owned() });
     match decode(bytes) {
         Ok(text) => Ok(source(text)),
-        Err((fault, readable)) => Err(fault.in_file(&source(readable))),
+        Err(refused) => {
+            let (fault, readable) = *refused;
+            Err(fault.in_file(&source(readable)))
+        }
     }
 }
 
 /// UTF-8 without its byte order mark, or what is wrong and the text up to there.
-fn decode(bytes: &[u8]) -> Result<&str, (Diagnostic, &str)> {
-    let refused = |code, message: String, readable| {
+fn decode(bytes: &[u8]) -> Result<&str, Box<(Diagnostic, &str)>> {
+    let refused = |code, message: String, readable, help: Option<&str>| {
         let end = str::len(readable);
-        (Diagnostic::error(code, message).at(end..end), readable)
+        let fault = Diagnostic::error(code, message).at(end..end);
+        Box::new((Diagnostic { help: help.map(str::to_owned), ..fault }, readable))
     };
+    let as_utf8 = Some("save the file as UTF-8");
     if bytes.is_empty() {
-        return Err(refused("file::empty", "the file is empty".to_owned(), ""));
+        return Err(refused("file::empty", "the file is empty".to_owned(), "", None));
     }
     if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
-        let (fault, readable) =
-            refused("file::utf16", "the file is UTF-16, UTF-8 is expected".to_owned(), "");
-        return Err((fault.with_help("save the file as UTF-8"), readable));
+        let message = "the file is UTF-16, UTF-8 is expected".to_owned();
+        return Err(refused("file::utf16", message, "", as_utf8));
     }
     let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
     let (good, bad) = match std::str::from_utf8(bytes) {
@@ -194,13 +198,12 @@ fn decode(bytes: &[u8]) -> Result<&str, (Diagnostic, &str)> {
     if let Some(at) = good.find('\0') {
         let (line, _) = line_column(good, at);
         let message = format!("NUL byte at line {line}: the file is not text");
-        return Err(refused("file::nul", message, &good[..at]));
+        return Err(refused("file::nul", message, &good[..at], None));
     }
     let Some(byte) = bad else { return Ok(good) };
     let (line, _) = line_column(good, good.len());
     let message = format!("byte 0x{byte:02X} at line {line} is not UTF-8");
-    let (fault, readable) = refused("file::not_utf8", message, good);
-    Err((fault.with_help("save the file as UTF-8"), readable))
+    Err(refused("file::not_utf8", message, good, as_utf8))
 }
 
 #[cfg(test)]
@@ -209,7 +212,7 @@ mod tests {
 
     #[track_caller]
     fn check(bytes: &[u8], expected: Result<&str, &str>) {
-        let found = decode(bytes).map_err(|(fault, _)| fault.message);
+        let found = decode(bytes).map_err(|refused| refused.0.message);
         assert_eq!(found.as_ref().map(|text| *text).map_err(String::as_str), expected);
     }
 

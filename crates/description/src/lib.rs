@@ -28,7 +28,7 @@ pub use configuration_file::{
 };
 pub use description::{NamedFiles, Places, RobotDescription, TABLE_DROPPED};
 pub use diagnostic::{
-    Diagnostic, Diagnostics, Finding, FindingPlace, Occurrence, Severity, SourceFile, Use, known_names,
+    Diagnostic, Diagnostics, Finding, FindingPlace, Kind, Occurrence, Severity, SourceFile, Use, known_names,
     line_column, nearest,
 };
 pub use file::{is_standard_input, read_text};

@@ -320,6 +320,7 @@ mod tests {
     use std::fs;
 
     use super::*;
+    use crate::diagnostic::Severity;
 
     const URDF: &str = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='continuous'>\
                         <parent link='a'/><child link='b'/></joint></robot>";
@@ -365,6 +366,69 @@ mod tests {
             found.iter().map(place).collect::<Vec<_>>(),
             [(file("robot.toml"), "robot_file::unknown_link"), (file("r.urdf"), "urdf::massless")]
         );
+    }
+
+    /// `URDF` with an inertial for link b, whose largest moment exceeds the sum of the others by 1.
+    fn impossible() -> String {
+        URDF.replace(
+            "<link name='b'/>",
+            "\n<link name='b'><inertial><mass value='2'/>\
+             <inertia ixx='3' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>",
+        )
+    }
+
+    #[test]
+    fn the_robot_file_repairs_an_inertia() {
+        let bare = folder(&[("r.urdf", &impossible())]);
+        let description = load_robot(&bare.path().join("r.urdf")).unwrap();
+        let refused = description.for_use(Use::Physics).unwrap_err();
+        assert_eq!((refused[0].code, refused[0].severity), ("urdf::inertia", Severity::Error));
+        assert!(refused[0].help.as_ref().unwrap().contains("[inertia]\nb = \"repair\""), "{refused:#?}");
+        assert_eq!(refused[0].line_column().map(|(line, _)| line), Some(2));
+        assert_eq!(description.for_use(Use::Clearance), Ok(()));
+
+        let robot_file = "urdf = 'r.urdf'\n[inertia]\nb = 'repair'";
+        let repaired = folder(&[("robot.toml", robot_file), ("r.urdf", &impossible())]);
+        let description = load_robot(repaired.path()).unwrap();
+        assert_eq!(description.for_use(Use::Physics), Ok(()));
+        let [told] = &description.warnings[..] else { panic!("{:#?}", description.warnings) };
+        assert_eq!(told.line_column(), Some((3, 5)));
+        assert_eq!(
+            told.message,
+            "link \"b\": inertia repaired: principal moments 1 kg m2, 1 kg m2, 3 kg m2 in the URDF, 1.33 kg m2, \
+             1.33 kg m2, 2.67 kg m2 here, 0.577 kg m2 away in the Frobenius norm"
+        );
+        let inertia = description.robot.links()[1].inertia.unwrap();
+        assert!(inertia.mass_kg > 1.9 && inertia.tensor_kg_m2[(0, 0)] < 2.7, "{inertia:?}");
+    }
+
+    #[test]
+    fn a_repair_that_cannot_be_is_refused() {
+        let light = impossible().replace("'2'", "'-2'");
+        for (line, urdf, message) in [
+            ("c = 'repair'", impossible(), "[inertia] c: the robot has no such link"),
+            ("a = 'repair'", impossible(), "the link has no <inertial>"),
+            ("b = 'repair'", light, "its mass of -2 kg is not positive"),
+            ("b = 'mend'", impossible(), "unknown value \"mend\""),
+        ] {
+            let robot_file = format!("urdf = 'r.urdf'\n[inertia]\n{line}");
+            let folder = folder(&[("robot.toml", &robot_file), ("r.urdf", &urdf)]);
+            let found = load_robot(folder.path()).unwrap_err();
+            let fault = found.iter().find(|found| found.severity == Severity::Error).unwrap();
+            assert!(fault.message.contains(message), "{found:#?}");
+            assert_eq!(fault.line_column().map(|(line, _)| line), Some(3), "{found:#?}");
+        }
+    }
+
+    #[test]
+    fn an_srdf_that_cannot_be_read_stops_clearance() {
+        let robot_file = "urdf = 'r.urdf'\nsrdf = 'r.srdf'";
+        for srdf in ["<robot", ""] {
+            let folder = folder(&[("robot.toml", robot_file), ("r.urdf", URDF), ("r.srdf", srdf)]);
+            let description = load_robot(folder.path()).unwrap();
+            assert!(description.for_use(Use::Clearance).is_err(), "{:#?}", description.warnings);
+            assert_eq!(description.for_use(Use::Physics), Ok(()));
+        }
     }
 
     #[test]

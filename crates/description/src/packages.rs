@@ -70,7 +70,7 @@ impl Packages {
             }
             match candidate.canonicalize() {
                 Ok(real) if !self.allows(&real) => return Err(outside()),
-                Ok(path) => return Ok(Resolved { path, warning: three_slashes(uri) }),
+                Ok(path) => return Ok(Resolved { warning: three_slashes(uri, &path), path }),
                 Err(_) => tried.push(candidate.display().to_string()),
             }
         }
@@ -96,7 +96,14 @@ impl Packages {
 
     fn candidates(&mut self, uri: &str) -> Result<Vec<PathBuf>, Diagnostic> {
         if let Some((package, rest)) = package_of(uri) {
-            return Ok(self.package_folders(package).into_iter().map(|folder| folder.join(rest)).collect());
+            let mut candidates: Vec<PathBuf> =
+                self.package_folders(package).into_iter().map(|folder| folder.join(rest)).collect();
+            if names_no_package(uri) {
+                // Exporters mean the URDF's own folder or package.
+                let own = [&self.urdf_folder, &self.project_folder];
+                candidates.extend(own.map(|folder| folder.join(package).join(rest)));
+            }
+            return Ok(candidates);
         }
         let Some((scheme, rest)) = uri.split_once("://") else {
             return Ok(vec![self.urdf_folder.join(uri)]);
@@ -143,21 +150,29 @@ impl Packages {
     }
 }
 
-/// Package and path of a `package://` address, of which some have a third slash.
+/// Package and path of a `package://` address; of one with a third slash the first two parts of its path.
 fn package_of(uri: &str) -> Option<(&str, &str)> {
     let (scheme, rest) = uri.split_once("://")?;
     let rest = rest.trim_start_matches('/');
     scheme.eq_ignore_ascii_case("package").then(|| rest.split_once('/').unwrap_or((rest, "")))
 }
 
-fn three_slashes(uri: &str) -> Option<Diagnostic> {
-    let (package, _) = package_of(uri).filter(|_| uri.contains(":///"))?;
+/// Whether a `package://` address has a third slash, before which there is no name.
+fn names_no_package(uri: &str) -> bool {
+    uri.contains(":///")
+}
+
+fn three_slashes(uri: &str, found: &Path) -> Option<Diagnostic> {
+    package_of(uri).filter(|_| names_no_package(uri))?;
     let message =
-        format!("mesh \"{uri}\": package: has three slashes; \"{package}\" is taken as the package");
+        format!("mesh \"{uri}\" names no package: package: has three slashes; found as {}", found.display());
     Some(
         Diagnostic::warning("mesh::package_slashes", message)
-            .one_of("mesh addresses have three slashes after package:, where there are two", uri)
-            .with_help("write package:// with two slashes"),
+            .one_of(
+                "mesh addresses name no package (they have three slashes) and were found all the same",
+                uri,
+            )
+            .with_help("write package://NAME/... with two slashes, or a path relative to the URDF"),
     )
 }
 
@@ -279,8 +294,13 @@ mod tests {
     fn three_slashes_are_read_and_told() {
         let (_top, mut packages) = project(None);
         assert_eq!(packages.resolve("package://pkg/b.stl").ok().and_then(|found| found.warning), None);
-        let found = packages.resolve("package:///pkg/b.stl").ok().and_then(|found| found.warning);
-        assert_eq!(found.map(|found| found.code), Some("mesh::package_slashes"));
+        let told = packages.resolve("package:///pkg/b.stl").ok().and_then(|found| found.warning);
+        assert_eq!(told.map(|told| told.code), Some("mesh::package_slashes"));
+        // Without a package: beside the URDF, or in its project.
+        found(&mut packages, "package:///pkg/b.stl", "urdf/pkg/b.stl");
+        found(&mut packages, "package:///robot/meshes/a.stl", "robot/meshes/a.stl");
+        refused(&mut packages, "package:///../../outside/c.stl", "mesh::outside");
+        refused(&mut packages, "package:///c.stl", "mesh::not_found");
     }
 
     #[test]

@@ -2,12 +2,13 @@
 
 use congruent_description::{Diagnostic, Finding, JointValues, RobotDescription, RobotQ};
 use congruent_kinematics::{
-    KinematicsError, LinkPoses, Pose, PoseError, ScrewTree, UrdfTree, larger, sample_configurations,
+    KinematicsError, LinkPoses, Pose, PoseError, ScrewChain, ScrewTree, UrdfTree, larger,
+    sample_configurations,
 };
 
 use super::{
     basics::basics,
-    certificate::{Brackets, certificates, worst},
+    certificate::{Brackets, ReportedCertificate, certificates, worst},
     check_report::{
         Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, NotAsked, WorstDifference,
     },
@@ -46,34 +47,13 @@ pub fn check(
 ) -> Result<CheckReport, CheckError> {
     let robot = &description.robot;
     let mut configurations = sample_configurations(robot, options.seed, RANDOM_CONFIGURATIONS);
-    let (mut physics, not_asked) = match physics {
-        Ok(physics) => (Some(physics), Vec::new()),
-        Err(findings) => (None, vec![not_asked(&findings)]),
-    };
-    let identified = match &mut physics {
-        Some(physics) => Some(IdentifiedChain::new(description, &mut **physics, &configurations)?),
-        None => None,
-    };
-    let certificates = match (&identified, &mut physics) {
-        (Some(identified), Some(physics)) => certificates(description, Some((identified, &mut **physics)))?,
-        _ => certificates(description, None)?,
-    };
-    let mut sources = LinkPoseSources::new(description, physics)?;
+    let Physics { source, identified, certificates, not_asked } =
+        Physics::new(description, physics, &configurations)?;
+    let mut sources = LinkPoseSources::new(description, source)?;
     // The worst configurations of the certificates count for the verdict: random ones seldom find them.
     let brackets = certificates.iter().filter_map(|certificate| certificate.brackets.as_ref());
     configurations.extend(brackets.flat_map(|brackets| brackets.attained_at(robot)));
-    let mut running = Vec::new();
-    if description.dh.is_some() {
-        let decides = |source| source == PoseSource::Dh;
-        let sources = sources.model.sources();
-        running.push(RunningComparison::new(SourcePair::ModelUrdf, model_urdf, sources, decides));
-    }
-    let urdf = vec![PoseSource::Urdf; robot.links().len()];
-    let all = |_| true;
-    running.push(RunningComparison::new(SourcePair::PoeUrdf, poe_urdf, &urdf, all));
-    if sources.physics.is_some() {
-        running.push(RunningComparison::new(SourcePair::UrdfSimulation, urdf_simulation, &urdf, all));
-    }
+    let mut running = running(description, &sources);
     let requested_from = configurations.len();
     configurations.extend_from_slice(&options.configurations);
     let mut requested = Vec::with_capacity(options.configurations.len());
@@ -87,8 +67,7 @@ pub fn check(
     }
     let comparisons: Vec<Comparison> =
         running.iter().map(|comparison| comparison.finish(description, &configurations)).collect();
-    let chain = identified.as_ref().map(|identified| &identified.chain);
-    let diagnoses = diagnose_models(description, chain, &configurations);
+    let diagnoses = diagnose_models(description, identified.as_ref(), &configurations);
     let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
     let brackets = worst(&certificates);
     Ok(CheckReport {
@@ -115,8 +94,51 @@ pub fn check(
     })
 }
 
-fn not_asked(findings: &[Diagnostic]) -> NotAsked {
-    NotAsked { source: "simulation", findings: findings.iter().map(Finding::from).collect() }
+/// The physics and what is known of its chain, or why it was not asked.
+struct Physics<'a> {
+    source: Option<&'a mut dyn LinkPoses>,
+    identified: Option<ScrewChain>,
+    certificates: Vec<ReportedCertificate>,
+    not_asked: Vec<NotAsked>,
+}
+
+impl<'a> Physics<'a> {
+    fn new(
+        description: &RobotDescription,
+        physics: Result<&'a mut dyn LinkPoses, Vec<Diagnostic>>,
+        configurations: &[RobotQ],
+    ) -> Result<Self, CheckError> {
+        let source = match physics {
+            Ok(source) => source,
+            Err(findings) => {
+                let findings = findings.iter().map(Finding::from).collect();
+                let not_asked = vec![NotAsked { source: "simulation", findings }];
+                let certificates = certificates(description, None)?;
+                return Ok(Self { source: None, identified: None, certificates, not_asked });
+            }
+        };
+        let identified = IdentifiedChain::new(description, &mut *source, configurations)?;
+        let certificates = certificates(description, Some((&identified, &mut *source)))?;
+        let identified = Some(identified.chain);
+        Ok(Self { source: Some(source), identified, certificates, not_asked: Vec::new() })
+    }
+}
+
+/// The comparisons of the sources that were asked.
+fn running(description: &RobotDescription, sources: &LinkPoseSources<'_>) -> Vec<RunningComparison> {
+    let mut running = Vec::new();
+    if description.dh.is_some() {
+        let decides = |source| source == PoseSource::Dh;
+        let sources = sources.model.sources();
+        running.push(RunningComparison::new(SourcePair::ModelUrdf, model_urdf, sources, decides));
+    }
+    let urdf = vec![PoseSource::Urdf; description.robot.links().len()];
+    let all = |_| true;
+    running.push(RunningComparison::new(SourcePair::PoeUrdf, poe_urdf, &urdf, all));
+    if sources.physics.is_some() {
+        running.push(RunningComparison::new(SourcePair::UrdfSimulation, urdf_simulation, &urdf, all));
+    }
+    running
 }
 
 /// Screws are made from the URDF chain: alone they show that two computations agree, not two descriptions.

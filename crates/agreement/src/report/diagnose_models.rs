@@ -33,18 +33,15 @@ pub fn diagnose_models(
         configurations: configurations.iter().map(|q| q.of_chain(&coordinates)).collect(),
     };
     let names = ModelNames { description, moving, chain, places, urdf: description.places.urdf.as_ref() };
-    let candidate = candidate(&names);
     let mut pairs = Vec::new();
-    if let Some(candidate) = candidate.clone() {
-        pairs.push((SourcePair::ModelUrdf, ModelPair { candidate, reference: urdf.clone() }));
+    if let Some(candidate) = candidate(&names) {
+        let against_physics = physics.map(|reference| ModelPair { candidate: candidate.clone(), reference });
+        pairs.push((SourcePair::ModelUrdf, ModelPair { candidate, reference: urdf }));
+        pairs.extend(against_physics.map(|models| (SourcePair::ModelSimulation, models)));
+    } else if let Some(reference) = physics {
+        let candidate = Candidate::from_screws(&urdf.screws());
+        pairs.push((SourcePair::UrdfSimulation, ModelPair { candidate, reference }));
     }
-    pairs.extend(physics.map(|reference| match candidate {
-        Some(candidate) => (SourcePair::ModelSimulation, ModelPair { candidate, reference }),
-        None => {
-            let candidate = Candidate::from_screws(&urdf.screws());
-            (SourcePair::UrdfSimulation, ModelPair { candidate, reference })
-        }
-    }));
     let diagnosis = |(pair, models): &(SourcePair, ModelPair)| {
         reported_diagnosis(*pair, models, &diagnose(models, &criterion), &names)
     };

@@ -2,7 +2,10 @@
 
 use std::fmt::Write;
 
-use congruent::analysis::forward::{ForwardReport, Source};
+use congruent::{
+    analysis::forward::{ForwardReport, Source},
+    description::Use,
+};
 
 use crate::{
     failure::Failure,
@@ -23,7 +26,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let mut description = arguments.arm.load(printer)?;
+    let needed = if arguments.source == Source::Simulation { Use::Physics } else { Use::Kinematics };
+    let mut description = arguments.arm.load_for(needed, printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
     let report = congruent::forward(&description, arguments.source, &configurations)?;
     printer.result(&report, text)?;

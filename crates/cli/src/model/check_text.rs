@@ -18,30 +18,34 @@ use crate::print::rendered;
 
 pub(super) fn text(report: &CheckReport) -> String {
     let mut text = String::new();
-    let _ = writeln!(
-        text,
-        "{}: {}, worst {} over {} configurations (tolerance {:e} m, {:e} rad)",
-        report.file,
-        verdict(report.verdict),
-        length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),
-        report.configurations,
-        report.tolerance.position_m,
-        report.tolerance.orientation_rad
-    );
+    if report.verdict == Agreement::NothingCompared {
+        let what = "nothing was compared: there is no [dh] table, and the physics was not asked";
+        let _ = writeln!(text, "{}: {what}", report.file);
+    } else {
+        let _ = writeln!(
+            text,
+            "{}: {}, worst {} over {} configurations (tolerance {:e} m, {:e} rad)",
+            report.file,
+            report.verdict,
+            length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),
+            report.configurations,
+            report.tolerance.position_m,
+            report.tolerance.orientation_rad
+        );
+    }
     let _ = writeln!(text, "  {}", report.chain);
-    if !report.table_compared {
-        let sources = match report.verdict {
-            Agreement::Agree => "the URDF, its screws and the physics agree; ",
-            Agreement::Disagree | Agreement::NothingCompared => "",
-        };
+    if !report.table_compared && report.verdict != Agreement::NothingCompared {
+        let agree = report.verdict == Agreement::Agree;
+        let sources = if agree { "the URDF, its screws and the physics agree; " } else { "" };
         let _ = writeln!(text, "  {sources}no table was compared");
     }
     for comparison in &report.comparisons {
         compared(&mut text, comparison);
     }
     for NotAsked { findings, .. } in &report.not_asked {
-        for finding in findings {
-            let _ = writeln!(text, "  not asked the physics: {}", finding.message);
+        for (index, finding) in findings.iter().enumerate() {
+            let label = if index == 0 { "not asked the physics:" } else { "" };
+            let _ = writeln!(text, "  {label:22} {}", finding.message);
         }
     }
     if report.verdict == Agreement::Disagree {
@@ -56,15 +60,6 @@ pub(super) fn text(report: &CheckReport) -> String {
         diagnosed(&mut text, diagnosis);
     }
     text
-}
-
-fn verdict(verdict: Agreement) -> String {
-    match verdict {
-        Agreement::NothingCompared => {
-            "NOTHING COMPARED: there is no [dh] table, and the physics could not be asked".to_owned()
-        }
-        verdict => verdict.to_string(),
-    }
 }
 
 /// The first checks: the pose of the TCP at zero and its motion with each joint.

@@ -67,6 +67,15 @@ pub struct Occurrence {
     pub span: Option<Range<usize>>,
 }
 
+/// What a finding has in common with others.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Kind {
+    /// What all of them are, as words after their number, and the name of the thing that this one is about.
+    pub words: Option<(String, String)>,
+    /// All findings that this one stands for, itself the first; empty if it is the only one.
+    pub occurrences: Vec<Occurrence>,
+}
+
 /// One fault of an input, or one thing in it that is suspicious.
 ///
 /// A parser knows the span, its caller the file: [`Diagnostic::in_file`] adds the file.
@@ -80,11 +89,8 @@ pub struct Diagnostic {
     pub code: &'static str,
     /// What is wrong: a lowercase fragment that names the thing and the value.
     pub message: String,
-    /// What several findings of this kind have in common, as words after their number, and the name of the
-    /// thing that this one is about.
-    pub kind: Option<(String, String)>,
-    /// All findings that this one stands for, itself the first; empty if it is the only one of its kind.
-    pub occurrences: Vec<Occurrence>,
+    /// What it has in common with others of its kind, boxed to keep errors small.
+    pub kind: Box<Kind>,
     /// What to do about it.
     pub help: Option<String>,
     /// Byte range in the file; `None` if it is about the file as a whole.
@@ -101,8 +107,7 @@ impl Diagnostic {
             stops: None,
             code,
             message: message.into(),
-            kind: None,
-            occurrences: Vec::new(),
+            kind: Box::default(),
             help: None,
             span: None,
             source: None,
@@ -127,8 +132,9 @@ impl Diagnostic {
 
     /// Makes it one of a kind: several are told as one, as in "12 `kind`: `name`, ...".
     #[must_use]
-    pub fn one_of(self, kind: impl Into<String>, name: impl Into<String>) -> Self {
-        Self { kind: Some((kind.into(), name.into())), ..self }
+    pub fn one_of(mut self, kind: impl Into<String>, name: impl Into<String>) -> Self {
+        self.kind.words = Some((kind.into(), name.into()));
+        self
     }
 
     /// Adds what to do.

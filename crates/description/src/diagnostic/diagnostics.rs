@@ -6,7 +6,7 @@ use std::{
     sync::Arc,
 };
 
-use super::diagnostic::{Diagnostic, Occurrence, Severity, SourceFile, Use, line_column};
+use super::diagnostic::{Diagnostic, Kind, Occurrence, Severity, SourceFile, Use, line_column};
 
 /// The diagnostics of one input so far.
 #[derive(Debug, Default)]
@@ -42,31 +42,39 @@ impl Diagnostics {
     /// All diagnostics in the order of the text; warnings of one kind in one file are one, at the place of the
     /// first.
     pub fn into_vec(mut self) -> Vec<Diagnostic> {
-        self.0.sort_by(|one, other| place(one).cmp(&place(other)));
-        let mut told: Vec<Diagnostic> = Vec::with_capacity(self.0.len());
-        let mut first_of_kind = BTreeMap::new();
-        for diagnostic in self.0 {
-            // Errors stay apart: each must be corrected by itself.
-            let first = match diagnostic.severity {
-                Severity::Warning => *first_of_kind.entry(kind(&diagnostic)).or_insert(told.len()),
-                Severity::Error => told.len(),
-            };
-            match told.get_mut(first) {
-                Some(first) => join(first, diagnostic),
-                None => told.push(diagnostic),
-            }
-        }
-        for several in told.iter_mut().filter(|found| !found.occurrences.is_empty()) {
-            several.message = headline(several);
-        }
-        told
+        self.sort();
+        joined(self.0)
     }
 
-    /// All diagnostics in the order of the text, each marked as being about `source` unless it
-    /// already says otherwise.
-    pub fn in_file(self, source: &Arc<SourceFile>) -> Vec<Diagnostic> {
-        self.map(|diagnostic| diagnostic.in_file(source)).into_vec()
+    /// The same, each marked as being about `source` unless it already says otherwise.
+    pub fn in_file(mut self, source: &Arc<SourceFile>) -> Vec<Diagnostic> {
+        self.sort();
+        joined(self.0.into_iter().map(|diagnostic| diagnostic.in_file(source)).collect())
     }
+
+    fn sort(&mut self) {
+        self.0.sort_by(|one, other| place(one).cmp(&place(other)));
+    }
+}
+
+fn joined(diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let mut told: Vec<Diagnostic> = Vec::with_capacity(diagnostics.len());
+    let mut first_of_kind = BTreeMap::new();
+    for diagnostic in diagnostics {
+        // Errors stay apart: each must be corrected by itself.
+        let first = match diagnostic.severity {
+            Severity::Warning => *first_of_kind.entry(kind(&diagnostic)).or_insert(told.len()),
+            Severity::Error => told.len(),
+        };
+        match told.get_mut(first) {
+            Some(first) => join(first, diagnostic),
+            None => told.push(diagnostic),
+        }
+    }
+    for several in told.iter_mut().filter(|found| !found.kind.occurrences.is_empty()) {
+        several.message = headline(several);
+    }
+    told
 }
 
 /// By file, first the one that is being read, then by place in it.
@@ -80,46 +88,51 @@ fn file(diagnostic: &Diagnostic) -> Option<&Path> {
 
 /// What warnings that are told as one have in common.
 fn kind(found: &Diagnostic) -> (Option<PathBuf>, &'static str, Option<Use>, Option<String>) {
-    let kind = found.kind.as_ref().map(|(kind, _)| kind.clone());
-    (file(found).map(Path::to_owned), found.code, found.stops, kind)
+    let words = found.kind.words.as_ref().map(|(words, _)| words.clone());
+    (file(found).map(Path::to_owned), found.code, found.stops, words)
 }
 
 fn join(first: &mut Diagnostic, other: Diagnostic) {
-    if first.occurrences.is_empty() {
-        first.occurrences = occurrences(first.clone());
+    if first.kind.occurrences.is_empty() {
+        first.kind.occurrences = occurrences(first.clone());
     }
-    first.occurrences.extend(occurrences(other));
+    first.kind.occurrences.extend(occurrences(other));
 }
 
 fn occurrences(found: Diagnostic) -> Vec<Occurrence> {
-    if found.occurrences.is_empty() {
-        let name = found.kind.map(|(_, name)| name);
+    if found.kind.occurrences.is_empty() {
+        let name = found.kind.words.map(|(_, name)| name);
         vec![Occurrence { message: found.message, name, span: found.span }]
     } else {
-        found.occurrences
+        found.kind.occurrences
     }
 }
 
 /// One message for all: their number and their names, or the first message and the lines of the others.
 fn headline(found: &Diagnostic) -> String {
     const MOST_LISTED: usize = 20;
-    let Diagnostic { occurrences, source, .. } = found;
+    let Kind { words, occurrences } = &*found.kind;
     let listed = |words: Vec<String>| {
         let rest = words.len().saturating_sub(MOST_LISTED);
         let more = if rest == 0 { String::new() } else { format!(" and {rest} more") };
         words[..words.len().min(MOST_LISTED)].join(", ") + &more
     };
-    if let Some((kind, _)) = &found.kind {
+    if let Some((words, _)) = words {
         let names = occurrences.iter().filter_map(|found| found.name.clone()).collect();
-        return format!("{} {kind}: {}", occurrences.len(), listed(names));
+        return format!("{} {words}: {}", occurrences.len(), listed(names));
     }
     let (first, others) = (&occurrences[0].message, &occurrences[1..]);
+    let source = &found.source;
     let line = |found: &Occurrence| {
         let (source, span) = (source.as_ref()?, found.span.as_ref()?);
         Some(line_column(&source.text, span.start).0.to_string())
     };
     let lines: Vec<String> = others.iter().filter_map(line).collect();
-    let places = if lines.is_empty() { String::new() } else { format!(", at lines {}", listed(lines)) };
+    let places = match &lines[..] {
+        [] => String::new(),
+        [line] => format!(", at line {line}"),
+        _ => format!(", at lines {}", listed(lines)),
+    };
     format!("{first} (and {} more of this kind{places})", others.len())
 }
 
@@ -150,7 +163,7 @@ mod tests {
         again.push(massless("d", 6).in_file(&source()));
         let again = again.into_vec();
         assert_eq!(again[0].message, "3 links have no mass: a, c, d");
-        let own: Vec<&str> = again[0].occurrences.iter().map(|found| found.message.as_str()).collect();
+        let own: Vec<&str> = again[0].kind.occurrences.iter().map(|found| found.message.as_str()).collect();
         assert_eq!(own, ["link a has no mass", "link c has no mass", "link d has no mass"]);
     }
 

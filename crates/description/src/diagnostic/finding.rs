@@ -55,7 +55,12 @@ impl From<&Diagnostic> for Finding {
             line: place.map(|(line, _)| line),
             column: place.map(|(_, column)| column),
             help: diagnostic.help.clone(),
-            places: diagnostic.occurrences.iter().map(|found| finding_place(diagnostic, found)).collect(),
+            places: diagnostic
+                .kind
+                .occurrences
+                .iter()
+                .map(|found| finding_place(diagnostic, found))
+                .collect(),
         }
     }
 }

@@ -5,6 +5,8 @@ mod diagnostic;
 mod diagnostics;
 mod finding;
 
-pub use diagnostic::{Diagnostic, Occurrence, Severity, SourceFile, Use, known_names, line_column, nearest};
+pub use diagnostic::{
+    Diagnostic, Kind, Occurrence, Severity, SourceFile, Use, known_names, line_column, nearest,
+};
 pub use diagnostics::Diagnostics;
 pub use finding::{Finding, FindingPlace};

@@ -26,7 +26,7 @@ mod write;
 pub use places::UrdfPlaces;
 pub use write::urdf_text;
 
-use std::ops::Range;
+use std::{fmt::Write, ops::Range};
 
 use nalgebra::Vector3;
 use roxmltree::Node;
@@ -85,7 +85,7 @@ pub(crate) fn parse(
 /// The text without some ranges, all other places unchanged.
 fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
     let mut bytes = text.as_bytes().to_vec();
-    for byte in ranges.iter().flat_map(|range| range.clone()) {
+    for byte in ranges.iter().cloned().flatten() {
         if bytes[byte] != b'\n' {
             bytes[byte] = b' ';
         }
@@ -96,7 +96,7 @@ fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
 
 /// Reads what the grammar has accepted.
 fn read(root: Node<'_, '_>, inputs: &mut UrdfInputs<'_, '_>, diagnostics: &mut Diagnostics) -> Option<Robot> {
-    let urdf = diagnostics.keep(urdf_rs::read_from_string(&without_text(root)).map_err(|error| {
+    let urdf = diagnostics.keep(urdf_rs::read_from_string(&for_urdf_rs(root)).map_err(|error| {
         // Whatever the grammar lets through and urdf-rs does not.
         Diagnostic::error("urdf::structure", format!("not a valid URDF: {error}")).at(tag(root))
     }))?;
@@ -130,17 +130,27 @@ pub(crate) fn no_mesh(uri: &str, _: Vector3<f64>) -> Result<FoundMesh, Diagnosti
     Err(Diagnostic::error("mesh::no_folder", message))
 }
 
-/// The document with every text between elements blanked: it means nothing in a URDF, real files
-/// hold some by accident, and `urdf-rs` refuses it in some places.
-fn without_text(root: Node<'_, '_>) -> String {
+/// The document as `urdf-rs` takes it. Every text between elements is left out: it means nothing in a URDF, real
+/// files hold some by accident, and `urdf-rs` refuses it in some places. A limit gets the attributes that it
+/// must have; `joint` knows which of them are in the file.
+fn for_urdf_rs(root: Node<'_, '_>) -> String {
     let text = root.document().input_text();
-    let mut blanked = String::with_capacity(text.len());
+    let mut written = String::with_capacity(text.len());
     let mut copied = 0;
-    for node in root.descendants().filter(Node::is_text) {
-        blanked += &text[copied..node.range().start];
-        copied = node.range().end;
+    for node in root.descendants() {
+        if node.is_text() {
+            written += &text[copied..node.range().start];
+            copied = node.range().end;
+        } else if node.has_tag_name("limit") {
+            let tag_end = tag(node).end;
+            written += &text[copied..tag_end];
+            copied = tag_end;
+            for key in ["effort", "velocity"].into_iter().filter(|key| !node.has_attribute(*key)) {
+                let _ = write!(written, " {key}=\"0\"");
+            }
+        }
     }
-    blanked + &text[copied..]
+    written + &text[copied..]
 }
 
 fn build(

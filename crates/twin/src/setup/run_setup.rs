@@ -89,7 +89,9 @@ impl RunSetup {
                 return Err(all.into_vec());
             }
         };
-        setup.warnings = in_file(std::mem::take(&mut setup.warnings)).collect();
+        let mut warnings = Diagnostics::default();
+        warnings.extend(in_file(std::mem::take(&mut setup.warnings)));
+        setup.warnings = warnings.into_vec();
         setup.path = Some(path.to_owned());
         setup.overrides = overrides.iter().map(ToString::to_string).collect();
         Ok(setup)
@@ -249,7 +251,12 @@ fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item
                 q.clamp(lower, upper),
                 joint.kind.unit()
             );
-            Diagnostic::warning("scenario::start_default", message).with_help("name it under [start]")
+            Diagnostic::warning("scenario::start_default", message)
+                .one_of(
+                    "joints have no start, and 0 is outside of their limits: they start at the limit",
+                    &joint.name,
+                )
+                .with_help("name it under [start]")
         })
     })
 }

@@ -225,9 +225,10 @@ fn how_to_mend<'a>(links: impl Iterator<Item = (&'a str, bool)>) -> String {
     }
     for name in repairable {
         let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        let _ = match name.chars().all(is_bare) {
-            true => write!(help, "\n{name} = \"repair\""),
-            false => write!(help, "\n{} = \"repair\"", toml::Value::from(name)),
+        let _ = if name.chars().all(is_bare) {
+            write!(help, "\n{name} = \"repair\"")
+        } else {
+            write!(help, "\n{} = \"repair\"", toml::Value::from(name))
         };
     }
     help
