@@ -199,7 +199,7 @@ fn read_robot_file(robot_file: &Arc<SourceFile>, diagnostics: &mut Diagnostics) 
     let srdf = written.srdf.clone();
     let disabled_collisions = disabled_collisions(srdf.as_ref(), folder, &robot, diagnostics);
     let description = declared(written, robot_file, &urdf, robot, diagnostics)?;
-    Some(RobotDescription { disabled_collisions, named_files, ..description })
+    Some(RobotDescription { named_files, disabled_collisions, ..description })
 }
 
 /// What a robot file declares about its robot; SRDF and warnings are left to the caller.
