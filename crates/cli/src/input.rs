@@ -187,13 +187,20 @@ pub(crate) fn with_warning<T>(
     read.entries
 }
 
-/// The units in which positions may be given, with the unit of the coordinate that they belong to. A longer
-/// name comes before one that it ends with.
-const UNITS: [(&str, &str, fn(f64) -> f64); 4] = [
-    ("deg", "rad", |value| Unit::Angle.convert(value)),
-    ("rad", "rad", |value| value),
-    ("mm", "m", |value| Unit::Length.convert(value)),
-    ("m", "m", |value| value),
+/// A unit in which a position may be given.
+struct WrittenUnit {
+    name: &'static str,
+    /// The unit of coordinates that it belongs to.
+    of: &'static str,
+    convert: fn(f64) -> f64,
+}
+
+/// A longer name comes before one that it ends with.
+const UNITS: [WrittenUnit; 4] = [
+    WrittenUnit { name: "deg", of: "rad", convert: |value| Unit::Angle.convert(value) },
+    WrittenUnit { name: "rad", of: "rad", convert: |value| value },
+    WrittenUnit { name: "mm", of: "m", convert: |value| Unit::Length.convert(value) },
+    WrittenUnit { name: "m", of: "m", convert: |value| value },
 ];
 
 /// `JOINT=VALUE` as a name and a position in rad or m.
@@ -205,16 +212,16 @@ fn position(assignment: &str, robot: &Robot) -> Result<(String, f64), Diagnostic
     };
     let (joint, written) = assignment.split_once('=').ok_or_else(|| refused("is not JOINT=VALUE"))?;
     let (joint, written) = (joint.trim(), written.trim());
-    let unit = UNITS.iter().find(|(name, ..)| written.ends_with(name));
-    let number = unit.map_or(written, |(name, ..)| written[..written.len() - name.len()].trim_end());
+    let unit = UNITS.iter().find(|unit| written.ends_with(unit.name));
+    let number = unit.map_or(written, |unit| written.strip_suffix(unit.name).unwrap_or(written).trim_end());
     let value: f64 = number.parse().map_err(|_| refused("is not JOINT=VALUE"))?;
-    let value = unit.map_or(value, |(.., convert)| convert(value));
+    let value = unit.map_or(value, |unit| (unit.convert)(value));
     if !value.is_finite() {
         return Err(refused("is not a finite number"));
     }
     // An unknown joint is reported with the known ones, by whoever uses the name.
     let coordinate = robot.find_joint(joint).map_or("", |joint| robot.joint(joint).kind.unit());
-    if let Some((name, of, _)) = unit
+    if let Some(WrittenUnit { name, of, .. }) = unit
         && !coordinate.is_empty()
         && *of != coordinate
     {

@@ -80,13 +80,11 @@ fn open_pipe(path: &Path) -> Result<File, Diagnostic> {
     let (sender, receiver) = mpsc::channel();
     let pipe: PathBuf = path.to_owned();
     std::thread::spawn(move || sender.send(File::open(pipe)));
-    match receiver.recv_timeout(WRITER_WAIT) {
-        Ok(opened) => opened.map_err(|error| unreadable(path, &error)),
-        Err(_) => {
-            let message = format!("{} is a pipe that no program writes to", path.display());
-            Err(Diagnostic::error("file::no_writer", message))
-        }
-    }
+    let opened = receiver.recv_timeout(WRITER_WAIT).map_err(|_| {
+        let message = format!("{} is a pipe that no program writes to", path.display());
+        Diagnostic::error("file::no_writer", message)
+    })?;
+    opened.map_err(|error| unreadable(path, &error))
 }
 
 fn metadata(path: &Path) -> Result<Metadata, Diagnostic> {

@@ -224,7 +224,7 @@ fn read_robot_file(
     let srdf = written.srdf.clone();
     let disabled_collisions = disabled_collisions(srdf.as_ref(), folder, &robot, diagnostics);
     let description = declared(written, robot_file, &urdf, robot, diagnostics)?;
-    Some(RobotDescription { disabled_collisions, named_files, ..description })
+    Some(RobotDescription { named_files, disabled_collisions, ..description })
 }
 
 /// What a robot file declares about its robot; SRDF and warnings are left to the caller.

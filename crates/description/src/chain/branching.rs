@@ -142,18 +142,18 @@ mod tests {
 
     /// A robot from lines `parent kind child [mimic joint]`; a joint has its child's name.
     fn robot(lines: &[&str]) -> Robot {
-        let (mut links, mut joints) = (String::from("<link name='base'/>"), String::new());
-        for line in lines {
+        let element = |line: &&str| {
             let words: Vec<&str> = line.split(' ').collect();
             let (parent, kind, child) = (words[0], words[1], words[2]);
             let mimic = words.get(3).map_or(String::new(), |master| format!("<mimic joint='{master}'/>"));
-            links += &format!("<link name='{child}'/>");
-            joints += &format!(
-                "<joint name='{child}' type='{kind}'><parent link='{parent}'/><child link='{child}'/>{mimic}\
+            format!(
+                "<link name='{child}'/>\
+                 <joint name='{child}' type='{kind}'><parent link='{parent}'/><child link='{child}'/>{mimic}\
                  <limit lower='0' upper='1' effort='1' velocity='1'/></joint>"
-            );
-        }
-        parse_urdf(&format!("<robot name='r'>{links}{joints}</robot>")).unwrap()
+            )
+        };
+        let elements: String = lines.iter().map(element).collect();
+        parse_urdf(&format!("<robot name='r'><link name='base'/>{elements}</robot>")).unwrap()
     }
 
     #[track_caller]
