@@ -96,6 +96,29 @@ pub fn number(value: f64) -> String {
     }
 }
 
+/// A value of a column, whose heading has the unit: mm or deg with two decimals, a plain number with four. All
+/// values of a column have the same decimals, so that their points align.
+///
+/// # Examples
+/// ```
+/// use congruent_description::display::in_column;
+/// assert_eq!([0.81725, -1e-9].map(|metres| in_column(metres, "m")), ["817.25", "0.00"]);
+/// assert_eq!(in_column(-std::f64::consts::FRAC_PI_2, "rad"), "-90.00");
+/// assert_eq!(in_column(-0.70710678, ""), "-0.7071");
+/// ```
+pub fn in_column(value: f64, unit: &str) -> String {
+    let text = match unit {
+        "m" => format!("{:.2}", value * 1e3),
+        "rad" => format!("{:.2}", value.to_degrees()),
+        _ => format!("{value:.4}"),
+    };
+    match text.strip_prefix('-') {
+        // Rounding has no sign.
+        Some(size) if size.bytes().all(|byte| matches!(byte, b'0' | b'.')) => size.to_owned(),
+        _ => text,
+    }
+}
+
 fn scaled(value: f64, steps: &[Step], si: &str, unit_of_zero: &str, per: &str) -> String {
     if value == 0.0 {
         return format!("0 {unit_of_zero}{per}");

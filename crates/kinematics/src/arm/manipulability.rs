@@ -80,7 +80,7 @@ impl Arm {
     }
 
     /// The most directions that each of the three spans at a few fixed configurations.
-    fn attainable_ranks(&mut self) -> [usize; 3] {
+    pub(super) fn attainable_ranks(&mut self) -> [usize; 3] {
         let mut ranks = [0; 3];
         for q in self.spread(RANK_SAMPLES) {
             let jacobians = self.jacobians(&q).expect("q is a configuration of this arm");
