@@ -38,6 +38,25 @@ impl Table {
     }
 }
 
+/// A list whose entries are divided by `, `, in lines of at most 96 characters, each indented.
+pub(crate) fn wrapped(list: &str) -> String {
+    const WIDTH: usize = 96;
+    const INDENT: &str = "    ";
+    let (mut text, mut length) = (String::new(), WIDTH);
+    for entry in list.split_inclusive(", ") {
+        let longer = length + entry.trim_end().chars().count();
+        if longer > WIDTH {
+            text.truncate(text.trim_end().len());
+            let _ = write!(text, "{}{INDENT}", if text.is_empty() { "" } else { "\n" });
+            length = INDENT.len();
+        }
+        text.push_str(entry);
+        length += entry.chars().count();
+    }
+    text.push('\n');
+    text
+}
+
 /// The columns of [`pose_cells`].
 pub(crate) const POSE_COLUMNS: [&str; 11] =
     ["", "x mm", "y mm", "z mm", "roll deg", "pitch", "yaw", "quat w", "x", "y", "z"];
@@ -45,7 +64,9 @@ pub(crate) const POSE_COLUMNS: [&str; 11] =
 /// A pose: translation, roll, pitch and yaw about the fixed axes, quaternion.
 pub(crate) fn pose_cells(pose: &ReportedPose) -> impl Iterator<Item = String> {
     let lengths = pose.translation_m.map(|value| in_column(value, "m"));
-    let angles = pose.rpy_rad().map(|value| in_column(value, "rad"));
+    // Half a turn has one name.
+    let angle = |value| in_column(value, "rad").replace("-180.00", "180.00");
+    let angles = pose.rpy_rad().map(angle);
     let quaternion = pose.quaternion_wxyz.map(|value| in_column(value, ""));
     lengths.into_iter().chain(angles).chain(quaternion)
 }
@@ -53,6 +74,15 @@ pub(crate) fn pose_cells(pose: &ReportedPose) -> impl Iterator<Item = String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_lists_are_wrapped() {
+        let text = wrapped(&vec!["joint 90 deg"; 9].join(", "));
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len(), 2);
+        assert_eq!(lines.iter().map(|line| line.matches("joint").count()).sum::<usize>(), 9);
+        assert!(lines.iter().all(|line| line.len() <= 96 && line.starts_with("    j")), "{text}");
+    }
 
     #[test]
     fn columns_are_aligned() {

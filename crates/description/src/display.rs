@@ -119,6 +119,25 @@ pub fn in_column(value: f64, unit: &str) -> String {
     }
 }
 
+/// The position of a joint, by the unit of its coordinate: two decimals as in a column, without zeros at the end.
+///
+/// # Examples
+/// ```
+/// use congruent_description::display::position;
+/// assert_eq!(position(1.5707963267948966, "rad"), "90 deg");
+/// assert_eq!([0.12345, -1e-9].map(|metres| position(metres, "m")), ["123.45 mm", "0 mm"]);
+/// ```
+pub fn position(value: f64, unit: &str) -> String {
+    let text = in_column(value, unit);
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    let unit = match unit {
+        "m" => "mm",
+        "rad" => "deg",
+        other => other,
+    };
+    format!("{text} {unit}").trim_end().to_owned()
+}
+
 fn scaled(value: f64, steps: &[Step], si: &str, unit_of_zero: &str, per: &str) -> String {
     if value == 0.0 {
         return format!("0 {unit_of_zero}{per}");

@@ -11,7 +11,13 @@ use congruent::{
     kinematics::Sampling,
 };
 
-use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, print::Printer, table::Table};
+use crate::{
+    failure::Failure,
+    input::RobotArgument,
+    plot_file::PlotArgument,
+    print::Printer,
+    table::{Table, wrapped},
+};
 
 /// How far the tool is displaced by 1 degree or 1 mm in each joint's zero and each DH parameter.
 ///
@@ -71,13 +77,13 @@ fn text(report: &SensitivityReport, robot: &Robot) -> String {
         if let Some(worst) = worst {
             let _ = writeln!(
                 text,
-                "  largest: {} by {} of {} at {}, at\n    {}",
+                "  largest: {} by {} of {} at {}, at",
                 length(worst.worst_mm / 1e3),
                 worst.error,
                 worst.parameter,
-                worst.joint,
-                worst.worst_at.for_people(robot)
+                worst.joint
             );
+            text += &wrapped(&worst.worst_at.for_people(robot));
         }
     }
     text

@@ -6,12 +6,18 @@ use congruent::{
     analysis::workspace::{WorkspaceReport, plot, workspace},
     description::{
         Diagnostic, Robot,
-        display::{in_column, length, quantity},
+        display::{in_column, position, quantity},
     },
     kinematics::Sampling,
 };
 
-use crate::{failure::Failure, input::RobotArgument, plot_file::PlotArgument, print::Printer, table::Table};
+use crate::{
+    failure::Failure,
+    input::RobotArgument,
+    plot_file::PlotArgument,
+    print::Printer,
+    table::{Table, wrapped},
+};
 
 /// The positions of the tool within the joint limits: reach, bounding box, volume or area.
 ///
@@ -48,12 +54,9 @@ fn text(report: &WorkspaceReport, robot: &Robot) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "{}: the tool in link base, {} configurations", report.robot, report.samples);
     for (name, reach) in ["nearest", "farthest"].iter().zip(&report.reach) {
-        let _ = writeln!(
-            text,
-            "  {name:8}  {} from the base's origin, at\n            {}",
-            length(reach.distance_m),
-            reach.at.for_people(robot)
-        );
+        let distance = position(reach.distance_m, "m");
+        let _ = writeln!(text, "  {name} {distance} from the base's origin, at");
+        text += &wrapped(&reach.at.for_people(robot));
     }
     let mut table = Table::headed(["", "lower mm", "upper mm"]);
     for (at, axis) in ["x", "y", "z"].into_iter().enumerate() {

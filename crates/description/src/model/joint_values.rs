@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Serialize, Serializer};
 
 use super::robot::Robot;
-use crate::display::quantity;
+use crate::display::position;
 
 /// One value for each joint, base to tip; a map in JSON.
 ///
@@ -43,7 +43,7 @@ impl JointValues {
         each.join(", ")
     }
 
-    /// All of them in one line for people, in the unit of each joint of `robot`.
+    /// All of them in one line for people, in deg and mm to two decimals by the kind of each joint of `robot`.
     ///
     /// # Examples
     /// ```
@@ -59,7 +59,7 @@ impl JointValues {
     pub fn for_people(&self, robot: &Robot) -> String {
         let unit = |joint: &str| robot.find_joint(joint).map_or("", |joint| robot.joint(joint).kind.unit());
         let each: Vec<String> =
-            self.iter().map(|(joint, value)| format!("{joint} {}", quantity(value, unit(joint)))).collect();
+            self.iter().map(|(joint, value)| format!("{joint} {}", position(value, unit(joint)))).collect();
         each.join(", ")
     }
 }

@@ -5,7 +5,7 @@ use congruent_description::{Diagnostic, RobotDescription};
 
 use super::{
     agreement::AgreementMonitor,
-    clearance::ClearanceMonitor,
+    clearance::{self, ClearanceMonitor},
     goal::{self, GoalMonitor},
     limits::LimitsMonitor,
     monitor::{Monitor, Observed},
@@ -13,7 +13,7 @@ use super::{
     zone::ZoneMonitor,
 };
 use crate::{
-    scenario::{Check, CheckKind, FilePlace, OnViolation},
+    scenario::{Check, CheckKind, FilePlace, ObstacleSettings, OnViolation},
     verdict::{CheckResult, Status},
 };
 
@@ -39,14 +39,19 @@ impl std::fmt::Debug for RunningCheck {
 }
 
 impl RunningCheck {
-    /// Whether the settings of a check are consistent.
+    /// Whether the settings of a check are consistent, with the robot and its obstacles.
     ///
     /// # Errors
     /// A diagnostic at the value that is not.
-    pub fn examine(check: &Check, place: FilePlace<'_>) -> Result<(), Diagnostic> {
+    pub fn examine(
+        check: &Check,
+        place: FilePlace<'_>,
+        around: (&RobotDescription, &[ObstacleSettings]),
+    ) -> Result<(), Diagnostic> {
         match check {
+            Check::Clearance(check) => clearance::examine(check, place, around),
             Check::Goal(check) => goal::examine(check, place).map(|_| ()),
-            Check::Agreement(_) | Check::Clearance(_) | Check::Limits(_) | Check::Zone(_) => Ok(()),
+            Check::Agreement(_) | Check::Limits(_) | Check::Zone(_) => Ok(()),
         }
     }
 

@@ -103,12 +103,19 @@ pub struct AgreementCheck {
 }
 
 /// Links come no closer to each other and to obstacles than this.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClearanceCheck {
     /// Smallest distance.
     #[serde(deserialize_with = "non_negative")]
     pub minimum_m: f64,
+    /// Only these pairs of links and obstacles are checked, in either order; in a name, `*` stands for any
+    /// characters. All pairs if it is left out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<[String; 2]>,
+    /// Pairs that are not checked, likewise.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ignore: Vec<[String; 2]>,
     /// What follows its first violation.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,

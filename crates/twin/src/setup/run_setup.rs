@@ -117,7 +117,8 @@ impl RunSetup {
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
         found.keep(zones::paired_with_checks(&scenario.zone, &scenario.check, place));
         for (index, check) in scenario.check.iter().enumerate() {
-            found.keep(RunningCheck::examine(check, place.key("check").item(index)));
+            let around = (&description, scenario.obstacle.as_slice());
+            found.keep(RunningCheck::examine(check, place.key("check").item(index), around));
         }
         found.extend(unexpected(&scenario, place.key("expect")));
         let (Some(trajectory), Some(clock), Some(obstacles), Some(zones)) =
