@@ -7,7 +7,7 @@ use super::{
     agreement::AgreementMonitor,
     clearance::{self, ClearanceMonitor},
     goal::{self, GoalMonitor},
-    limits::LimitsMonitor,
+    limits::{self, LimitsMonitor},
     monitor::{Monitor, Observed},
     names::Names,
     zone::ZoneMonitor,
@@ -51,7 +51,8 @@ impl RunningCheck {
         match check {
             Check::Clearance(check) => clearance::examine(check, place, around),
             Check::Goal(check) => goal::examine(check, place).map(|_| ()),
-            Check::Agreement(_) | Check::Limits(_) | Check::Zone(_) => Ok(()),
+            Check::Limits(check) => limits::examine(check, place),
+            Check::Agreement(_) | Check::Zone(_) => Ok(()),
         }
     }
 
@@ -64,7 +65,7 @@ impl RunningCheck {
             Check::Agreement(check) => Box::new(AgreementMonitor::new(check, description)),
             Check::Clearance(check) => Box::new(ClearanceMonitor::new(check, description)),
             Check::Goal(check) => Box::new(GoalMonitor::new(check, description)),
-            Check::Limits(_) => Box::new(LimitsMonitor::new(description)),
+            Check::Limits(check) => Box::new(LimitsMonitor::new(check, description)),
             Check::Zone(_) => Box::new(ZoneMonitor::new(description)),
         };
         Self { kind: check.kind(), line, on_violation: check.on_violation(), monitor }

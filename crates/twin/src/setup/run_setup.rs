@@ -15,7 +15,7 @@ use super::{
     zones::{self, Zone},
 };
 use crate::{
-    monitor::RunningCheck,
+    monitor::{AT_THE_LIMIT, RunningCheck},
     motion::Trajectory,
     scenario::{
         Check, CheckKind, Expectation, FilePlace, MotionSettings, Override, SCHEMA_VERSION, Scenario,
@@ -260,9 +260,18 @@ fn write_out_defaults(
         }
     }
     for check in &mut scenario.check {
-        if let Check::Agreement(check) = check {
-            check.position_m.get_or_insert(description.tolerance.position_m);
-            check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
+        match check {
+            Check::Agreement(check) => {
+                check.position_m.get_or_insert(description.tolerance.position_m);
+                check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
+            }
+            Check::Limits(check) => {
+                check.tolerance_rad =
+                    check.tolerance_rad.or(check.tolerance_deg.is_none().then_some(AT_THE_LIMIT));
+                check.tolerance_m =
+                    check.tolerance_m.or(check.tolerance_mm.is_none().then_some(AT_THE_LIMIT));
+            }
+            Check::Clearance(_) | Check::Goal(_) | Check::Zone(_) => {}
         }
     }
 }
