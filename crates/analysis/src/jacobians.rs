@@ -95,7 +95,7 @@ impl JacobianFrame {
             (None, None) if name == TCP => {
                 let message = format!("robot \"{}\" declares no tool centre point", robot.name());
                 Err(Diagnostic::error("jacobian::no_tcp", message)
-                    .with_help("declare it as tip_from_tcp under [tool] in robot.toml, or name a link"))
+                    .with_help("declare it under [tcp] in robot.toml, or name a link"))
             }
             (None, declared) => {
                 let links = robot.links().iter().map(|link| link.name.as_str());

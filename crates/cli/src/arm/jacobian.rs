@@ -76,7 +76,7 @@ fn frame(report: &JacobianReport, description: &RobotDescription) -> String {
             let [x, y, z] = tcp.link_from_tcp.translation_m.map(|value| in_column(value, "m"));
             format!("the TCP at {x}, {y}, {z} mm in {}", tcp.link)
         }
-        (None, Some(_)) if report.link == *tip => format!("{tip}; of the declared TCP with --link tcp"),
+        (None, Some(_)) if report.link == *tip => format!("{tip} (--link tcp for the declared TCP)"),
         _ => report.link.clone(),
     }
 }

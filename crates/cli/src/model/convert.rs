@@ -7,13 +7,18 @@ use congruent::{
         Conversion, ConversionReport, ConversionSource, ConversionTarget, DEFAULT_ACCURACY, PoeReport,
         ScrewReport, convert,
     },
-    description::{Diagnostic, RobotDescription, serde_name},
+    description::{
+        Diagnostic, RobotDescription,
+        display::{angle, length},
+        serde_name,
+    },
 };
 
 use crate::{
     failure::Failure,
     input::{ChainArguments, RobotArgument, named},
     print::Printer,
+    table::{POSE_COLUMNS, Table, pose_cells},
 };
 
 /// Writes a robot's model as another one, proved by comparing back.
@@ -111,30 +116,25 @@ fn remarks(report: &ConversionReport) -> String {
         let _ = writeln!(text, "each row is {}", table.equation);
     }
     let proof = &report.proof;
+    let within = |metres: f64, radians: f64| format!("{} and {}", length(metres), angle(radians));
     let _ = writeln!(
         text,
-        "proof: screws within {:.1e} rad and {:.1e} m, home {:.1e} rad and {:.1e} m, {} configurations {:.1e} rad and \
-         {:.1e} m; limit {:e}",
-        proof.screw_rad,
-        proof.screw_m,
-        proof.home_rad,
-        proof.home_m,
+        "proof: screws within {}, home within {}, {} configurations within {}; limit {} and {}",
+        within(proof.screw_m, proof.screw_rad),
+        within(proof.home_m, proof.home_rad),
         proof.configurations,
-        proof.orientation_rad,
-        proof.position_m,
-        proof.limit
+        within(proof.position_m, proof.orientation_rad),
+        length(proof.limit),
+        angle(proof.limit)
     );
     for note in &report.notes {
         let _ = writeln!(text, "note: {note}");
     }
     for pair in &report.axes {
         let [a, b] = &pair.joints;
-        let (degrees, relation) = (pair.angle_rad.to_degrees(), serde_name(&pair.relation).replace('_', "-"));
-        let _ = writeln!(
-            text,
-            "axes of {a} and {b}: {relation}, {degrees:.6} deg, {:.6} m apart",
-            pair.distance_m
-        );
+        let relation = serde_name(&pair.relation).replace('_', "-");
+        let (turn, apart) = (angle(pair.angle_rad), length(pair.distance_m));
+        let _ = writeln!(text, "axes of {a} and {b}: {relation}, {turn}, {apart} apart");
     }
     for free in &report.free_choices {
         let _ = writeln!(text, "free choice at {}: {}", free.joint, free.text);
@@ -157,4 +157,7 @@ fn screws(text: &mut String, poe: &PoeReport) {
     let [qw, qx, qy, qz] = poe.base_from_tip_at_zero.quaternion_wxyz;
     let _ = writeln!(text, "tip at zero: translation in m, quaternion w x y z");
     let _ = writeln!(text, "  {x:13.9} {y:13.9} {z:13.9}   {qw:12.9} {qx:12.9} {qy:12.9} {qz:12.9}");
+    let mut table = Table::headed(POSE_COLUMNS);
+    table.row([String::new()].into_iter().chain(pose_cells(&poe.base_from_tip_at_zero)));
+    table.write(text);
 }
