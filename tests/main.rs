@@ -11,6 +11,7 @@ mod calibration_verdicts;
 mod check_configurations;
 mod check_tables;
 mod clearance_goldens;
+mod clearance_pairs;
 mod command;
 mod conversions;
 mod corpus;
