@@ -145,7 +145,7 @@ fn names_that_cannot_be_meant_are_refused() {
         ("pairs = [[\"cart\", \"lamp\"],\n  [\"cart\", \"lmap\"]]", 26, "did you mean \"lamp\""),
         (
             "pairs = [[\"cart\", \"lamp\"]]\nignore = [[\"lamp\", \"cart\"]]",
-            33,
+            25,
             "is in `pairs` and in `ignore`",
         ),
         ("pairs = [[\"cart\", \"foot\"]]", 25, "neighbouring"),

@@ -8,7 +8,7 @@ use congruent::{
     },
     description::{
         Diagnostic, Joint, Robot,
-        display::{length, length_and_angle, position},
+        display::{in_column, length, length_and_angle, position},
     },
 };
 
@@ -99,23 +99,22 @@ fn text(report: &InverseReport, robot: &Robot, tolerance: f64) -> String {
     text
 }
 
-/// Each joint with its position and the nearer of its limits.
+/// Each joint with its position, what is left to the nearer of its limits, and its range.
 fn joints(text: &mut String, result: &InverseSolution, robot: &Robot) {
-    let mut table = Table::headed(["joint", "position", "left", "to the limit"]);
+    let mut table = Table::headed(["joint", "position", "left", "range"]);
     for (name, value) in result.q.iter() {
         let joint = robot.find_joint(name).map(|joint| robot.joint(joint));
         let unit = joint.map_or("", |joint| joint.kind.unit());
-        let is_held = result.limits_held.iter().any(|held| held == name);
-        let [left, limit] = match joint.and_then(Joint::position_range) {
+        let [left, range] = match joint.and_then(Joint::position_range) {
             None => ["no limit".to_owned(), String::new()],
             Some((lower, upper)) => {
-                let limit = if value - lower < upper - value { lower } else { upper };
-                let left = (value - limit).abs();
-                let left = if is_held { "at its limit".to_owned() } else { position(left, unit) };
-                [left, position(limit, unit)]
+                let is_held = result.limits_held.iter().any(|held| held == name);
+                let left = position((value - lower).min(upper - value), unit);
+                let ends = format!("{} to {}", in_column(lower, unit), position(upper, unit));
+                [if is_held { "at its limit".to_owned() } else { left }, ends]
             }
         };
-        table.row([name.to_owned(), position(value, unit), left, limit]);
+        table.row([name.to_owned(), position(value, unit), left, range]);
     }
     table.write(text);
 }

@@ -84,11 +84,16 @@ fn size(text: &mut String, report: &WorkspaceReport) {
         text,
         "  {name} {}, between {} and {} (three standard errors, {} points tested)",
         quantity(size, unit),
-        quantity(lower, unit),
-        quantity(upper, unit),
+        quantity(lower - third_digit(lower) / 2.0, unit),
+        quantity(upper + third_digit(upper) / 2.0, unit),
         report.points
     );
     if upper - lower > WIDE * size {
         let _ = writeln!(text, "  the interval is wide: more --samples narrow it");
     }
+}
+
+/// One unit of the third digit, of which half makes rounding go outwards.
+fn third_digit(value: f64) -> f64 {
+    if value > 0.0 { 10_f64.powf(value.log10().floor() - 2.0) } else { 0.0 }
 }

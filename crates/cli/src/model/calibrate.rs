@@ -259,6 +259,7 @@ fn next(text: &mut String, report: &CalibrationReport, robot: &Robot) {
         "\n  most informative to measure next (within the joint limits; not checked for collisions)"
     );
     for pose in &report.next {
-        let _ = write!(text, "  {} bit\n{}", number(pose.gain_bits), wrapped(&pose.q.for_people(robot)));
+        let _ = writeln!(text, "  {} bit at", number(pose.gain_bits));
+        *text += &wrapped(&pose.q.for_people(robot));
     }
 }

@@ -116,14 +116,14 @@ fn remarks(report: &ConversionReport) -> String {
         let _ = writeln!(text, "each row is {}", table.equation);
     }
     let proof = &report.proof;
-    let within = |metres: f64, radians: f64| format!("{} and {}", length(metres), angle(radians));
+    let worst_m = proof.screw_m.max(proof.home_m).max(proof.position_m);
+    let worst_rad = proof.screw_rad.max(proof.home_rad).max(proof.orientation_rad);
     let _ = writeln!(
         text,
-        "proof: screws within {}, home within {}, {} configurations within {}; limit {} and {}",
-        within(proof.screw_m, proof.screw_rad),
-        within(proof.home_m, proof.home_rad),
+        "proof: screws, home and {} configurations are the same within {} and {}; limit {} and {}",
         proof.configurations,
-        within(proof.position_m, proof.orientation_rad),
+        length(worst_m),
+        angle(worst_rad),
         length(proof.limit),
         angle(proof.limit)
     );
