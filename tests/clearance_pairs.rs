@@ -205,7 +205,7 @@ fn a_joint_is_within_its_limit_by_a_tolerance() {
     let strict = bench.check("kind = \"limits\"\ntolerance_m = 0.0");
     assert_eq!(strict["status"], "fail");
     let stated = bench.check("kind = \"limits\"\ntolerance_mm = 2\ntolerance_deg = 1.0");
-    assert_eq!(number(&stated["measures"][0]["limit"]), 2e-3);
+    assert_eq!(stated["measures"][0]["limit"], 2e-3);
     let twice = bench.run("kind = \"limits\"\ntolerance_mm = 2.0\ntolerance_m = 1.0", "json");
     assert!(twice.code == 2 && twice.stdout.contains("tolerance_mm"), "{}", twice.stdout);
 }

@@ -87,7 +87,7 @@ pub enum DistanceError {
     Kinematics(#[from] KinematicsError),
     /// A pair is named that is not measured.
     #[error("{}", .0.diagnostic)]
-    Pair(PairFault),
+    Pair(Box<PairFault>),
 }
 
 /// Distances between convex hulls of links (and to obstacles) at each configuration.

@@ -40,7 +40,7 @@ impl PairNames {
     ///
     /// # Errors
     /// The first entry that is wrong.
-    pub fn examine(&self, subjects: &[&str], measured: &[(&str, &str)]) -> Result<(), PairFault> {
+    pub fn examine(&self, subjects: &[&str], measured: &[(&str, &str)]) -> Result<(), Box<PairFault>> {
         let lists = [("pairs", &self.pairs), ("ignore", &self.ignore)];
         for (key, list) in lists {
             for (entry, [a, b]) in list.iter().enumerate() {
@@ -50,7 +50,7 @@ impl PairNames {
                     let message = format!("there is no link and no obstacle \"{name}\"");
                     let help = known_names(name, "links and obstacles", subjects.iter().copied());
                     let diagnostic = Diagnostic::error("clearance::unknown_name", message).with_help(help);
-                    return Err(PairFault { key, entry, diagnostic });
+                    return Err(Box::new(PairFault { key, entry, diagnostic }));
                 }
             }
         }
@@ -67,7 +67,7 @@ impl PairNames {
                      bodies, and pairs that the SRDF disables",
                 )
             };
-            return Err(PairFault { key: "pairs", entry, diagnostic: fault });
+            return Err(Box::new(PairFault { key: "pairs", entry, diagnostic: fault }));
         }
         Ok(())
     }
