@@ -107,7 +107,11 @@ fn shells_and_cylinders() {
     let cylindrical = [turning(Z, WHOLE, ORIGIN), sliding(Z, [0.0, 0.6]), sliding(X, [0.1, 0.5])];
     holds(&cylindrical, 0.0, PI * (0.25 - 0.01) * 0.6, 0.05);
     let cartesian = [sliding(X, [0.0, 0.6]), sliding(Y, [-0.2, 0.3]), sliding(Z, [0.1, 0.5])];
-    holds(&cartesian, 0.0, 0.6 * 0.5 * 0.4, 1e-9 + 0.04);
+    holds(&cartesian, 0.0, 0.6 * 0.5 * 0.4, 0.04);
+    // Nearly flat: no more points than for any other arm.
+    let flat = [sliding(X, [0.0, 0.6]), sliding(Y, [-0.2, 0.3]), sliding(Z, [0.0, 1e-9])];
+    holds(&flat, 0.0, 0.6 * 0.5 * 1e-9, 0.04);
+    assert!(size(&flat, 0.0, 1000, 0).points <= 1000);
 }
 
 /// Yaw, shoulder and elbow, as the arms of the examples: a shell, and a ring about the yaw axis if the

@@ -8,7 +8,7 @@ use congruent::{
     },
     description::{
         Diagnostic, Joint, Robot,
-        display::{in_column, length, length_and_angle, position},
+        display::{length, length_and_angle, position},
     },
 };
 
@@ -110,7 +110,7 @@ fn joints(text: &mut String, result: &InverseSolution, robot: &Robot) {
             Some((lower, upper)) => {
                 let is_held = result.limits_held.iter().any(|held| held == name);
                 let left = position((value - lower).min(upper - value), unit);
-                let ends = format!("{} to {}", in_column(lower, unit), position(upper, unit));
+                let ends = format!("{} to {}", position(lower, unit), position(upper, unit));
                 [if is_held { "at its limit".to_owned() } else { left }, ends]
             }
         };

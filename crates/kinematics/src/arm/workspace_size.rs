@@ -72,12 +72,16 @@ impl Cells {
     fn filling(known: &KnownWorkspace<'_>, count: usize) -> Self {
         let [corner, end] = known.corners_in_base;
         let extents = end - corner;
-        let moving = || (0..3).filter(|&axis| known.moves[axis]);
-        let size: f64 = moving().map(|axis| extents[axis]).product();
-        let edge = (size / count as f64).powf(1.0 / moving().count() as f64);
+        let mut axes: Vec<usize> = (0..3).filter(|&axis| known.moves[axis]).collect();
+        axes.sort_by(|&a, &b| extents[a].total_cmp(&extents[b]));
         let mut counts = [1; 3];
-        for axis in moving() {
-            counts[axis] = ((extents[axis] / edge).round() as usize).max(1);
+        // The shortest axis first: if it has room for one cell only, the others share what it does not use.
+        let mut left = count;
+        for (at, &axis) in axes.iter().enumerate() {
+            let size: f64 = axes[at..].iter().map(|&axis| extents[axis]).product();
+            let edge = (size / left as f64).powf(1.0 / (axes.len() - at) as f64);
+            counts[axis] = ((extents[axis] / edge).round() as usize).clamp(1, left);
+            left = (left / counts[axis]).max(1);
         }
         let edges = Vector3::from_fn(|axis, _| extents[axis] / counts[axis] as f64);
         Self { corner, edges, counts }
