@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn long_lists_are_wrapped() {
-        let text = wrapped(&vec!["joint 90 deg"; 9].join(", "));
+        let text = wrapped(&["joint 90 deg"; 9].join(", "));
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines.len(), 2);
         assert_eq!(lines.iter().map(|line| line.matches("joint").count()).sum::<usize>(), 9);
