@@ -12,6 +12,7 @@ mod chains;
 mod check_configurations;
 mod check_tables;
 mod clearance_goldens;
+mod clearance_pairs;
 mod command;
 mod conversions;
 mod corpus;

@@ -9,8 +9,8 @@ use congruent_kinematics::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The tool center point among links.
-const TCP: &str = "tcp";
+/// The tool centre point among links.
+pub(crate) const TCP: &str = "tcp";
 
 /// A source of link poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -1,12 +1,16 @@
 //! `congruent jacobian`: the velocity of a link by the velocities of the joints.
 
-use congruent_description::{Finding, JointState, LinkIndex, ReportedChain, RobotDescription, RobotQ};
-use congruent_kinematics::{Jacobian, KinematicsError, UrdfTree};
+use congruent_description::{
+    Diagnostic, Finding, JointState, LinkIndex, ReportedChain, RobotDescription, RobotQ, known_names,
+};
+use congruent_kinematics::{Jacobian, KinematicsError, Pose, ReportedPose, UrdfTree};
 use nalgebra::Matrix3xX;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use congruent_kinematics::JacobianKind;
+
+use crate::forward::TCP;
 
 /// A Jacobian as programs read it: named blocks, since half the field stacks linear first and half
 /// angular first. Columns are in the order of the report's joints.
@@ -48,9 +52,13 @@ pub struct JacobianReport {
     pub chain: ReportedChain,
     /// Movable joints, in the order of columns; mimic joints have columns of their own.
     pub joints: Vec<String>,
-    /// The link that moves.
+    /// The frame that moves, and whose origin is the point of the linear part: a link, or `tcp` for the declared tool
+    /// centre point.
     pub link: String,
-    /// Its frame and point.
+    /// The place of the tool centre point, if the frame is that.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tcp: Option<TcpInLink>,
+    /// Which axes and which point.
     pub kind: JacobianKind,
     /// One entry for each configuration, in input order.
     pub results: Vec<JacobianResult>,
@@ -59,57 +67,120 @@ pub struct JacobianReport {
     pub warnings: Vec<Finding>,
 }
 
-/// Jacobians of one link at each configuration, from the URDF chain.
+/// The place of the tool centre point.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct TcpInLink {
+    /// The link that carries it.
+    pub link: String,
+    /// Its pose in that link.
+    pub link_from_tcp: ReportedPose,
+}
+
+/// A frame whose Jacobian is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum JacobianFrame {
+    /// The frame of a link.
+    Link(LinkIndex),
+    /// The declared tool centre point, in a link.
+    Tcp(LinkIndex, Pose),
+}
+
+impl JacobianFrame {
+    /// The frame with the name of a link, or `tcp` for the declared tool centre point, as `fk` calls it; the tip if
+    /// no name is given.
+    ///
+    /// # Errors
+    /// There is no such link, or no TCP is declared.
+    pub fn named(description: &RobotDescription, name: Option<&str>) -> Result<Self, Diagnostic> {
+        let robot = &description.robot;
+        let Some(name) = name else { return Ok(Self::Link(description.tip)) };
+        match (robot.find_link(name), description.tip_from_tcp) {
+            (Some(link), _) => Ok(Self::Link(link)),
+            (None, Some(tip_from_tcp)) if name == TCP => Ok(Self::Tcp(description.tip, tip_from_tcp.into())),
+            (None, None) if name == TCP => {
+                let message = format!("robot \"{}\" declares no tool centre point", robot.name());
+                Err(Diagnostic::error("jacobian::no_tcp", message)
+                    .with_help("declare it under [tcp] in robot.toml, or name a link"))
+            }
+            (None, declared) => {
+                let links = robot.links().iter().map(|link| link.name.as_str());
+                let known: Vec<&str> = links.chain(declared.is_some().then_some(TCP)).collect();
+                let message = format!("robot \"{}\" has no link \"{name}\"", robot.name());
+                Err(Diagnostic::error("jacobian::link", message).with_help(known_names(name, "links", known)))
+            }
+        }
+    }
+
+    /// The link that carries it, and its place there.
+    fn in_link(self) -> (LinkIndex, Pose) {
+        match self {
+            Self::Link(link) => (link, Pose::identity()),
+            Self::Tcp(link, link_from_tcp) => (link, link_from_tcp),
+        }
+    }
+}
+
+/// Jacobians of one frame at each configuration, from the URDF chain.
 ///
 /// # Errors
 /// [`KinematicsError::JointCount`] for a configuration of another length.
 pub fn jacobians(
     description: &RobotDescription,
-    link: LinkIndex,
+    frame: JacobianFrame,
     kind: JacobianKind,
     configurations: &[RobotQ],
 ) -> Result<JacobianReport, KinematicsError> {
     let tree = UrdfTree::new(&description.robot);
+    let (link, link_from_frame) = frame.in_link();
     let at = |q: &RobotQ| {
-        let jacobian = tree.jacobian(q, link, kind)?;
+        let jacobian = tree.jacobian_of_frame(q, (link, &link_from_frame), kind)?;
         Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative: None })
     };
     let results = configurations.iter().map(at).collect::<Result<_, KinematicsError>>()?;
-    Ok(report(description, link, kind, results))
+    Ok(report(description, frame, kind, results))
 }
 
-/// Jacobians of one link and their time derivatives, from the URDF chain.
+/// Jacobians of one frame and their time derivatives, from the URDF chain.
 ///
 /// # Errors
 /// [`KinematicsError::JointCount`] for positions or velocities of another length.
 pub fn jacobians_in_motion(
     description: &RobotDescription,
-    link: LinkIndex,
+    frame: JacobianFrame,
     kind: JacobianKind,
     states: &[JointState],
 ) -> Result<JacobianReport, KinematicsError> {
     let tree = UrdfTree::new(&description.robot);
+    let (link, link_from_frame) = frame.in_link();
     let at = |JointState { q, qd, .. }: &JointState| {
-        let jacobian = tree.jacobian(q, link, kind)?;
+        let jacobian = tree.jacobian_of_frame(q, (link, &link_from_frame), kind)?;
         let derivative = Some(JacobianBlocks::from(&jacobian.rate(qd)?));
         Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative })
     };
     let results = states.iter().map(at).collect::<Result<_, KinematicsError>>()?;
-    Ok(report(description, link, kind, results))
+    Ok(report(description, frame, kind, results))
 }
 
 fn report(
     description: &RobotDescription,
-    link: LinkIndex,
+    frame: JacobianFrame,
     kind: JacobianKind,
     results: Vec<JacobianResult>,
 ) -> JacobianReport {
     let robot = &description.robot;
+    let name = |link| robot.link(link).name.clone();
+    let (link, tcp) = match frame {
+        JacobianFrame::Link(link) => (name(link), None),
+        JacobianFrame::Tcp(link, pose) => {
+            (TCP.to_owned(), Some(TcpInLink { link: name(link), link_from_tcp: (&pose).into() }))
+        }
+    };
     JacobianReport {
         chain: description.reported_chain(),
         robot: robot.name().to_owned(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
-        link: robot.link(link).name.clone(),
+        link,
+        tcp,
         kind,
         results,
         warnings: description.warnings.iter().map(Finding::from).collect(),

@@ -22,8 +22,12 @@ pub struct ManipulabilityReport {
     pub chain: ReportedChain,
     /// The arm's independent joints, base to tip.
     pub joints: Vec<String>,
-    /// The length that makes metres and radians comparable in `whole`.
+    /// The length that counts as one radian: of the tool in `whole`, and of the joints in `sliding`.
     pub metres_per_rad: f64,
+    /// Sliding joints of an arm that has turning joints too: everywhere their velocities count in
+    /// `metres_per_rad`, so that no measure depends on the unit of length.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sliding: Vec<String>,
     /// One entry for each configuration.
     pub results: Vec<ConfigurationDexterity>,
     /// Warnings about the input.
@@ -38,9 +42,9 @@ pub struct ConfigurationDexterity {
     pub q: JointValues,
     /// Position of the tool, in the base.
     pub tcp_in_base_m: [f64; 3],
-    /// Velocity of the tool centre point, m per unit of joint velocity.
+    /// Velocity of the tool centre point, m per rad of joint motion; per m if no joint turns.
     pub linear: ReportedEllipsoid,
-    /// Angular velocity, rad per unit of joint velocity.
+    /// Angular velocity, rad per rad of joint motion.
     pub angular: ReportedEllipsoid,
     /// Both, lengths in `metres_per_rad`.
     pub whole: ReportedDexterity,
@@ -92,20 +96,22 @@ impl From<&VelocityEllipsoid> for ReportedEllipsoid {
     }
 }
 
-/// Manipulability at configurations of the robot.
+/// Manipulability at configurations of the robot; `metres_per_rad` is [`Arm::metres_per_rad`] if it is left out.
 ///
 /// # Errors
 /// [`KinematicsError`] if the robot has no arm.
 pub fn manipulability(
     description: &RobotDescription,
     configurations: &[RobotQ],
+    metres_per_rad: Option<f64>,
 ) -> Result<ManipulabilityReport, KinematicsError> {
     let mut arm = Arm::of(description)?;
+    let metres_per_rad = metres_per_rad.unwrap_or(arm.metres_per_rad());
     let joints = joint_names(description, &arm);
     let mut results = Vec::with_capacity(configurations.len());
     for q_robot in configurations {
         let q = arm.from_robot(q_robot);
-        let Manipulability { linear, angular, whole } = arm.manipulability(&q)?;
+        let Manipulability { linear, angular, whole } = arm.manipulability(&q, metres_per_rad)?;
         results.push(ConfigurationDexterity {
             q: JointValues::new(&joints, &q),
             tcp_in_base_m: arm.base_from_tcp(&q)?.translation.into(),
@@ -114,10 +120,12 @@ pub fn manipulability(
             whole: (&whole).into(),
         });
     }
+    let slides = arm.joints().iter().zip(&joints).filter(|(joint, _)| arm.turns_and_slides() && !joint.turns);
     Ok(ManipulabilityReport {
         robot: description.robot.name().to_owned(),
         chain: description.reported_chain(),
-        metres_per_rad: arm.metres_per_rad(),
+        metres_per_rad,
+        sliding: slides.map(|(_, name)| name.clone()).collect(),
         joints,
         results,
         warnings: description.warnings.iter().map(Finding::from).collect(),

@@ -29,11 +29,16 @@ pub struct WorkspaceReport {
     pub lower_m: [f64; 3],
     /// The other corner.
     pub upper_m: [f64; 3],
-    /// Volume; none for an arm that stays in a plane parallel to two axes.
+    /// Volume; none for an arm that stays in a plane parallel to two axes. It is the share of the tested points
+    /// of the bounding box that inverse kinematics reaches, of the box.
     pub volume_m3: Option<f64>,
     /// Area; for an arm that stays in such a plane.
     pub area_m2: Option<f64>,
-    /// Edge of the cells that were counted.
+    /// The interval in which the volume or area is, by three standard errors of the estimate.
+    pub between: Option<[f64; 2]>,
+    /// Points that were tested, two in each cell of the bounding box.
+    pub points: usize,
+    /// Edge of these cells; the mean edge if they are no cubes.
     pub cell_m: f64,
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -60,7 +65,8 @@ pub fn workspace(
     let mut arm = Arm::of(description)?;
     let names = joint_names(description, &arm);
     let found = arm.workspace(sampling);
-    let of_size = |dimensions| (found.dimensions == dimensions).then_some(found.extent);
+    let size = found.size;
+    let of_size = |dimensions| size.filter(|_| found.dimensions == dimensions).map(|size| size.estimate);
     let reach = [0, 1].map(|end| ReachExtreme {
         distance_m: found.reach_m[end],
         at: JointValues::new(&names, &found.reach_at[end]),
@@ -75,7 +81,9 @@ pub fn workspace(
         upper_m: found.upper_in_base.into(),
         volume_m3: of_size(3),
         area_m2: of_size(2),
-        cell_m: found.cell_m,
+        between: size.map(|size| [size.lower, size.upper]),
+        points: size.map_or(0, |size| size.points),
+        cell_m: size.map_or(0.0, |size| size.cell_m),
         warnings: description.warnings.iter().map(Finding::from).collect(),
     };
     Ok((report, found))

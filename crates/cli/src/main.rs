@@ -12,6 +12,7 @@ mod plot_file;
 mod print;
 mod run;
 mod schema;
+mod table;
 
 use std::process::ExitCode;
 

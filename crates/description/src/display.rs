@@ -96,6 +96,48 @@ pub fn number(value: f64) -> String {
     }
 }
 
+/// A value of a column, whose heading has the unit: mm or deg with two decimals, a plain number with four. All
+/// values of a column have the same decimals, so that their points align.
+///
+/// # Examples
+/// ```
+/// use congruent_description::display::in_column;
+/// assert_eq!([0.81725, -1e-9].map(|metres| in_column(metres, "m")), ["817.25", "0.00"]);
+/// assert_eq!(in_column(-std::f64::consts::FRAC_PI_2, "rad"), "-90.00");
+/// assert_eq!(in_column(-0.70710678, ""), "-0.7071");
+/// ```
+pub fn in_column(value: f64, unit: &str) -> String {
+    let text = match unit {
+        "m" => format!("{:.2}", value * 1e3),
+        "rad" => format!("{:.2}", value.to_degrees()),
+        _ => format!("{value:.4}"),
+    };
+    match text.strip_prefix('-') {
+        // Rounding has no sign.
+        Some(size) if size.bytes().all(|byte| matches!(byte, b'0' | b'.')) => size.to_owned(),
+        _ => text,
+    }
+}
+
+/// The position of a joint, by the unit of its coordinate: two decimals as in a column, without zeros at the end.
+///
+/// # Examples
+/// ```
+/// use congruent_description::display::position;
+/// assert_eq!(position(1.5707963267948966, "rad"), "90 deg");
+/// assert_eq!([0.12345, -1e-9].map(|metres| position(metres, "m")), ["123.45 mm", "0 mm"]);
+/// ```
+pub fn position(value: f64, unit: &str) -> String {
+    let text = in_column(value, unit);
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    let unit = match unit {
+        "m" => "mm",
+        "rad" => "deg",
+        other => other,
+    };
+    format!("{text} {unit}").trim_end().to_owned()
+}
+
 fn scaled(value: f64, steps: &[Step], si: &str, unit_of_zero: &str, per: &str) -> String {
     if value == 0.0 {
         return format!("0 {unit_of_zero}{per}");

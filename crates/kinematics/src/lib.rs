@@ -22,7 +22,8 @@ mod support;
 
 pub use arm::{
     Arm, ArmJoint, Dexterity, DifferentialMethod, Displacement, IkChange, IkMethod, IkOptions, IkResult,
-    IkSolver, IkTarget, Manipulability, Sampling, TargetPart, VelocityEllipsoid, Workspace, displacement,
+    IkSolver, IkTarget, Manipulability, Sampling, TargetPart, VelocityEllipsoid, Workspace, WorkspaceSize,
+    displacement,
 };
 pub use chain::{
     Axes, AxisPair, AxisRelation, Choice, DeriveError, DhChain, DhDerivation, DhDerivatives, DhFrames,

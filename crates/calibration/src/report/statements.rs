@@ -1,6 +1,6 @@
 //! The report in sentences.
 
-use congruent_description::display::length_and_angle;
+use congruent_description::display::{length_and_angle, number};
 
 use super::calibration_report::{CalibrationReport, CalibrationVerdict, Recommendation, RowResidual};
 use crate::estimation::ParameterUnit;
@@ -27,7 +27,8 @@ pub(super) fn why_fixed(unit: ParameterUnit, terms: &[(&str, f64, ParameterUnit)
     }
     let mut largest = terms.to_vec();
     largest.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-    let term = |(name, factor, of): &(&str, f64, ParameterUnit)| format!("{factor:.3} {of} of {name}");
+    let term =
+        |(name, factor, of): &(&str, f64, ParameterUnit)| format!("{} {of} of {name}", number(*factor));
     let shown: Vec<String> = largest.iter().take(MOST_TERMS).map(term).collect();
     let more = match terms.len().saturating_sub(MOST_TERMS) {
         0 => String::new(),

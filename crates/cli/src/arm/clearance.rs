@@ -3,14 +3,21 @@
 use std::fmt::Write;
 
 use congruent::{
-    description::{Diagnostic, Use},
-    twin::proximity::{DistanceReport, Overlap, PairChoice, distances},
+    description::{
+        Diagnostic, Use,
+        display::{in_column, length},
+    },
+    twin::proximity::{
+        DistanceError, DistanceOptions, DistanceReport, Overlap, PairChoice, PairNames, distances,
+    },
 };
 
+use super::length::positive_length;
 use crate::{
-    failure::Failure,
+    failure::{FAILED, Failure, NOTHING},
     input::{ConfigurationArguments, RobotArgument},
     print::Printer,
+    table::Table,
 };
 
 /// Distances between the convex hulls of links.
@@ -28,32 +35,86 @@ pub(crate) struct Arguments {
     /// Leave out only pairs that cannot move against each other.
     #[arg(long)]
     all_pairs: bool,
+    /// Measure only this pair of links; may be given several times. `*` stands for any characters.
+    #[arg(long, value_name = "A,B", value_parser = pair)]
+    pair: Vec<[String; 2]>,
+    /// Leave out this pair of links; may be given several times. `*` stands for any characters.
+    #[arg(long, value_name = "A,B", value_parser = pair)]
+    ignore: Vec<[String; 2]>,
+    /// Smallest distance that is allowed; exit code 1 if a pair is nearer.
+    #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+    limit: Option<f64>,
+}
+
+fn pair(text: &str) -> Result<[String; 2], String> {
+    match text.split(',').map(str::trim).collect::<Vec<_>>()[..] {
+        [a, b] if !a.is_empty() && !b.is_empty() => Ok([a.to_owned(), b.to_owned()]),
+        _ => Err("expected the names of two links, as in wrist_1_link,wrist_3_link".to_owned()),
+    }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.robot.load_for(Use::Clearance, printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
-    let choice = if arguments.all_pairs { PairChoice::All } else { PairChoice::Usual };
-    let overlap = if arguments.penetration { Overlap::Depth } else { Overlap::Zero };
-    let report = distances(&description, &[], (choice, overlap), &configurations)
-        .map_err(|error| Diagnostic::error("clearance::shape", error.to_string()))?;
+    let options = DistanceOptions {
+        choice: if arguments.all_pairs { PairChoice::All } else { PairChoice::Usual },
+        names: PairNames { pairs: arguments.pair.clone(), ignore: arguments.ignore.clone() },
+        overlap: if arguments.penetration { Overlap::Depth } else { Overlap::Zero },
+        limit_m: arguments.limit,
+    };
+    let report = distances(&description, &[], &options, &configurations).map_err(|error| match error {
+        DistanceError::Pair(fault) => fault.diagnostic,
+        error => Diagnostic::error("clearance::shape", error.to_string()),
+    })?;
     printer.result(&report, text)?;
-    Ok(0)
+    Ok(match report.limit_m {
+        Some(_) if report.pairs.is_empty() || report.results.is_empty() => NOTHING,
+        _ if report.below.is_empty() => 0,
+        _ => FAILED,
+    })
 }
 
 fn text(report: &DistanceReport) -> String {
-    if report.pairs.is_empty() {
-        return "no pair of links to measure; --all-pairs adds neighbours\n".to_owned();
-    }
     let mut text = String::new();
+    for [a, b] in &report.ignored {
+        let _ = writeln!(text, "ignored: {a} -- {b}");
+    }
+    if report.pairs.is_empty() {
+        text += "no pair of links to measure; --all-pairs adds neighbours\n";
+        return text;
+    }
+    if let Some(limit_m) = report.limit_m {
+        below(&mut text, report, limit_m);
+    }
     for (index, result) in report.results.iter().enumerate() {
         let _ = writeln!(text, "configuration {}: nearest pairs first", index + 1);
         let mut order: Vec<usize> = (0..report.pairs.len()).collect();
         order.sort_by(|&a, &b| result.distances_m[a].total_cmp(&result.distances_m[b]));
+        let mut table = Table::headed(["", "mm"]);
         for pair in order {
             let [a, b] = &report.pairs[pair];
-            let _ = writeln!(text, "  {:12.9} m  {a} -- {b}", result.distances_m[pair]);
+            table.row([format!("{a} -- {b}"), in_column(result.distances_m[pair], "m")]);
         }
+        table.write(&mut text);
     }
     text
+}
+
+fn below(text: &mut String, report: &DistanceReport, limit_m: f64) {
+    if report.below.is_empty() {
+        let least = report.results.iter().flat_map(|result| &result.distances_m).copied();
+        let left_m = least.fold(f64::INFINITY, f64::min) - limit_m;
+        let _ = writeln!(text, "no pair is below {}: {} left", length(limit_m), length(left_m));
+        return;
+    }
+    let all = report.pairs.len();
+    let _ = writeln!(text, "{} of {all} pairs are below {}", report.below.len(), length(limit_m));
+    let mut table = Table::headed(["", "least mm", "below mm", "configuration"]);
+    for found in &report.below {
+        let [a, b] = &found.pair;
+        let values = [found.distance_m, limit_m - found.distance_m].map(|value| in_column(value, "m"));
+        let named = [format!("{a} -- {b}")].into_iter().chain(values);
+        table.row(named.chain([found.configuration.to_string()]));
+    }
+    table.write(text);
 }

@@ -11,6 +11,7 @@ use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, named},
     print::Printer,
+    table::{POSE_COLUMNS, Table, pose_cells},
 };
 
 /// Poses of all links in the root link's frame, by a chosen source.
@@ -36,18 +37,13 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 
 fn text(report: &ForwardReport) -> String {
     let mut text = format!("{}\n", report.chain);
-    let width =
-        report.results.iter().flat_map(|poses| &poses.links).map(|(name, _)| name.len()).max().unwrap_or(0);
     for (index, poses) in report.results.iter().enumerate() {
-        let _ = writeln!(text, "configuration {}: translation in m, quaternion w x y z", index + 1);
+        let _ = writeln!(text, "configuration {}: poses in the root link", index + 1);
+        let mut table = Table::headed(POSE_COLUMNS);
         for (name, pose) in &poses.links {
-            let [x, y, z] = pose.translation_m;
-            let [qw, qx, qy, qz] = pose.quaternion_wxyz;
-            let _ = writeln!(
-                text,
-                "  {name:width$}  {x:13.9} {y:13.9} {z:13.9}   {qw:12.9} {qx:12.9} {qy:12.9} {qz:12.9}"
-            );
+            table.row([name.clone()].into_iter().chain(pose_cells(pose)));
         }
+        table.write(&mut text);
     }
     text
 }

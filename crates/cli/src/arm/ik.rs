@@ -3,14 +3,20 @@
 use std::{fmt::Write, path::PathBuf};
 
 use congruent::{
-    analysis::inverse::{IkMethod, IkOptions, InverseReport, TargetPart, inverse, read_targets},
-    description::Diagnostic,
+    analysis::inverse::{
+        IkMethod, IkOptions, InverseReport, InverseSolution, TargetPart, inverse, read_targets,
+    },
+    description::{
+        Diagnostic, Joint, Robot,
+        display::{length, length_and_angle, position},
+    },
 };
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, named},
     print::Printer,
+    table::Table,
 };
 
 /// Joint positions that bring the tip, or the TCP if one is declared, to given poses.
@@ -65,7 +71,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     };
     let report = inverse(&description, &targets, &options)
         .map_err(|error| Diagnostic::error("ik::robot", error.to_string()))?;
-    printer.result(&report, text)?;
+    printer.result(&report, |report| text(report, &description.robot, arguments.tolerance))?;
     Ok(match &report.results[..] {
         [] => NOTHING,
         results if results.iter().all(|result| result.converged) => 0,
@@ -73,27 +79,42 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     })
 }
 
-fn text(report: &InverseReport) -> String {
+fn text(report: &InverseReport, robot: &Robot, tolerance: f64) -> String {
     let mut text = format!("{}\n", report.chain);
-    let width = report.joints.iter().map(String::len).max().unwrap_or(0);
     if report.results.is_empty() {
         text += "the file has no target\n";
     }
     for (index, result) in report.results.iter().enumerate() {
         let _ = writeln!(
             text,
-            "target {}: {} after {} steps, residual {:.2e} m and {:.2e} rad",
+            "target {}: {} after {} steps, residual {}, tolerance {}",
             index + 1,
             if result.converged { "reached" } else { "NOT REACHED" },
             result.iterations,
-            result.residual_position_m,
-            result.residual_orientation_rad
+            length_and_angle(result.residual_position_m, result.residual_orientation_rad),
+            length(tolerance)
         );
-        for (joint, value) in result.q.iter() {
-            let is_held = result.limits_held.iter().any(|held| held == joint);
-            let held = if is_held { "  at its limit" } else { "" };
-            let _ = writeln!(text, "  {joint:width$}  {value:13.9}{held}");
-        }
+        joints(&mut text, result, robot);
     }
     text
+}
+
+/// Each joint with its position, what is left to the nearer of its limits, and its range.
+fn joints(text: &mut String, result: &InverseSolution, robot: &Robot) {
+    let mut table = Table::headed(["joint", "position", "left", "range"]);
+    for (name, value) in result.q.iter() {
+        let joint = robot.find_joint(name).map(|joint| robot.joint(joint));
+        let unit = joint.map_or("", |joint| joint.kind.unit());
+        let [left, range] = match joint.and_then(Joint::position_range) {
+            None => ["no limit".to_owned(), String::new()],
+            Some((lower, upper)) => {
+                let is_held = result.limits_held.iter().any(|held| held == name);
+                let left = position((value - lower).min(upper - value), unit);
+                let ends = format!("{} to {}", position(lower, unit), position(upper, unit));
+                [if is_held { "at its limit".to_owned() } else { left }, ends]
+            }
+        };
+        table.row([name.to_owned(), position(value, unit), left, range]);
+    }
+    table.write(text);
 }

@@ -3,14 +3,17 @@
 use std::fmt::Write;
 
 use congruent::{
-    analysis::jacobians::{JacobianBlocks, JacobianKind, JacobianReport, jacobians, jacobians_in_motion},
-    description::{Diagnostic, known_names, serde_name},
+    analysis::jacobians::{
+        JacobianBlocks, JacobianFrame, JacobianKind, JacobianReport, jacobians, jacobians_in_motion,
+    },
+    description::{Diagnostic, RobotDescription, display::in_column, serde_name},
 };
 
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, named},
     print::Printer,
+    table::Table,
 };
 
 /// The Jacobian of a link: its velocity per velocity of each joint, linear and angular block by name.
@@ -18,7 +21,7 @@ use crate::{
 pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,
-    /// The link that moves; the model's tip if it is left out.
+    /// The link that moves, or `tcp` for the declared tool centre point; the model's tip if it is left out.
     #[arg(long, value_name = "NAME")]
     link: Option<String>,
     /// In which frame and at which point the velocity is taken.
@@ -33,52 +36,59 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.arm.load(printer)?;
-    let robot = &description.robot;
-    let link = match &arguments.link {
-        None => description.tip,
-        Some(name) => robot.find_link(name).ok_or_else(|| {
-            let links: Vec<&str> = robot.links().iter().map(|link| link.name.as_str()).collect();
-            let message = format!("robot \"{}\" has no link \"{name}\"", robot.name());
-            Diagnostic::error("jacobian::link", message).with_help(known_names(name, "links", links))
-        })?,
-    };
+    let frame = JacobianFrame::named(&description, arguments.link.as_deref())?;
     let kind = arguments.kind;
     let report = if arguments.derivative {
         let states = arguments.configurations.read_states(&mut description, printer)?;
-        jacobians_in_motion(&description, link, kind, &states)
+        jacobians_in_motion(&description, frame, kind, &states)
     } else {
         let configurations = arguments.configurations.read(&mut description, printer)?;
-        jacobians(&description, link, kind, &configurations)
+        jacobians(&description, frame, kind, &configurations)
     }
     .map_err(|error| Diagnostic::error("jacobian::configuration", error.to_string()))?;
-    printer.result(&report, text)?;
+    printer.result(&report, |report| text(report, &description))?;
     Ok(0)
 }
 
-fn text(report: &JacobianReport) -> String {
-    let mut text = format!(
-        "{}\n{} Jacobian of {}, columns: {}\n",
-        report.chain,
-        serde_name(&report.kind),
-        report.link,
-        report.joints.join(", ")
-    );
+fn text(report: &JacobianReport, description: &RobotDescription) -> String {
+    let frame = frame(report, description);
+    let mut text = format!("{}\n{} Jacobian of {frame}\n", report.chain, serde_name(&report.kind));
+    text += match report.kind {
+        JacobianKind::Space => "  axes of the root; linear: the point that passes the root's origin",
+        JacobianKind::Body => "  its own axes; linear: its origin",
+        JacobianKind::Geometric => "  axes of the root; linear: its origin",
+    };
+    text += "; in m and rad per rad, of sliding joints per m\n";
     for (index, result) in report.results.iter().enumerate() {
         let _ = writeln!(text, "configuration {}", index + 1);
-        rows(&mut text, &result.jacobian);
+        columns(&mut text, &report.joints, &result.jacobian);
         if let Some(derivative) = &result.derivative {
-            let _ = writeln!(text, "  derivative, per s");
-            rows(&mut text, derivative);
+            let _ = writeln!(text, "derivative, per s");
+            columns(&mut text, &report.joints, derivative);
         }
     }
     text
 }
 
-fn rows(text: &mut String, blocks: &JacobianBlocks) {
-    for (name, block) in [("linear", &blocks.linear), ("angular", &blocks.angular)] {
-        for (row, axis) in block.iter().zip(["x", "y", "z"]) {
-            let values: Vec<String> = row.iter().map(|value| format!("{value:12.9}")).collect();
-            let _ = writeln!(text, "  {name:7} {axis}  {}", values.join(" "));
+/// The frame, and the other one that could be meant.
+fn frame(report: &JacobianReport, description: &RobotDescription) -> String {
+    let tip = &description.robot.link(description.tip).name;
+    match (&report.tcp, description.tip_from_tcp) {
+        (Some(tcp), _) => {
+            let [x, y, z] = tcp.link_from_tcp.translation_m.map(|value| in_column(value, "m"));
+            format!("the TCP at {x}, {y}, {z} mm in {}", tcp.link)
         }
+        (None, Some(_)) if report.link == *tip => format!("{tip} (--link tcp for the declared TCP)"),
+        _ => report.link.clone(),
     }
+}
+
+/// A row for each joint, whose column of the Jacobian it is: joints have long names.
+fn columns(text: &mut String, joints: &[String], blocks: &JacobianBlocks) {
+    let mut table = Table::headed(["", "linear x", "y", "z", "angular x", "y", "z"]);
+    for (at, joint) in joints.iter().enumerate() {
+        let values = blocks.linear.iter().chain(&blocks.angular).map(|row| in_column(row[at], ""));
+        table.row([joint.clone()].into_iter().chain(values));
+    }
+    table.write(text);
 }

@@ -6,26 +6,36 @@ use congruent::{
     analysis::manipulability::{
         ManipulabilityReport, ReportedDexterity, ReportedEllipsoid, manipulability, plot,
     },
-    description::Diagnostic,
+    description::{
+        Diagnostic, Robot,
+        display::{in_column, length, number, quantity},
+    },
 };
 
+use super::length::positive_length;
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments},
     plot_file::PlotArgument,
     print::Printer,
+    table::Table,
 };
 
 /// Velocity ellipsoids of the tool, Yoshikawa's measure, condition and distance to singularity.
 ///
-/// Linear and angular parts are separate since their units differ. A plot shows the first
-/// configuration.
+/// Linear and angular parts are separate since their units differ. If some joints turn and others slide, a
+/// length counts as one radian of joint motion, so that no measure depends on the unit of length. A plot shows
+/// the first configuration.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,
     #[command(flatten)]
     configurations: ConfigurationArguments,
+    /// The length that counts as one radian, of the tool and of sliding joints; by default the typical distance
+    /// of the tool from the turning axes.
+    #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+    length: Option<f64>,
     #[command(flatten)]
     plot: PlotArgument,
 }
@@ -33,42 +43,56 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.arm.load(printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
-    let report = manipulability(&description, &configurations)
+    let report = manipulability(&description, &configurations, arguments.length)
         .map_err(|error| Diagnostic::error("manipulability::robot", error.to_string()))?;
     if let (Some(q), Some(result)) = (configurations.first(), report.results.first()) {
         arguments.plot.write(|| plot(&description, q, result))?;
     }
-    printer.result(&report, text)?;
+    printer.result(&report, |report| text(report, &description.robot))?;
     Ok(0)
 }
 
-fn text(report: &ManipulabilityReport) -> String {
+fn text(report: &ManipulabilityReport, robot: &Robot) -> String {
     let mut text = format!("{}\n", report.chain);
+    let radian = length(report.metres_per_rad);
+    let turns =
+        |joint: &String| robot.find_joint(joint).is_some_and(|joint| robot.joint(joint).kind.is_angular());
+    let per = if report.joints.iter().any(turns) { "rad" } else { "m" };
+    if !report.sliding.is_empty() {
+        let _ = writeln!(text, "{radian} of {} count as one radian", report.sliding.join(", "));
+    }
     for (index, result) in report.results.iter().enumerate() {
-        let [x, y, z] = result.tcp_in_base_m;
-        let _ = writeln!(text, "configuration {}: tool at {x:.6}, {y:.6}, {z:.6} m in the base", index + 1);
-        ellipsoid(&mut text, "linear", &result.linear, "m");
-        ellipsoid(&mut text, "angular", &result.angular, "rad");
-        let _ =
-            writeln!(text, "  whole, 1 rad = {:.4} m: {}", report.metres_per_rad, measures(&result.whole));
+        let [x, y, z] = result.tcp_in_base_m.map(|value| in_column(value, "m"));
+        let _ = writeln!(text, "configuration {}: tool at {x}, {y}, {z} mm in the base", index + 1);
+        ellipsoid(&mut text, ("linear", "m"), &result.linear, per);
+        ellipsoid(&mut text, ("angular", "rad"), &result.angular, per);
+        let _ = writeln!(text, "  both, {radian} as one radian: {}", measures(&result.whole, number));
     }
     text
 }
 
-fn ellipsoid(text: &mut String, name: &str, ellipsoid: &ReportedEllipsoid, unit: &str) {
-    let _ = writeln!(text, "  {name}: {}", measures(&ellipsoid.dexterity));
-    for (length, [x, y, z]) in ellipsoid.semi_axes.iter().zip(&ellipsoid.axes) {
-        let _ = writeln!(
-            text,
-            "    {length:9.6} {unit} per unit joint velocity along ({x:9.6}, {y:9.6}, {z:9.6})"
-        );
+fn ellipsoid(text: &mut String, (name, unit): (&str, &str), ellipsoid: &ReportedEllipsoid, per: &str) {
+    let size = |value: f64| {
+        let value = if unit == per { format!("{} {unit}", number(value)) } else { quantity(value, unit) };
+        format!("{value} per {per}")
+    };
+    let _ = writeln!(text, "  {name}: {}", measures(&ellipsoid.dexterity, size));
+    let mut table = Table::default();
+    for (semi_axis, axis) in ellipsoid.semi_axes.iter().zip(&ellipsoid.axes) {
+        let along = axis.map(|value| in_column(value, ""));
+        table.row([String::new(), size(*semi_axis), "along".to_owned()].into_iter().chain(along));
     }
+    table.write(text);
 }
 
-fn measures(found: &ReportedDexterity) -> String {
-    let condition = found.condition.map_or("infinite".to_owned(), |condition| format!("{condition:.3}"));
-    format!(
-        "Yoshikawa {:.6}, condition {condition}, distance to singularity {:.6}, over {} directions",
-        found.yoshikawa, found.distance_to_singularity, found.directions
-    )
+fn measures(found: &ReportedDexterity, size: impl Fn(f64) -> String) -> String {
+    let from_singular = found.condition.map_or("singular".to_owned(), |condition| {
+        format!("condition {}, {} from singular", number(condition), size(found.distance_to_singularity))
+    });
+    let directions = match found.directions {
+        0 => return "none".to_owned(),
+        1 => "1 direction".to_owned(),
+        several => format!("{several} directions"),
+    };
+    format!("{from_singular}, Yoshikawa {}, over {directions}", number(found.yoshikawa))
 }

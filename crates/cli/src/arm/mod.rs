@@ -5,6 +5,7 @@ pub(crate) mod dynamics;
 pub(crate) mod fk;
 pub(crate) mod ik;
 pub(crate) mod jacobian;
+mod length;
 pub(crate) mod manipulability;
 pub(crate) mod sensitivity;
 pub(crate) mod workspace;

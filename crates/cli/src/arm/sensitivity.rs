@@ -4,11 +4,20 @@ use std::fmt::Write;
 
 use congruent::{
     analysis::sensitivity::{SensitivityReport, plot, sensitivity},
-    description::Diagnostic,
+    description::{
+        Diagnostic, Robot,
+        display::{in_column, length, number},
+    },
     kinematics::Sampling,
 };
 
-use crate::{failure::Failure, input::ArmArguments, plot_file::PlotArgument, print::Printer};
+use crate::{
+    failure::Failure,
+    input::ArmArguments,
+    plot_file::PlotArgument,
+    print::Printer,
+    table::{Table, wrapped},
+};
 
 /// How far the tool is displaced by 1 degree or 1 mm in each joint's zero and each DH parameter.
 ///
@@ -41,31 +50,40 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let report = sensitivity(&description, &arguments.length_factors, sampling)
         .map_err(|error| Diagnostic::error("sensitivity::robot", error.to_string()))?;
     arguments.plot.write(|| plot(&report))?;
-    printer.result(&report, text)?;
+    printer.result(&report, |report| text(report, &description.robot))?;
     Ok(0)
 }
 
-fn text(report: &SensitivityReport) -> String {
+fn text(report: &SensitivityReport, robot: &Robot) -> String {
     let mut text = format!("{}\n", report.chain);
     for arm in &report.arms {
         let _ = writeln!(
             text,
             "{}, lengths x {}: displacement of the tool over {} configurations",
-            report.robot, arm.length_factor, report.samples
+            report.robot,
+            number(arm.length_factor),
+            report.samples
         );
-        let width = arm.parameters.iter().map(|parameter| parameter.joint.len()).max().unwrap_or(0);
+        let mut table = Table::headed(["joint", "entry", "error", "worst mm", "mean mm", "rotation deg"]);
         for parameter in &arm.parameters {
+            let values = [parameter.worst_mm, parameter.mean_mm].map(|value| in_column(value / 1e3, "m"));
+            let rotation = in_column(parameter.worst_deg.to_radians(), "rad");
+            let named =
+                [parameter.joint.clone(), parameter.parameter.to_string(), parameter.error.to_string()];
+            table.row(named.into_iter().chain(values).chain([rotation]));
+        }
+        table.write(&mut text);
+        let worst = arm.parameters.iter().max_by(|a, b| a.worst_mm.total_cmp(&b.worst_mm));
+        if let Some(worst) = worst {
             let _ = writeln!(
                 text,
-                "  {:width$} {:5} {:5}  worst {:8.4} mm  mean {:8.4} mm  rotation {:6.3} deg  at {}",
-                parameter.joint,
-                parameter.parameter.to_string(),
-                parameter.error.to_string(),
-                parameter.worst_mm,
-                parameter.mean_mm,
-                parameter.worst_deg,
-                parameter.worst_at.listed(3)
+                "  largest: {} by {} of {} at {}, at",
+                length(worst.worst_mm / 1e3),
+                worst.error,
+                worst.parameter,
+                worst.joint
             );
+            text += &wrapped(&worst.worst_at.for_people(robot));
         }
     }
     text

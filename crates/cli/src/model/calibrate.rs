@@ -12,7 +12,11 @@ use congruent::{
         needed_coordinates,
         report::{CalibrationReport, CalibrationVerdict, FitSummary, Recommendation, ResidualSummary, plot},
     },
-    description::{Diagnostic, display::length_and_angle, units::Unit},
+    description::{
+        Diagnostic, Robot,
+        display::{length_and_angle, number},
+        units::Unit,
+    },
     twin::report::write_whole,
 };
 
@@ -20,6 +24,7 @@ use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, named},
     print::Printer,
+    table::wrapped,
 };
 
 /// Corrections of a robot's model from measured poses or points of its tip (or TCP) in the base.
@@ -78,7 +83,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         let svg = plot::svg(&report).map_err(|error| Failure::Machine(error.to_string()))?;
         write_whole(path, svg.as_bytes()).map_err(|error| Failure::Machine(error.to_string()))?;
     }
-    printer.result(&report, text)?;
+    printer.result(&report, |report| text(report, &description.robot))?;
     Ok(match report.verdict {
         CalibrationVerdict::Explained
         | CalibrationVerdict::UnexplainedRows
@@ -124,7 +129,7 @@ impl Arguments {
     }
 }
 
-fn text(report: &CalibrationReport) -> String {
+fn text(report: &CalibrationReport, robot: &Robot) -> String {
     let mut text = String::new();
     let _ = writeln!(
         text,
@@ -139,7 +144,7 @@ fn text(report: &CalibrationReport) -> String {
     fixed(&mut text, report);
     fits(&mut text, report);
     outliers(&mut text, report);
-    next(&mut text, report);
+    next(&mut text, report, robot);
     text
 }
 
@@ -191,8 +196,8 @@ fn fixed(text: &mut String, report: &CalibrationReport) {
     }
     let _ = writeln!(
         text,
-        "\n  fixed at nominal (singular value below {:e} of the largest)",
-        report.identifiability.threshold
+        "\n  fixed at nominal (singular value below {} of the largest)",
+        number(report.identifiability.threshold)
     );
     let width = report.fixed.iter().map(|each| each.name.len()).max().unwrap_or(0);
     for each in &report.fixed {
@@ -201,7 +206,7 @@ fn fixed(text: &mut String, report: &CalibrationReport) {
 }
 
 fn fits(text: &mut String, report: &CalibrationReport) {
-    let _ = writeln!(text, "\n  {:16}  {:>26}  {:>26}  cost in m2", "residual", "root mean square", "worst");
+    let _ = writeln!(text, "\n  {:16}  {:>26}  {:>26}", "residual", "root mean square", "worst");
     let mut line = |name: &str, residuals: &ResidualSummary, noise: Option<&FitSummary>| {
         let rms = length_and_angle(residuals.rms_m, residuals.rms_rad);
         let worst = length_and_angle(residuals.worst_m, residuals.worst_rad);
@@ -211,7 +216,7 @@ fn fits(text: &mut String, report: &CalibrationReport) {
                 length_and_angle(of.noise_m, if residuals.worst_rad > 0.0 { of.noise_rad } else { 0.0 })
             )
         });
-        let _ = writeln!(text, "  {name:16}  {rms:>26}  {worst:>26}  {:.6e}{noise}", residuals.cost_m2);
+        let _ = writeln!(text, "  {name:16}  {rms:>26}  {worst:>26}{noise}");
     };
     line("nominal", &report.nominal, None);
     line("least squares", &report.least_squares.residuals, Some(&report.least_squares));
@@ -246,7 +251,7 @@ fn outliers(text: &mut String, report: &CalibrationReport) {
     }
 }
 
-fn next(text: &mut String, report: &CalibrationReport) {
+fn next(text: &mut String, report: &CalibrationReport, robot: &Robot) {
     if report.next.is_empty() {
         return;
     }
@@ -255,6 +260,7 @@ fn next(text: &mut String, report: &CalibrationReport) {
         "\n  most informative to measure next (within the joint limits; not checked for collisions)"
     );
     for pose in &report.next {
-        let _ = writeln!(text, "  {:5.2} bit  {}", pose.gain_bits, pose.q.listed(3));
+        let _ = writeln!(text, "  {} bit at", number(pose.gain_bits));
+        *text += &wrapped(&pose.q.for_people(robot));
     }
 }

@@ -6,6 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Serialize, Serializer};
 
 use super::robot::Robot;
+use crate::display::position;
 
 /// One value for each joint, base to tip; a map in JSON.
 ///
@@ -39,6 +40,26 @@ impl JointValues {
     pub fn listed(&self, decimals: usize) -> String {
         let each: Vec<String> =
             self.iter().map(|(joint, value)| format!("{joint} {value:.decimals$}")).collect();
+        each.join(", ")
+    }
+
+    /// All of them in one line for people, in deg and mm to two decimals by the kind of each joint of `robot`.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_description::{JointValues, parse_urdf};
+    /// let robot = parse_urdf(
+    ///     "<robot name='r'><link name='base'/><link name='tip'/>
+    ///     <joint name='lift' type='prismatic'><parent link='base'/><child link='tip'/>
+    ///     <limit lower='0' upper='1' velocity='1' effort='1'/></joint></robot>",
+    /// )
+    /// .unwrap();
+    /// assert_eq!(JointValues::of_robot(&robot, &[0.25]).for_people(&robot), "lift 250 mm");
+    /// ```
+    pub fn for_people(&self, robot: &Robot) -> String {
+        let unit = |joint: &str| robot.find_joint(joint).map_or("", |joint| robot.joint(joint).kind.unit());
+        let each: Vec<String> =
+            self.iter().map(|(joint, value)| format!("{joint} {}", position(value, unit(joint)))).collect();
         each.join(", ")
     }
 }

@@ -3,7 +3,7 @@
 use congruent_description::ArmQ;
 use nalgebra::{DMatrix, Matrix3};
 
-use super::model::Arm;
+use super::model::{Arm, ArmJoint};
 use crate::{error::KinematicsError, spatial::twist::Twist};
 
 /// Singular values below this share of the largest are zero. Kind: rounding of a dozen products.
@@ -27,19 +27,21 @@ pub struct Dexterity {
     pub distance_to_singularity: f64,
 }
 
-/// The velocities that joint speeds of unit norm give the tool, as an ellipsoid.
+/// The velocities that joint velocities of unit norm give the tool, as an ellipsoid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VelocityEllipsoid {
     /// Columns are the directions of the semi-axes in the base, the longest first.
     pub axes_in_base: Matrix3<f64>,
-    /// Their lengths, in m or rad per unit of joint speed.
+    /// Their lengths, in m or rad per rad; per m if no joint turns.
     pub semi_axes: [f64; 3],
     /// What its semi-axes say.
     pub dexterity: Dexterity,
 }
 
 /// Manipulability at one configuration. Metres and radians do not mix: linear and angular parts stand
-/// apart, and in `whole` lengths are measured in [`Arm::metres_per_rad`].
+/// apart, and a length that counts as one radian measures the linear part in `whole`, and everywhere the
+/// velocities of joints that slide, if others turn. Without it a product of singular values would depend on the
+/// unit of length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Manipulability {
     /// Of the tool centre point's velocity.
@@ -51,13 +53,18 @@ pub struct Manipulability {
 }
 
 impl Arm {
-    /// Manipulability at configuration `q`.
+    /// Manipulability at configuration `q`, with a length that counts as one radian, such as
+    /// [`Arm::metres_per_rad`].
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `q` is no configuration of the arm.
-    pub fn manipulability(&mut self, q: &ArmQ) -> Result<Manipulability, KinematicsError> {
+    pub fn manipulability(
+        &mut self,
+        q: &ArmQ,
+        metres_per_rad: f64,
+    ) -> Result<Manipulability, KinematicsError> {
         let ranks = self.attainable_ranks();
-        let [linear, angular, whole] = self.jacobians(q)?;
+        let [linear, angular, whole] = self.jacobians(q, metres_per_rad)?;
         Ok(Manipulability {
             linear: ellipsoid(&linear, ranks[0]),
             angular: ellipsoid(&angular, ranks[1]),
@@ -65,12 +72,21 @@ impl Arm {
         })
     }
 
+    /// Whether some joints turn and others slide: their velocities have different units.
+    pub fn turns_and_slides(&self) -> bool {
+        let turns = |joint: &ArmJoint| joint.turns;
+        self.joints().iter().any(turns) && !self.joints().iter().all(turns)
+    }
+
     /// Linear, angular and whole Jacobian, the last without units.
-    fn jacobians(&mut self, q: &ArmQ) -> Result<[DMatrix<f64>; 3], KinematicsError> {
-        let rad_per_metre = 1.0 / self.metres_per_rad();
+    fn jacobians(&mut self, q: &ArmQ, metres_per_rad: f64) -> Result<[DMatrix<f64>; 3], KinematicsError> {
+        let rad_per_metre = 1.0 / metres_per_rad;
+        let of_slide = if self.turns_and_slides() { metres_per_rad } else { 1.0 };
+        let unit = |joint: &ArmJoint| if joint.turns { 1.0 } else { of_slide };
+        let units: Vec<f64> = self.joints().iter().map(unit).collect();
         let (_, columns) = self.pose_and_jacobian(q)?;
         let part = |of: fn(&Twist) -> nalgebra::Vector3<f64>| {
-            DMatrix::from_fn(3, columns.len(), |row, column| of(&columns[column])[row])
+            DMatrix::from_fn(3, columns.len(), |row, column| of(&columns[column])[row] * units[column])
         };
         let (linear, angular) = (part(|twist| twist.linear), part(|twist| twist.angular));
         let mut whole = DMatrix::zeros(6, columns.len());
@@ -80,10 +96,11 @@ impl Arm {
     }
 
     /// The most directions that each of the three spans at a few fixed configurations.
-    fn attainable_ranks(&mut self) -> [usize; 3] {
+    pub(super) fn attainable_ranks(&mut self) -> [usize; 3] {
         let mut ranks = [0; 3];
+        let metres_per_rad = self.metres_per_rad();
         for q in self.spread(RANK_SAMPLES) {
-            let jacobians = self.jacobians(&q).expect("q is a configuration of this arm");
+            let jacobians = self.jacobians(&q, metres_per_rad).expect("q is a configuration of this arm");
             for (rank, jacobian) in ranks.iter_mut().zip(jacobians) {
                 let values = sorted(&jacobian.singular_values());
                 let zero = RANK_SHARE * values.first().copied().unwrap_or(0.0);

@@ -1,22 +1,25 @@
 //! The positions of the tool within the joint limits: by seeded samples, with the extremes refined.
 
-use std::{array::from_fn, collections::BTreeSet};
+use std::array::from_fn;
 
 use congruent_description::ArmQ;
 use nalgebra::Vector3;
 
-use super::{model::Arm, pattern_search::maximize, sensitivity::Sampling};
+use super::{
+    model::Arm,
+    pattern_search::maximize,
+    sensitivity::Sampling,
+    workspace_size::{KnownWorkspace, WorkspaceSize, size},
+};
 use crate::uniform::Uniform;
 
 /// Below this extent the tool does not leave a plane. Kind: rounding of a dozen products within 10 m.
 const FLAT_M: f64 = 1e-12;
-/// Cells along the largest reach for the estimate of a volume and of an area: with some 10^5 samples
-/// a cell inside holds a dozen.
-const CELLS: [f64; 4] = [1.0, 400.0, 100.0, 20.0];
-
 /// Parts of the samples, the best of each of which starts a search: an extreme has side peaks, and the
 /// best sample of all may lie on one.
 const STARTS: usize = 16;
+/// Samples that are kept as starts for the test of single points: dense enough for a few steps to a point.
+const KEPT: usize = 2048;
 
 /// The positions that the tool centre point can take.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,10 +34,8 @@ pub struct Workspace {
     pub upper_in_base: Vector3<f64>,
     /// Directions of the base in which the tool moves: 3 for a volume, 2 for an area.
     pub dimensions: usize,
-    /// Volume in m^3 or area in m^2: cells that were reached, those at the boundary counted half.
-    pub extent: f64,
-    /// Edge of a cell, m: the error of `extent` is some share of the surface times it.
-    pub cell_m: f64,
+    /// Volume or area with an interval; none if the tool moves in one direction only.
+    pub size: Option<WorkspaceSize>,
     /// The samples, in the base.
     pub points_in_base: Vec<Vector3<f64>>,
 }
@@ -48,6 +49,7 @@ impl Arm {
         let mut random = Uniform::seeded(sampling.seed);
         let mut q = self.middle();
         let mut points_in_base = Vec::with_capacity(sampling.samples);
+        let mut kept = Vec::with_capacity(sampling.samples.min(KEPT));
         // Nearest, farthest, and both ends along each axis, each with the best configuration.
         let values: [fn(&Vector3<f64>) -> f64; 8] =
             [|p| -p.norm(), |p| p.norm(), |p| -p.x, |p| -p.y, |p| -p.z, |p| p.x, |p| p.y, |p| p.z];
@@ -62,6 +64,9 @@ impl Arm {
                     best.0 = value;
                     best.1.copy_from_slice(&q);
                 }
+            }
+            if kept.len() < KEPT {
+                kept.push((point, q.clone()));
             }
             points_in_base.push(point);
         }
@@ -79,15 +84,22 @@ impl Arm {
         let upper_in_base = Vector3::new(end(3, 1.0), end(4, 1.0), end(5, 1.0));
         let moves = (upper_in_base - lower_in_base).map(|extent| extent > FLAT_M);
         let dimensions = moves.iter().filter(|&&moves| moves).count();
-        let cell_m = (farthest.0 / CELLS[dimensions]).max(f64::MIN_POSITIVE);
+        let reach_m = [-nearest.0, farthest.0];
+        let corners_in_base = [lower_in_base, upper_in_base];
+        let known = KnownWorkspace { corners_in_base, moves, reach_m, starts: &kept };
+        let size = match dimensions {
+            0 | 1 => None,
+            // Fewer directions of motion than axes: a surface has no volume, a curve no area.
+            _ if self.attainable_ranks()[0] < dimensions => Some(WorkspaceSize::none()),
+            _ => Some(size(self, &known, sampling)),
+        };
         Workspace {
-            reach_m: [-nearest.0, farthest.0],
+            reach_m,
             reach_at: [nearest.1, farthest.1],
             lower_in_base,
             upper_in_base,
             dimensions,
-            extent: extent(&points_in_base, moves, cell_m),
-            cell_m,
+            size,
             points_in_base,
         }
     }
@@ -96,24 +108,4 @@ impl Arm {
     fn tcp_in_base(&mut self, q: &ArmQ) -> Vector3<f64> {
         self.base_from_tcp(q).expect("q is a configuration of this arm").translation
     }
-}
-
-/// Size of the cells that hold a point; a cell with an empty neighbour counts half.
-fn extent(points: &[Vector3<f64>], moves: Vector3<bool>, cell_m: f64) -> f64 {
-    let axes: Vec<usize> = (0..3).filter(|&axis| moves[axis]).collect();
-    #[expect(clippy::cast_possible_truncation, reason = "at most some hundred cells along an axis")]
-    let cell = |point: &Vector3<f64>| -> [i32; 3] {
-        [0, 1, 2].map(|axis| if moves[axis] { (point[axis] / cell_m).floor() as i32 } else { 0 })
-    };
-    let cells: BTreeSet<[i32; 3]> = points.iter().map(cell).collect();
-    let neighbour = |cell: &[i32; 3], axis: usize, step: i32| {
-        let mut cell = *cell;
-        cell[axis] += step;
-        cell
-    };
-    let inside = |cell: &[i32; 3]| {
-        axes.iter().all(|&axis| [-1, 1].iter().all(|&step| cells.contains(&neighbour(cell, axis, step))))
-    };
-    let count: f64 = cells.iter().map(|cell| if inside(cell) { 1.0 } else { 0.5 }).sum();
-    axes.iter().fold(count, |extent, _| extent * cell_m)
 }

@@ -228,6 +228,30 @@ impl UrdfTree {
         Ok(Jacobian::from_columns(kind, columns))
     }
 
+    /// The Jacobian of a frame that is fixed to a link, as a tool is to the tip; of the link itself if
+    /// `link_from_frame` is the identity. The axes and the point of the link in [`JacobianKind`] are then those of
+    /// the frame.
+    ///
+    /// # Errors
+    /// [`KinematicsError::JointCount`] when `q` is no configuration vector of the robot.
+    /// # Panics
+    /// When `link` is a link of a larger robot.
+    pub fn jacobian_of_frame(
+        &self,
+        q: &RobotQ,
+        (link, link_from_frame): (LinkIndex, &Pose),
+        kind: JacobianKind,
+    ) -> Result<Jacobian, KinematicsError> {
+        let mut columns = vec![Twist::zero(); self.dof];
+        let root_from_link = self.jacobian_into(q, link, JacobianKind::Body, &mut columns)?;
+        let (root_from_frame, frame_from_link) =
+            (root_from_link * *link_from_frame, link_from_frame.inverse());
+        for column in &mut columns {
+            *column = kind.of_body(&column.transformed_by(&frame_from_link), &root_from_frame);
+        }
+        Ok(Jacobian::from_columns(kind, columns))
+    }
+
     /// Goes from a link up to the root, the sines of a block first, so that they are computed
     /// together; `each` sees a joint and the link's pose in its child. Gives the pose in the root.
     #[inline]

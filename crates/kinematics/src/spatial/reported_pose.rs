@@ -1,9 +1,10 @@
 //! Poses in the JSON of reports.
 
+use nalgebra::{Quaternion, UnitQuaternion};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::pose::Pose;
+use super::{euler::EulerSet, pose::Pose};
 
 /// A pose as programs read it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
@@ -12,6 +13,24 @@ pub struct ReportedPose {
     pub translation_m: [f64; 3],
     /// Orientation in the same frame; the first component that is not zero is positive.
     pub quaternion_wxyz: [f64; 4],
+}
+
+impl ReportedPose {
+    /// Roll, pitch and yaw about the fixed axes x, y, z; the yaw is 0 if the pitch is a quarter turn.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_kinematics::{Pose, ReportedPose};
+    /// let half = 0.5_f64.sqrt();
+    /// let pose = ReportedPose { translation_m: [0.0; 3], quaternion_wxyz: [half, 0.0, 0.0, half] };
+    /// assert!((pose.rpy_rad()[2] - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+    /// ```
+    pub fn rpy_rad(&self) -> [f64; 3] {
+        let [w, x, y, z] = self.quaternion_wxyz;
+        let rotation = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)).to_rotation_matrix();
+        let [yaw, pitch, roll] = EulerSet::Zyx.angles(rotation.matrix()).angles_rad;
+        [roll, pitch, yaw]
+    }
 }
 
 impl From<&Pose> for ReportedPose {

@@ -48,7 +48,11 @@ fn write_limits(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
         _ => None,
     };
     for check in &report.checks {
-        for measure in &check.measures {
+        for (at, measure) in check.measures.iter().enumerate() {
+            // Further pairs of a clearance check have the same limit.
+            if check.measures[..at].iter().any(|before| before.quantity == measure.quantity) {
+                continue;
+            }
             if let Some((path, name)) = plotted(check.check.word(), measure.quantity) {
                 write_line(writer, report, &path, (name, measure.limit))?;
             }

@@ -1,51 +1,150 @@
-//! Distance between links and to obstacles: never below a minimum.
+//! Distance between links and to obstacles: never below a minimum. Every pair that comes below it is reported, not
+//! only the nearest.
 
-use congruent_description::RobotDescription;
+use congruent_description::{Diagnostic, RobotDescription};
 
 use super::{
     monitor::{Monitor, Observed},
     names::Names,
     watch::Watch,
 };
-use crate::{sample::Sample, scenario::ClearanceCheck, verdict::Bound};
+use crate::{
+    proximity::{Clearance, Nearest, PairChoice, PairNames, measured_pairs},
+    sample::Sample,
+    scenario::{ClearanceCheck, FilePlace, ObstacleSettings},
+    verdict::Bound,
+};
+
+const BOUND: Bound = Bound::AtLeast;
 
 pub(super) struct ClearanceMonitor {
-    distance: Watch,
+    names: PairNames,
     minimum_m: f64,
+    /// The smallest distance of all.
+    distance: Watch,
+    /// The names of the pairs that are measured, from the first sample on: only then they are known.
+    measured: Vec<[String; 2]>,
+    /// Those that are looked at.
+    pairs: Vec<LookedAt>,
     samples: u64,
+}
+
+/// A pair with its distances below the minimum.
+struct LookedAt {
+    pair: usize,
+    below: Watch,
+}
+
+/// Whether the pairs that a check names are those of the robot and of its obstacles.
+pub(super) fn examine(
+    check: &ClearanceCheck,
+    place: FilePlace<'_>,
+    (description, obstacles): (&RobotDescription, &[ObstacleSettings]),
+) -> Result<(), Diagnostic> {
+    let links = description.robot.links().iter().map(|link| link.name.as_str());
+    let subjects: Vec<&str> = links.chain(obstacles.iter().map(|obstacle| obstacle.name.as_str())).collect();
+    let pairs = measured_pairs(description, obstacles.len(), PairChoice::Usual);
+    let measured: Vec<(&str, &str)> = pairs.iter().map(|pair| (subjects[pair.a], subjects[pair.b])).collect();
+    let refused = names(check).examine(&subjects, &measured);
+    refused.map_err(|fault| place.key(fault.key).item(fault.entry).mark(fault.diagnostic))
+}
+
+fn names(check: &ClearanceCheck) -> PairNames {
+    PairNames { pairs: check.pairs.clone(), ignore: check.ignore.clone() }
 }
 
 impl ClearanceMonitor {
     pub(super) fn new(check: &ClearanceCheck, description: &RobotDescription) -> Self {
         let minimum_m = check.minimum_m;
-        let distance = Watch::new("distance", "m", Bound::AtLeast, minimum_m, description.robot.dof());
-        Self { distance, minimum_m, samples: 0 }
+        let distance = watch(minimum_m, description.robot.dof());
+        Self { names: names(check), minimum_m, distance, measured: Vec::new(), pairs: Vec::new(), samples: 0 }
     }
+
+    /// Makes room for every pair, so that no sample after the first allocates.
+    fn choose(&mut self, clearance: &Clearance, dof: usize) {
+        let all = 0..clearance.pairs().len();
+        self.measured = all.clone().map(|pair| owned(clearance.names(pair))).collect();
+        let pairs = all.filter(|&pair| self.names.look_at(clearance.names(pair)));
+        self.pairs = pairs.map(|pair| LookedAt { pair, below: watch(self.minimum_m, dof) }).collect();
+    }
+
+    /// Only a smaller distance than this changes the report: touching is reported although no distance is below
+    /// zero.
+    fn threshold_m(&self, below: &Watch) -> f64 {
+        match self.distance.worst() {
+            None => f64::INFINITY,
+            Some(_) if self.distance.is_violated() => below.worst().unwrap_or(self.minimum_m),
+            Some(worst_m) => worst_m.max(self.minimum_m),
+        }
+    }
+
+    /// Pairs that were left out or chosen by name.
+    fn notes(&self) -> Vec<String> {
+        let all: Vec<(&str, &str)> = self.measured.iter().map(|[a, b]| (a.as_str(), b.as_str())).collect();
+        let listed = |chosen: &dyn Fn((&str, &str)) -> bool| {
+            let chosen = all.iter().filter(|&&pair| chosen(pair));
+            chosen.map(|(a, b)| format!("{a}--{b}")).collect::<Vec<_>>().join(", ")
+        };
+        let mut notes = Vec::new();
+        if all.is_empty() {
+            notes.push("no pair to check: neighbouring bodies and disabled pairs are left out".to_owned());
+        }
+        if !self.names.pairs.is_empty() {
+            notes.push(format!("only these pairs are checked: {}", listed(&|pair| self.names.look_at(pair))));
+        }
+        let ignored = listed(&|pair| self.names.is_ignored(pair));
+        if !ignored.is_empty() {
+            notes.push(format!("ignored, as the scenario says: {ignored}"));
+        }
+        for [a, b] in self.names.without_effect(all.iter().copied()) {
+            notes.push(format!("ignoring {a}--{b} has no effect: the pair is not measured anyway"));
+        }
+        notes
+    }
+}
+
+fn owned((a, b): (&str, &str)) -> [String; 2] {
+    [a.to_owned(), b.to_owned()]
+}
+
+fn watch(minimum_m: f64, dof: usize) -> Watch {
+    Watch::new("distance", "m", BOUND, minimum_m, dof)
 }
 
 impl Monitor for ClearanceMonitor {
     fn observe(&mut self, sample: &mut Sample<'_>) {
+        if self.samples == 0 {
+            self.choose(sample.clearance, sample.joints.truth.q.len());
+        }
         self.samples += 1;
-        // Only a distance below the smallest so far, or below the minimum, changes the report; touching is
-        // reported although no distance is below zero.
-        let threshold_m = match self.distance.worst() {
-            Some(worst_m) if self.distance.is_violated() => worst_m,
-            Some(worst_m) => worst_m.max(self.minimum_m),
-            None => f64::INFINITY,
-        };
-        if let Some(nearest) = sample.clearance.nearest_below(threshold_m) {
+        let mut nearest: Option<Nearest> = None;
+        for at in 0..self.pairs.len() {
+            let threshold_m = self.threshold_m(&self.pairs[at].below);
+            let LookedAt { pair, below } = &mut self.pairs[at];
+            let Some(distance_m) = sample.clearance.measure_below(*pair, threshold_m) else { continue };
+            if !BOUND.holds(distance_m, self.minimum_m) {
+                below.observe(distance_m, *pair, sample);
+            }
+            if nearest.is_none_or(|known| distance_m < known.distance_m) {
+                nearest = Some(Nearest { distance_m, pair: *pair });
+            }
+        }
+        if let Some(nearest) = nearest {
             self.distance.observe(nearest.distance_m, nearest.pair, sample);
         }
     }
 
+    /// The smallest distance, and then that of each further pair below the minimum.
     fn finish(&self, names: &Names) -> Observed {
-        let notes = if names.pairs.is_empty() {
-            vec!["no pair to check: neighbouring bodies and disabled pairs are left out".to_owned()]
-        } else {
-            Vec::new()
-        };
-        let measure = self.distance.measure(&names.joints, |pair| names.pairs[pair].clone());
-        Observed { samples: self.samples, measures: vec![measure], notes }
+        let nearest = self.distance.worst_subject();
+        let further = self.pairs.iter().filter(|looked_at| Some(looked_at.pair) != nearest);
+        let mut below: Vec<(f64, &Watch)> =
+            further.filter_map(|LookedAt { below, .. }| Some((below.worst()?, below))).collect();
+        below.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        let watches = std::iter::once(&self.distance).chain(below.into_iter().map(|(_, watch)| watch));
+        let measures =
+            watches.map(|watch| watch.measure(&names.joints, |pair| names.pairs[pair].clone())).collect();
+        Observed { samples: self.samples, measures, notes: self.notes() }
     }
 
     fn has_failed(&self) -> bool {

@@ -1,17 +1,22 @@
 //! Joint positions against their limits.
 
-use congruent_description::{JointKind, RobotDescription};
+use congruent_description::{Diagnostic, JointKind, RobotDescription, units::Unit};
 
 use super::{
     monitor::{Monitor, Observed},
     names::Names,
     watch::Watch,
 };
-use crate::{sample::Sample, verdict::Bound};
+use crate::{
+    sample::Sample,
+    scenario::{FilePlace, LimitsCheck},
+    verdict::Bound,
+};
 
-/// Kind: rounding. A joint that rests at its limit is there to rounding: adding up 1e6 steps of
-/// at most 1e-16 each stays below this.
-const AT_THE_LIMIT: f64 = 1e-9;
+/// How far beyond a limit a joint counts as at it, rad and m, if the scenario does not say. Kind: digits of files. A
+/// limit that is written with six decimals, 1.570796 for a quarter turn, is off by up to 5e-7, and steps that add
+/// up to a limit by 1e-9 at most; what an encoder or a stop would notice is larger.
+pub(crate) const AT_THE_LIMIT: f64 = 1e-6;
 
 /// The range of one coordinate.
 struct CoordinateRange {
@@ -28,8 +33,35 @@ pub(super) struct LimitsMonitor {
     samples: u64,
 }
 
+/// Whether each tolerance is given in one unit only.
+pub(super) fn examine(check: &LimitsCheck, place: FilePlace<'_>) -> Result<(), Diagnostic> {
+    let twice = [
+        ("tolerance_rad", "tolerance_deg", check.tolerance_rad.and(check.tolerance_deg)),
+        ("tolerance_m", "tolerance_mm", check.tolerance_m.and(check.tolerance_mm)),
+    ];
+    match twice.into_iter().find(|(.., both)| both.is_some()) {
+        None => Ok(()),
+        Some((si, other, _)) => {
+            let message = format!("the tolerance is given twice, as {si} and as {other}");
+            let error = Diagnostic::error("scenario::two_units", message).with_help("leave one of them out");
+            Err(place.key(other).mark(error))
+        }
+    }
+}
+
+/// Of joints that turn, and of joints that slide.
+fn tolerances(check: &LimitsCheck) -> [f64; 2] {
+    let in_si = |si: Option<f64>, unit: Unit, value: Option<f64>| {
+        si.or(value.map(|value| unit.convert(value))).unwrap_or(AT_THE_LIMIT)
+    };
+    [
+        in_si(check.tolerance_rad, Unit::Angle, check.tolerance_deg),
+        in_si(check.tolerance_m, Unit::Length, check.tolerance_mm),
+    ]
+}
+
 impl LimitsMonitor {
-    pub(super) fn new(description: &RobotDescription) -> Self {
+    pub(super) fn new(check: &LimitsCheck, description: &RobotDescription) -> Self {
         let robot = &description.robot;
         let range = |(coordinate, &joint): (usize, _)| {
             let joint = robot.joint(joint);
@@ -37,11 +69,13 @@ impl LimitsMonitor {
             let is_angular = joint.kind != JointKind::Prismatic;
             Some(CoordinateRange { coordinate, lower, upper, is_angular })
         };
-        let watch = |quantity, unit| Watch::new(quantity, unit, Bound::AtMost, AT_THE_LIMIT, robot.dof());
+        let [angular, linear] = tolerances(check);
+        let watch =
+            |quantity, unit, tolerance| Watch::new(quantity, unit, Bound::AtMost, tolerance, robot.dof());
         Self {
             ranges: robot.movable_joints().iter().enumerate().filter_map(range).collect(),
-            angular: watch("angle_beyond_limit", "rad"),
-            linear: watch("shift_beyond_limit", "m"),
+            angular: watch("angle_beyond_limit", "rad", angular),
+            linear: watch("shift_beyond_limit", "m", linear),
             samples: 0,
         }
     }

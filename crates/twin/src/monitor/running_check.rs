@@ -5,15 +5,15 @@ use congruent_description::{Diagnostic, RobotDescription};
 
 use super::{
     agreement::AgreementMonitor,
-    clearance::ClearanceMonitor,
+    clearance::{self, ClearanceMonitor},
     goal::{self, GoalMonitor},
-    limits::LimitsMonitor,
+    limits::{self, LimitsMonitor},
     monitor::{Monitor, Observed},
     names::Names,
     zone::ZoneMonitor,
 };
 use crate::{
-    scenario::{Check, CheckKind, FilePlace, OnViolation},
+    scenario::{Check, CheckKind, FilePlace, ObstacleSettings, OnViolation},
     verdict::{CheckResult, Status},
 };
 
@@ -39,14 +39,20 @@ impl std::fmt::Debug for RunningCheck {
 }
 
 impl RunningCheck {
-    /// Whether the settings of a check are consistent.
+    /// Whether the settings of a check are consistent, with the robot and its obstacles.
     ///
     /// # Errors
     /// A diagnostic at the value that is not.
-    pub fn examine(check: &Check, place: FilePlace<'_>) -> Result<(), Diagnostic> {
+    pub fn examine(
+        check: &Check,
+        place: FilePlace<'_>,
+        around: (&RobotDescription, &[ObstacleSettings]),
+    ) -> Result<(), Diagnostic> {
         match check {
+            Check::Clearance(check) => clearance::examine(check, place, around),
             Check::Goal(check) => goal::examine(check, place).map(|_| ()),
-            Check::Agreement(_) | Check::Clearance(_) | Check::Limits(_) | Check::Zone(_) => Ok(()),
+            Check::Limits(check) => limits::examine(check, place),
+            Check::Agreement(_) | Check::Zone(_) => Ok(()),
         }
     }
 
@@ -59,7 +65,7 @@ impl RunningCheck {
             Check::Agreement(check) => Box::new(AgreementMonitor::new(check, description)),
             Check::Clearance(check) => Box::new(ClearanceMonitor::new(check, description)),
             Check::Goal(check) => Box::new(GoalMonitor::new(check, description)),
-            Check::Limits(_) => Box::new(LimitsMonitor::new(description)),
+            Check::Limits(check) => Box::new(LimitsMonitor::new(check, description)),
             Check::Zone(_) => Box::new(ZoneMonitor::new(description)),
         };
         Self { kind: check.kind(), line, on_violation: check.on_violation(), monitor }

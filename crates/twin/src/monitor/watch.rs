@@ -63,6 +63,11 @@ impl Watch {
         self.worst.is_set.then_some(self.worst.value)
     }
 
+    /// The subject of the worst value so far.
+    pub(crate) fn worst_subject(&self) -> Option<usize> {
+        self.worst.is_set.then_some(self.worst.subject)
+    }
+
     /// Whether a value was outside the limit.
     pub(crate) fn is_violated(&self) -> bool {
         self.first_violation.is_set

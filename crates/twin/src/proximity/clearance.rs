@@ -5,9 +5,7 @@
 //! by how far its two bodies have moved against each other since the last exact distance. A pair
 //! is measured again only if that bound does not decide the question.
 
-use std::collections::BTreeSet;
-
-use congruent_description::{Link, LinkIndex, Robot, RobotDescription, Shape};
+use congruent_description::{Geometry, Link, LinkIndex, Robot, RobotDescription, Shape};
 use congruent_simulation::Obstacle;
 use nalgebra::{Isometry3, Vector3};
 
@@ -103,8 +101,9 @@ impl Clearance {
         for obstacle in obstacles {
             clearance.add(obstacle)?;
         }
-        let pairs = pairs(robot, &clearance.hulls, choice, &description.disabled_collisions);
-        clearance.watches = pairs.map(WatchedPair::new).collect();
+        let is_solid = |subject: usize| !clearance.hulls[subject].is_empty();
+        let pairs = pairs(description, (clearance.hulls.len(), is_solid), choice);
+        clearance.watches = pairs.into_iter().map(WatchedPair::new).collect();
         Ok(clearance)
     }
 
@@ -186,15 +185,22 @@ impl Clearance {
     pub fn nearest_below(&mut self, threshold_m: f64) -> Option<Nearest> {
         let mut nearest: Option<Nearest> = None;
         for pair in 0..self.watches.len() {
-            if self.watches[pair].lower_bound_m >= threshold_m {
-                continue;
-            }
-            let distance_m = self.measure(pair);
-            if distance_m < threshold_m && nearest.is_none_or(|known| distance_m < known.distance_m) {
+            if let Some(distance_m) = self.measure_below(pair, threshold_m)
+                && nearest.is_none_or(|known| distance_m < known.distance_m)
+            {
                 nearest = Some(Nearest { distance_m, pair });
             }
         }
         nearest
+    }
+
+    /// The distance of one pair if it is below `threshold_m`; it is measured only if its bound does not decide
+    /// that.
+    pub fn measure_below(&mut self, pair: usize, threshold_m: f64) -> Option<f64> {
+        if self.watches[pair].lower_bound_m >= threshold_m {
+            return None;
+        }
+        Some(self.measure(pair)).filter(|&distance_m| distance_m < threshold_m)
     }
 
     /// The smallest distance of this instant; `None` if there is no pair.
@@ -246,36 +252,42 @@ fn largest_shift_m(before: &Isometry3<f64>, after: &Isometry3<f64>, radius_m: f6
     shift_m + 2.0 * radius_m * half_turn.norm()
 }
 
-fn pairs<'a>(
-    robot: &'a Robot,
-    hulls: &'a [Hulls],
+/// The pairs that [`Clearance::new`] watches among so many obstacles, without their hulls.
+pub fn measured_pairs(description: &RobotDescription, obstacles: usize, choice: PairChoice) -> Vec<Pair> {
+    let links = description.robot.links();
+    let is_empty =
+        |geometry: &Geometry| matches!(geometry, Geometry::Mesh(mesh) if mesh.triangles.is_empty());
+    let has_shape = |link: &Link| link.collisions.iter().any(|shape| !is_empty(&shape.geometry));
+    let is_solid = |subject: usize| links.get(subject).is_none_or(has_shape);
+    pairs(description, (links.len() + obstacles, is_solid), choice)
+}
+
+/// Pairs among so many subjects, links first, of which some are solid.
+fn pairs(
+    description: &RobotDescription,
+    (subjects, is_solid): (usize, impl Fn(usize) -> bool),
     choice: PairChoice,
-    disabled: &'a BTreeSet<(LinkIndex, LinkIndex)>,
-) -> impl Iterator<Item = Pair> + 'a {
+) -> Vec<Pair> {
+    let robot = &description.robot;
     let links: Vec<LinkIndex> = robot.link_indices().collect();
-    let body = move |subject: usize| links.get(subject).map_or(robot.root(), |&link| robot.body(link));
-    let links = robot.links().len();
-    let solid: Vec<usize> = (0..hulls.len()).filter(|&subject| !hulls[subject].is_empty()).collect();
-    let all = solid.clone().into_iter().flat_map(move |a| {
-        solid.clone().into_iter().filter(move |&b| b > a && a < links).map(move |b| Pair { a, b })
-    });
-    all.filter(move |&Pair { a, b }| {
+    let body = |subject: usize| links.get(subject).map_or(robot.root(), |&link| robot.body(link));
+    let solid: Vec<usize> = (0..subjects).filter(|&subject| is_solid(subject)).collect();
+    let is_watched = |a: usize, b: usize| {
         let (body_a, body_b) = (body(a), body(b));
-        let is_obstacle = b >= links;
         // Obstacles stand still, as the root body does.
         if body_a == body_b {
             return false;
         }
-        if is_obstacle || choice == PairChoice::All {
-            return true;
-        }
-        let both = (link(robot, a.min(b)), link(robot, a.max(b)));
-        !are_neighbours(robot, body_a, body_b) && !disabled.contains(&both)
-    })
-}
-
-fn link(robot: &Robot, index: usize) -> LinkIndex {
-    robot.link_indices().nth(index).expect("a subject below the number of links is a link")
+        let (Some(&a), Some(&b)) = (links.get(a), links.get(b)) else { return true };
+        choice == PairChoice::All
+            || !(are_neighbours(robot, body_a, body_b) || description.disabled_collisions.contains(&(a, b)))
+    };
+    let of_link = |&a: &usize| a < links.len();
+    let all = solid
+        .iter()
+        .filter(|a| of_link(a))
+        .flat_map(|&a| solid.iter().filter(move |&&b| b > a).map(move |&b| Pair { a, b }));
+    all.filter(|pair| is_watched(pair.a, pair.b)).collect()
 }
 
 /// Whether one joint connects the two bodies.

@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::{
     clearance::{Clearance, PairChoice},
     hulls::ProximityError,
+    pair_names::{PairFault, PairNames},
 };
 
 /// Distances at one configuration, in the order of the report's pairs.
@@ -28,8 +29,41 @@ pub struct DistanceReport {
     pub joints: Vec<String>,
     /// The links of each pair.
     pub pairs: Vec<[String; 2]>,
+    /// Pairs that were left out by their names.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ignored: Vec<[String; 2]>,
     /// One entry for each configuration, in input order.
     pub results: Vec<Distances>,
+    /// Smallest distance that is allowed, if one was given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit_m: Option<f64>,
+    /// Every pair that comes below the limit, the nearest first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub below: Vec<BelowLimit>,
+}
+
+/// A pair below the limit.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct BelowLimit {
+    /// Its links.
+    pub pair: [String; 2],
+    /// Its least distance over the configurations.
+    pub distance_m: f64,
+    /// The configuration of that distance, from 1.
+    pub configuration: usize,
+}
+
+/// What is measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DistanceOptions {
+    /// Which pairs are left out by the structure of the robot.
+    pub choice: PairChoice,
+    /// Pairs that are chosen or left out by name.
+    pub names: PairNames,
+    /// Whether overlaps have a depth.
+    pub overlap: Overlap,
+    /// Smallest distance that is allowed.
+    pub limit_m: Option<f64>,
 }
 
 /// Whether overlaps have a depth.
@@ -51,22 +85,36 @@ pub enum DistanceError {
     /// A configuration is none of the robot's.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
+    /// A pair is named that is not measured.
+    #[error("{}", .0.diagnostic)]
+    Pair(Box<PairFault>),
 }
 
 /// Distances between convex hulls of links (and to obstacles) at each configuration.
 ///
 /// # Errors
-/// [`DistanceError`] if a collision mesh has no extent.
+/// [`DistanceError`] if a collision mesh has no extent, or a name is unknown.
 pub fn distances(
     description: &RobotDescription,
     obstacles: &[Obstacle],
-    (choice, overlap): (PairChoice, Overlap),
+    options: &DistanceOptions,
     configurations: &[RobotQ],
 ) -> Result<DistanceReport, DistanceError> {
     let robot = &description.robot;
-    let mut clearance = Clearance::new(description, obstacles, choice)?;
+    let mut clearance = Clearance::new(description, obstacles, options.choice)?;
+    let measured: Vec<(&str, &str)> =
+        (0..clearance.pairs().len()).map(|pair| clearance.names(pair)).collect();
+    let subjects: Vec<&str> = clearance.subjects().iter().map(String::as_str).collect();
+    options.names.examine(&subjects, &measured).map_err(DistanceError::Pair)?;
+    let names = |chosen: &dyn Fn((&str, &str)) -> bool| -> Vec<[String; 2]> {
+        let pairs = measured.iter().filter(|&&pair| chosen(pair));
+        pairs.map(|&(a, b)| [a.to_owned(), b.to_owned()]).collect()
+    };
+    let pairs = names(&|pair| options.names.look_at(pair));
+    let ignored = names(&|pair| options.names.is_ignored(pair));
+    let looked_at: Vec<usize> =
+        (0..measured.len()).filter(|&pair| options.names.look_at(measured[pair])).collect();
     let tree = UrdfTree::new(robot);
-    let pairs = clearance.pairs().len();
     let mut by_analysis = vec![Pose::identity(); robot.links().len()];
     let mut root_from_links = vec![Isometry3::identity(); robot.links().len()];
     let mut results = Vec::with_capacity(configurations.len());
@@ -76,20 +124,32 @@ pub fn distances(
             *pose = by_analysis.to_isometry();
         }
         clearance.move_links(&root_from_links);
-        let measure = |pair| match overlap {
+        let measure = |&pair: &usize| match options.overlap {
             Overlap::Zero => clearance.measure(pair),
             Overlap::Depth => clearance.measure_signed(pair),
         };
-        results.push(Distances { distances_m: (0..pairs).map(measure).collect() });
+        results.push(Distances { distances_m: looked_at.iter().map(measure).collect() });
     }
-    let names = |pair| {
-        let (a, b) = clearance.names(pair);
-        [a.to_owned(), b.to_owned()]
-    };
     Ok(DistanceReport {
         robot: robot.name().to_owned(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
-        pairs: (0..pairs).map(names).collect(),
+        below: options.limit_m.map_or_else(Vec::new, |limit_m| below(&pairs, &results, limit_m)),
+        pairs,
+        ignored,
         results,
+        limit_m: options.limit_m,
     })
+}
+
+/// Pairs whose least distance is below the limit, the nearest first.
+fn below(pairs: &[[String; 2]], results: &[Distances], limit_m: f64) -> Vec<BelowLimit> {
+    let least = |(at, pair): (usize, &[String; 2])| {
+        let distances = results.iter().enumerate().map(|(index, result)| (result.distances_m[at], index + 1));
+        let (distance_m, configuration) = distances.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        Some(BelowLimit { pair: pair.clone(), distance_m, configuration })
+    };
+    let least = pairs.iter().enumerate().filter_map(least);
+    let mut below: Vec<BelowLimit> = least.filter(|least| least.distance_m < limit_m).collect();
+    below.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
+    below
 }

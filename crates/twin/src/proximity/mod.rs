@@ -3,7 +3,12 @@
 mod clearance;
 mod distances;
 mod hulls;
+mod pair_names;
 
-pub use clearance::{Clearance, Nearest, Pair, PairChoice};
-pub use distances::{DistanceError, DistanceReport, Distances, Overlap, distances};
+pub use clearance::{Clearance, Nearest, Pair, PairChoice, measured_pairs};
+pub use distances::{
+    BelowLimit, DistanceError, DistanceOptions, DistanceReport, Distances, Overlap, distances,
+};
 pub use hulls::{Hulls, ProximityError};
+pub(crate) use pair_names::matches;
+pub use pair_names::{PairFault, PairNames};

@@ -1,5 +1,7 @@
 //! The bounds against brute force: a pair that was not measured may not be nearer than the reported one.
 
+use std::collections::BTreeSet;
+
 use congruent_description::{Geometry, Joint, JointKind, JointParts, Link};
 use nalgebra::{Translation3, UnitQuaternion};
 use proptest::prelude::*;

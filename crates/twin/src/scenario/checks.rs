@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    number::{non_negative, optional_positive, positive},
+    number::{non_negative, optional_non_negative, optional_positive, positive},
     on_violation::OnViolation,
     pose::PoseSettings,
     text::variant,
@@ -103,12 +103,19 @@ pub struct AgreementCheck {
 }
 
 /// Links come no closer to each other and to obstacles than this.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClearanceCheck {
     /// Smallest distance.
     #[serde(deserialize_with = "non_negative")]
     pub minimum_m: f64,
+    /// Only these pairs of links and obstacles are checked, in either order; in a name, `*` stands for any
+    /// characters. All pairs if it is left out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<[String; 2]>,
+    /// Pairs that are not checked, likewise.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ignore: Vec<[String; 2]>,
     /// What follows its first violation.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -131,10 +138,22 @@ pub struct GoalCheck {
     pub on_violation: OnViolation,
 }
 
-/// No joint is outside its position limits.
+/// No joint is outside its position limits by more than a tolerance: 1e-6 rad and 1e-6 m if none is given.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitsCheck {
+    /// How far beyond its limit a joint that turns may be, in rad or in degrees.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub tolerance_rad: Option<f64>,
+    /// The same in degrees.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub tolerance_deg: Option<f64>,
+    /// How far beyond its limit a joint that slides may be, in metres or in millimetres.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub tolerance_m: Option<f64>,
+    /// The same in millimetres.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub tolerance_mm: Option<f64>,
     /// What follows its first violation.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,

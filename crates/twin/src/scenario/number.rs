@@ -72,6 +72,13 @@ pub(crate) fn non_negative<'de, D: Deserializer<'de>>(deserializer: D) -> Result
     Range::NonNegative.read(deserializer)
 }
 
+/// For `deserialize_with`, of a key that may be left out.
+pub(crate) fn optional_non_negative<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<f64>, D::Error> {
+    non_negative(deserializer).map(Some)
+}
+
 /// For `deserialize_with`: exactly `N` finite numbers.
 pub(crate) fn finite_array<'de, D: Deserializer<'de>, const N: usize>(
     deserializer: D,

@@ -15,7 +15,7 @@ use super::{
     zones::{self, Zone},
 };
 use crate::{
-    monitor::RunningCheck,
+    monitor::{AT_THE_LIMIT, RunningCheck},
     motion::Trajectory,
     scenario::{
         Check, CheckKind, Expectation, FilePlace, MotionSettings, Override, SCHEMA_VERSION, Scenario,
@@ -131,7 +131,8 @@ impl RunSetup {
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
         found.keep(zones::paired_with_checks(&scenario.zone, &scenario.check, place));
         for (index, check) in scenario.check.iter().enumerate() {
-            found.keep(RunningCheck::examine(check, place.key("check").item(index)));
+            let around = (&description, scenario.obstacle.as_slice());
+            found.keep(RunningCheck::examine(check, place.key("check").item(index), around));
         }
         found.extend(unexpected(&scenario, place.key("expect")));
         if needs_shapes(&scenario) {
@@ -296,9 +297,18 @@ fn write_out_defaults(
         }
     }
     for check in &mut scenario.check {
-        if let Check::Agreement(check) = check {
-            check.position_m.get_or_insert(description.tolerance.position_m);
-            check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
+        match check {
+            Check::Agreement(check) => {
+                check.position_m.get_or_insert(description.tolerance.position_m);
+                check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
+            }
+            Check::Limits(check) => {
+                check.tolerance_rad =
+                    check.tolerance_rad.or(check.tolerance_deg.is_none().then_some(AT_THE_LIMIT));
+                check.tolerance_m =
+                    check.tolerance_m.or(check.tolerance_mm.is_none().then_some(AT_THE_LIMIT));
+            }
+            Check::Clearance(_) | Check::Goal(_) | Check::Zone(_) => {}
         }
     }
 }

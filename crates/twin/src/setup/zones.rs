@@ -5,7 +5,10 @@ use congruent_description::{Diagnostic, Geometry, Link, LinkIndex, Robot, known_
 use congruent_simulation::Obstacle;
 
 use super::spaces;
-use crate::scenario::{Check, CheckKind, FilePlace, ObstacleSettings, ZoneSettings};
+use crate::{
+    proximity::matches,
+    scenario::{Check, CheckKind, FilePlace, ObstacleSettings, ZoneSettings},
+};
 
 /// Space that is forbidden to some links.
 #[derive(Debug, Clone, PartialEq)]
@@ -136,44 +139,4 @@ fn has_shape(link: &Link) -> bool {
     let is_empty =
         |geometry: &Geometry| matches!(geometry, Geometry::Mesh(mesh) if mesh.triangles.is_empty());
     link.collisions.iter().any(|shape| !is_empty(&shape.geometry))
-}
-
-/// Whether `name` is `pattern`, in which each `*` stands for any characters or none.
-fn matches(pattern: &str, name: &str) -> bool {
-    let Some((start, rest)) = pattern.split_once('*') else { return pattern == name };
-    let Some(mut name) = name.strip_prefix(start) else { return false };
-    let mut pieces: Vec<&str> = rest.split('*').collect();
-    let end = pieces.pop().unwrap_or_default();
-    for piece in pieces {
-        // The first place is as good as any: what follows has the more room.
-        let Some(at) = name.find(piece) else { return false };
-        name = &name[at + piece.len()..];
-    }
-    name.ends_with(end)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_star_stands_for_any_characters() {
-        for (pattern, name, is_match) in [
-            ("*", "wrist_1_link", true),
-            ("wrist_*", "wrist_1_link", true),
-            ("wrist_*", "forearm_link", false),
-            ("*_link", "wrist_1_link", true),
-            ("*_link", "tool0", false),
-            ("w*_1_*k", "wrist_1_link", true),
-            ("w*_3_*k", "wrist_1_link", false),
-            ("wrist_1_link*", "wrist_1_link", true),
-            ("**", "", true),
-            ("a*a", "a", false),
-            ("*ab*ab", "aab", false),
-            ("*ab*ab", "abab", true),
-            ("wrist", "wrist_1_link", false),
-        ] {
-            assert_eq!(matches(pattern, name), is_match, "{pattern} {name}");
-        }
-    }
 }

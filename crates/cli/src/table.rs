@@ -1,0 +1,96 @@
+//! Tables for people: columns as wide as their longest entry.
+
+use std::fmt::Write;
+
+use congruent::{description::display::in_column, kinematics::ReportedPose};
+
+/// Rows of a table: the first column is aligned to the left, the others to the right.
+#[derive(Debug, Default)]
+pub(crate) struct Table {
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table with the names of its columns.
+    pub(crate) fn headed<const N: usize>(names: [&str; N]) -> Self {
+        Self { rows: vec![names.map(str::to_owned).to_vec()] }
+    }
+
+    /// Adds a row.
+    pub(crate) fn row(&mut self, row: impl IntoIterator<Item = String>) {
+        self.rows.push(row.into_iter().collect());
+    }
+
+    /// Adds it to a text, each row indented.
+    pub(crate) fn write(&self, text: &mut String) {
+        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        let length = |cell: &String| cell.chars().count();
+        let width = |at: usize| self.rows.iter().filter_map(|row| row.get(at)).map(length).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..columns).map(width).collect();
+        for row in &self.rows {
+            let mut line = String::new();
+            for (at, (cell, &width)) in row.iter().zip(&widths).enumerate() {
+                let _ =
+                    if at == 0 { write!(line, "  {cell:width$}") } else { write!(line, "  {cell:>width$}") };
+            }
+            let _ = writeln!(text, "{}", line.trim_end());
+        }
+    }
+}
+
+/// A list whose entries are divided by `, `, in lines of at most 96 characters, each indented.
+pub(crate) fn wrapped(list: &str) -> String {
+    const WIDTH: usize = 96;
+    const INDENT: &str = "    ";
+    let (mut text, mut length) = (String::new(), WIDTH);
+    for entry in list.split_inclusive(", ") {
+        let longer = length + entry.trim_end().chars().count();
+        if longer > WIDTH {
+            text.truncate(text.trim_end().len());
+            let _ = write!(text, "{}{INDENT}", if text.is_empty() { "" } else { "\n" });
+            length = INDENT.len();
+        }
+        text.push_str(entry);
+        length += entry.chars().count();
+    }
+    text.push('\n');
+    text
+}
+
+/// The columns of [`pose_cells`].
+pub(crate) const POSE_COLUMNS: [&str; 11] =
+    ["", "x mm", "y mm", "z mm", "roll deg", "pitch", "yaw", "quat w", "x", "y", "z"];
+
+/// A pose: translation, roll, pitch and yaw about the fixed axes, quaternion.
+pub(crate) fn pose_cells(pose: &ReportedPose) -> impl Iterator<Item = String> {
+    let lengths = pose.translation_m.map(|value| in_column(value, "m"));
+    // Half a turn has one name.
+    let angle = |value| in_column(value, "rad").replace("-180.00", "180.00");
+    let angles = pose.rpy_rad().map(angle);
+    let quaternion = pose.quaternion_wxyz.map(|value| in_column(value, ""));
+    lengths.into_iter().chain(angles).chain(quaternion)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lists_are_wrapped() {
+        let text = wrapped(&["joint 90 deg"; 9].join(", "));
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len(), 2);
+        assert_eq!(lines.iter().map(|line| line.matches("joint").count()).sum::<usize>(), 9);
+        assert!(lines.iter().all(|line| line.len() <= 96 && line.starts_with("    j")), "{text}");
+    }
+
+    #[test]
+    fn columns_are_aligned() {
+        let mut table = Table::headed(["", "mm"]);
+        table.row(["shoulder".to_owned(), "1.00".to_owned()]);
+        table.row(["tip".to_owned(), "-817.25".to_owned()]);
+        let mut text = String::new();
+        table.write(&mut text);
+        assert_eq!(text, "                 mm\n  shoulder     1.00\n  tip       -817.25\n");
+    }
+}
