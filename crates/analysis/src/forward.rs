@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{Diagnostic, RobotDescription, RobotQ};
+use congruent_description::{Diagnostic, Finding, RobotDescription, RobotQ};
 use congruent_kinematics::{
     DhChain, KinematicsError, LinkPoses, LinkPosesError, Pose, ReportedPose, UrdfTree,
 };
@@ -50,6 +50,9 @@ pub struct ForwardReport {
     pub source: Source,
     /// One entry for each configuration, in input order.
     pub results: Vec<ReportedLinkPoses>,
+    /// Warnings about the robot.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub warnings: Vec<Finding>,
 }
 
 /// Why a source has no poses.
@@ -113,6 +116,7 @@ fn report(description: &RobotDescription, source: Source, results: Vec<ReportedL
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         source,
         results,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
     }
 }
 
