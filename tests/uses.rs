@@ -89,6 +89,8 @@ fn kinematics_goes_on_with_each_warning_once() {
         ends_with(&answer, 0, &words);
         assert_eq!(answer.stderr.matches("triangle").count(), 1, "{command}: {}", answer.stderr);
     }
+    let document = congruent_json(&["fk", &robot]).json();
+    assert_eq!(document["warnings"].as_array().map(Vec::len), Some(7), "{document:#}");
     ends_with(&congruent(&["convert", &robot, "--to", "urdf"]), 0, &words);
     ends_with(&congruent(&["derive", &robot, "--convention", "standard"]), 0, &words);
 }

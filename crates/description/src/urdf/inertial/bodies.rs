@@ -73,7 +73,8 @@ fn repair(robot: &mut Robot, name: &str) -> Result<Diagnostic, Diagnostic> {
         quantity((tensor_kg_m2 - inertia.tensor_kg_m2).norm(), UNIT)
     );
     robot.set_inertia(link, Inertia { tensor_kg_m2, ..inertia });
-    Ok(Diagnostic::warning(CODE, message))
+    // Each has its own values, so that each is told by itself.
+    Ok(Diagnostic::warning(CODE, message).one_of(format!("times {name} is repaired"), name))
 }
 
 /// The body of each link and its pose in it, in the order of the links; a body has the index of its first link.
