@@ -237,7 +237,7 @@ fn a_coarser_accuracy_simplifies_and_shows_what_it_costs() {
 /// The axes stand 0.3 m and 0.4 m apart and are turned by what 1.5707 for a quarter turn leaves.
 #[test]
 fn axes_that_rounding_leaves_nearly_parallel_are_parallel_through_their_origins() {
-    let off = 9.632_679_489_66e-5;
+    let off: f64 = 9.632_679_489_66e-5;
     let origin = Vector3::new(0.3, 0.4, 0.1);
     for (sense, relation) in [(1.0, AxisRelation::Parallel), (-1.0, AxisRelation::AntiParallel)] {
         let second = turn([0., off.sin() * sense, off.cos() * sense], origin.into());
