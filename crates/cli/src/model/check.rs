@@ -1,14 +1,22 @@
 //! `congruent check`: compares model, URDF and physics.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use congruent::{
     agreement::compare::{Agreement, CheckOptions, CheckReport},
+    check_suite,
     description::{Diagnostic, load_robot, read_configurations},
+    twin::report::TestSuite,
 };
 
+use serde::{Serialize, Serializer};
+
 use super::check_text::{basics, text};
-use crate::{failure::Failure, print::Printer};
+use crate::{
+    batch::{Batch, BatchReport},
+    failure::{FAILED, Failure},
+    print::Printer,
+};
 
 /// Whether a robot's table, its URDF and its physics twin are the same robot.
 ///
@@ -29,30 +37,54 @@ pub(crate) struct Arguments {
     /// Also show the pose of the TCP at zero and its motion with each joint; JSON always has both.
     #[arg(long)]
     basics: bool,
+    /// Also write a JUnit file: a suite for each robot, a case for each comparison, and an error for each robot that
+    /// cannot be loaded.
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+}
+
+/// The report on one robot, and whether its first checks are shown too.
+struct Checked {
+    report: CheckReport,
+    with_basics: bool,
+}
+
+impl Serialize for Checked {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.report.serialize(serializer)
+    }
+}
+
+impl BatchReport for Checked {
+    fn exit_code(&self) -> u8 {
+        u8::from(self.report.verdict != Agreement::Agree) * FAILED
+    }
+
+    fn text(&self) -> String {
+        let basics = if self.with_basics { basics(&self.report.basics) } else { String::new() };
+        text(&self.report) + &basics
+    }
+
+    fn test_suite(&self, input: &str) -> TestSuite {
+        check_suite(input, &self.report)
+    }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let mut reports = Vec::with_capacity(arguments.robots.len());
-    for path in &arguments.robots {
-        let description = load_robot(path)?;
-        printer.warnings(&description.warnings);
-        let configurations = match &arguments.configurations {
-            Some(path) => read_configurations(path, &description.robot)?,
-            None => Vec::new(),
-        };
-        let report =
-            congruent::check(&description, &CheckOptions { seed: arguments.seed, configurations })
-                .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
-        reports.push(report);
-    }
-    let text = |report: &CheckReport| {
-        let basics = if arguments.basics { basics(&report.basics) } else { String::new() };
-        text(report) + &basics
+    let batch = Batch::begin(&arguments.robots, arguments.junit.as_deref(), printer)?;
+    let robots = arguments.robots.iter();
+    batch.finish(robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect())
+}
+
+fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
+    let description = load_robot(path)?;
+    batch.warn(path, &description.warnings);
+    let configurations = match &arguments.configurations {
+        Some(path) => read_configurations(path, &description.robot)?,
+        None => Vec::new(),
     };
-    let all_agree = reports.iter().all(|report| report.verdict == Agreement::Agree);
-    match &reports[..] {
-        [report] => printer.result(report, text)?,
-        reports => printer.result(&reports, |reports| reports.iter().map(text).collect())?,
-    }
-    Ok(u8::from(!all_agree))
+    let options = CheckOptions { seed: arguments.seed, configurations };
+    let report = congruent::check(&description, &options)
+        .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
+    Ok(Checked { report, with_basics: arguments.basics })
 }

@@ -13,6 +13,11 @@ use crate::{sample::Sample, verdict::Bound};
 /// at most 1e-16 each stays below this.
 const AT_THE_LIMIT: f64 = 1e-9;
 
+/// How far a joint that turns is beyond its limit; negative inside its range.
+pub(crate) const ANGLE_BEYOND_LIMIT: &str = "angle_beyond_limit";
+/// The same of a joint that shifts.
+pub(crate) const SHIFT_BEYOND_LIMIT: &str = "shift_beyond_limit";
+
 /// The range of one coordinate.
 struct CoordinateRange {
     coordinate: usize,
@@ -40,8 +45,8 @@ impl LimitsMonitor {
         let watch = |quantity, unit| Watch::new(quantity, unit, Bound::AtMost, AT_THE_LIMIT, robot.dof());
         Self {
             ranges: robot.movable_joints().iter().enumerate().filter_map(range).collect(),
-            angular: watch("angle_beyond_limit", "rad"),
-            linear: watch("shift_beyond_limit", "m"),
+            angular: watch(ANGLE_BEYOND_LIMIT, "rad"),
+            linear: watch(SHIFT_BEYOND_LIMIT, "m"),
             samples: 0,
         }
     }

@@ -11,6 +11,7 @@ mod running_check;
 mod watch;
 mod zone;
 
+pub(crate) use limits::{ANGLE_BEYOND_LIMIT, SHIFT_BEYOND_LIMIT};
 pub use monitor::{Monitor, Observed};
 pub use names::Names;
 pub use running_check::RunningCheck;
