@@ -2,7 +2,7 @@
 
 use congruent_agreement::{
     compare::{Agreement, CheckReport, Comparison, ReportedCertificate},
-    report::foremost,
+    report::{ReportedDiagnosis, foremost},
 };
 use congruent_description::{display::length_and_angle, serde_name};
 use congruent_twin::report::{Clock, Reason, TestCase, TestResult, TestSuite};
@@ -51,7 +51,7 @@ fn certified(comparison: &Comparison, report: &CheckReport) -> Option<String> {
 fn causes(comparison: &Comparison, report: &CheckReport) -> Vec<String> {
     let same = report.diagnoses.iter().find(|diagnosis| diagnosis.name == comparison.name);
     let diagnosis = same.filter(|diagnosis| diagnosis.is_explained()).or(foremost(&report.diagnoses));
-    let statements = diagnosis.map(|diagnosis| diagnosis.statements()).unwrap_or_default();
+    let statements = diagnosis.map(ReportedDiagnosis::statements).unwrap_or_default();
     if statements.is_empty() {
         return vec!["no known cause explains it".to_owned()];
     }

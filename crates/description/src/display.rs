@@ -89,7 +89,7 @@ pub fn number(value: f64) -> String {
     /// From here on it is mostly digits.
     const LARGEST_DECIMAL: f64 = 1e7;
     match value.abs() {
-        size if size == 0.0 => "0".to_owned(),
+        0.0 => "0".to_owned(),
         size if (SMALLEST_DECIMAL..LARGEST_DECIMAL).contains(&size) => significant(value),
         _ if !value.is_finite() => value.to_string(),
         _ => format!("{value:.1e}"),
@@ -97,11 +97,11 @@ pub fn number(value: f64) -> String {
 }
 
 fn scaled(value: f64, steps: &[Step], si: &str, unit_of_zero: &str, per: &str) -> String {
+    /// What rounds up to a step is printed in its unit: 0.9999 nm is 1 nm.
+    const ROUNDED_UP: f64 = 0.9995;
     if value == 0.0 {
         return format!("0 {unit_of_zero}{per}");
     }
-    /// What rounds up to a step is printed in its unit: 0.9999 nm is 1 nm.
-    const ROUNDED_UP: f64 = 0.9995;
     match steps.iter().find(|step| value.abs() >= step.from * ROUNDED_UP) {
         Some(step) if value.is_finite() => {
             format!("{} {}{per}", number(value * step.units_in_si), step.unit)

@@ -6,6 +6,7 @@ use congruent_agreement::{
     report::{ReportedDiagnosis, foremost},
 };
 use congruent_description::{RobotDescription, Tolerance};
+use congruent_kinematics::larger;
 
 use crate::{
     run::Outcome,
@@ -24,17 +25,21 @@ pub(crate) fn explain(setup: &RunSetup, outcome: &mut Outcome) {
     let is_failed =
         |check: &&mut CheckResult| check.check == CheckKind::Agreement && check.status == Status::Fail;
     let Some(check) = outcome.checks.iter_mut().find(is_failed) else { return };
-    let description = RobotDescription {
-        tolerance: limits(check, setup.description.tolerance),
-        ..setup.description.clone()
-    };
-    let diagnoses = match SimulatedPoses::new(&description.robot) {
-        Ok(mut physics) => diagnose(&description, &mut physics, setup.scenario.seed).unwrap_or_default(),
-        // A robot that has just been simulated can be simulated.
-        Err(_) => Vec::new(),
-    };
-    check.notes.extend(notes(&diagnoses, &description));
-    outcome.diagnoses = diagnoses;
+    let worst = check.measures.iter().filter_map(|measure| measure.worst.as_ref());
+    if worst.map(|worst| worst.value).fold(0.0, larger) <= ROUNDING {
+        check
+            .notes
+            .push("the difference is rounding: no limit below 1e-12 m and 1e-12 rad can be kept".to_owned());
+        return;
+    }
+    let tolerance = limits(check, setup.description.tolerance);
+    let description = RobotDescription { tolerance, ..setup.description.clone() };
+    // A robot that has just been simulated can be simulated; without its physics there is no diagnosis.
+    let diagnoses = SimulatedPoses::new(&description.robot).ok();
+    let diagnoses =
+        diagnoses.and_then(|mut physics| diagnose(&description, &mut physics, setup.scenario.seed).ok());
+    outcome.diagnoses = diagnoses.unwrap_or_default();
+    check.notes.extend(notes(&outcome.diagnoses, &description));
 }
 
 /// The limits of the check, but not less than rounding.
@@ -51,6 +56,9 @@ fn limits(check: &CheckResult, declared: Tolerance) -> Tolerance {
 
 fn notes(diagnoses: &[ReportedDiagnosis], description: &RobotDescription) -> Vec<String> {
     let command = format!("congruent check {}", description.path.display());
+    if diagnoses.is_empty() {
+        return vec![format!("it cannot be diagnosed: `{command}` shows what differs")];
+    }
     let Some(diagnosis) = foremost(diagnoses) else {
         return vec![format!(
             "no cause at rest: model and physics agree within these limits if they are placed at configurations; `{command} \

@@ -25,12 +25,14 @@ fn sentence(measure: &Measure) -> String {
     let Some(worst) = &measure.worst else {
         return format!("{}: no value, {}", words(measure.quantity), limit(measure));
     };
-    let text = sentence_at(measure, worst);
+    let shown = |moment: &Moment| quantity(moment.value, measure.unit);
     match &measure.first_violation {
+        // Rounding decides when a constant value is the worst: its start tells more.
+        Some(first) if shown(first) == shown(worst) => sentence_at(measure, first),
         Some(first) if first.time_s < worst.time_s => {
-            format!("{text}, first at {}", quantity(first.time_s, "s"))
+            format!("{}, first at {}", sentence_at(measure, worst), quantity(first.time_s, "s"))
         }
-        _ => text,
+        _ => sentence_at(measure, worst),
     }
 }
 
@@ -147,6 +149,15 @@ mod tests {
             sentence(&measure).ends_with(": 20 mm below the limit, first at 1.5 s"),
             "{}",
             sentence(&measure)
+        );
+        let constant = Measure {
+            first_violation: Some(moment(0.5, 1e-7)),
+            worst: Some(moment(1.7, 1.001e-7)),
+            ..measure.clone()
+        };
+        assert_eq!(
+            sentence(&constant),
+            "distance 100 nm at here (0.5 s), at least 20 mm: 20 mm below the limit"
         );
         let unseen = Measure { worst: None, first_violation: None, ..measure };
         assert_eq!(sentence(&unseen), "distance: no value, at least 20 mm");
