@@ -55,5 +55,6 @@ fn causes(comparison: &Comparison, report: &CheckReport) -> Vec<String> {
     if statements.is_empty() {
         return vec!["no known cause explains it".to_owned()];
     }
-    statements.iter().map(|statement| format!("cause: {statement}")).collect()
+    let starts = std::iter::once("cause: ").chain(std::iter::repeat("and: "));
+    starts.zip(statements).map(|(start, line)| format!("{start}{line}")).collect()
 }

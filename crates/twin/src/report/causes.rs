@@ -69,8 +69,10 @@ fn notes(diagnoses: &[ReportedDiagnosis], description: &RobotDescription) -> Vec
     if statements.is_empty() {
         return vec![format!("no known cause explains it: `{command}` shows what differs")];
     }
+    let first = format!("cause ({}): ", diagnosis.title);
+    let starts = std::iter::once(first.as_str()).chain(std::iter::repeat("and: "));
     let mut notes: Vec<String> =
-        statements.iter().map(|statement| format!("cause ({}): {statement}", diagnosis.title)).collect();
+        starts.zip(statements).map(|(start, line)| format!("{start}{line}")).collect();
     match diagnosis.indistinguishable.len() {
         0 => {}
         1 => notes.push(format!("another cause cannot be distinguished from it: `{command}` shows it")),
