@@ -335,21 +335,6 @@ fn an_output_folder_that_cannot_be_written() {
 }
 
 #[test]
-fn two_scenarios_that_write_to_one_folder() {
-    let bench = Workbench::new();
-    fs::copy(bench.path("scenario.toml"), bench.path("other.toml")).unwrap();
-    let (a, b, out) =
-        (text(&bench.path("scenario.toml")), text(&bench.path("other.toml")), text(&bench.path("out")));
-    let answer = congruent(&["run", &a, &b, "--no-recording", "--out", &out]);
-    assert_eq!(answer.code, 2, "{}", answer.stderr);
-    assert!(
-        answer.stderr.contains("other.toml") && answer.stderr.contains("would both write"),
-        "{}",
-        answer.stderr
-    );
-}
-
-#[test]
 fn one_that_cannot_run_leaves_the_others_in_one_document() {
     let bench = Workbench::new();
     bench.write("other.toml", &SCENARIO.replacen("bench", "other", 1));

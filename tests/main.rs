@@ -5,6 +5,7 @@
 
 mod arm_studies;
 mod bad_input;
+mod batch;
 mod calibration;
 mod calibration_input;
 mod calibration_verdicts;

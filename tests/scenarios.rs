@@ -151,7 +151,7 @@ fn a_recording_holds_the_verdict_of_its_report() {
     assert_eq!(summary["verdict"], "as_expected");
     let entities: Vec<&str> =
         summary["entities"].as_array().unwrap().iter().filter_map(|entity| entity["path"].as_str()).collect();
-    for entity in ["/summary", "/status/clearance", "/agreement/position/tool0", "/clearance/minimum"] {
+    for entity in ["/summary", "/status/fail/clearance", "/agreement/position/tool0", "/clearance/minimum"] {
         assert!(entities.contains(&entity), "no {entity} in {entities:?}");
     }
 }

@@ -37,7 +37,7 @@ const ROUNDING: [Filter; 4] = [
     // A residual has decimals; a tolerance, 1e-12, has none and remains.
     (r"\b\d\.\d+e-[123]\d\b", "<rounding>"),
     // The link or sample at which a residual of rounding is largest.
-    (r"(<rounding> (?:m|rad) +at )[A-Za-z]\w+\b(?: \((?:\d+\.\d+|<any>) s\))?", "$1<place>"),
+    (r"(<rounding> (?:m|rad) +at )[A-Za-z]\w+\b(?: \((?:[\d.]+|<any>) s\))?", "$1<place>"),
     // The sign of zero, first after the name of a joint and then in columns.
     (r"\b([A-Za-z]\w*) -(0\.0+)\b", "$1 $2"),
     (r"-(0\.0+)\b", " $1"),
@@ -50,7 +50,7 @@ const NO_RESIDUAL: Filter = (r"(?:  )?\b0\.0+e0\b", "<rounding>");
 const CONFIGURATION: Filter = (r"(joint(?:_\d+)?) -?\d+\.\d+\b", "$1 <any>");
 
 /// The sample of the extreme distance of a run: the links often move together for long.
-const SAMPLE: Filter = (r"((?:distance|position) [1-9]\S* m at \S+ \()\d+\.\d+ s\)", "$1<any> s)");
+const SAMPLE: Filter = (r"((?:distance|position) [1-9]\S* mm at \S+ \()[\d.]+ s\)", "$1<any> s)");
 
 /// What follows from each bit of a trajectory: hashes, the size of the compressed file, the logarithm of a residual.
 const RECORDING: [Filter; 4] = [

@@ -12,6 +12,14 @@ pub(crate) const BROKEN: u8 = 3;
 /// Nothing was checked, which is never success.
 pub(crate) const NOTHING: u8 = 4;
 
+/// Of two exit codes the one that is returned: a broken run before bad input before nothing checked before a failed
+/// check.
+pub(crate) fn worse(a: u8, b: u8) -> u8 {
+    const FROM_BEST: [u8; 5] = [0, FAILED, NOTHING, BAD_INPUT, BROKEN];
+    let rank = |code: u8| FROM_BEST.iter().position(|&known| known == code);
+    if rank(b) > rank(a) { b } else { a }
+}
+
 /// Why a command has no result.
 #[derive(Debug)]
 pub(crate) enum Failure {

@@ -64,13 +64,18 @@ pub(crate) struct ChainArguments {
 }
 
 impl ChainArguments {
-    /// The robot along that chain; prints its warnings.
+    /// The robot along that chain.
+    pub(crate) fn of(&self, description: RobotDescription) -> Result<RobotDescription, Failure> {
+        Ok(description.with_chain(self.base.as_deref(), self.tip.as_deref())?)
+    }
+
+    /// The same, and its warnings are printed.
     pub(crate) fn choose(
         &self,
         description: RobotDescription,
         printer: &Printer,
     ) -> Result<RobotDescription, Failure> {
-        let description = description.with_chain(self.base.as_deref(), self.tip.as_deref())?;
+        let description = self.of(description)?;
         printer.warnings(&description.warnings);
         Ok(description)
     }

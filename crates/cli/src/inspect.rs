@@ -1,22 +1,57 @@
 //! `congruent inspect`: what a recording holds, and its verdict.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use congruent::recording::inspect;
+use crate::{
+    batch::{Batch, BatchReport},
+    failure::{FAILED, Failure},
+    print::Printer,
+};
+use congruent::{
+    description::Diagnostic,
+    recording::{RecordingSummary, inspect},
+    twin::report::{Reason, TestResult, TestSuite},
+};
 
-use crate::{failure::Failure, print::Printer};
-
-/// What a recording holds: verdict, timelines, entities, statistics of its scalars.
+/// What recordings hold: verdict, timelines, entities, statistics of their scalars.
+///
+/// The exit code is that of the recorded run; 2 if a file is cut off, corrupt or no recording, 4 without a verdict. Of
+/// several recordings it is the worst.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// A recording (.rrd).
-    recording: PathBuf,
+    /// Recordings (.rrd).
+    #[arg(required = true)]
+    recordings: Vec<PathBuf>,
+    /// Also write a JUnit file: a suite for each recording, with its verdict as the only case.
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+}
+
+impl BatchReport for RecordingSummary {
+    fn exit_code(&self) -> u8 {
+        self.exit_code
+    }
+
+    fn text(&self) -> String {
+        self.to_string()
+    }
+
+    fn test_suite(&self, input: &str) -> TestSuite {
+        let reason = Reason { kind: "recording".to_owned(), message: self.reason.clone() };
+        let result = match self.exit_code {
+            0 => TestResult::Passed,
+            FAILED => TestResult::Failed(reason),
+            _ => TestResult::Error(reason),
+        };
+        TestSuite::of_case(input, "verdict", result)
+    }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let summary = inspect(&arguments.recording).map_err(|error| {
-        congruent::description::Diagnostic::error("inspect::recording", error.to_string())
-    })?;
-    printer.result(&summary, ToString::to_string)?;
-    Ok(0)
+    let batch = Batch::begin(&arguments.recordings, arguments.junit.as_deref(), printer)?;
+    let read = |path: &Path| {
+        inspect(path).map_err(|error| Diagnostic::error("inspect::recording", error.to_string()).into())
+    };
+    let recordings = arguments.recordings.iter();
+    batch.finish(recordings.map(|path| batch.answer(path, || read(path))).collect())
 }

@@ -2,6 +2,7 @@
 //! the library `congruent`. A new command is a file here or in a folder, a variant of [`Command`] and a line in [`main`].
 
 mod arm;
+mod batch;
 mod failure;
 mod input;
 #[cfg(feature = "recording")]

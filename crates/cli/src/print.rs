@@ -4,6 +4,7 @@
 use std::{
     fmt::Write as _,
     io::{self, IsTerminal, Write},
+    path::Path,
 };
 
 use clap::ValueEnum;
@@ -31,6 +32,9 @@ pub(crate) struct Printer {
 /// The JSON document of a command that has no result.
 #[derive(Serialize)]
 pub(crate) struct Refusal<'a> {
+    /// The input that was refused, of several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    input: Option<String>,
     error: &'a str,
     findings: Vec<Finding>,
     /// Number of further findings.
@@ -55,10 +59,18 @@ impl<'a> From<&'a Failure> for Refusal<'a> {
             Failure::Machine(message) => (message.as_str(), [].as_slice()),
         };
         Self {
+            input: None,
             error,
             findings: findings.iter().take(MOST_FINDINGS).map(Finding::from).collect(),
             left_out: findings.len().saturating_sub(MOST_FINDINGS),
         }
+    }
+}
+
+impl Refusal<'_> {
+    /// The same with the name of the input.
+    pub(crate) fn of_input(self, input: &Path) -> Self {
+        Self { input: Some(input.display().to_string()), ..self }
     }
 }
 
@@ -91,35 +103,42 @@ impl Printer {
 
     /// Warnings for people; in JSON they are part of the document.
     pub(crate) fn warnings(&self, warnings: &[Diagnostic]) {
+        self.warnings_of(None, warnings);
+    }
+
+    /// The same with the name of the input in front of each, of several inputs.
+    pub(crate) fn warnings_of(&self, input: Option<&Path>, warnings: &[Diagnostic]) {
         if self.format == Format::Human {
-            for warning in warnings {
-                to_stderr(&rendered(warning));
-            }
+            to_stderr(&warnings.iter().map(|warning| labelled(input, warning)).collect::<String>());
         }
     }
 
     /// Why there is no result.
     pub(crate) fn failure(&self, failure: &Failure) {
-        Self::explain(failure);
+        Self::explain(None, failure);
         if self.format == Format::Json {
             // Standard output may be closed; the exit code and standard error remain.
             let _ = self.result(&Refusal::from(failure), |_| String::new());
         }
     }
 
-    /// Why a part of the result is missing: on standard error only.
-    pub(crate) fn explain(failure: &Failure) {
-        match failure {
-            Failure::Machine(message) => to_stderr(&format!("error: {message}\n")),
+    /// Why a part of the result is missing: on standard error only, in one piece, with the name of the input of several.
+    pub(crate) fn explain(input: Option<&Path>, failure: &Failure) {
+        let text = match failure {
+            Failure::Machine(message) => match input {
+                Some(input) => format!("error: {}: {message}\n", input.display()),
+                None => format!("error: {message}\n"),
+            },
             Failure::Input(findings) => {
-                for finding in findings.iter().take(MOST_FINDINGS) {
-                    to_stderr(&rendered(finding));
-                }
+                let shown = findings.iter().take(MOST_FINDINGS).map(|finding| labelled(input, finding));
+                let mut text: String = shown.collect();
                 if let Some(more) = findings.len().checked_sub(MOST_FINDINGS).filter(|&more| more > 0) {
-                    to_stderr(&format!("and {more} more\n"));
+                    let _ = writeln!(text, "and {more} more");
                 }
+                text
             }
-        }
+        };
+        to_stderr(&text);
     }
 
     /// Whether progress may be drawn.
@@ -137,9 +156,23 @@ fn to_stderr(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
+/// A finding below the name of the input that it belongs to.
+fn labelled(input: Option<&Path>, finding: &Diagnostic) -> String {
+    let word = serde_name(&finding.severity);
+    let heading = input.map(|input| format!("{}: {word}\n", input.display()));
+    heading.unwrap_or_default() + &rendered(finding)
+}
+
+/// Whether text may be coloured: both outputs are terminals, since findings are shown on either, and the user has not
+/// set `NO_COLOR` (<https://no-color.org>).
+fn is_coloured() -> bool {
+    let is_forbidden = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    !is_forbidden && io::stdout().is_terminal() && io::stderr().is_terminal()
+}
+
 /// A finding with the line it is about, as a compiler shows it.
 pub(crate) fn rendered(finding: &Diagnostic) -> String {
-    let plain = !io::stderr().is_terminal();
+    let plain = !is_coloured();
     let theme = if plain { GraphicalTheme::unicode_nocolor() } else { GraphicalTheme::unicode() };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
     let mut text = String::new();

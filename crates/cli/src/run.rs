@@ -3,27 +3,27 @@
 use std::{
     collections::BTreeMap,
     fmt::Write,
-    panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
     sync::Mutex,
 };
 
 use congruent::{
-    description::Diagnostic,
+    description::{Diagnostic, display::quantity},
     twin::{
         ExecuteError, Options, RecordingFormat, RunSetup, execute,
-        report::{OutputError, OutputFolder, RunReport, sentence, write_junit},
+        report::{OutputFolder, Reason, RunReport, TestCase, TestResult, TestSuite, lines},
         scenario::{Expectation, Override},
         verdict::{CheckResult, Verdict},
     },
 };
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::{
+    batch::{Answer, Batch, BatchReport, unwritable},
     failure::{BROKEN, Failure},
     input::PackageArguments,
-    print::{Printer, Refusal},
+    print::Printer,
 };
 
 /// Runs scenario files and writes report, JUnit and recording of each to its own folder.
@@ -50,7 +50,8 @@ pub(crate) struct Arguments {
     /// Write no recording.
     #[arg(long)]
     no_recording: bool,
-    /// Also write one JUnit file over all scenarios.
+    /// Also write one JUnit file over all scenarios, with an error for each that cannot start. Its times are those of
+    /// the machine; the times of each scenario's own junit.xml are simulated.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
     #[command(flatten)]
@@ -69,153 +70,108 @@ impl Arguments {
     }
 }
 
-/// The result of one scenario.
-enum Finished {
-    /// It ran; its results are in the folder.
-    Ran(Box<RunReport>, OutputFolder),
-    /// It ran, but its results could not be written.
-    Lost(Box<RunReport>, Failure),
-    /// It could not run.
-    Refused(Failure),
+/// A scenario that ran.
+struct Ran {
+    report: RunReport,
+    /// Where its results are, or why they are not all on disk.
+    results: Result<OutputFolder, String>,
 }
 
-/// One scenario in the document that stands for several.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Entry<'a> {
-    Report(&'a RunReport),
-    Refusal(Refusal<'a>),
+impl Serialize for Ran {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.report.serialize(serializer)
+    }
+}
+
+impl BatchReport for Ran {
+    fn exit_code(&self) -> u8 {
+        if self.results.is_ok() { self.report.exit_code } else { BROKEN }
+    }
+
+    fn text(&self) -> String {
+        let results = match &self.results {
+            Ok(folder) => format!("results in {}", folder.path().display()),
+            Err(_) => "results are not all on disk".to_owned(),
+        };
+        format!("{}  {results}\n", described(&self.report))
+    }
+
+    fn test_suite(&self, _: &str) -> TestSuite {
+        let mut suite = self.report.test_suite();
+        if let Err(message) = &self.results {
+            let reason = Reason { kind: "machine".to_owned(), message: message.clone() };
+            let result = TestResult::Error(reason);
+            suite.cases.push(TestCase { name: "results".to_owned(), result, output: String::new() });
+        }
+        suite
+    }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    if let Some(path) = &arguments.junit {
-        // Finds out now whether it can be written, and replaces the file of an earlier run.
-        write_junit(path, &[]).map_err(|error| unwritable(&error, "choose another file with --junit"))?;
-    }
-    let scenarios = load(arguments, printer)?;
-    let mut finished = run_all(scenarios, arguments, printer);
-    let mut code = finished.iter().map(Finished::exit_code).fold(0, worse);
-    if let Some(path) = &arguments.junit {
-        let reports: Vec<RunReport> = finished.iter().filter_map(Finished::report).cloned().collect();
-        if let Err(error) = write_junit(path, &reports) {
-            Printer::explain(&Failure::Machine(error.to_string()));
-            code = BROKEN;
-        }
-    }
-    if let [Finished::Refused(_)] = finished[..]
-        && let Some(Finished::Refused(failure)) = finished.pop()
-    {
-        return Err(failure);
-    }
-    for failure in finished.iter().filter_map(Finished::failure) {
-        Printer::explain(failure);
-    }
-    match &finished[..] {
-        [one] => printer.result(&one.entry(), |_| one.described())?,
-        all => {
-            let entries: Vec<Entry<'_>> = all.iter().map(Finished::entry).collect();
-            printer.result(&entries, |_| all.iter().map(Finished::described).collect())?;
-        }
-    }
-    Ok(code)
-}
-
-impl Finished {
-    fn report(&self) -> Option<&RunReport> {
-        match self {
-            Self::Ran(report, _) | Self::Lost(report, _) => Some(report),
-            Self::Refused(_) => None,
-        }
-    }
-
-    fn failure(&self) -> Option<&Failure> {
-        match self {
-            Self::Ran(..) => None,
-            Self::Lost(_, failure) | Self::Refused(failure) => Some(failure),
-        }
-    }
-
-    fn exit_code(&self) -> u8 {
-        match self {
-            Self::Ran(report, _) => report.exit_code,
-            Self::Lost(_, failure) | Self::Refused(failure) => failure.exit_code(),
-        }
-    }
-
-    fn entry(&self) -> Entry<'_> {
-        match self {
-            Self::Ran(report, _) | Self::Lost(report, _) => Entry::Report(report),
-            Self::Refused(failure) => Entry::Refusal(failure.into()),
-        }
-    }
-
-    fn described(&self) -> String {
-        match self {
-            Self::Ran(report, folder) => {
-                format!("{}  results in {}\n", described(report), folder.path().display())
-            }
-            Self::Lost(report, _) => format!("{}  results are not all on disk\n", described(report)),
-            Self::Refused(_) => String::new(),
-        }
-    }
+    let batch = Batch::begin(&arguments.scenarios, arguments.junit.as_deref(), printer)?;
+    let loaded = load(arguments, &batch);
+    let bars = printer.is_interactive().then(MultiProgress::new);
+    batch.finish(run_all(loaded, arguments, (&batch, bars.as_ref())))
 }
 
 /// Reads all scenarios before the first one runs, so that a fault in the last is known at once.
-fn load(arguments: &Arguments, printer: &Printer) -> Result<Vec<RunSetup>, Failure> {
+fn load(arguments: &Arguments, batch: &Batch<'_>) -> Vec<Answer<RunSetup>> {
     let overrides = arguments.overrides();
-    let mut scenarios = Vec::new();
-    let mut findings = Vec::new();
     let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
-    for path in &arguments.scenarios {
-        let setup = RunSetup::load_with(path, &overrides, &arguments.packages.ros());
-        match setup.and_then(RunSetup::for_simulation) {
-            Ok(setup) => {
-                let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
-                if let Some(other) = folders.insert(folder.clone(), path.clone()) {
-                    findings.push(same_folder(&folder, &other, path));
-                }
-                printer.warnings(&setup.description.warnings);
-                printer.warnings(&setup.warnings);
-                scenarios.push(setup);
-            }
-            Err(errors) => findings.extend(errors),
+    let ros = arguments.packages.ros();
+    let mut load = |path: &PathBuf| {
+        let setup = RunSetup::load_with(path, &overrides, &ros).and_then(RunSetup::for_simulation)?;
+        let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
+        if let Some(first) = folders.get(&folder) {
+            return Err(same_folder(&folder, first, path).into());
         }
-    }
-    if findings.is_empty() { Ok(scenarios) } else { Err(findings.into()) }
+        folders.insert(folder, path.clone());
+        batch.warn(path, &setup.description.warnings);
+        batch.warn(path, &setup.warnings);
+        Ok(setup)
+    };
+    arguments.scenarios.iter().map(|path| batch.answer(path, || load(path))).collect()
 }
 
-fn same_folder(folder: &Path, a: &Path, b: &Path) -> Diagnostic {
-    let message =
-        format!("scenarios {} and {} would both write to {}", a.display(), b.display(), folder.display());
-    Diagnostic::error("run::same_output", message).with_help("give them different names")
+fn same_folder(folder: &Path, first: &Path, second: &Path) -> Diagnostic {
+    let message = format!(
+        "{} does not run, since {} writes to {} already",
+        second.display(),
+        first.display(),
+        folder.display()
+    );
+    Diagnostic::error("run::same_output", message).with_help("give the scenarios different names")
 }
 
-/// Runs scenarios on `--jobs` threads; results are in the order of the arguments.
-fn run_all(scenarios: Vec<RunSetup>, arguments: &Arguments, printer: &Printer) -> Vec<Finished> {
+/// Runs scenarios on `--jobs` threads; answers are in the order of the arguments.
+fn run_all(
+    loaded: Vec<Answer<RunSetup>>,
+    arguments: &Arguments,
+    (batch, bars): (&Batch<'_>, Option<&MultiProgress>),
+) -> Vec<Answer<Ran>> {
     let options = Options {
         out: arguments.out.clone(),
         recording: (!arguments.no_recording).then_some(recording_format()).flatten(),
     };
-    let bars = printer.is_interactive().then(MultiProgress::new);
-    let jobs = usize::from(arguments.jobs).min(scenarios.len());
-    let waiting = Mutex::new(scenarios.into_iter().enumerate());
+    let jobs = usize::from(arguments.jobs).min(loaded.len());
+    let waiting = Mutex::new(loaded.into_iter().enumerate());
     let work = || {
-        let mut finished = Vec::new();
+        let mut answers = Vec::new();
         loop {
             let next = waiting.lock().expect("no thread panics while it takes a scenario").next();
-            let Some((index, scenario)) = next else { return finished };
-            finished.push((index, run_one(&scenario, &options, bars.as_ref())));
+            let Some((index, loaded)) = next else { return answers };
+            answers.push((index, batch.go_on(loaded, |setup| run_one(&setup, &options, bars))));
         }
     };
-    let mut finished: Vec<(usize, Finished)> = std::thread::scope(|scope| {
+    let mut answers: Vec<(usize, Answer<Ran>)> = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..jobs).map(|_| scope.spawn(work)).collect();
         threads
             .into_iter()
             .flat_map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
             .collect()
     });
-    finished.sort_by_key(|(index, _)| *index);
-    finished.into_iter().map(|(_, result)| result).collect()
+    answers.sort_by_key(|(index, _)| *index);
+    answers.into_iter().map(|(_, answer)| answer).collect()
 }
 
 /// The format of recordings, if this command was built with one.
@@ -230,35 +186,30 @@ fn recording_format() -> Option<&'static dyn RecordingFormat> {
     None
 }
 
-fn run_one(setup: &RunSetup, options: &Options<'_>, bars: Option<&MultiProgress>) -> Finished {
+fn run_one(setup: &RunSetup, options: &Options<'_>, bars: Option<&MultiProgress>) -> Result<Ran, Failure> {
     /// Steps between two looks at the progress bar.
     const STEPS_A_TICK: u64 = 256;
     let bar = bars.map(|bars| bars.add(progress_bar(setup)));
-    let name = setup.scenario.name.clone();
     let progress = |steps| {
         if let Some(bar) = bar.as_ref().filter(|_| steps % STEPS_A_TICK == 0) {
             bar.set_position(steps);
         }
     };
-    // A panic in one scenario must not lose the results of the others.
-    let result = catch_unwind(AssertUnwindSafe(|| execute(setup, options, progress)));
-    if let Some(bar) = bar {
+    let result = execute(setup, options, progress);
+    if let Some(bar) = &bar {
         bar.finish_and_clear();
     }
     match result {
-        Ok(Ok((report, folder))) => Finished::Ran(Box::new(report), folder),
-        Ok(Err(ExecuteError::Lost { report, source })) => {
-            Finished::Lost(report, Failure::Machine(source.to_string()))
+        Ok((report, folder)) => Ok(Ran { report, results: Ok(folder) }),
+        Err(ExecuteError::Lost { report, source }) => {
+            Printer::explain(setup.path.as_deref(), &Failure::Machine(source.to_string()));
+            Ok(Ran { report: *report, results: Err(source.to_string()) })
         }
-        Ok(Err(ExecuteError::Output(error))) => {
-            Finished::Refused(unwritable(&error, "choose a folder that can be written with --out"))
+        Err(ExecuteError::Output(error)) => {
+            Err(unwritable(&error, "choose a folder that can be written with --out"))
         }
-        Ok(Err(ExecuteError::Recording(error))) => Finished::Refused(Failure::Machine(error.to_string())),
-        Ok(Err(error)) => Finished::Refused(Diagnostic::error("run::cannot_run", error.to_string()).into()),
-        Err(_) => {
-            let message = format!("scenario \"{name}\" ended in an internal error; please report it");
-            Finished::Refused(Failure::Machine(message))
-        }
+        Err(ExecuteError::Recording(error)) => Err(Failure::Machine(error.to_string())),
+        Err(error) => Err(Diagnostic::error("run::cannot_run", error.to_string()).into()),
     }
 }
 
@@ -266,21 +217,6 @@ fn progress_bar(setup: &RunSetup) -> ProgressBar {
     let style = ProgressStyle::with_template("{prefix} {bar:40} {percent:>3} %")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(setup.clock.steps).with_style(style).with_prefix(setup.scenario.name.clone())
-}
-
-/// A path that cannot be written is bad input, a full disk is a failure of the machine.
-fn unwritable(error: &OutputError, help: &str) -> Failure {
-    if error.is_full() {
-        return Failure::Machine(error.to_string());
-    }
-    Diagnostic::error("run::output", error.to_string()).with_help(help).into()
-}
-
-/// Of two exit codes the one that is returned: a broken run before bad input before a failed check.
-fn worse(a: u8, b: u8) -> u8 {
-    const FROM_BEST: [u8; 5] = [0, 1, 4, 2, 3];
-    let rank = |code: u8| FROM_BEST.iter().position(|&known| known == code);
-    if rank(b) > rank(a) { b } else { a }
 }
 
 fn described(report: &RunReport) -> String {
@@ -295,8 +231,11 @@ fn described(report: &RunReport) -> String {
     };
     let _ = writeln!(
         text,
-        "{}: {verdict} ({}, {:.3} s in {} steps)",
-        report.scenario, report.robot, report.simulation.duration_s, report.simulation.steps
+        "{}: {verdict} ({}, {} in {} steps)",
+        report.scenario,
+        report.robot,
+        quantity(report.simulation.duration_s, "s"),
+        report.simulation.steps
     );
     if let Some(error) = &report.error {
         let _ = writeln!(text, "  {error}");
@@ -304,15 +243,14 @@ fn described(report: &RunReport) -> String {
     for servo in &report.servos {
         let _ = writeln!(text, "  motion {}   {servo}", servo.motion);
     }
-    for check in &report.checks {
+    for check in report.checks_failed_first() {
         checked(&mut text, check);
     }
     text
 }
 
 fn checked(text: &mut String, check: &CheckResult) {
-    let lines = check.measures.iter().map(sentence).chain(check.notes.clone());
-    for (index, line) in lines.enumerate() {
+    for (index, line) in lines(check).iter().enumerate() {
         let (kind, status) = if index == 0 { (check.check.word(), check.status.word()) } else { ("", "") };
         let _ = writeln!(text, "  {kind:10} {status:7} {line}");
     }

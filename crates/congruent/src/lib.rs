@@ -15,9 +15,11 @@ pub use congruent_simulation as simulation;
 pub use congruent_twin as twin;
 pub use nalgebra;
 
+mod check_suite;
 pub mod schema;
 mod with_physics;
 
+pub use check_suite::check_suite;
 pub use with_physics::{check, forward, joint_dynamics};
 
 /// What is wrong with an input, one finding in each line, without the lines of the file.

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-/// From this size on a value is printed in this unit.
+/// From this size on, once it is rounded to three digits, a value is printed in this unit.
 struct Step {
     from: f64,
     unit: &'static str,
@@ -139,10 +139,12 @@ pub fn position(value: f64, unit: &str) -> String {
 }
 
 fn scaled(value: f64, steps: &[Step], si: &str, unit_of_zero: &str, per: &str) -> String {
+    /// What rounds up to a step is printed in its unit: 0.9999 nm is 1 nm.
+    const ROUNDED_UP: f64 = 0.9995;
     if value == 0.0 {
         return format!("0 {unit_of_zero}{per}");
     }
-    match steps.iter().find(|step| value.abs() >= step.from) {
+    match steps.iter().find(|step| value.abs() >= step.from * ROUNDED_UP) {
         Some(step) if value.is_finite() => {
             format!("{} {}{per}", number(value * step.units_in_si), step.unit)
         }
@@ -175,6 +177,12 @@ mod tests {
     fn digits_at_the_edges() {
         let shown = [9.996, 99.96, 999.6, 0.099_96, 0.12, -33.84, 100.0].map(significant);
         assert_eq!(shown, ["10", "100", "1000", "0.1", "0.12", "-33.8", "100"]);
+    }
+
+    #[test]
+    fn what_rounds_up_to_a_unit_is_printed_in_it() {
+        let lengths = [1e-9 - 1e-15, 0.9996e-6, 0.999_96e-4, 9.9996, 0.999e-9].map(length);
+        assert_eq!(lengths, ["1 nm", "1 um", "0.1 mm", "10 m", "1.0e-9 m"]);
     }
 
     #[test]

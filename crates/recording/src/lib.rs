@@ -5,7 +5,6 @@
 //! Equal runs give equal bytes: no wall clock, counted identifiers, a sorted footer.
 
 mod blueprint;
-mod formatting;
 mod outcome;
 mod read;
 mod recorder;

@@ -126,7 +126,7 @@ fn a_run_is_read_back() {
     let forearm = entity(&summary, "/world/twin/forearm_link");
     assert!(forearm.components.iter().any(|name| name == "Transform3D:quaternion"), "{forearm:?}");
     for path in
-        ["/world/model/forearm_link", "/world/obstacle/table", "/status/agreement", "/log", "/summary"]
+        ["/world/model/forearm_link", "/world/obstacle/table", "/status/pass/agreement", "/log", "/summary"]
     {
         entity(&summary, path);
     }

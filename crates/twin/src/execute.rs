@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::{
     recorder::{NoRecorder, Recorder, RecordingError},
-    report::{OutputError, OutputFolder, RunReport, write_junit},
+    report::{OutputError, OutputFolder, RunReport, explain, write_junit},
     run::{Run, RunError},
     setup::RunSetup,
 };
@@ -100,7 +100,8 @@ pub fn execute(
         Some(recording) => &mut **recording,
         None => &mut nothing,
     };
-    let (outcome, result) = run.finish(&mut checks, recorder, progress);
+    let (mut outcome, result) = run.finish(&mut checks, recorder, progress);
+    explain(setup, &mut outcome);
     let mut report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
     let mut published = Ok(());
     let is_recorded = recording.is_some();
@@ -117,7 +118,7 @@ pub fn execute(
     let written = [
         published,
         folder.write_json("report.json", &report),
-        write_junit(&folder.file("junit.xml"), std::slice::from_ref(&report)),
+        write_junit(&folder.file("junit.xml"), &[report.test_suite()]),
     ];
     match written.into_iter().collect() {
         Ok(()) => Ok((report, folder)),

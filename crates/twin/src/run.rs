@@ -1,7 +1,8 @@
 //! The run loop: a source of joint states, comparison with the model, clearance, checks and recording, one
 //! sample after another. It does not know what the source is.
 
-use congruent_agreement::compare::Model;
+use congruent_agreement::{compare::Model, report::ReportedDiagnosis};
+use congruent_description::display::quantity;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
@@ -48,6 +49,8 @@ pub struct Outcome {
     pub servos: Vec<ServoResult>,
     /// SHA-256 over the true joint positions of every sample.
     pub trajectory_sha256: String,
+    /// Why model and twin differ, if a check of their agreement failed and the source is the physics.
+    pub diagnoses: Vec<ReportedDiagnosis>,
 }
 
 /// A run in progress. [`Run::finish`] does all of it; the stages are public so that a benchmark can
@@ -226,6 +229,7 @@ impl<'a> Run<'a> {
             steps,
             servos,
             trajectory_sha256: hex(&self.hash.finalize()),
+            diagnoses: Vec::new(),
         };
         (outcome, result)
     }
@@ -234,7 +238,8 @@ impl<'a> Run<'a> {
 /// The end of a run by a check after `step` steps; the check's result gets a note about it.
 fn stopped_by(result: &mut CheckResult, setup: &RunSetup, step: u64) -> Stop {
     let (time_s, steps) = (setup.clock.time_s(step), setup.clock.steps);
-    result.notes.push(format!("stopped the run at {time_s:.3} s, after {step} of {steps} steps"));
+    let time = quantity(time_s, "s");
+    result.notes.push(format!("stopped the run at {time}, after {step} of {steps} steps"));
     Stop { check: result.check, line: result.line, step, time_s }
 }
 

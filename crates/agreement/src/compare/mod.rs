@@ -5,6 +5,7 @@ pub(crate) mod basics;
 pub(crate) mod certificate;
 pub(crate) mod check;
 pub(crate) mod check_report;
+pub(crate) mod diagnosis;
 pub(crate) mod error;
 pub(crate) mod identified;
 pub(crate) mod model;
@@ -15,5 +16,6 @@ pub use check::{CheckOptions, RANDOM_CONFIGURATIONS, check};
 pub use check_report::{
     Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, NotAsked, WorstDifference,
 };
+pub use diagnosis::diagnose;
 pub use error::CheckError;
 pub use model::{Model, PoseSource};

@@ -1,16 +1,21 @@
 //! `congruent check`: compares model, URDF and physics.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use congruent::{
     agreement::compare::{Agreement, CheckOptions, CheckReport},
+    check_suite,
     description::{Diagnostic, load_robot_with, read_configurations},
+    twin::report::TestSuite,
 };
+
+use serde::{Serialize, Serializer};
 
 use super::check_text::{basics, text};
 use crate::{
+    batch::{Batch, BatchReport},
     failure::{FAILED, Failure, NOTHING},
-    input::{ChainArguments, PackageArguments, with_warning},
+    input::{ChainArguments, PackageArguments},
     print::Printer,
 };
 
@@ -38,45 +43,60 @@ pub(crate) struct Arguments {
     basics: bool,
     #[command(flatten)]
     packages: PackageArguments,
+    /// Also write a JUnit file: a suite for each robot, a case for each comparison, and an error for each robot that
+    /// cannot be loaded.
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+}
+
+/// The report on one robot, and whether its first checks are shown too.
+struct Checked {
+    report: CheckReport,
+    with_basics: bool,
+}
+
+impl Serialize for Checked {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.report.serialize(serializer)
+    }
+}
+
+impl BatchReport for Checked {
+    fn exit_code(&self) -> u8 {
+        match self.report.verdict {
+            Agreement::Agree => 0,
+            Agreement::Disagree => FAILED,
+            Agreement::NothingCompared => NOTHING,
+        }
+    }
+
+    fn text(&self) -> String {
+        let basics = if self.with_basics { basics(&self.report.basics) } else { String::new() };
+        text(&self.report) + &basics
+    }
+
+    fn test_suite(&self, input: &str) -> TestSuite {
+        check_suite(input, &self.report)
+    }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let mut reports = Vec::with_capacity(arguments.robots.len());
-    let ros = arguments.packages.ros();
-    for path in &arguments.robots {
-        let mut description = arguments.chain.choose(load_robot_with(path, &ros)?, printer)?;
-        let configurations = match &arguments.configurations {
-            Some(path) => {
-                let read = read_configurations(path, &description.robot)?;
-                with_warning(read, &mut description, printer)
-            }
-            None => Vec::new(),
-        };
-        let report =
-            congruent::check(&description, &CheckOptions { seed: arguments.seed, configurations })
-                .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
-        reports.push(report);
-    }
-    let text = |report: &CheckReport| {
-        let basics = if arguments.basics { basics(&report.basics) } else { String::new() };
-        text(report) + &basics
-    };
-    let code =
-        reports.iter().map(exit_code).max_by_key(|code| FROM_BEST.iter().position(|known| known == code));
-    match &reports[..] {
-        [report] => printer.result(report, text)?,
-        reports => printer.result(&reports, |reports| reports.iter().map(text).collect())?,
-    }
-    Ok(code.unwrap_or(NOTHING))
+    let batch = Batch::begin(&arguments.robots, arguments.junit.as_deref(), printer)?;
+    let robots = arguments.robots.iter();
+    batch.finish(robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect())
 }
 
-/// Exit codes of a check, the best first.
-const FROM_BEST: [u8; 3] = [0, FAILED, NOTHING];
-
-fn exit_code(report: &CheckReport) -> u8 {
-    match report.verdict {
-        Agreement::Agree => 0,
-        Agreement::Disagree => FAILED,
-        Agreement::NothingCompared => NOTHING,
+fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
+    let mut description = arguments.chain.of(load_robot_with(path, &arguments.packages.ros())?)?;
+    let mut configurations = Vec::new();
+    if let Some(path) = &arguments.configurations {
+        let read = read_configurations(path, &description.robot)?;
+        description.warnings.extend(read.warning);
+        configurations = read.entries;
     }
+    batch.warn(path, &description.warnings);
+    let options = CheckOptions { seed: arguments.seed, configurations };
+    let report = congruent::check(&description, &options)
+        .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
+    Ok(Checked { report, with_basics: arguments.basics })
 }

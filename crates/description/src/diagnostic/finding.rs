@@ -1,4 +1,6 @@
-//! Diagnostics in the JSON of reports.
+//! Diagnostics in the JSON of reports, and as one line.
+
+use std::fmt;
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -73,5 +75,21 @@ fn finding_place(diagnostic: &Diagnostic, found: &Occurrence) -> FindingPlace {
         name: found.name.clone(),
         line: place.map(|(line, _)| line),
         column: place.map(|(_, column)| column),
+    }
+}
+
+/// One line: the place, what is wrong, what to do.
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.file, self.line) {
+            (Some(file), Some(line)) => write!(f, "{file}:{line}: ")?,
+            (Some(file), None) => write!(f, "{file}: ")?,
+            (None, _) => {}
+        }
+        f.write_str(&self.message)?;
+        match &self.help {
+            Some(help) => write!(f, "; {help}"),
+            None => Ok(()),
+        }
     }
 }

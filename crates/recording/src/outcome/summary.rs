@@ -4,9 +4,9 @@ use std::{fmt::Write, sync::Arc};
 
 use congruent_twin::{
     recorder::RecordingError,
-    report::RunReport,
+    report::{RunReport, lines},
     scenario::Expectation,
-    verdict::{CheckResult, Moment, Status, Verdict},
+    verdict::{CheckResult, Status, Verdict},
 };
 use re_chunk::external::arrow::array::{ArrayRef, Float64Array, StringArray, UInt64Array};
 use re_sdk_types::{
@@ -14,10 +14,7 @@ use re_sdk_types::{
     archetypes::{RecordingInfo, TextDocument},
 };
 
-use crate::{
-    formatting,
-    rrd::{paths, writer::RrdWriter},
-};
+use crate::rrd::{paths, writer::RrdWriter};
 
 /// Writes the document and the properties.
 pub(crate) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
@@ -88,7 +85,7 @@ fn markdown(report: &RunReport) -> String {
     for servo in &report.servos {
         let _ = writeln!(text, "- motion {}: {}", servo.motion, escaped(&servo.to_string()));
     }
-    for check in &report.checks {
+    for check in report.checks_failed_first() {
         push_check(&mut text, check);
     }
     let (clock, versions) = (report.simulation, report.versions);
@@ -110,19 +107,8 @@ fn markdown(report: &RunReport) -> String {
 /// Adds a check with its worst values, as a list, since the viewer cuts off wide tables.
 fn push_check(text: &mut String, check: &CheckResult) {
     let _ = writeln!(text, "- **{} {}**", check.check, check.status.word());
-    for measure in &check.measures {
-        let quantity = measure.quantity.replace('_', " ");
-        let limit = formatting::limit(measure);
-        let _ = match &measure.worst {
-            None => writeln!(text, "  - {quantity}: no value, {limit}"),
-            Some(Moment { time_s, subject, value, .. }) => {
-                let value = formatting::quantity(*value, measure.unit);
-                writeln!(text, "  - {quantity} **{value}**, {limit}, {} at {time_s:.3} s", escaped(subject))
-            }
-        };
-    }
-    for note in &check.notes {
-        let _ = writeln!(text, "  - {}", escaped(note));
+    for line in lines(check) {
+        let _ = writeln!(text, "  - {}", escaped(&line));
     }
 }
 

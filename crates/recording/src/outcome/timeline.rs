@@ -2,7 +2,7 @@
 
 use congruent_twin::{
     recorder::RecordingError,
-    report::RunReport,
+    report::{RunReport, sentence_at},
     scenario::CheckKind,
     verdict::{CheckResult, Status},
 };
@@ -14,7 +14,6 @@ use re_sdk_types::{
 
 use super::{measures::first_violation, summary};
 use crate::{
-    formatting,
     rrd::{paths, times::SampleTime, writer::RrdWriter},
     scene::palette,
     series::scalars::log10,
@@ -24,7 +23,7 @@ use crate::{
 pub(crate) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
     write_limits(writer, report)?;
     for (check, name) in report.checks.iter().zip(status_names(report)) {
-        write_status(writer, report, check, &paths::status(&name))?;
+        write_status(writer, report, check, &paths::status(check.status.word(), &name))?;
     }
     write_events(writer, report)
 }
@@ -123,14 +122,7 @@ fn write_events(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
     let mut events = vec![(0.0, TextLogLevel::INFO, start)];
     for check in &report.checks {
         if let Some((measure, moment)) = first_violation(check) {
-            let text = format!(
-                "{}: {} of {} is {}, limit {}",
-                check.check,
-                measure.quantity,
-                moment.subject,
-                formatting::quantity(moment.value, measure.unit),
-                formatting::limit(measure),
-            );
+            let text = format!("{}: {}", check.check, sentence_at(measure, moment));
             events.push((moment.time_s, TextLogLevel::ERROR, text));
         }
     }

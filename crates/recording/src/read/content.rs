@@ -180,6 +180,8 @@ impl RecordingContent {
             complete: false,
             problems: self.problems,
             verdict,
+            exit_code: 0,
+            reason: String::new(),
             has_layout: self.has_layout,
             timelines: self.timelines.into_values().collect(),
             entities: self.entities.into_iter().map(entity).collect(),

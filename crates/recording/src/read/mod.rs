@@ -3,6 +3,7 @@
 
 mod content;
 mod frames;
+mod judgement;
 mod lengths;
 mod panics;
 mod summary;
@@ -90,6 +91,7 @@ pub fn inspect(path: &Path) -> Result<RecordingSummary, InspectError> {
     summary.bytes = metadata.len();
     summary.complete = extent.is_complete();
     summary.problems.splice(0..0, extent.problem(metadata.len()));
+    (summary.exit_code, summary.reason) = judgement::judge(&summary);
     Ok(summary)
 }
 

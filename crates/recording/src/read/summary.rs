@@ -25,6 +25,10 @@ pub struct RecordingSummary {
     pub problems: Vec<String>,
     /// The run's verdict, if this program made the recording.
     pub verdict: Option<String>,
+    /// The exit code of `inspect`: that of the run, 2 if the file is cut off or has problems, 4 without a verdict.
+    pub exit_code: u8,
+    /// Why it is that one.
+    pub reason: String,
     /// Whether the file contains a layout for the viewer.
     pub has_layout: bool,
     /// Timelines, by name.
@@ -104,6 +108,7 @@ impl fmt::Display for RecordingSummary {
         let state = if self.complete { "complete" } else { "incomplete" };
         writeln!(f, "file: {} bytes, {state}", self.bytes)?;
         writeln!(f, "verdict: {}", self.verdict.as_deref().unwrap_or("none"))?;
+        writeln!(f, "reason: {}", self.reason)?;
         for problem in &self.problems {
             writeln!(f, "problem: {problem}")?;
         }

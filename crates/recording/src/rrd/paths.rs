@@ -73,9 +73,10 @@ pub(crate) fn clearance(name: &str) -> EntityPath {
     path(&["clearance", name])
 }
 
-/// The status of a check over time.
-pub(crate) fn status(check: &str) -> EntityPath {
-    path(&["status", check])
+/// The status of a check over time, below its last one: the viewer orders the lanes by path, and of the statuses `error`
+/// and `fail` come before `pass` and `skipped`.
+pub(crate) fn status(last: &str, check: &str) -> EntityPath {
+    path(&["status", last, check])
 }
 
 /// The events of the run.

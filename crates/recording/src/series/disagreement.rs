@@ -1,6 +1,7 @@
 //! Model and twin where they disagree: links outside the limits turn red, arrows of true length point from
 //! the twin's links to the model's, and a label shows the error of the worst link.
 
+use congruent_description::display::length_and_angle;
 use congruent_kinematics::PoseError;
 use congruent_twin::{Sample, recorder::RecordingError, scenario::Check};
 use re_log_types::EntityPath;
@@ -11,7 +12,6 @@ use re_sdk_types::{
 };
 
 use crate::{
-    formatting,
     rrd::{
         convert::vector,
         paths,
@@ -199,7 +199,7 @@ impl DisagreementSeries {
         let above = |[x, y, z]: [f32; 3]| [x, y, z + LABEL_ABOVE_M];
         let labels = Points3D::update_fields()
             .with_positions(shown().map(|worst| above(worst.origin_in_world)))
-            .with_labels(shown().map(|worst| formatting::pose_error(&links[worst.link], &worst.error)));
+            .with_labels(shown().map(|worst| pose_error(&links[worst.link], &worst.error)));
         let markers = Ellipsoids3D::update_fields()
             .with_centers(shown().map(|worst| worst.origin_in_world))
             .with_half_sizes(shown().map(|_| [MARKER_M; 3]));
@@ -234,6 +234,14 @@ impl DisagreementSeries {
         }
         Ok(())
     }
+}
+
+/// A link with its position error, and its orientation error if that can be seen.
+fn pose_error(link: &str, error: &PoseError) -> String {
+    /// Unit: rad.
+    const VISIBLE: f64 = 1e-3;
+    let angle_rad = if error.orientation_rad >= VISIBLE { error.orientation_rad } else { 0.0 };
+    format!("{link}: {}", length_and_angle(error.position_m, angle_rad))
 }
 
 /// Columns of rows that all have the same components.

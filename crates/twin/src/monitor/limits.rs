@@ -18,6 +18,11 @@ use crate::{
 /// up to a limit by 1e-9 at most; what an encoder or a stop would notice is larger.
 pub(crate) const AT_THE_LIMIT: f64 = 1e-6;
 
+/// How far a joint that turns is beyond its limit; negative inside its range.
+pub(crate) const ANGLE_BEYOND_LIMIT: &str = "angle_beyond_limit";
+/// The same of a joint that shifts.
+pub(crate) const SHIFT_BEYOND_LIMIT: &str = "shift_beyond_limit";
+
 /// The range of one coordinate.
 struct CoordinateRange {
     coordinate: usize,
@@ -74,8 +79,8 @@ impl LimitsMonitor {
             |quantity, unit, tolerance| Watch::new(quantity, unit, Bound::AtMost, tolerance, robot.dof());
         Self {
             ranges: robot.movable_joints().iter().enumerate().filter_map(range).collect(),
-            angular: watch("angle_beyond_limit", "rad", angular),
-            linear: watch("shift_beyond_limit", "m", linear),
+            angular: watch(ANGLE_BEYOND_LIMIT, "rad", angular),
+            linear: watch(SHIFT_BEYOND_LIMIT, "m", linear),
             samples: 0,
         }
     }

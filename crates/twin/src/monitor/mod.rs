@@ -11,7 +11,7 @@ mod running_check;
 mod watch;
 mod zone;
 
-pub(crate) use limits::AT_THE_LIMIT;
+pub(crate) use limits::{ANGLE_BEYOND_LIMIT, AT_THE_LIMIT, SHIFT_BEYOND_LIMIT};
 pub use monitor::{Monitor, Observed};
 pub use names::Names;
 pub use running_check::RunningCheck;

@@ -1,7 +1,7 @@
 //! `move_tcp`: the tool centre point goes to a pose in the world. The nearest solution of inverse
 //! kinematics is taken and the joints go there together: the path in between is no straight line.
 
-use congruent_description::{Diagnostic, RobotQ};
+use congruent_description::{Diagnostic, RobotQ, display::length_and_angle};
 use congruent_kinematics::{Arm, IkOptions, IkSolver, IkTarget, KinematicsError, Pose, TargetPart, UrdfTree};
 
 use super::{
@@ -44,15 +44,15 @@ fn reach(pose: &PoseSettings, planning: &Planning<'_>) -> Result<RobotQ, Diagnos
     let found = solver.solve_nearest(&target, &start, &IkOptions::default(), ATTEMPTS);
     let found = found.map_err(|error| no_arm(&error, place))?;
     if !found.converged {
-        let message = format!(
-            "the tool cannot be brought there within the joint limits: {:.4} mm and {:.4} deg are left at best",
-            found.residual_position_m * 1e3,
-            found.residual_orientation_rad.to_degrees()
-        );
-        return Err(place.mark(
-            Diagnostic::error("scenario::out_of_reach", message)
-                .with_help("the pose is the tool centre point's in the world; leave the rotation out to ask for a position alone"),
-        ));
+        let left = length_and_angle(found.residual_position_m, found.residual_orientation_rad);
+        let message =
+            format!("the tool cannot be brought there within the joint limits: {left} are left at best");
+        let help = if pose.has_rotation() {
+            "the pose is the tool centre point's in the world; leave the rotation out to ask for a position alone"
+        } else {
+            "the position is the tool centre point's in the world"
+        };
+        return Err(place.mark(Diagnostic::error("scenario::out_of_reach", message).with_help(help)));
     }
     let q = found.q.clone();
     let mut to = planning.from.clone();

@@ -1,25 +1,91 @@
-//! A report as JUnit XML: one test case for each check, judged against what the scenario expects.
+//! Test suites as a JUnit file, which CI reads: a suite for each input, a case for each check of it. The one file that
+//! knows the XML.
 
-use std::{fs, io, path::Path};
+use std::{fs, io, path::Path, time::Duration};
 
-use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+use quick_junit::{NonSuccessKind, Property, Report, TestCaseStatus};
 
-use super::{
-    files::{OutputError, write_whole},
-    run_report::RunReport,
-};
-use crate::{
-    scenario::Expectation,
-    verdict::{CheckResult, Measure, Status, Verdict},
-};
+use super::files::{OutputError, write_whole};
 
-/// Writes all scenarios as one JUnit document; makes the folder that it goes to.
+/// The cases of one input: a scenario, a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TestSuite {
+    /// Its name.
+    pub name: String,
+    /// Its cases.
+    pub cases: Vec<TestCase>,
+    /// How long it took. The cases are computed together: each gets an equal share, so that sums are right.
+    pub time_s: f64,
+    /// The clock of that time.
+    pub clock: Clock,
+}
+
+/// The clock of a suite's time; the file names it in the suite's property `clock`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Clock {
+    /// Time in the simulation, the same in every run.
+    Simulated,
+    /// Time of the machine, different in every run.
+    Wall,
+}
+
+/// One check.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TestCase {
+    /// Its name.
+    pub name: String,
+    /// Its result.
+    pub result: TestResult,
+    /// What it has found, also if it passed.
+    pub output: String,
+}
+
+/// The result of a test case.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TestResult {
+    /// As expected.
+    Passed,
+    /// Checked, and not as expected.
+    Failed(Reason),
+    /// It could not be checked.
+    Error(Reason),
+    /// There was nothing to check.
+    Skipped(String),
+}
+
+/// Why a test case did not pass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reason {
+    /// Its kind, for programs: a check, or the code of a finding.
+    pub kind: String,
+    /// The reason for people.
+    pub message: String,
+}
+
+impl TestSuite {
+    /// The suite of an input with a single case, that gets no time of its own.
+    pub fn of_case(name: impl Into<String>, case: &str, result: TestResult) -> Self {
+        let output = String::new();
+        let cases = vec![TestCase { name: case.to_owned(), result, output }];
+        Self { name: name.into(), cases, time_s: 0.0, clock: Clock::Wall }
+    }
+
+    /// The same suite with the time that was measured.
+    #[must_use]
+    pub fn measured(mut self, wall_s: f64) -> Self {
+        (self.time_s, self.clock) = (wall_s, Clock::Wall);
+        self
+    }
+}
+
+/// Writes suites as one JUnit file; makes the folder that it goes to.
 ///
 /// # Errors
 /// [`OutputError`] if the file cannot be written.
-pub fn write_junit(path: &Path, reports: &[RunReport]) -> Result<(), OutputError> {
+pub fn write_junit(path: &Path, suites: &[TestSuite]) -> Result<(), OutputError> {
     let mut document = Report::new("congruent");
-    document.add_test_suites(reports.iter().map(suite));
+    document.set_time(duration(suites.iter().map(|suite| suite.time_s).sum()));
+    document.add_test_suites(suites.iter().map(written_suite));
     let refused = |source| OutputError { path: path.to_owned(), source };
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(refused)?;
@@ -28,59 +94,48 @@ pub fn write_junit(path: &Path, reports: &[RunReport]) -> Result<(), OutputError
     write_whole(path, text.as_bytes())
 }
 
-fn suite(report: &RunReport) -> TestSuite {
-    let mut suite = TestSuite::new(printable(&report.scenario));
-    for (index, check) in report.checks.iter().enumerate() {
-        suite.add_test_case(case(index, check, report));
-    }
-    if report.verdict == Verdict::NothingChecked || report.error.is_some() {
-        let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
-        status.set_message(printable(report.error.as_deref().unwrap_or("nothing was checked")));
-        suite.add_test_case(TestCase::new("run", status));
-    }
-    suite
+fn written_suite(suite: &TestSuite) -> quick_junit::TestSuite {
+    let mut written = quick_junit::TestSuite::new(printable(&suite.name));
+    let clock = match suite.clock {
+        Clock::Simulated => "simulated",
+        Clock::Wall => "wall",
+    };
+    #[expect(clippy::cast_precision_loss, reason = "a suite has few cases")]
+    let share = duration(suite.time_s / suite.cases.len().max(1) as f64);
+    written.set_time(duration(suite.time_s)).add_property(Property::new("clock", clock));
+    written.add_test_cases(suite.cases.iter().map(|case| {
+        let mut written = quick_junit::TestCase::new(printable(&case.name), status(&case.result));
+        written.set_classname(printable(&suite.name)).set_time(share);
+        if !case.output.is_empty() {
+            written.set_system_out(printable(&case.output));
+        }
+        written
+    }));
+    written
 }
 
-fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
-    let must_fail = match &report.expected {
-        Expectation::Pass => false,
-        Expectation::Fail { checks } => checks.is_empty() || checks.contains(&check.check),
-    };
-    let mut status = match check.status {
-        Status::Pass if !must_fail => TestCaseStatus::success(),
-        Status::Fail if must_fail => TestCaseStatus::success(),
-        // With no kind named, any one failure is enough.
-        Status::Pass if report.verdict == Verdict::AsExpected => TestCaseStatus::success(),
-        Status::Skipped => TestCaseStatus::skipped(),
-        Status::Error => TestCaseStatus::non_success(NonSuccessKind::Error),
-        Status::Pass | Status::Fail => TestCaseStatus::non_success(NonSuccessKind::Failure),
-    };
-    let text: Vec<String> = check.measures.iter().map(sentence).chain(check.notes.clone()).collect();
-    let text = printable(&text.join("; "));
-    match &status {
-        TestCaseStatus::Success { .. } => {}
-        _ if must_fail && check.status == Status::Pass => {
-            status.set_message(format!("expected to fail, but passed: {text}"));
+fn status(result: &TestResult) -> TestCaseStatus {
+    let (kind, reason) = match result {
+        TestResult::Passed => return TestCaseStatus::success(),
+        TestResult::Skipped(message) => {
+            let mut status = TestCaseStatus::skipped();
+            status.set_message(printable(message));
+            return status;
         }
-        _ => {
-            status.set_message(text.clone());
-        }
-    }
-    let mut case = TestCase::new(format!("{}_{}", index + 1, check.check.word()), status);
-    case.set_classname(printable(&report.scenario)).set_system_out(text);
-    case
+        TestResult::Failed(reason) => (NonSuccessKind::Failure, reason),
+        TestResult::Error(reason) => (NonSuccessKind::Error, reason),
+    };
+    let mut status = TestCaseStatus::non_success(kind);
+    // Some viewers show the attribute, which has one line, others the text of the element.
+    let line = reason.message.lines().collect::<Vec<_>>().join("; ");
+    status.set_type(printable(&reason.kind)).set_message(printable(&line));
+    status.set_description(printable(&reason.message));
+    status
 }
 
-/// One measure in words: `position 3.2e-10 m at tool0, t = 1.2 s, limit 1e-9`.
-pub fn sentence(measure: &Measure) -> String {
-    let (bound, unit, limit) = (measure.bound.words(), measure.unit, measure.limit);
-    match &measure.worst {
-        Some(worst) => format!(
-            "{} {:.3e} {unit} at {} ({:.3} s), {bound} {limit:e} {unit}",
-            measure.quantity, worst.value, worst.subject, worst.time_s
-        ),
-        None => format!("{}: no value, {bound} {limit:e} {unit}", measure.quantity),
-    }
+/// A time that is no duration, as of a run that never ended, counts as none.
+fn duration(seconds: f64) -> Duration {
+    Duration::try_from_secs_f64(seconds).unwrap_or_default()
 }
 
 /// XML does not allow most control characters, and two further characters.

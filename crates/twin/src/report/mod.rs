@@ -1,9 +1,14 @@
 //! Results of a run for programs: `report.json` has everything, `junit.xml` the checks in the format of CI.
 
+mod causes;
 mod files;
 mod junit;
 mod run_report;
+mod sentence;
+mod test_suite;
 
+pub(crate) use causes::explain;
 pub use files::{OutputError, OutputFolder, write_whole};
-pub use junit::{sentence, write_junit};
+pub use junit::{Clock, Reason, TestCase, TestResult, TestSuite, write_junit};
 pub use run_report::{LinkSource, RunClockReport, RunReport, Versions};
+pub use sentence::{lines, sentence_at};

@@ -1,6 +1,6 @@
 //! The report of one run.
 
-use congruent_agreement::compare::PoseSource;
+use congruent_agreement::{compare::PoseSource, report::ReportedDiagnosis};
 use congruent_description::Finding;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -40,6 +40,10 @@ pub struct RunReport {
     /// The result of each `servo_tcp`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub servos: Vec<ServoResult>,
+    /// Why model and twin differ, if a check of their agreement failed: the diagnosis of each pair of models, as
+    /// `check` gives it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub diagnoses: Vec<ReportedDiagnosis>,
     /// Why the run failed; `None` if it did not.
     pub error: Option<String>,
     /// The clock.
@@ -110,6 +114,7 @@ impl RunReport {
             checks,
             stopped: outcome.stopped,
             servos: outcome.servos,
+            diagnoses: outcome.diagnoses,
             error: error.map(ToString::to_string),
             simulation: RunClockReport {
                 step_s: setup.clock.step_s,
@@ -125,5 +130,12 @@ impl RunReport {
             },
             warnings: warnings.map(Finding::from).collect(),
         }
+    }
+
+    /// The checks, those that failed first.
+    pub fn checks_failed_first(&self) -> Vec<&CheckResult> {
+        let mut checks: Vec<&CheckResult> = self.checks.iter().collect();
+        checks.sort_by_key(|check| !matches!(check.status, Status::Fail | Status::Error));
+        checks
     }
 }

@@ -24,6 +24,17 @@ pub enum MotionSettings {
     Servo(ServoMotion),
 }
 
+impl MotionSettings {
+    /// How long it takes.
+    pub fn duration_s(&self) -> f64 {
+        match self {
+            Self::Joints(motion) => motion.duration_s,
+            Self::Tcp(motion) => motion.duration_s,
+            Self::Servo(motion) => motion.duration_s,
+        }
+    }
+}
+
 /// Named joints move to absolute positions, the others hold.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

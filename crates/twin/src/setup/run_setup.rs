@@ -123,7 +123,8 @@ impl RunSetup {
         move_inside_limits(&mut start, robot);
         let motions = (scenario.motion.as_slice(), place.key("motion"));
         let trajectory = keep_all(&mut found, Trajectory::new(motions, &description, &start, &mut warnings));
-        let motions_s = trajectory.as_ref().map_or(0.0, Trajectory::duration_s);
+        // Also of motions that cannot be planned, which is no fault of the clock.
+        let motions_s = scenario.motion.iter().map(MotionSettings::duration_s).sum();
         let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
         let clock = found.keep(clock);
         let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);

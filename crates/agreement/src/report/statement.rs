@@ -1,0 +1,39 @@
+//! A diagnosis in a few lines of plain text, for reports that show no lines of files.
+
+use std::slice;
+
+use congruent_description::{Diagnostic, Finding, display::length_and_angle};
+
+use super::content::{Fault, ReportedDiagnosis};
+use crate::diagnosis::Cause;
+
+impl ReportedDiagnosis {
+    /// Whether a cause was found.
+    pub fn is_explained(&self) -> bool {
+        self.causes.first().is_some_and(|cause| cause.fault.cause != Cause::Unexplained)
+    }
+
+    /// The first cause, one line for each of its faults: the place, what is wrong, what to write; the last has the
+    /// residual after all of it. Empty if no cause was found.
+    pub fn statements(&self) -> Vec<String> {
+        let Some(cause) = self.causes.first().filter(|_| self.is_explained()) else { return Vec::new() };
+        let faults = if cause.parts.is_empty() { slice::from_ref(&cause.fault) } else { &cause.parts };
+        let line = |(finding, fault): (&Diagnostic, &Fault)| {
+            let help = Some(fault.suggestion.clone());
+            Finding { help, ..Finding::from(finding) }.to_string()
+        };
+        let mut lines: Vec<String> = self.findings.iter().zip(faults).map(line).collect();
+        if let Some(last) = lines.last_mut() {
+            let residual = length_and_angle(cause.residual_m, cause.residual_rad);
+            last.push_str("; residual after the fix: ");
+            last.push_str(&residual);
+        }
+        lines
+    }
+}
+
+/// Of several diagnoses the one to show: the first that is explained, otherwise the first with a difference.
+pub fn foremost(diagnoses: &[ReportedDiagnosis]) -> Option<&ReportedDiagnosis> {
+    let explained = diagnoses.iter().find(|diagnosis| diagnosis.is_explained());
+    explained.or_else(|| diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty()))
+}

@@ -1,0 +1,234 @@
+//! Several inputs in one call: each is answered, whatever becomes of the others, and the exit code is the worst.
+
+use std::{
+    fmt::Write,
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::{Path, PathBuf},
+    time::Instant,
+};
+
+use congruent::{
+    description::{Diagnostic, Finding},
+    twin::report::{OutputError, Reason, TestResult, TestSuite, write_junit},
+};
+use serde::Serialize;
+
+use crate::{
+    failure::{BAD_INPUT, BROKEN, FAILED, Failure, NOTHING, worse},
+    print::{Printer, Refusal},
+};
+
+/// What a command prints for one input.
+pub(crate) trait BatchReport: Serialize {
+    /// The exit code that stands for its verdict.
+    fn exit_code(&self) -> u8;
+    /// The report for people.
+    fn text(&self) -> String;
+    /// The report for CI; `input` tells it from the others of the file.
+    fn test_suite(&self, input: &str) -> TestSuite;
+}
+
+/// The answer to one input: a report, or why there is none.
+pub(crate) struct Answer<R> {
+    input: PathBuf,
+    result: Result<R, Failure>,
+    /// Time of the machine that it took.
+    wall_s: f64,
+}
+
+/// One input in the document that stands for several.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Entry<'a, R> {
+    Report {
+        input: String,
+        #[serde(flatten)]
+        report: &'a R,
+    },
+    Refusal(Refusal<'a>),
+}
+
+/// The inputs of a call. Findings name their input if there are several.
+pub(crate) struct Batch<'a> {
+    printer: &'a Printer,
+    inputs: &'a [PathBuf],
+    junit: Option<&'a Path>,
+}
+
+impl<'a> Batch<'a> {
+    /// Finds out at once whether the JUnit file can be written. Until the end it has an error for every input, so that a
+    /// call that is killed is no success.
+    pub(crate) fn begin(
+        inputs: &'a [PathBuf],
+        junit: Option<&'a Path>,
+        printer: &'a Printer,
+    ) -> Result<Self, Failure> {
+        if let Some(path) = junit {
+            let unfinished = |input: &PathBuf| {
+                let message = "the call ended before this input was answered".to_owned();
+                let reason = Reason { kind: "unfinished".to_owned(), message };
+                TestSuite::of_case(shown(input), "end", TestResult::Error(reason))
+            };
+            let suites: Vec<TestSuite> = inputs.iter().map(unfinished).collect();
+            write_junit(path, &suites)
+                .map_err(|error| unwritable(&error, "choose another file with --junit"))?;
+        }
+        Ok(Self { printer, inputs, junit })
+    }
+
+    /// The name of an input in front of its findings, if there are several inputs.
+    fn label<'p>(&self, input: &'p Path) -> Option<&'p Path> {
+        (self.inputs.len() > 1).then_some(input)
+    }
+
+    /// Prints warnings about an input.
+    pub(crate) fn warn(&self, input: &Path, warnings: &[Diagnostic]) {
+        self.printer.warnings_of(self.label(input), warnings);
+    }
+
+    /// The answer to one input by `work`. Of several inputs it is printed at once why there is no answer; of a single one
+    /// that is the failure of the command. A panic must not lose the answers to the others.
+    pub(crate) fn answer<R>(&self, input: &Path, work: impl FnOnce() -> Result<R, Failure>) -> Answer<R> {
+        #[expect(clippy::disallowed_methods, reason = "for the JUnit file of the call alone, which CI reads")]
+        let start = Instant::now();
+        let result = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
+            let message = format!("{} ended in an internal error; please report it", input.display());
+            Err(Failure::Machine(message))
+        });
+        if let (Err(failure), Some(label)) = (&result, self.label(input)) {
+            Printer::explain(Some(label), failure);
+        }
+        Answer { input: input.to_owned(), result, wall_s: start.elapsed().as_secs_f64() }
+    }
+
+    /// The next stage of an answer, unless the first has failed.
+    pub(crate) fn go_on<S, R>(
+        &self,
+        answer: Answer<S>,
+        work: impl FnOnce(S) -> Result<R, Failure>,
+    ) -> Answer<R> {
+        let Answer { input, result, wall_s } = answer;
+        match result {
+            Ok(stage) => {
+                let next = self.answer(&input, || work(stage));
+                Answer { wall_s: wall_s + next.wall_s, ..next }
+            }
+            Err(failure) => Answer { input, result: Err(failure), wall_s },
+        }
+    }
+
+    /// Writes the JUnit file, prints all answers, and returns the worst exit code. Answers are in the order of the inputs;
+    /// for people the worst come first.
+    pub(crate) fn finish<R: BatchReport>(&self, mut answers: Vec<Answer<R>>) -> Result<u8, Failure> {
+        let mut code = answers.iter().map(Answer::exit_code).fold(0, worse);
+        if let Some(path) = self.junit {
+            let suites: Vec<TestSuite> = answers.iter().map(Answer::suite).collect();
+            if let Err(error) = write_junit(path, &suites) {
+                Printer::explain(None, &Failure::Machine(error.to_string()));
+                code = BROKEN;
+            }
+        }
+        if answers.len() > 1 {
+            let entries: Vec<Entry<'_, R>> = answers.iter().map(Answer::entry).collect();
+            self.printer.result(&entries, |_| text(&answers))?;
+        } else if let Some(Answer { result, .. }) = answers.pop() {
+            self.printer.result(&result?, R::text)?;
+        }
+        Ok(code)
+    }
+}
+
+impl<R: BatchReport> Answer<R> {
+    fn exit_code(&self) -> u8 {
+        match &self.result {
+            Ok(report) => report.exit_code(),
+            Err(failure) => failure.exit_code(),
+        }
+    }
+
+    fn entry(&self) -> Entry<'_, R> {
+        match &self.result {
+            Ok(report) => Entry::Report { input: shown(&self.input), report },
+            Err(failure) => Entry::Refusal(Refusal::from(failure).of_input(&self.input)),
+        }
+    }
+
+    fn suite(&self) -> TestSuite {
+        let suite = match &self.result {
+            Ok(report) => report.test_suite(&shown(&self.input)),
+            Err(failure) => {
+                TestSuite::of_case(shown(&self.input), "start", TestResult::Error(reason(failure)))
+            }
+        };
+        suite.measured(self.wall_s)
+    }
+
+    /// The report, or the first reason why there is none, for people.
+    fn text(&self) -> String {
+        match &self.result {
+            Ok(report) => report.text(),
+            Err(failure) => {
+                let reason = reason(failure).message;
+                let mut lines = reason.lines();
+                let first = lines.next().unwrap_or_default();
+                let more = match lines.count() {
+                    0 => String::new(),
+                    count => format!(" (and {count} more)"),
+                };
+                format!("  {first}{more}\n")
+            }
+        }
+    }
+}
+
+/// Exit codes as people read them, the worst first.
+const WORDS: [(u8, &str); 5] = [
+    (BROKEN, "BROKEN"),
+    (BAD_INPUT, "BAD INPUT"),
+    (NOTHING, "NOT CHECKED"),
+    (FAILED, "FAILED"),
+    (0, "passed"),
+];
+
+/// All answers for people, the worst first, each below its input, and how many there are of each kind.
+fn text<R: BatchReport>(answers: &[Answer<R>]) -> String {
+    let (mut text, mut counts) = (String::new(), Vec::new());
+    for (code, word) in WORDS {
+        let of_code = || answers.iter().filter(|answer| answer.exit_code() == code);
+        for answer in of_code() {
+            let _ = write!(text, "{}: {word}\n{}", answer.input.display(), answer.text());
+        }
+        if of_code().next().is_some() {
+            counts.push(format!("{} {word}", of_code().count()));
+        }
+    }
+    let _ = writeln!(text, "{} inputs: {}", answers.len(), counts.join(", "));
+    text
+}
+
+/// A failure as the reason of a test case, one line for each finding.
+fn reason(failure: &Failure) -> Reason {
+    match failure {
+        Failure::Machine(message) => Reason { kind: "machine".to_owned(), message: message.clone() },
+        Failure::Input(findings) => Reason {
+            kind: findings.first().map_or("bad input", |finding| finding.code).to_owned(),
+            message: findings
+                .iter()
+                .map(|finding| Finding::from(finding).to_string())
+                .collect::<Vec<_>>()
+                .join("\n"),
+        },
+    }
+}
+
+/// A path that cannot be written is bad input, a full disk is a failure of the machine.
+pub(crate) fn unwritable(error: &OutputError, help: &str) -> Failure {
+    if error.is_full() {
+        return Failure::Machine(error.to_string());
+    }
+    Diagnostic::error("run::output", error.to_string()).with_help(help).into()
+}
+
+fn shown(path: &Path) -> String {
+    path.display().to_string()
+}

@@ -1,0 +1,60 @@
+//! The report of a check as a test suite, which CI reads as JUnit: one case for each comparison.
+
+use congruent_agreement::{
+    compare::{Agreement, CheckReport, Comparison, ReportedCertificate},
+    report::{ReportedDiagnosis, foremost},
+};
+use congruent_description::{display::length_and_angle, serde_name};
+use congruent_twin::report::{Clock, Reason, TestCase, TestResult, TestSuite};
+
+/// The comparisons of a report as test cases; what failed names its cause with the line.
+///
+/// `name` tells this robot from the others of the file, as its path does.
+pub fn check_suite(name: &str, report: &CheckReport) -> TestSuite {
+    let cases = report.comparisons.iter().map(|comparison| case(comparison, report)).collect();
+    // Nothing moves, so that no time passes but the machine's.
+    TestSuite { name: name.to_owned(), cases, time_s: 0.0, clock: Clock::Wall }
+}
+
+fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
+    let worst = &comparison.worst;
+    let (limit, error) = (report.tolerance, worst.error);
+    let mut lines = vec![format!(
+        "worst {} at {}, tolerance {}",
+        length_and_angle(error.position_m, error.orientation_rad),
+        worst.link,
+        length_and_angle(limit.position_m, limit.orientation_rad)
+    )];
+    let result = if comparison.verdict == Agreement::Agree {
+        lines.extend(certified(comparison, report));
+        TestResult::Passed
+    } else {
+        lines.extend(causes(comparison, report));
+        let kind = serde_name(&comparison.name).to_owned();
+        TestResult::Failed(Reason { kind, message: lines.join("\n") })
+    };
+    TestCase { name: comparison.title.to_owned(), result, output: lines.join("\n") }
+}
+
+/// The bound over the whole joint range, if the same two sources have one.
+fn certified(comparison: &Comparison, report: &CheckReport) -> Option<String> {
+    let same = |certificate: &&ReportedCertificate| certificate.name == comparison.name;
+    let brackets = report.certificates.iter().find(same)?.brackets.as_ref()?;
+    let bound = brackets.bounds();
+    Some(format!(
+        "certified at most {} over the whole joint range",
+        length_and_angle(bound.position_m, bound.orientation_rad)
+    ))
+}
+
+/// The cause by the diagnosis of the same two sources, otherwise by the first that has one.
+fn causes(comparison: &Comparison, report: &CheckReport) -> Vec<String> {
+    let same = report.diagnoses.iter().find(|diagnosis| diagnosis.name == comparison.name);
+    let diagnosis = same.filter(|diagnosis| diagnosis.is_explained()).or(foremost(&report.diagnoses));
+    let statements = diagnosis.map(ReportedDiagnosis::statements).unwrap_or_default();
+    if statements.is_empty() {
+        return vec!["no known cause explains it".to_owned()];
+    }
+    let starts = std::iter::once("cause: ").chain(std::iter::repeat("and: "));
+    starts.zip(statements).map(|(start, line)| format!("{start}{line}")).collect()
+}

@@ -1,0 +1,165 @@
+//! One measured quantity as people read it: the value, its limit and the margin between them.
+
+use congruent_description::display::quantity;
+
+use crate::{
+    monitor::{ANGLE_BEYOND_LIMIT, SHIFT_BEYOND_LIMIT},
+    verdict::{Bound, CheckResult, Measure, Moment},
+};
+
+/// A check in lines: what was violated first, with the remarks on it.
+pub fn lines(check: &CheckResult) -> Vec<String> {
+    let is_violated = |measure: &&Measure| measure.first_violation.is_some();
+    let (violated, others): (Vec<_>, Vec<_>) = check.measures.iter().partition(is_violated);
+    let notes = check.notes.iter().cloned();
+    let others = others.into_iter().map(sentence);
+    if violated.is_empty() {
+        return others.chain(notes).collect();
+    }
+    violated.into_iter().map(sentence).chain(notes).chain(others).collect()
+}
+
+/// The worst value of a measure beside its limit: `distance 33.8 mm at forearm--table (1.2 s), at least 20 mm: 13.8 mm
+/// left`. A violation that began at another time is told with that time.
+fn sentence(measure: &Measure) -> String {
+    let Some(worst) = &measure.worst else {
+        return format!("{}: no value, {}", words(measure.quantity), limit(measure));
+    };
+    let shown = |moment: &Moment| quantity(moment.value, measure.unit);
+    match &measure.first_violation {
+        // Rounding decides when a constant value is the worst: its start tells more.
+        Some(first) if shown(first) == shown(worst) => sentence_at(measure, first),
+        Some(first) if first.time_s < worst.time_s => {
+            format!("{}, first at {}", sentence_at(measure, worst), quantity(first.time_s, "s"))
+        }
+        _ => sentence_at(measure, worst),
+    }
+}
+
+/// The same for the value of one instant.
+pub fn sentence_at(measure: &Measure, moment: &Moment) -> String {
+    let Moment { time_s, subject, value, .. } = moment;
+    let time = quantity(*time_s, "s");
+    if matches!(measure.quantity, ANGLE_BEYOND_LIMIT | SHIFT_BEYOND_LIMIT) {
+        return format!("{} at {subject} ({time})", beyond_joint_limit(*value, measure));
+    }
+    let (what, shown) = (words(measure.quantity), quantity(*value, measure.unit));
+    format!("{what} {shown} at {subject} ({time}), {}: {}", limit(measure), margin(*value, measure))
+}
+
+/// The limit: `at most 1 um`.
+fn limit(measure: &Measure) -> String {
+    format!("{} {}", measure.bound.words(), quantity(measure.limit, measure.unit))
+}
+
+/// How far a value is from its limit.
+fn margin(value: f64, measure: &Measure) -> String {
+    let margin = (value - measure.limit).abs();
+    let shown = quantity(margin, measure.unit);
+    match measure.bound {
+        _ if value.is_nan() => "not a number".to_owned(),
+        _ if margin == 0.0 => "at the limit".to_owned(),
+        bound if bound.holds(value, measure.limit) => format!("{shown} left"),
+        Bound::AtMost => format!("{shown} above the limit"),
+        Bound::AtLeast | Bound::Above => format!("{shown} below the limit"),
+    }
+}
+
+/// The distance of a joint from the end of its range; negative values are inside it.
+fn beyond_joint_limit(value: f64, measure: &Measure) -> String {
+    let shown = quantity(value.abs(), measure.unit);
+    match value {
+        _ if value.is_nan() => "not a number".to_owned(),
+        _ if value < -measure.limit => format!("{shown} left"),
+        _ if measure.bound.holds(value, measure.limit) => "at the limit".to_owned(),
+        _ => format!("{shown} beyond the limit"),
+    }
+}
+
+fn words(quantity: &str) -> String {
+    quantity.replace('_', " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use congruent_description::JointValues;
+
+    use super::*;
+
+    fn moment(time_s: f64, value: f64) -> Moment {
+        Moment { time_s, subject: "here".to_owned(), value, q: JointValues::new(&[], &[]) }
+    }
+
+    #[track_caller]
+    fn reads(quantity: &'static str, (bound, limit): (Bound, f64), value: f64, expected: &str) {
+        let unit = if quantity.starts_with("angle") { "rad" } else { "m" };
+        let worst = Some(moment(1.0, value));
+        let measure = Measure { quantity, unit, limit, bound, worst, first_violation: None };
+        assert_eq!(sentence(&measure), expected);
+    }
+
+    #[test]
+    fn value_limit_and_margin_stand_side_by_side() {
+        reads(
+            "position",
+            (Bound::AtMost, 1e-9),
+            0.005,
+            "position 5 mm at here (1 s), at most 1 nm: 5 mm above the limit",
+        );
+        reads(
+            "distance",
+            (Bound::AtLeast, 0.02),
+            0.0338,
+            "distance 33.8 mm at here (1 s), at least 20 mm: 13.8 mm left",
+        );
+        reads(
+            "distance",
+            (Bound::AtLeast, 0.05),
+            0.0338,
+            "distance 33.8 mm at here (1 s), at least 50 mm: 16.2 mm below the limit",
+        );
+        reads("distance", (Bound::Above, 0.0), 0.0, "distance 0 mm at here (1 s), above 0 mm: at the limit");
+        reads(
+            "position",
+            (Bound::AtMost, 0.1),
+            f64::NAN,
+            "position NaN m at here (1 s), at most 100 mm: not a number",
+        );
+    }
+
+    #[test]
+    fn a_joint_is_left_at_or_beyond_its_limit() {
+        let limit = (Bound::AtMost, 1e-9);
+        reads(ANGLE_BEYOND_LIMIT, limit, -1.0663, "61.1 deg left at here (1 s)");
+        reads(ANGLE_BEYOND_LIMIT, limit, 5e-10, "at the limit at here (1 s)");
+        reads(SHIFT_BEYOND_LIMIT, limit, 0.002, "2 mm beyond the limit at here (1 s)");
+    }
+
+    #[test]
+    fn a_violation_that_grows_is_told_with_its_start() {
+        let measure = Measure {
+            quantity: "distance",
+            unit: "m",
+            limit: 0.02,
+            bound: Bound::AtLeast,
+            worst: Some(moment(1.7, 0.0)),
+            first_violation: Some(moment(1.5, 0.019)),
+        };
+        assert!(
+            sentence(&measure).ends_with(": 20 mm below the limit, first at 1.5 s"),
+            "{}",
+            sentence(&measure)
+        );
+        let constant = Measure {
+            first_violation: Some(moment(0.5, 1e-7)),
+            worst: Some(moment(1.7, 1.001e-7)),
+            ..measure.clone()
+        };
+        assert_eq!(
+            sentence(&constant),
+            "distance 100 nm at here (0.5 s), at least 20 mm: 20 mm below the limit"
+        );
+        let unseen = Measure { worst: None, first_violation: None, ..measure };
+        assert_eq!(sentence(&unseen), "distance: no value, at least 20 mm");
+    }
+}

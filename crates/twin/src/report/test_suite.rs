@@ -1,0 +1,51 @@
+//! A report as a test suite: one case for each check, judged against what the scenario expects.
+
+use super::{
+    junit::{Clock, Reason, TestCase, TestResult, TestSuite},
+    run_report::RunReport,
+    sentence::lines,
+};
+use crate::{
+    scenario::Expectation,
+    verdict::{CheckResult, Status, Verdict},
+};
+
+impl RunReport {
+    /// The checks as a test suite, in the order of the scenario; its time is the simulated one.
+    pub fn test_suite(&self) -> TestSuite {
+        let checks = self.checks.iter().enumerate();
+        let mut cases: Vec<TestCase> = checks.map(|(index, check)| case(index, check, self)).collect();
+        if self.verdict == Verdict::NothingChecked || self.error.is_some() {
+            let message = self.error.clone().unwrap_or_else(|| "nothing was checked".to_owned());
+            let reason = Reason { kind: "run".to_owned(), message };
+            let result = TestResult::Error(reason);
+            cases.push(TestCase { name: "run".to_owned(), result, output: String::new() });
+        }
+        TestSuite {
+            name: self.scenario.clone(),
+            cases,
+            time_s: self.simulation.duration_s,
+            clock: Clock::Simulated,
+        }
+    }
+}
+
+fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
+    let must_fail = match &report.expected {
+        Expectation::Pass => false,
+        Expectation::Fail { checks } => checks.is_empty() || checks.contains(&check.check),
+    };
+    let output = lines(check).join("\n");
+    let reason = |message: String| Reason { kind: check.check.word().to_owned(), message };
+    let result = match check.status {
+        Status::Pass if !must_fail => TestResult::Passed,
+        Status::Fail if must_fail => TestResult::Passed,
+        // With no kind named, any one failure is enough.
+        Status::Pass if report.verdict == Verdict::AsExpected => TestResult::Passed,
+        Status::Pass => TestResult::Failed(reason(format!("expected to fail, but passed: {output}"))),
+        Status::Skipped => TestResult::Skipped(output.clone()),
+        Status::Error => TestResult::Error(reason(output.clone())),
+        Status::Fail => TestResult::Failed(reason(output.clone())),
+    };
+    TestCase { name: format!("{}_{}", index + 1, check.check.word()), result, output }
+}
