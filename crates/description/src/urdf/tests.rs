@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// Two links and a joint, each with a place for more.
-fn arm(joint: &str, link: &str) -> String {
+pub(super) fn arm(joint: &str, link: &str) -> String {
     format!(
         r#"<robot name="arm">
 <link name="base"/>
@@ -28,11 +28,11 @@ fn arm(joint: &str, link: &str) -> String {
     )
 }
 
-const LIMIT: &str = r#"<limit lower="-1" upper="2" effort="3" velocity="4"/>"#;
-const INERTIAL: &str =
+pub(super) const LIMIT: &str = r#"<limit lower="-1" upper="2" effort="3" velocity="4"/>"#;
+pub(super) const INERTIAL: &str =
     r#"<inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>"#;
 
-fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>) {
+pub(super) fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>) {
     let mut diagnostics = Diagnostics::default();
     let mut no_mesh = |uri: &str, _| Err(Diagnostic::error("mesh::none", format!("no mesh {uri}")));
     let inputs = UrdfInputs { find_mesh: &mut no_mesh, repairs: &Repairs::default() };
@@ -41,7 +41,7 @@ fn read(text: &str) -> (Option<Robot>, Vec<Diagnostic>) {
 }
 
 #[track_caller]
-fn good(text: &str) -> Robot {
+pub(super) fn good(text: &str) -> Robot {
     let (robot, diagnostics) = read(text);
     assert_eq!(diagnostics, []);
     robot.unwrap()
@@ -70,7 +70,7 @@ fn joint_warning(joint: &str, code: &str, message: &str) {
 
 /// The text has exactly this finding, which stops this use and no other.
 #[track_caller]
-fn stops(text: &str, line: usize, stopped: Option<Use>, (code, message): (&str, &str)) -> Robot {
+pub(super) fn stops(text: &str, line: usize, stopped: Option<Use>, (code, message): (&str, &str)) -> Robot {
     one(text, Severity::Warning, line, code, message);
     let (robot, found) = read(text);
     assert_eq!(found[0].stops, stopped, "{}", found[0].message);
@@ -305,82 +305,6 @@ fn an_inertial_that_cannot_be_read_is_none() {
         assert!(found.stops == Some(Use::Physics) && found.message.contains(message), "{found:#?}");
         assert_eq!(robot.unwrap().links()[1].inertia, None);
     }
-}
-
-/// `arm` with a third link, welded to the second.
-fn welded(tip: &str, tool: &str) -> String {
-    arm(LIMIT, tip).replace(
-        "</robot>",
-        &format!(
-            "<link name=\"tool\">{tool}</link><joint name=\"weld\" type=\"fixed\">\
-             <parent link=\"tip\"/><child link=\"tool\"/></joint>\n</robot>"
-        ),
-    )
-}
-
-fn inertial(mass: &str, [ixx, iyy, izz]: [f64; 3]) -> String {
-    format!(
-        "<inertial><mass value=\"{mass}\"/><inertia ixx=\"{ixx}\" iyy=\"{iyy}\" izz=\"{izz}\" ixy=\"0\" \
-         ixz=\"0\" iyz=\"0\"/></inertial>"
-    )
-}
-
-#[test]
-fn an_impossible_inertia_stops_physics_and_stays_as_it_is_written() {
-    for (mass, moments, code, message) in [
-        ("-2", [1.0; 3], "urdf::mass", "link \"tip\": mass -2 is negative"),
-        (
-            "2",
-            [-1.0, 1.0, 1.0],
-            "urdf::inertia",
-            "not positive definite: its smallest principal moment is -1",
-        ),
-        ("2", [3.0, 1.0, 1.0], "urdf::inertia", "its largest principal moment, 3 kg m2, exceeds the sum of"),
-    ] {
-        let text = arm(LIMIT, &inertial(mass, moments));
-        let robot = stops(&text, 8, Some(Use::Physics), (code, message));
-        assert_eq!(robot.links()[1].inertia.unwrap().tensor_kg_m2[(0, 0)], moments[0]);
-        // The root's body stands still.
-        let root = arm(LIMIT, INERTIAL).replace(
-            "<link name=\"base\"/>",
-            &format!("<link name=\"base\">{}</link>", inertial(mass, moments)),
-        );
-        stops(&root, 2, None, (code, "it cannot move, so it does not matter"));
-    }
-}
-
-#[test]
-fn welded_links_are_judged_as_one_body() {
-    let impossible = inertial("0.1", [0.3, 0.1, 0.1]);
-    let possible = ("urdf::inertia", "with the links that it is fixed to it is possible");
-    stops(&welded(INERTIAL, &impossible), 10, None, possible);
-    // Neither of two links without mass is a fault beside one that has some.
-    good(&welded(INERTIAL, ""));
-    good(&welded("", INERTIAL));
-    // A body that is impossible as a whole.
-    let (_, found) = read(&welded(&inertial("0.001", [0.001; 3]), &impossible));
-    assert_eq!(found[0].stops, Some(Use::Physics), "{found:#?}");
-}
-
-/// Several findings of a kind, and the lines that mend them, which can be pasted.
-#[test]
-fn impossible_inertias_are_one_finding_with_the_lines_that_mend_them() {
-    let impossible = inertial("1", [3.0, 1.0, 1.0]);
-    let text = welded(&impossible, &impossible)
-        .replace("type=\"fixed\"", "type=\"continuous\"")
-        .replace("\"tool\"", "\"tool 1\"");
-    let (_, found) = read(&text);
-    let [found] = &found[..] else { panic!("{found:#?}") };
-    assert_eq!(found.message, "2 links have an inertia that breaks the triangle inequality: tip, tool 1");
-    assert_eq!(
-        found.help.as_deref(),
-        Some(
-            "correct it in the URDF, or take the nearest possible inertia by these lines of robot.toml:\n\
-             [inertia]\ntip = \"repair\"\n\"tool 1\" = \"repair\""
-        )
-    );
-    let own: Vec<&str> = found.kind.occurrences.iter().map(|found| found.message.as_str()).collect();
-    assert!(own[1].starts_with("link \"tool 1\": inertia breaks the triangle inequality"), "{own:?}");
 }
 
 #[test]

@@ -6,3 +6,6 @@ mod repair;
 
 pub(super) use bodies::judge;
 pub(crate) use repair::Repairs;
+
+#[cfg(test)]
+mod tests;
