@@ -91,6 +91,16 @@ pub(super) const MAX_IN_PAIRS: usize = 260;
 /// wrong parameters are a matter of calibration.
 pub(super) const MAX_PARAMETERS: usize = 8;
 
+/// A cause is gross if correcting it reduces the norm to less than this part. No unit; kind: choice.
+pub(super) const GROSS_PART: f64 = 0.3;
+
+/// Gross causes with up to so many times the smallest residual are alike: what they leave is due to other
+/// faults, which a fit with more parameters absorbs in part. No unit; kind: choice.
+pub(super) const GROSS_WITHIN: f64 = 3.0;
+
+/// Most gross causes that are tried with further parameters. Kind: speed.
+pub(super) const MAX_GROSS: usize = 8;
+
 /// A further parameter must reduce the norm to less than this part. No unit; kind: choice.
 pub(super) const PARAMETER_GAIN: f64 = 0.9;
 

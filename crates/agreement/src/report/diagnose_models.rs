@@ -44,7 +44,7 @@ pub fn diagnose_models(
         vec![(SourcePair::UrdfSimulation, ModelPair { candidate, reference: physics })]
     };
     let diagnosis = |(pair, models): &(SourcePair, ModelPair)| {
-        reported_diagnosis(*pair, models, &diagnose(models, &criterion), &names)
+        reported_diagnosis(*pair, (models, &criterion), &diagnose(models, &criterion), &names)
     };
     pairs.iter().map(diagnosis).collect()
 }

@@ -1,5 +1,6 @@
 //! A diagnosis in names, lines and values of the robot file.
 
+mod advice;
 mod content;
 mod describe;
 mod diagnose_models;
@@ -8,6 +9,9 @@ mod names;
 mod units;
 mod values;
 
-pub use content::{Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference};
+pub use content::{
+    ComparedValue, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference,
+    ReportedStage, TableComparison,
+};
 pub use diagnose_models::diagnose_models;
 pub use values::ReportedValue;

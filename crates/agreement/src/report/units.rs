@@ -30,28 +30,21 @@ impl FaultContext<'_> {
             let columns: Vec<String> = entries.iter().map(|&entry| column(models, entry)).collect();
             Some(ReportedValue::Text(columns.join(", ")))
         };
-        let (unit, key) = match (entry.is_angle(), factor > 1.0) {
-            (true, true) => ("degrees", "deg"),
-            (true, false) => ("radians", "rad"),
-            (false, true) => ("millimetres", "mm"),
-            (false, false) => ("metres", "m"),
+        let (unit, right) = match (entry.is_angle(), factor > 1.0) {
+            (true, true) => ("degrees", "radians"),
+            (true, false) => ("radians", "degrees"),
+            (false, true) => ("millimetres", "metres"),
+            (false, false) => ("metres", "millimetres"),
         };
-        let joined = |name: fn(DhEntry) -> String| {
-            entries.iter().map(|&entry| name(entry)).collect::<Vec<_>>().join(" and ")
-        };
-        let names = joined(|entry| entry.to_string());
-        let keys = joined(|entry| format!("{entry}_*")).replace('*', key);
-        let (also, of_constants) = if self.fault.place == Place::Model {
-            (" and of the declared transforms", format!(", xyz under xyz_{key}"))
-        } else {
-            ("", String::new())
-        };
+        let names = entries.iter().map(DhEntry::to_string).collect::<Vec<_>>().join(" and ");
+        let also =
+            if self.fault.place == Place::Model { " and of the declared transforms" } else { "" };
         let fault = Fault {
             parameter: Some(names.replace(" and ", ", ")),
             value: factor.is_finite().then_some(factor),
             found: table(self.before),
             expected: table(self.after),
-            suggestion: format!("the values are in {unit}: write them under {keys}{of_constants}"),
+            suggestion: format!("write {names} in {right}"),
             ..Fault::default()
         };
         let message =
