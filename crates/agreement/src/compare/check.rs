@@ -80,6 +80,7 @@ pub fn check(
         verdict: if agree { Agreement::Agree } else { Agreement::Disagree },
         worst: worst_of(&comparisons),
         tolerance: description.tolerance,
+        replaced_tolerance: None,
         configurations: configurations.len(),
         seed: options.seed,
         comparisons,

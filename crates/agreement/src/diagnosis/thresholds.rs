@@ -107,6 +107,18 @@ pub(super) const PARAMETER_GAIN: f64 = 0.9;
 /// Explanations with a residual beyond the tolerance that are reported. Kind: choice.
 pub(super) const MAX_NEXT_BEST: usize = 4;
 
+// The nearest table that agrees.
+
+/// A value is independent of others if its effect is not theirs but for this part. No unit; kind: rounding of
+/// directions of axes in a file with six digits.
+pub(super) const INDEPENDENT: f64 = 1e-5;
+
+/// Most fits of all values, each with the values that are independent there. Kind: loop bound.
+pub(super) const MAX_PASSES: usize = 4;
+
+/// How far a table that is derived from the axes may be off. Unit: m, rad; kind: choice, the default tolerance.
+pub(super) const DERIVED_WITHIN: f64 = 1e-9;
+
 // Fits.
 
 /// Starts of an angle besides its present value. Unit: rad; kind: choice. Starts a third of a turn apart

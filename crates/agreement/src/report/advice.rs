@@ -40,8 +40,7 @@ pub(super) fn slack(models: &ModelPair, explanation: &Explanation, criterion: &C
     let share = |residual: f64, tolerance: f64| PART_OF_MARGIN * (tolerance - residual) / values;
     let length_m = least.min(share(residual.position_m, tolerance.position_m));
     let by_length = share(residual.position_m, tolerance.position_m) / reach_m;
-    let angle_rad =
-        angle_rad.min(by_length).min(share(residual.orientation_rad, tolerance.orientation_rad));
+    let angle_rad = angle_rad.min(by_length).min(share(residual.orientation_rad, tolerance.orientation_rad));
     Slack { length_m, angle_rad }
 }
 
@@ -129,7 +128,8 @@ impl FileValue {
             RowKey::A | RowKey::Alpha | RowKey::D | RowKey::Theta => {
                 let entry = DhEntry::ALL.into_iter().find(|&entry| row_key(entry) == key);
                 let value = |of: &Candidate| entry.and_then(|entry| of.entry(row, entry));
-                let unit = if matches!(key, RowKey::Alpha | RowKey::Theta) { Unit::Angle } else { Unit::Length };
+                let unit =
+                    if matches!(key, RowKey::Alpha | RowKey::Theta) { Unit::Angle } else { Unit::Length };
                 let place = places.value(row, key);
                 value(before).zip(value(after)).zip(place).map(|((found, expected), place)| {
                     value_literal(unit, place.units, (found, expected), slack)

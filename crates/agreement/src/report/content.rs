@@ -141,6 +141,9 @@ pub struct Fault {
     /// The lines of the robot file that change, with what they become.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub changes: Vec<ChangedLines>,
+    /// The new lines to paste, with a comment that says where.
+    #[serde(skip)]
+    pub pasted: Vec<String>,
 }
 
 /// A quantity in which the chains differ.

@@ -1,6 +1,6 @@
 //! A diagnosis in names of the robot, as a report for programs and as findings for people.
 
-use congruent_description::{ChangedLines, Diagnostic, display::length_and_angle};
+use congruent_description::{Diagnostic, display::length_and_angle};
 use congruent_kinematics::PoseError;
 
 use super::{
@@ -10,6 +10,7 @@ use super::{
     },
     fault_message::{FaultContext, FaultMessage, FileLocation, fault_message_of},
     names::ModelNames,
+    table::table_comparison,
 };
 use crate::{
     diagnosis::{Cause, Criterion, Diagnosis, Equivalence, Explanation, JointDifference, ModelPair},
@@ -23,8 +24,10 @@ pub(super) fn reported_diagnosis(
     names: &ModelNames<'_>,
 ) -> ReportedDiagnosis {
     let described = |explanation: &Explanation| describe(explanation, (models, criterion), names);
-    let causes: Vec<(ReportedCause, Vec<Diagnostic>)> = diagnosis.explanations.iter().map(described).collect();
+    let causes: Vec<(ReportedCause, Vec<Diagnostic>)> =
+        diagnosis.explanations.iter().map(described).collect();
     let findings = causes.first().map(|(_, findings)| findings.clone()).unwrap_or_default();
+    let unexplained = diagnosis.explanations.first().filter(|first| !criterion.accepts(&first.residual));
     let alternative = |(explanation, equivalence): &(Explanation, Equivalence)| ReportedAlternative {
         cause: described(explanation).0,
         equivalence: *equivalence,
@@ -36,7 +39,7 @@ pub(super) fn reported_diagnosis(
         causes: causes.into_iter().map(|(cause, _)| cause).collect(),
         indistinguishable: diagnosis.indistinguishable.iter().map(alternative).collect(),
         invariants: diagnosis.differences.iter().map(|each| difference(each, names)).collect(),
-        table: None,
+        table: unexplained.and_then(|first| table_comparison(models, &first.corrected, criterion, names)),
         findings,
     }
 }
@@ -54,12 +57,12 @@ fn describe(
     if let Some(places) = names.places {
         let changes = advice::lines_by_fault(models, explanation, places, slack);
         for (message, changes) in messages.iter_mut().zip(changes) {
-            message.advise(changes);
+            message.advise(changes, &places.source().text);
         }
     }
     let stages = explanation.stages.windows(2).map(|pair| ReportedStage { before: pair[0], after: pair[1] });
     let stages: Vec<ReportedStage> = stages.collect();
-    let findings = messages.iter().zip(&stages).map(|(message, stage)| finding(message, stage, names));
+    let findings = messages.iter().zip(&stages).map(|(message, stage)| finding(message, stage));
     let findings = findings.collect();
     let mut parts: Vec<Fault> = messages.into_iter().map(|message| message.fault).collect();
     let fault = match parts.len() {
@@ -88,9 +91,8 @@ fn describe(
 /// Several faults as one: all of their lines.
 fn several(parts: &[Fault]) -> Fault {
     let located = parts.iter().find(|part| part.line.is_some());
-    let all = |words: fn(&Fault) -> &str, between: &str| {
-        parts.iter().map(words).collect::<Vec<_>>().join(between)
-    };
+    let all =
+        |words: fn(&Fault) -> &str, between: &str| parts.iter().map(words).collect::<Vec<_>>().join(between);
     Fault {
         cause: Cause::Several,
         joints: involved(parts),
@@ -112,35 +114,16 @@ fn involved(parts: &[Fault]) -> Vec<String> {
 }
 
 /// A fault as a finding in its file.
-fn finding(fault_message: &FaultMessage, stage: &ReportedStage, names: &ModelNames<'_>) -> Diagnostic {
+fn finding(fault_message: &FaultMessage, stage: &ReportedStage) -> Diagnostic {
     let FaultMessage { fault, message, location } = fault_message;
-    let text = names.places.map_or("", |places| &places.source().text);
     let shown = |error: &PoseError| length_and_angle(error.position_m, error.orientation_rad);
     let error = format!("error before the fix: {}, after it: {}", shown(&stage.before), shown(&stage.after));
-    let lines = fault.changes.iter().map(|lines| pasted(lines, text));
-    let advice = if fault.changes.is_empty() {
-        fault.suggestion.clone()
-    } else {
-        lines.collect::<Vec<_>>().join("\n")
-    };
+    let advice = if fault.pasted.is_empty() { fault.suggestion.clone() } else { fault.pasted.join("\n") };
     let finding =
         Diagnostic::error(fault.cause.code(), message.clone()).with_help(format!("{advice}\n{error}"));
     match location {
         Some(FileLocation { source, span }) => finding.at(span.clone()).in_file(source),
         None => finding,
-    }
-}
-
-/// New lines to paste, with a comment that says where; of a line that only gets a new one below it, the new
-/// one.
-fn pasted(lines: &ChangedLines, text: &str) -> String {
-    let ChangedLines { from_line, to_line, text: new } = lines;
-    let old: Vec<&str> = text.lines().skip(from_line - 1).take(to_line + 1 - from_line).collect();
-    match new.strip_prefix(&old.join("\n")).and_then(|rest| rest.strip_prefix('\n')) {
-        Some(added) => format!("{added}  # below line {to_line}"),
-        None if from_line == to_line && !new.contains('\n') => format!("{new}  # line {from_line}"),
-        None if from_line == to_line => format!("{new}  # in place of line {from_line}"),
-        None => format!("{new}  # in place of lines {from_line} to {to_line}"),
     }
 }
 

@@ -7,7 +7,8 @@ use std::{
 };
 
 use congruent_description::{
-    ChangedLines, ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, Slack, SourceFile,
+    ChangedLines, ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, Slack,
+    SourceFile,
     display::{angle, length},
     fitted_number, fitted_transform, line_column,
     units::{Unit, UnitSystem},
@@ -29,13 +30,27 @@ pub(super) struct FaultMessage {
 }
 
 impl FaultMessage {
-    /// Replaces the suggestion in words by whole lines, if there are any.
-    pub(super) fn advise(&mut self, changes: Vec<ChangedLines>) {
+    /// Replaces the suggestion in words by whole lines of the file with this text, if there are any.
+    pub(super) fn advise(&mut self, changes: Vec<ChangedLines>, text: &str) {
         if !changes.is_empty() {
             let lines: Vec<&str> = changes.iter().map(|lines| lines.text.as_str()).collect();
             self.fault.suggestion = lines.join("\n");
+            self.fault.pasted = changes.iter().map(|lines| pasted(lines, text)).collect();
             self.fault.changes = changes;
         }
+    }
+}
+
+/// New lines to paste, with a comment that says where; of a line that only gets a new one below it, the new
+/// one.
+fn pasted(lines: &ChangedLines, text: &str) -> String {
+    let ChangedLines { from_line, to_line, text: new } = lines;
+    let old: Vec<&str> = text.lines().skip(from_line - 1).take(to_line + 1 - from_line).collect();
+    match new.strip_prefix(&old.join("\n")).and_then(|rest| rest.strip_prefix('\n')) {
+        Some(added) => format!("{added}  # below line {to_line}"),
+        None if from_line == to_line && !new.contains('\n') => format!("{new}  # line {from_line}"),
+        None if from_line == to_line => format!("{new}  # in place of line {from_line}"),
+        None => format!("{new}  # in place of lines {from_line} to {to_line}"),
     }
 }
 
@@ -61,6 +76,9 @@ pub(super) fn fault_message_of(context: &FaultContext<'_>) -> FaultMessage {
         Place::Model => context.model(),
         Place::Rows(rows) => context.rows(rows),
         Place::Entries(entry, rows) => context.entries(*entry, rows),
+        Place::Column(entries) if fault.cause == Cause::ParametersExchanged => {
+            context.columns_exchanged(entries)
+        }
         Place::Column(entries) => context.columns(entries),
         Place::Base => context.declared_transform(ConstantKey::BaseFromDh0),
         Place::Tool => context.declared_transform(ConstantKey::DhnFromTip),
@@ -92,8 +110,7 @@ impl FaultContext<'_> {
             suggestion: format!("convention = \"{expected}\""),
             ..Fault::default()
         };
-        let message =
-            format!("the table is written in the other DH convention ({expected}, not {found})");
+        let message = format!("the table is written in the other DH convention ({expected}, not {found})");
         FaultMessage { fault, message, location: self.in_robot_file(span) }
     }
 
@@ -243,10 +260,10 @@ impl FaultContext<'_> {
         };
         let places = self.names.places;
         let [found, expected] = [found, expected].map(|pose| isometry(&pose));
-        let suggestion = format!("{name} = {}", fitted_transform(&expected));
+        let suggestion = format!("{name} = {}", fitted_transform(&expected, self.slack));
         let fault = Fault {
-            found: Some(ReportedValue::Text(fitted_transform(&found))),
-            expected: Some(ReportedValue::Text(fitted_transform(&expected))),
+            found: Some(ReportedValue::Text(fitted_transform(&found, Slack::default()))),
+            expected: Some(ReportedValue::Text(fitted_transform(&expected, self.slack))),
             translation_m: Some(shift.into()),
             rotation_rad: Some(turn.into()),
             suggestion,
@@ -257,46 +274,6 @@ impl FaultContext<'_> {
         let span = places.map(|places| places.constant(key, part));
         let message = format!("the declared transform {name} {how}");
         FaultMessage { fault, message, location: self.in_robot_file(span) }
-    }
-
-    fn reference_joints(&self, joints: &[usize]) -> FaultMessage {
-        let names: Vec<String> = joints.iter().map(|&joint| self.names.chain_joint(joint)).collect();
-        let listed = names.join("\", \"");
-        let rotation =
-            |models: &ModelPair, joint: usize| models.reference.joints[joint].parent_from_joint.rotation;
-        let turn = |joint: usize| {
-            rotation_log(&(rotation(self.after, joint).transpose() * rotation(self.before, joint))).norm()
-        };
-        let most = joints.iter().map(|&joint| turn(joint)).fold(0.0, f64::max);
-        let mut fault = Fault::default();
-        let (message, suggestion) = match self.fault.cause {
-            Cause::FixedJointDropped => (
-                format!("the model leaves out the fixed joint \"{listed}\" of the URDF"),
-                format!("put the origin of \"{listed}\" into the model"),
-            ),
-            Cause::RpyOrder => (
-                format!("the rpy of joint \"{listed}\" has another order in the URDF than in the model"),
-                format!("check the rpy of joint \"{listed}\": R = Rz(yaw) Ry(pitch) Rx(roll)"),
-            ),
-            _ => {
-                fault.parameter = Some("rpy".to_owned());
-                fault.value = Some(most);
-                (
-                    format!(
-                        "the URDF writes quarter turns of joints \"{listed}\" with too few digits, off by up to {most:.1e} rad"
-                    ),
-                    "write pi/2 as 1.5707963267948966 in the URDF".to_owned(),
-                )
-            }
-        };
-        let location = self.names.urdf.as_ref().and_then(|urdf| {
-            Some(FileLocation { source: Arc::clone(urdf.source()), span: urdf.joint_origin(names.first()?)? })
-        });
-        match <[String; 1]>::try_from(names) {
-            Ok([name]) => fault.joint = Some(name),
-            Err(names) => fault.joints = names,
-        }
-        FaultMessage { fault: Fault { suggestion, ..fault }, message, location }
     }
 
     fn joint(&self, row: usize) -> String {

@@ -6,6 +6,8 @@ mod describe;
 mod diagnose_models;
 mod fault_message;
 mod names;
+mod reference;
+mod table;
 mod units;
 mod values;
 

@@ -1,4 +1,4 @@
-//! The message of a wrong unit of whole columns.
+//! Messages about whole columns: a wrong unit, and exchanged columns.
 
 use congruent_description::fitted_number;
 
@@ -10,6 +10,21 @@ use super::{
 use crate::diagnosis::{DhEntry, ModelPair, Place};
 
 impl FaultContext<'_> {
+    /// Two columns that are exchanged in every row.
+    pub(super) fn columns_exchanged(&self, entries: &[DhEntry]) -> FaultMessage {
+        let names: Vec<String> = entries.iter().map(DhEntry::to_string).collect();
+        let message = format!("columns {} are exchanged throughout the table", names.join(" and "));
+        let value = |models: &ModelPair, row| models.candidate.entry(row, entries[0]);
+        let rows = 0..self.before.candidate.rows.len();
+        let row = rows.into_iter().find(|&row| value(self.before, row) != value(self.after, row));
+        let fault = Fault {
+            parameter: Some(names.join(", ")),
+            suggestion: format!("exchange {} in every row", names.join(" and ")),
+            ..Fault::default()
+        };
+        FaultMessage { fault, message, location: self.location(row.unwrap_or(0), row_key(entries[0])) }
+    }
+
     /// Columns whose values are not in the unit of their keys.
     pub(super) fn columns(&self, entries: &[DhEntry]) -> FaultMessage {
         let rows = 0..self.before.candidate.rows.len();
@@ -37,8 +52,7 @@ impl FaultContext<'_> {
             (false, false) => ("metres", "millimetres"),
         };
         let names = entries.iter().map(DhEntry::to_string).collect::<Vec<_>>().join(" and ");
-        let also =
-            if self.fault.place == Place::Model { " and of the declared transforms" } else { "" };
+        let also = if self.fault.place == Place::Model { " and of the declared transforms" } else { "" };
         let fault = Fault {
             parameter: Some(names.replace(" and ", ", ")),
             value: factor.is_finite().then_some(factor),

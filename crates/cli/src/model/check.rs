@@ -7,7 +7,10 @@ use congruent::{
     description::{Diagnostic, load_robot, read_configurations},
 };
 
-use super::check_text::{basics, text};
+use super::{
+    check_text::{basics, text},
+    tolerance::ToleranceArgument,
+};
 use crate::{failure::Failure, print::Printer};
 
 /// Whether a robot's table, its URDF and its physics twin are the same robot.
@@ -26,6 +29,10 @@ pub(crate) struct Arguments {
     /// {"q": {"joint": value}} in rad and m; joints that are not named are at 0.
     #[arg(long, value_name = "FILE")]
     configurations: Option<PathBuf>,
+    /// Tolerance of positions and orientations in place of the robot file's, each with its unit: 1mm,0.1deg; a part
+    /// that is not given stays the file's.
+    #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
+    tolerance: Option<ToleranceArgument>,
     /// Also show the pose of the TCP at zero and its motion with each joint; JSON always has both.
     #[arg(long)]
     basics: bool,
@@ -34,15 +41,20 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut reports = Vec::with_capacity(arguments.robots.len());
     for path in &arguments.robots {
-        let description = load_robot(path)?;
+        let mut description = load_robot(path)?;
         printer.warnings(&description.warnings);
         let configurations = match &arguments.configurations {
             Some(path) => read_configurations(path, &description.robot)?,
             None => Vec::new(),
         };
-        let report =
+        let declared = description.tolerance;
+        if let Some(tolerance) = arguments.tolerance {
+            description.tolerance = tolerance.replace(declared);
+        }
+        let mut report =
             congruent::check(&description, &CheckOptions { seed: arguments.seed, configurations })
                 .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
+        report.replaced_tolerance = arguments.tolerance.map(|_| declared);
         reports.push(report);
     }
     let text = |report: &CheckReport| {

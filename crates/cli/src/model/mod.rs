@@ -5,3 +5,5 @@ pub(crate) mod check;
 mod check_text;
 pub(crate) mod convert;
 pub(crate) mod derive;
+mod diagnosis_text;
+mod tolerance;

@@ -142,7 +142,10 @@ mod tests {
             let found = Unit::Angle.fitted(f64::to_radians(degrees), UnitSystem::Engineering, slack);
             assert_eq!(found, written, "{degrees}");
         }
-        assert_eq!(Unit::Length.fitted(0.061_734_99, UnitSystem::Engineering, Slack { length_m: 1e-6, ..slack }), "61.735");
+        assert_eq!(
+            Unit::Length.fitted(0.061_734_99, UnitSystem::Engineering, Slack { length_m: 1e-6, ..slack }),
+            "61.735"
+        );
     }
 
     #[test]

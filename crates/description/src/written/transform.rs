@@ -98,11 +98,13 @@ impl WrittenTransform {
             let rows = (0..4).map(|row| fitted_list(matrix.row(row).iter().copied()));
             return vec![format!("matrix = [{}]", rows.collect::<Vec<_>>().join(", "))];
         }
-        let shift = (pose.translation.vector.amax() > slack.length_m || self.xyz_m.is_some() || self.xyz_mm.is_some())
-            .then(|| {
-                let units = UnitSystem::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), default[0]);
-                Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), units, slack)
-            });
+        let shift = (pose.translation.vector.amax() > slack.length_m
+            || self.xyz_m.is_some()
+            || self.xyz_mm.is_some())
+        .then(|| {
+            let units = UnitSystem::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), default[0]);
+            Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), units, slack)
+        });
         let turn = if self.quaternion_wxyz.is_some() {
             let Quaternion { coords } = *pose.rotation.quaternion();
             Some(format!("quaternion_wxyz = {}", fitted_list([coords.w, coords.x, coords.y, coords.z])))
@@ -142,8 +144,7 @@ impl WrittenTransform {
 }
 
 /// A fitted transform in metres and radians, as a robot file could write it.
-pub fn fitted_transform(pose: &Isometry3<f64>) -> String {
-    let slack = Slack::default();
+pub fn fitted_transform(pose: &Isometry3<f64>, slack: Slack) -> String {
     let xyz = Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), UnitSystem::Si, slack);
     let rpy = Unit::Angle.fitted_vector("rpy", fitted_rpy_fixed_xyz_rad(pose, slack), UnitSystem::Si, slack);
     format!("{{ {xyz}, {rpy} }}")
@@ -311,7 +312,8 @@ mod tests {
     fn read_again(like: &str, pose: &Isometry3<f64>) -> Isometry3<f64> {
         let mut diagnostics = Diagnostics::default();
         let like = parse_toml::<WrittenTransform>(like, &mut diagnostics).unwrap();
-        let keys = like.with_keys(pose, [UnitSystem::Si, UnitSystem::Engineering], Slack::default()).join("\n");
+        let keys =
+            like.with_keys(pose, [UnitSystem::Si, UnitSystem::Engineering], Slack::default()).join("\n");
         parse_toml::<WrittenTransform>(&keys, &mut diagnostics).expect(&keys).isometry().unwrap()
     }
 

@@ -1,9 +1,6 @@
 //! Two hypotheses together.
 
-use crate::diagnosis::{
-    fit::hypothesis_fit::HypothesisFit,
-    thresholds::MAX_IN_PAIRS,
-};
+use crate::diagnosis::{fit::hypothesis_fit::HypothesisFit, thresholds::MAX_IN_PAIRS};
 
 use super::{ExplanationSearch, is_same};
 

@@ -70,7 +70,8 @@ impl ExplanationSearch<'_> {
                 let start = [changes.clone(), vec![0.0]].concat();
                 self.context.fit([before.clone(), vec![parameter]].concat(), &[start])
             };
-            let further = parameters.iter().filter(|parameter| !self.overlaps(&before, **parameter)).map(with);
+            let further =
+                parameters.iter().filter(|parameter| !self.overlaps(&before, **parameter)).map(with);
             let best = further.min_by(|a, b| self.compare_parameters(a, b))?;
             if best.norm > PARAMETER_GAIN * norm {
                 return None;
