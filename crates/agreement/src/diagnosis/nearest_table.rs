@@ -10,17 +10,23 @@ use super::{
     thresholds::{DERIVED_WITHIN, INDEPENDENT, MAX_PASSES, SAME_VALUE},
 };
 
-/// The nearest table that agrees, from the candidate of `models`: as given, or with a gross cause corrected.
-/// From the axes of the reference model alone if no table near the candidate agrees; `None` for a candidate
-/// in screws, and if a joint fits no row.
-pub(crate) fn nearest_table(models: &ModelPair) -> Option<Candidate> {
+/// The nearest table that agrees, from the candidate of `models`: as given, or with a gross cause corrected, of which
+/// `preferred` are the fitted values. From the axes of the reference model alone if no table near the candidate agrees;
+/// `None` for a candidate in screws, and if a joint fits no row.
+pub(crate) fn nearest_table(models: &ModelPair, preferred: &[ModelParameter]) -> Option<Candidate> {
+    nearby_table(models, preferred).or_else(|| derived(models))
+}
+
+/// The nearest table that agrees, if there is one near the candidate.
+pub(super) fn nearby_table(models: &ModelPair, preferred: &[ModelParameter]) -> Option<Candidate> {
     models.candidate.convention?;
     let evaluation_point = EvaluationPoint::of(&models.reference);
     let state = models.reference.state(&evaluation_point.q);
     let target = FitTarget { evaluation_point: &evaluation_point, state: &state };
+    let order = by_preference(&models.candidate, preferred);
     let mut candidate = models.candidate.clone();
     for _ in 0..MAX_PASSES {
-        let free = independent(&candidate, &models.candidate, &evaluation_point);
+        let free = independent(&candidate, &order, &evaluation_point);
         let fit = target.refit(&candidate, &free);
         if fit.norm <= SAME_VALUE {
             return Some(fit.candidate);
@@ -28,20 +34,20 @@ pub(crate) fn nearest_table(models: &ModelPair) -> Option<Candidate> {
         // Elsewhere other values may be independent.
         candidate = fit.candidate;
     }
-    derived(models)
+    None
 }
 
 /// The values to fit, those of which a table is likely to have a wrong one first; a value whose effect others
 /// have as well is left out.
 fn independent(
     candidate: &Candidate,
-    given: &Candidate,
+    order: &[ModelParameter],
     evaluation_point: &EvaluationPoint,
 ) -> Vec<ModelParameter> {
     let walk = candidate.walk(&evaluation_point.q);
     let mut directions: Vec<Vec<f64>> = Vec::new();
     let mut free = Vec::new();
-    for parameter in by_preference(given) {
+    for &parameter in order {
         let Some(effect) = candidate.effect_of(parameter, &evaluation_point.q, &walk) else { continue };
         let mut column = evaluation_point.derivative(candidate, &walk, &effect);
         let size = norm(&column);
@@ -59,8 +65,9 @@ fn independent(
     free
 }
 
-/// Every value of a table: lengths that are not zero, other values that are not, zeros, declared transforms.
-fn by_preference(given: &Candidate) -> Vec<ModelParameter> {
+/// Every value of a table: those that are preferred, lengths that are not zero, other values that are not, zeros,
+/// declared transforms.
+fn by_preference(given: &Candidate, preferred: &[ModelParameter]) -> Vec<ModelParameter> {
     let entries = (0..given.rows.len()).flat_map(|row| DhEntry::ALL.map(|entry| (row, entry)));
     let mut entries: Vec<(usize, DhEntry)> = entries.collect();
     entries.sort_by_key(|&(row, entry)| match given.entry(row, entry) {
@@ -68,7 +75,9 @@ fn by_preference(given: &Candidate) -> Vec<ModelParameter> {
         Some(_) => u8::from(entry.is_angle()),
     });
     let rows = entries.into_iter().map(|(row, entry)| ModelParameter::Row(row, entry));
-    rows.chain((0..6).map(ModelParameter::Base)).chain((0..6).map(ModelParameter::Tool)).collect()
+    let transforms = (0..6).map(ModelParameter::Base).chain((0..6).map(ModelParameter::Tool));
+    let others = rows.chain(transforms).filter(|parameter| !preferred.contains(parameter));
+    preferred.iter().copied().chain(others).collect()
 }
 
 /// A table of the axes of the reference model, in the candidate's convention.

@@ -10,7 +10,7 @@ use super::{
     values::{isometry, value_literal},
 };
 use crate::diagnosis::{
-    Candidate, Criterion, DhEntry, ExplainedFault, Explanation, ModelPair, Place, RowConstants,
+    Candidate, Cause, Criterion, DhEntry, ExplainedFault, Explanation, ModelPair, Place, RowConstants,
 };
 
 /// Most that a written value may be off if the fit is exact. Unit: m or rad; kind: choice, a digit below
@@ -19,6 +19,9 @@ const MOST_SLACK: f64 = 1e-7;
 
 /// Digits below this part of the residual say nothing. Kind: choice.
 const PART_OF_RESIDUAL: f64 = 0.3;
+
+/// A fitted ratio of 1. No unit; kind: rounding of a fit.
+const SAME_RATIO: f64 = 1e-9;
 
 /// Part of what the tolerance leaves that the written digits may use up. Kind: choice.
 const PART_OF_MARGIN: f64 = 0.5;
@@ -68,7 +71,7 @@ fn changed(before: &Candidate, after: &Candidate) -> Vec<FileValue> {
             (one.joint != two.joint, RowKey::Joint),
             (kind(one.link) != kind(two.link), RowKey::Kind),
             // Other ratios cannot be written.
-            (one.rate != two.rate && two.rate.abs() == 1.0, RowKey::Sign),
+            (one.rate * two.rate < 0.0 && (two.rate.abs() - 1.0).abs() < SAME_RATIO, RowKey::Sign),
         ];
         let differs = |entry: &DhEntry| before.entry(row, *entry) != after.entry(row, *entry);
         let entries = DhEntry::ALL.into_iter().filter(differs).map(row_key);
@@ -85,7 +88,15 @@ impl FileValue {
             (Self::Convention, Place::Model)
             | (Self::Constant(ConstantKey::BaseFromDh0), Place::Base)
             | (Self::Constant(ConstantKey::DhnFromTip), Place::Tool) => true,
-            (Self::Row(row, _), Place::Rows(rows)) => rows.contains(&row),
+            (Self::Row(row, key), Place::Rows(rows)) => {
+                rows.contains(&row)
+                    && match fault.cause {
+                        Cause::JointsSwapped => true,
+                        Cause::ParametersExchanged => matches!(key, RowKey::A | RowKey::D),
+                        Cause::Parameter => key == RowKey::Kind,
+                        _ => key == RowKey::Sign,
+                    }
+            }
             (Self::Row(row, key), Place::Entries(entry, rows)) => {
                 rows.contains(&row) && row_key(*entry) == key
             }
@@ -140,17 +151,18 @@ impl FileValue {
     }
 }
 
-/// The lines that each fault of an explanation changes. A line that two faults share is the first one's,
-/// with both corrections.
+/// The lines that each fault of an explanation changes; `None` if the file cannot say its correction. A line that
+/// two faults share is the first one's, with both corrections.
 pub(super) fn lines_by_fault(
     models: &ModelPair,
     explanation: &Explanation,
     places: &RobotFilePlaces,
     slack: Slack,
-) -> Vec<Vec<ChangedLines>> {
+) -> Vec<Option<Vec<ChangedLines>>> {
     let tables = [&models.candidate, &explanation.corrected.candidate];
     let mut edits: Vec<(usize, TextEdit)> = Vec::new();
-    for value in changed(tables[0], tables[1]) {
+    let values = changed(tables[0], tables[1]);
+    for &value in &values {
         let Some(fault) = explanation.faults.iter().position(|fault| value.is_of(fault)) else { continue };
         edits.extend(value.edits(places, tables, slack).into_iter().map(|edit| (fault, edit)));
     }
@@ -160,15 +172,17 @@ pub(super) fn lines_by_fault(
         .map(|(_, edit)| edit.clone())
         .filter(|edit| text[edit.span.clone()] != *edit.text)
         .collect();
-    let mut by_fault = vec![Vec::new(); explanation.faults.len()];
+    let is_said = |fault| values.iter().any(|value: &FileValue| value.is_of(fault));
+    let mut by_fault: Vec<Option<Vec<ChangedLines>>> =
+        explanation.faults.iter().map(|fault| is_said(fault).then(Vec::new)).collect();
     for lines in places.changed_lines(&all) {
         let is_in = |edit: &TextEdit| {
             let line = congruent_description::line_column(text, edit.span.start).0;
             (lines.from_line..=lines.to_line).contains(&line)
         };
         let first = edits.iter().filter(|(_, edit)| is_in(edit)).map(|(fault, _)| *fault).min();
-        if let Some(fault) = first {
-            by_fault[fault].push(lines);
+        if let Some(of_first) = first.and_then(|fault| by_fault[fault].as_mut()) {
+            of_first.push(lines);
         }
     }
     by_fault

@@ -39,7 +39,7 @@ pub(super) fn reported_diagnosis(
         causes: causes.into_iter().map(|(cause, _)| cause).collect(),
         indistinguishable: diagnosis.indistinguishable.iter().map(alternative).collect(),
         invariants: diagnosis.differences.iter().map(|each| difference(each, names)).collect(),
-        table: unexplained.and_then(|first| table_comparison(models, &first.corrected, criterion, names)),
+        table: unexplained.and_then(|first| table_comparison(models, first, criterion, names)),
         findings,
     }
 }
@@ -57,7 +57,9 @@ fn describe(
     if let Some(places) = names.places {
         let changes = advice::lines_by_fault(models, explanation, places, slack);
         for (message, changes) in messages.iter_mut().zip(changes) {
-            message.advise(changes, &places.source().text);
+            if let Some(changes) = changes {
+                message.advise(changes, &places.source().text);
+            }
         }
     }
     let stages = explanation.stages.windows(2).map(|pair| ReportedStage { before: pair[0], after: pair[1] });

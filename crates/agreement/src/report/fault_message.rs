@@ -30,14 +30,16 @@ pub(super) struct FaultMessage {
 }
 
 impl FaultMessage {
-    /// Replaces the suggestion in words by whole lines of the file with this text, if there are any.
+    /// Replaces the suggestion in words by whole lines of the file with this text.
     pub(super) fn advise(&mut self, changes: Vec<ChangedLines>, text: &str) {
-        if !changes.is_empty() {
-            let lines: Vec<&str> = changes.iter().map(|lines| lines.text.as_str()).collect();
-            self.fault.suggestion = lines.join("\n");
-            self.fault.pasted = changes.iter().map(|lines| pasted(lines, text)).collect();
-            self.fault.changes = changes;
-        }
+        let lines: Vec<&str> = changes.iter().map(|lines| lines.text.as_str()).collect();
+        self.fault.suggestion = if lines.is_empty() {
+            "the lines of the other causes correct this as well".to_owned()
+        } else {
+            lines.join("\n")
+        };
+        self.fault.pasted = changes.iter().map(|lines| pasted(lines, text)).collect();
+        self.fault.changes = changes;
     }
 }
 

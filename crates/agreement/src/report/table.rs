@@ -11,7 +11,9 @@ use super::{
     names::ModelNames,
     values::isometry,
 };
-use crate::diagnosis::{Candidate, Criterion, DhEntry, ModelPair, nearest_table};
+use crate::diagnosis::{
+    Candidate, Criterion, DhEntry, Explanation, ModelPair, ModelParameter, nearest_table,
+};
 
 /// Part of the tolerance by which a value must differ to be marked. Kind: choice.
 const PART_OF_TOLERANCE: f64 = 0.1;
@@ -19,18 +21,19 @@ const PART_OF_TOLERANCE: f64 = 0.1;
 /// Values that differ by less are the same at any tolerance. Unit: m or rad; kind: rounding of a fit.
 const SAME: f64 = 1e-10;
 
-/// Compares the table of `models` with the nearest one that agrees; `corrected` are the models with a gross
-/// cause corrected, from which that one is fitted.
+/// Compares the table of `models` with the nearest one that agrees; `first` corrects a gross
+/// cause, from which that one is fitted.
 pub(super) fn table_comparison(
     models: &ModelPair,
-    corrected: &ModelPair,
+    first: &Explanation,
     criterion: &Criterion,
     names: &ModelNames<'_>,
 ) -> Option<TableComparison> {
-    let nearest = nearest_table(&ModelPair {
-        reference: models.reference.clone(),
-        candidate: corrected.candidate.clone(),
-    })?;
+    let preferred: Vec<ModelParameter> =
+        first.faults.iter().flat_map(|fault| fault.free.iter().copied()).collect();
+    let corrected =
+        ModelPair { reference: models.reference.clone(), candidate: first.corrected.candidate.clone() };
+    let nearest = nearest_table(&corrected, &preferred)?;
     let slack = Slack {
         length_m: (PART_OF_TOLERANCE * criterion.tolerance.position_m).max(SAME),
         angle_rad: (PART_OF_TOLERANCE * criterion.tolerance.orientation_rad).max(SAME),

@@ -7,10 +7,12 @@ use congruent_kinematics::PoseError;
 use super::ExplanationSearch;
 use crate::diagnosis::{
     explanation::Criterion,
-    fit::hypothesis_fit::HypothesisFit,
-    hypothesis::{Cause, Hypothesis},
+    candidate::ModelParameter,
+    fit::hypothesis_fit::{HypothesisFit, moved},
+    hypothesis::{Cause, Hypothesis, Place},
+    nearest_table::nearby_table,
     thresholds::{
-        GROSS_PART, GROSS_WITHIN, MAX_GROSS, MAX_PARAMETERS, PARAMETER_GAIN, SAME_EFFECT, SAME_NORM,
+        GROSS_PART, GROSS_WITHIN, MAX_GROSS, MAX_PARAMETERS, PARAMETER_GAIN, SAME_EFFECT, SAME_NORM, SAME_VALUE,
     },
 };
 
@@ -43,7 +45,8 @@ impl ExplanationSearch<'_> {
             .take(MAX_GROSS)
             .map(Some)
             .chain([None])
-            .filter_map(|gross| self.with_parameters(gross.cloned()))
+            .flat_map(|gross| [self.with_parameters(gross.cloned()), self.with_changed_values(gross)])
+            .flatten()
             .collect();
         let Some(fewest) = grown.iter().map(|fit| fit.hypotheses.len()).min() else { return Vec::new() };
         let simplest: Vec<HypothesisFit> =
@@ -51,12 +54,13 @@ impl ExplanationSearch<'_> {
         self.explaining(&simplest)
     }
 
-    /// Several parameters that are wrong together: adds the parameter with the smallest norm each time, and
-    /// in the end removes those that are not needed.
+    /// Several parameters that are wrong together, the rounding of the reference model's file among them: adds
+    /// the one with the smallest norm each time, and in the end removes those that are not needed.
     fn with_parameters(&self, gross: Option<HypothesisFit>) -> Option<HypothesisFit> {
         let is_parameter = |hypothesis: &usize| {
-            let Hypothesis { cause, free, .. } = &self.context.hypotheses[*hypothesis];
-            free.len() == 1 && *cause != Cause::Ratio
+            let Hypothesis { cause, free, place, .. } = &self.context.hypotheses[*hypothesis];
+            let is_rounding = *cause == Cause::Parameter && matches!(place, Place::ReferenceJoints(_));
+            (free.len() == 1 && *cause != Cause::Ratio) || is_rounding
         };
         let kept = usize::from(gross.is_some());
         let parameters: Vec<usize> = (0..self.context.hypotheses.len()).filter(is_parameter).collect();
@@ -84,6 +88,42 @@ impl ExplanationSearch<'_> {
         None
     }
 
+    /// The values that differ in the nearest table that agrees.
+    fn with_changed_values(&self, gross: Option<&HypothesisFit>) -> Option<HypothesisFit> {
+        let (mut hypotheses, mut changes, models) = match gross {
+            Some(fit) => (fit.hypotheses.clone(), fit.changes.clone(), &fit.corrected),
+            None => (Vec::new(), Vec::new(), self.context.models),
+        };
+        let kept = hypotheses.len();
+        let fitted: Vec<ModelParameter> =
+            hypotheses.iter().flat_map(|&at| self.context.hypotheses[at].free.iter().copied()).collect();
+        let nearest = nearby_table(models, &fitted)?;
+        let length_m = self.context.evaluation_point.length_m;
+        let mut changed: Vec<(f64, usize, f64)> = Vec::new();
+        for (at, Hypothesis { cause, free, .. }) in self.context.hypotheses.iter().enumerate() {
+            let [parameter] = free[..] else { continue };
+            let by = moved(&models.candidate, &nearest, parameter);
+            // The offset of a prismatic joint has two hypotheses.
+            let is_known = changed.iter().any(|(_, known, _)| self.context.hypotheses[*known].free == *free);
+            if by.abs() > SAME_VALUE && *cause != Cause::Ratio && !fitted.contains(&parameter) && !is_known {
+                changed.push((if parameter.is_angle() { by.abs() * length_m } else { by.abs() }, at, by));
+            }
+        }
+        if changed.len() > MAX_PARAMETERS {
+            return None;
+        }
+        changed.sort_by(|(one, ..), (other, ..)| other.total_cmp(one));
+        hypotheses.extend(changed.iter().map(|(_, at, _)| *at));
+        changes.extend(changed.iter().map(|(.., by)| *by));
+        let fit = self.context.fit(hypotheses, &[changes]);
+        self.accepts(&fit).then(|| self.pruned(fit, kept))
+    }
+
+    /// The number of free parameters of a hypothesis.
+    fn free(&self, hypothesis: usize) -> usize {
+        self.context.hypotheses[hypothesis].free.len()
+    }
+
     /// Whether one of the hypotheses fits the same parameter already.
     fn overlaps(&self, chosen: &[usize], parameter: usize) -> bool {
         let free = |at: usize| &self.context.hypotheses[at].free;
@@ -92,14 +132,19 @@ impl ExplanationSearch<'_> {
 
     /// Without the parameters that are not needed; the first `kept` hypotheses stay.
     fn pruned(&self, mut fit: HypothesisFit, kept: usize) -> HypothesisFit {
-        let mut at = kept;
-        while fit.hypotheses.len() > 2 && at < fit.hypotheses.len() {
+        // The last ones have the smallest effects.
+        for at in (kept..fit.hypotheses.len()).rev() {
+            if fit.hypotheses.len() <= 1 {
+                break;
+            }
             let (mut fewer, mut start) = (fit.hypotheses.clone(), fit.changes.clone());
             fewer.remove(at);
-            // One free parameter each, behind those of the first.
-            start.remove(fit.changes.len() - fit.hypotheses.len() + at);
+            let first: usize = fit.hypotheses[..at].iter().map(|&before| self.free(before)).sum();
+            start.drain(first..first + self.free(fit.hypotheses[at]));
             let without = self.context.fit(fewer, &[start]);
-            if self.accepts(&without) { fit = without } else { at += 1 }
+            if self.accepts(&without) {
+                fit = without;
+            }
         }
         fit
     }
@@ -126,8 +171,7 @@ impl ExplanationSearch<'_> {
         let mut residuals: Vec<PoseError> = Vec::new();
         let mut changes: Vec<f64> = Vec::new();
         for count in 1..order.len() {
-            let added = self.context.hypotheses[order[count - 1]].free.len();
-            let start = [changes, vec![0.0; added]].concat();
+            let start = [changes, vec![0.0; self.free(order[count - 1])]].concat();
             let partial = if count == 1 {
                 self.context.single(order[0])
             } else {
