@@ -101,6 +101,9 @@ pub(super) const GROSS_WITHIN: f64 = 3.0;
 /// Most gross causes that are tried with further parameters. Kind: speed.
 pub(super) const MAX_GROSS: usize = 8;
 
+/// Most gross causes to which parameters are added one by one. Kind: speed.
+pub(super) const MAX_GROSS_ONE_BY_ONE: usize = 2;
+
 /// A further parameter must reduce the norm to less than this part. No unit; kind: choice.
 pub(super) const PARAMETER_GAIN: f64 = 0.9;
 

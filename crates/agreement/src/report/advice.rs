@@ -85,8 +85,8 @@ impl FileValue {
     /// Whether correcting a fault changes this value.
     fn is_of(self, fault: &ExplainedFault) -> bool {
         match (self, &fault.place) {
-            (Self::Convention, Place::Model)
-            | (Self::Constant(ConstantKey::BaseFromDh0), Place::Base)
+            (_, Place::Model) => (fault.cause == Cause::ConventionSwapped) == (self == Self::Convention),
+            (Self::Constant(ConstantKey::BaseFromDh0), Place::Base)
             | (Self::Constant(ConstantKey::DhnFromTip), Place::Tool) => true,
             (Self::Row(row, key), Place::Rows(rows)) => {
                 rows.contains(&row)
@@ -101,7 +101,6 @@ impl FileValue {
                 rows.contains(&row) && row_key(*entry) == key
             }
             (Self::Row(_, key), Place::Column(entries)) => entries.iter().any(|&entry| row_key(entry) == key),
-            (Self::Row(_, RowKey::A | RowKey::D) | Self::Constant(_), Place::Model) => true,
             _ => false,
         }
     }
@@ -163,7 +162,11 @@ pub(super) fn lines_by_fault(
     let mut edits: Vec<(usize, TextEdit)> = Vec::new();
     let values = changed(tables[0], tables[1]);
     for &value in &values {
-        let Some(fault) = explanation.faults.iter().position(|fault| value.is_of(fault)) else { continue };
+        let is_of_entry = |fault: &ExplainedFault| matches!(fault.place, Place::Entries(..));
+        let faults = || explanation.faults.iter();
+        // A fault of this entry alone comes before one of the whole row.
+        let own = faults().position(|fault| is_of_entry(fault) && value.is_of(fault));
+        let Some(fault) = own.or_else(|| faults().position(|fault| value.is_of(fault))) else { continue };
         edits.extend(value.edits(places, tables, slack).into_iter().map(|edit| (fault, edit)));
     }
     let text = &places.source().text;

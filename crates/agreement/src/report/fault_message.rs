@@ -9,7 +9,7 @@ use std::{
 use congruent_description::{
     ChangedLines, ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, Slack,
     SourceFile,
-    display::{angle, length},
+    display::{angle, length, number},
     fitted_number, fitted_transform, line_column,
     units::{Unit, UnitSystem},
 };
@@ -32,27 +32,30 @@ pub(super) struct FaultMessage {
 impl FaultMessage {
     /// Replaces the suggestion in words by whole lines of the file with this text.
     pub(super) fn advise(&mut self, changes: Vec<ChangedLines>, text: &str) {
-        let lines: Vec<&str> = changes.iter().map(|lines| lines.text.as_str()).collect();
+        let (mut lines, mut pasted) = (Vec::new(), Vec::new());
+        for change in &changes {
+            let (new, place) = new_lines(change, text);
+            lines.push(new);
+            pasted.push(format!("{new}  # {place}"));
+        }
         self.fault.suggestion = if lines.is_empty() {
             "the lines of the other causes correct this as well".to_owned()
         } else {
             lines.join("\n")
         };
-        self.fault.pasted = changes.iter().map(|lines| pasted(lines, text)).collect();
+        self.fault.pasted = pasted;
         self.fault.changes = changes;
     }
 }
 
-/// New lines to paste, with a comment that says where; of a line that only gets a new one below it, the new
-/// one.
-fn pasted(lines: &ChangedLines, text: &str) -> String {
-    let ChangedLines { from_line, to_line, text: new } = lines;
+/// The new lines and where they belong; of a line that stays and gets others below it, these alone.
+fn new_lines<'a>(change: &'a ChangedLines, text: &str) -> (&'a str, String) {
+    let ChangedLines { from_line, to_line, text: new } = change;
     let old: Vec<&str> = text.lines().skip(from_line - 1).take(to_line + 1 - from_line).collect();
     match new.strip_prefix(&old.join("\n")).and_then(|rest| rest.strip_prefix('\n')) {
-        Some(added) => format!("{added}  # below line {to_line}"),
-        None if from_line == to_line && !new.contains('\n') => format!("{new}  # line {from_line}"),
-        None if from_line == to_line => format!("{new}  # in place of line {from_line}"),
-        None => format!("{new}  # in place of lines {from_line} to {to_line}"),
+        Some(added) => (added, format!("below line {to_line}")),
+        None if from_line == to_line => (new, format!("line {from_line}")),
+        None => (new, format!("lines {from_line} to {to_line}")),
     }
 }
 
@@ -145,10 +148,7 @@ impl FaultContext<'_> {
             ),
             Cause::Ratio => (
                 ratio(named),
-                format!(
-                    "joint \"{listed}\" moves {} times as far as expected",
-                    fitted_number(found / expected)
-                ),
+                format!("joint \"{listed}\" moves {} times as far as expected", number(found / expected)),
                 "check the joint's gear ratio and unit".to_owned(),
             ),
             Cause::JointsSwapped => {

@@ -6,7 +6,7 @@ use rand_chacha::{
     rand_core::{RngCore, SeedableRng},
 };
 
-use crate::robots::{Texts, agrees, all};
+use crate::robots::{Texts, agrees, all, is_written};
 
 /// Tolerances of the property, in m and rad.
 const TOLERANCES: [f64; 3] = [1e-9, 1e-6, 1e-3];
@@ -126,6 +126,54 @@ fn transform(file: &mut Vec<String>, random: &mut Random) -> Option<()> {
     Some(())
 }
 
+/// Ways to write the same file.
+const STYLES: [fn(&str) -> String; 4] = [str::to_owned, inline_rows, headers, str::to_owned];
+
+/// Each row as an inline table on one line.
+fn inline_rows(file: &str) -> String {
+    let (mut rows, mut others, mut in_row) = (Vec::<Vec<&str>>::new(), Vec::new(), false);
+    for line in file.lines() {
+        if line == "[[dh.row]]" {
+            rows.push(Vec::new());
+            in_row = true;
+        } else if line.starts_with('[') {
+            in_row = false;
+            others.push(line);
+        } else if in_row && !line.is_empty() && !line.starts_with('#') {
+            rows.last_mut().unwrap().push(line);
+        } else {
+            others.push(line);
+        }
+    }
+    let rows: Vec<String> = rows.iter().map(|row| format!("  {{ {} }},\n", row.join(", "))).collect();
+    let at = others.iter().position(|line| *line == "[dh]").unwrap() + 1;
+    let (before, behind) = others.split_at(at);
+    format!("{}\nrow = [\n{}]\n{}\n", before.join("\n"), rows.concat(), behind.join("\n"))
+}
+
+/// Declared transforms under headers of their own.
+fn headers(file: &str) -> String {
+    let (mut kept, mut sections) = (String::new(), String::new());
+    for line in file.lines() {
+        match line.split_once(" = {") {
+            Some((key, rest)) if key.ends_with("dh0") || key.ends_with("tip") => {
+                let keys = rest.rsplit_once('}').unwrap().0.trim().replace("], ", "]\n");
+                // The rows of a matrix are lists as well.
+                let keys = if keys.starts_with("matrix") { keys.replace("]\n", "], ") } else { keys };
+                sections += &format!("[dh.{key}]\n{keys}\n");
+            }
+            _ => {
+                if line == "[[dh.row]]" {
+                    kept += &std::mem::take(&mut sections);
+                }
+                kept += line;
+                kept += "\n";
+            }
+        }
+    }
+    kept
+}
+
 /// Checks a file with faults and mends it as advised; `Some(explained)` if the faults matter.
 fn mend(texts: &Texts, tolerance: f64) -> Option<bool> {
     let report = texts.check(tolerance);
@@ -141,7 +189,8 @@ fn mend(texts: &Texts, tolerance: f64) -> Option<bool> {
     for cause in every {
         let parts = if cause.parts.is_empty() { vec![&cause.fault] } else { cause.parts.iter().collect() };
         // What a robot file cannot say is told in words.
-        let has_words = parts.iter().any(|fault| fault.changes.is_empty() && !shares_lines(&fault.suggestion));
+        let has_words =
+            parts.iter().any(|fault| fault.changes.is_empty() && !shares_lines(&fault.suggestion));
         if has_words {
             continue;
         }
@@ -161,11 +210,6 @@ fn mend(texts: &Texts, tolerance: f64) -> Option<bool> {
     Some(true)
 }
 
-/// Whether a fault is mended by the lines of another one.
-fn shares_lines(suggestion: &str) -> bool {
-    suggestion.starts_with("the lines of the other causes")
-}
-
 /// Every advice for faults of one robot file, `rounds` for each tolerance and number of faults.
 #[track_caller]
 fn advice_agrees(rounds: usize, faults: usize) {
@@ -177,7 +221,8 @@ fn advice_agrees(rounds: usize, faults: usize) {
             for _ in 0..faults {
                 let _ = mutate(&mut file, &mut random);
             }
-            let mutated = Texts { robot_file: file.join("\n") + "\n", ..texts.clone() };
+            let robot_file = STYLES[round % STYLES.len()](&(file.join("\n") + "\n"));
+            let mutated = Texts { robot_file, ..texts.clone() };
             if let Some(is_explained) = mend(&mutated, TOLERANCES[round % TOLERANCES.len()]) {
                 all_of_them += 1;
                 explained += usize::from(is_explained);
@@ -190,10 +235,10 @@ fn advice_agrees(rounds: usize, faults: usize) {
 
 #[test]
 fn advice_for_one_fault_makes_the_models_agree() {
-    advice_agrees(60, 1);
+    advice_agrees(48, 1);
 }
 
 #[test]
 fn advice_for_two_faults_makes_the_models_agree() {
-    advice_agrees(15, 2);
+    advice_agrees(12, 2);
 }

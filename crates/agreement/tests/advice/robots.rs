@@ -65,6 +65,11 @@ impl Texts {
     }
 }
 
+/// Whether a robot file can say the correction, in lines of its own or in those of another fault.
+pub(crate) fn is_written(fault: &Fault) -> bool {
+    !fault.changes.is_empty() || fault.suggestion.starts_with("the lines of the other causes")
+}
+
 /// Whether the table agrees with the URDF.
 pub(crate) fn agrees(report: &CheckReport) -> bool {
     report.verdict == Agreement::Agree

@@ -24,6 +24,8 @@ use crate::print::rendered;
 pub(super) fn diagnosed(text: &mut String, diagnosis: &ReportedDiagnosis) {
     /// Alternatives shown to people; JSON has all of them.
     const SHOWN: usize = 6;
+    /// Next best causes are shown if they leave less than this part of the distance.
+    const PROMISING: f64 = 0.5;
     let Some(first) = diagnosis.causes.first() else { return };
     let faults = faults(first);
     let _ = writeln!(text, "\n  {}: {}", diagnosis.title, summary(first, diagnosis.findings.len()));
@@ -39,7 +41,8 @@ pub(super) fn diagnosed(text: &mut String, diagnosis: &ReportedDiagnosis) {
     if let Some(more) = diagnosis.indistinguishable.len().checked_sub(SHOWN + 1) {
         let _ = writeln!(text, "  and {} more that cannot be distinguished", more + 1);
     }
-    for next in &diagnosis.causes[1..] {
+    let before = first.stages.first().map_or(f64::INFINITY, |stage| stage.before.position_m);
+    for next in diagnosis.causes[1..].iter().filter(|next| next.residual_m < PROMISING * before) {
         let _ = writeln!(text, "  next best: {}; {} would remain", next.fault.message, residual(next));
     }
     if let Some(table) = &diagnosis.table {

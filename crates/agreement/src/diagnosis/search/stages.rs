@@ -6,13 +6,14 @@ use congruent_kinematics::PoseError;
 
 use super::ExplanationSearch;
 use crate::diagnosis::{
-    explanation::Criterion,
     candidate::ModelParameter,
+    explanation::Criterion,
     fit::hypothesis_fit::{HypothesisFit, moved},
     hypothesis::{Cause, Hypothesis, Place},
     nearest_table::nearby_table,
     thresholds::{
-        GROSS_PART, GROSS_WITHIN, MAX_GROSS, MAX_PARAMETERS, PARAMETER_GAIN, SAME_EFFECT, SAME_NORM, SAME_VALUE,
+        GROSS_PART, GROSS_WITHIN, MAX_GROSS, MAX_GROSS_ONE_BY_ONE, MAX_PARAMETERS, PARAMETER_GAIN,
+        SAME_EFFECT, SAME_NORM, SAME_VALUE,
     },
 };
 
@@ -40,14 +41,15 @@ impl ExplanationSearch<'_> {
     /// Each gross cause, and none, with the parameters that are wrong besides; those that reach the
     /// tolerance with the fewest faults.
     pub(super) fn staged(&self, gross: &[HypothesisFit]) -> Vec<HypothesisFit> {
-        let grown: Vec<HypothesisFit> = gross
-            .iter()
-            .take(MAX_GROSS)
-            .map(Some)
-            .chain([None])
-            .flat_map(|gross| [self.with_parameters(gross.cloned()), self.with_changed_values(gross)])
-            .flatten()
-            .collect();
+        let starts: Vec<Option<&HypothesisFit>> =
+            gross.iter().take(MAX_GROSS).map(Some).chain([None]).collect();
+        let mut grown: Vec<HypothesisFit> =
+            starts.iter().filter_map(|start| self.with_changed_values(*start)).collect();
+        if grown.is_empty() {
+            // One by one is slower.
+            let starts = gross.iter().take(MAX_GROSS_ONE_BY_ONE).map(Some).chain([None]);
+            grown = starts.filter_map(|start| self.with_parameters(start.cloned())).collect();
+        }
         let Some(fewest) = grown.iter().map(|fit| fit.hypotheses.len()).min() else { return Vec::new() };
         let simplest: Vec<HypothesisFit> =
             grown.into_iter().filter(|fit| fit.hypotheses.len() == fewest).collect();
