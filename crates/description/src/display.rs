@@ -89,7 +89,7 @@ pub fn number(value: f64) -> String {
     /// From here on it is mostly digits.
     const LARGEST_DECIMAL: f64 = 1e7;
     match value.abs() {
-        size if size == 0.0 => "0".to_owned(),
+        0.0 => "0".to_owned(),
         size if (SMALLEST_DECIMAL..LARGEST_DECIMAL).contains(&size) => significant(value),
         _ if !value.is_finite() => value.to_string(),
         _ => format!("{value:.1e}"),

@@ -1,6 +1,8 @@
 //! Values of real robot files are changed, one or several; the lines that the check advises are put in their
 //! places; then table and URDF agree.
 
+use std::fmt::Write;
+
 use rand_chacha::{
     ChaCha8Rng,
     rand_core::{RngCore, SeedableRng},
@@ -160,7 +162,7 @@ fn headers(file: &str) -> String {
                 let keys = rest.rsplit_once('}').unwrap().0.trim().replace("], ", "]\n");
                 // The rows of a matrix are lists as well.
                 let keys = if keys.starts_with("matrix") { keys.replace("]\n", "], ") } else { keys };
-                sections += &format!("[dh.{key}]\n{keys}\n");
+                let _ = writeln!(sections, "[dh.{key}]\n{keys}");
             }
             _ => {
                 if line == "[[dh.row]]" {
