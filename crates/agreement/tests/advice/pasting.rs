@@ -191,9 +191,7 @@ fn mend(texts: &Texts, tolerance: f64) -> Option<bool> {
     for cause in every {
         let parts = if cause.parts.is_empty() { vec![&cause.fault] } else { cause.parts.iter().collect() };
         // What a robot file cannot say is told in words.
-        let has_words =
-            parts.iter().any(|fault| fault.changes.is_empty() && !shares_lines(&fault.suggestion));
-        if has_words {
+        if !parts.iter().all(|fault| is_written(fault)) {
             continue;
         }
         let mended = texts.mended(cause);

@@ -66,7 +66,7 @@ impl RobotFilePlaces {
         }
         // Under a header of its own, or with dotted keys.
         let is_header = text[written.span()].starts_with('[');
-        let mut last = spans(written.get_ref()).map(|(_, span)| span).max_by_key(|span| span.end);
+        let last = spans(written.get_ref()).map(|(_, span)| span).max_by_key(|span| span.end);
         let mut edits = Vec::new();
         for assignment in keys {
             let Some((key, value)) = assignment.split_once(" = ") else { continue };
@@ -80,7 +80,6 @@ impl RobotFilePlaces {
                 }
                 (None, None) => continue,
             };
-            last = last.or(Some(edit.span.clone()));
             edits.push(edit);
         }
         edits
