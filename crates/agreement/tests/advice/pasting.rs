@@ -235,7 +235,7 @@ fn advice_agrees(rounds: usize, faults: usize) {
 
 #[test]
 fn advice_for_one_fault_makes_the_models_agree() {
-    advice_agrees(48, 1);
+    advice_agrees(24, 1);
 }
 
 #[test]

@@ -27,8 +27,8 @@ pub(crate) fn all() -> Vec<Texts> {
         let robot_file = fs::read_to_string(folder.join("robot.toml")).unwrap();
         let urdf = fs::read_to_string(folder.join(format!("{name}.urdf"))).unwrap();
         // Nothing is opened, so there is no SRDF.
-        let without_srdf = robot_file.lines().filter(|line| !line.starts_with("srdf"));
-        Texts { name, robot_file: without_srdf.map(|line| format!("{line}\n")).collect(), urdf }
+        let without_srdf: Vec<&str> = robot_file.lines().filter(|line| !line.starts_with("srdf")).collect();
+        Texts { name, robot_file: without_srdf.join("\n") + "\n", urdf }
     };
     folders.iter().map(texts).collect()
 }

@@ -17,7 +17,7 @@ use crate::robots::{Texts, agrees, is_written};
 /// series, as `ur_description` has them.
 const URDF_MM: [f64; 6] = [127.3, -612.0, -572.3, 163.941, 115.7, 92.2];
 /// The table has those of the arm's drawing in the data sheet (128.0, 163.9), and the arm lengths with the decimals of
-/// the UR10e's row of that article (612.7, 571.55).
+/// the `UR10e` row of that article (612.7, 571.55).
 const TABLE_MM: [f64; 6] = [128.0, -612.7, -571.55, 163.9, 115.7, 92.2];
 
 /// Joint, `a` and `d` by their place in the lengths, `alpha` in quarter turns.

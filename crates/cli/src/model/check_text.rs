@@ -24,7 +24,7 @@ pub(super) fn text(report: &CheckReport) -> String {
     };
     let _ = writeln!(
         text,
-        "{}: {}, worst {} at the links that decide, over {} configurations (tolerance {}{replaced})",
+        "{}: {}, worst {} of the links that decide, over {} configurations (tolerance {}{replaced})",
         report.robot,
         report.verdict,
         length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),

@@ -53,7 +53,11 @@ fn exact(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
             if (quarters - angle).abs() < FOUR_DECIMALS_RAD { quarters } else { angle }
         });
         let [roll, pitch, yaw] = meant;
-        (meant != rpy).then(|| EulerSet::Zyx.rotation([yaw, pitch, roll]))
+        meant
+            .iter()
+            .zip(rpy)
+            .any(|(meant, angle)| (meant - angle).abs() > NO_TURN)
+            .then(|| EulerSet::Zyx.rotation([yaw, pitch, roll]))
     })
 }
 
