@@ -132,6 +132,27 @@ fn a_loose_tolerance_needs_fewer_lengths() {
     }
 }
 
+/// Quarter turns with nine decimals are off by 2e-9 rad; three values of the table would have to make up for it.
+#[test]
+fn rounded_quarter_turns_of_the_urdf_are_named_beside_lengths() {
+    let mut lengths_mm = URDF_MM;
+    (lengths_mm[0], lengths_mm[1]) = (127.8, -611.4);
+    let mut texts = ur10(&lengths_mm);
+    texts.robot_file = texts.robot_file.replace(
+        "convention = \"standard\"\n",
+        "convention = \"standard\"\nbase_from_dh0 = { rpy_deg = [0, 0, 180] }\n",
+    );
+    texts.urdf = texts.urdf.replace("1.5707963267948966", "1.570796325");
+    let report = texts.check(1e-9);
+    let cause = &report.diagnosis[0];
+    assert!(cause.within_tolerance && cause.parts.len() == 3, "{}", cause.fault.message);
+    let rounding = cause.parts.iter().find(|fault| fault.parameter.as_deref() == Some("rpy")).unwrap();
+    assert!(rounding.message.contains("rpy=\"1.570796325 0 0\""), "{}", rounding.message);
+    assert!(rounding.suggestion.contains("1.5707963267948966"), "{}", rounding.suggestion);
+    let value = rounding.value.unwrap();
+    assert!((1e-9..3e-9).contains(&value), "{value:e}");
+}
+
 #[test]
 fn a_table_without_a_common_cause_is_shown_row_by_row() {
     // Every length and several angles.

@@ -160,9 +160,8 @@ fn row_by_row(text: &mut String, table: &TableComparison) {
     let widest = |lengths: &mut dyn Iterator<Item = usize>| lengths.max().unwrap_or(0);
     let names = widest(&mut rows.iter().map(|(joint, _)| joint.len()));
     let columns = widest(&mut rows.iter().map(|(_, cells)| cells.len()));
-    let width = |column: usize| {
-        widest(&mut rows.iter().filter_map(|(_, cells)| cells.get(column)).map(|cell| cell.len()))
-    };
+    let width =
+        |column: usize| widest(&mut rows.iter().filter_map(|(_, cells)| cells.get(column)).map(String::len));
     let widths: Vec<usize> = (0..columns).map(width).collect();
     for (joint, cells) in &rows {
         let padded = cells.iter().zip(&widths).map(|(cell, &width)| format!("{cell:width$}"));

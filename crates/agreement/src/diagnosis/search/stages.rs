@@ -41,8 +41,11 @@ impl ExplanationSearch<'_> {
     /// Each gross cause, and none, with the parameters that are wrong besides; those that reach the
     /// tolerance with the fewest faults.
     pub(super) fn staged(&self, gross: &[HypothesisFit]) -> Vec<HypothesisFit> {
+        // Rounding has a small effect, but one that many values would have to make up for.
+        let rounding = (0..self.context.hypotheses.len()).find(|&at| self.is_rounding(at));
+        let rounding = rounding.map(|at| self.context.single(at));
         let starts: Vec<Option<&HypothesisFit>> =
-            gross.iter().take(MAX_GROSS).map(Some).chain([None]).collect();
+            gross.iter().take(MAX_GROSS).chain(&rounding).map(Some).chain([None]).collect();
         let mut grown: Vec<HypothesisFit> =
             starts.iter().filter_map(|start| self.with_changed_values(*start)).collect();
         if grown.is_empty() {
@@ -60,9 +63,8 @@ impl ExplanationSearch<'_> {
     /// the one with the smallest norm each time, and in the end removes those that are not needed.
     fn with_parameters(&self, gross: Option<HypothesisFit>) -> Option<HypothesisFit> {
         let is_parameter = |hypothesis: &usize| {
-            let Hypothesis { cause, free, place, .. } = &self.context.hypotheses[*hypothesis];
-            let is_rounding = *cause == Cause::Parameter && matches!(place, Place::ReferenceJoints(_));
-            (free.len() == 1 && *cause != Cause::Ratio) || is_rounding
+            let Hypothesis { cause, free, .. } = &self.context.hypotheses[*hypothesis];
+            (free.len() == 1 && *cause != Cause::Ratio) || self.is_rounding(*hypothesis)
         };
         let kept = usize::from(gross.is_some());
         let parameters: Vec<usize> = (0..self.context.hypotheses.len()).filter(is_parameter).collect();
@@ -119,6 +121,12 @@ impl ExplanationSearch<'_> {
         changes.extend(changed.iter().map(|(.., by)| *by));
         let fit = self.context.fit(hypotheses, &[changes]);
         self.accepts(&fit).then(|| self.pruned(fit, kept))
+    }
+
+    /// Whether a hypothesis is about rounded angles in the reference model's file.
+    fn is_rounding(&self, hypothesis: usize) -> bool {
+        let Hypothesis { cause, place, .. } = &self.context.hypotheses[hypothesis];
+        *cause == Cause::Parameter && matches!(place, Place::ReferenceJoints(_))
     }
 
     /// The number of free parameters of a hypothesis.
