@@ -71,7 +71,7 @@ fn case_07_names_the_joint_at_fault() {
     near(&cause["residual_m"], 0.0);
     near(&cause["residual_rad"], 0.0);
     stands_at(&cause, &file, "theta_deg = 1.0");
-    assert_eq!(cause["suggestion"], "write theta_deg = 0");
+    assert_eq!(cause["suggestion"], "theta_deg = 0");
 }
 
 /// Reference case 9: a table of one convention read as the other is recognised.
@@ -181,9 +181,7 @@ fn physics_is_identified_as_a_black_box_with_the_same_answer() {
 fn people_see_the_line_at_fault() {
     let answer = congruent(&["check", "robots/ur5e/wrong_convention.toml"]);
     assert_eq!(answer.code, 1);
-    for shown in
-        ["check::convention_swapped", "wrong_convention.toml:8:14", "write convention = \"standard\""]
-    {
+    for shown in ["check::convention_swapped", "wrong_convention.toml:8:14", "convention = \"standard\""] {
         assert!(answer.stdout.contains(shown), "{shown} is not in {}", answer.stdout);
     }
 }

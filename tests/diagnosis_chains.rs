@@ -224,24 +224,27 @@ fn a_column_in_another_unit_is_named_with_figures_and_line() {
     assert_eq!(cause["found"], "d = [300, 0, 20, 100, 50]");
     assert_eq!(cause["expected"], "d = [0.3, 0, 0.02, 0.1, 0.05]");
     near(&cause["value"], 1e3);
-    assert_eq!(cause["suggestion"], "the values are in millimetres: write them under d_mm");
+    assert_eq!(cause["suggestion"], "d_m = 0.3\nd_m = 0.02\nd_m = 0.1\nd_m = 0.05");
     stands_at(&cause, ("robot.toml", &scaled(&table(), "d_m", 1e3)), "d_m = 300.0");
 
     let metres = table().replace("d_m = ", "d_mm = ").replace("a_m = ", "a_mm = ");
     let cause = first(&check(&metres, &urdf()));
     assert_eq!([&cause["cause"], &cause["parameter"]], ["millimetres_as_metres", "a, d"]);
     near(&cause["value"], 1e-3);
-    assert_eq!(cause["suggestion"], "the values are in metres: write them under a_m and d_m");
+    let lines = "d_mm = 300\na_mm = 50\na_mm = 400\nd_mm = 20\nd_mm = 100\na_mm = 70\nd_mm = 50";
+    assert_eq!(cause["suggestion"], lines);
 
     let degrees = table().replace("alpha_deg = ", "alpha_rad = ");
     let cause = first(&check(&degrees, &urdf()));
     assert_eq!([&cause["cause"], &cause["parameter"]], ["degrees_as_radians", "alpha"]);
     near(&cause["value"], 180.0 / std::f64::consts::PI);
-    assert_eq!(cause["suggestion"], "the values are in degrees: write them under alpha_deg");
+    let quarter = "1.5707963268";
+    let lines = format!("alpha_rad = -{quarter}\nalpha_rad = -{quarter}\nalpha_rad = {quarter}");
+    assert_eq!(cause["suggestion"], lines);
     stands_at(&cause, ("robot.toml", &degrees), "alpha_rad = -90.0");
 
     let radians = scaled(&table(), "alpha_deg", std::f64::consts::PI / 180.0);
     let cause = first(&check(&radians, &urdf()));
     assert_eq!([&cause["cause"], &cause["parameter"]], ["radians_as_degrees", "alpha"]);
-    assert_eq!(cause["suggestion"], "the values are in radians: write them under alpha_rad");
+    assert_eq!(cause["suggestion"], "alpha_deg = -90\nalpha_deg = -90\nalpha_deg = 90");
 }

@@ -47,7 +47,7 @@ fn names_line_10(description: &RobotDescription, file: &Path) {
     let report = check(description, Ok(&mut physics), &options).unwrap();
     let fault = &report.diagnosis[0].fault;
     assert_eq!((fault.joint.as_deref(), fault.line), (Some("a"), Some(10)), "{fault:?}");
-    assert_eq!(fault.suggestion, "write a_m = 0.4");
+    assert_eq!(fault.suggestion, "a_m = 0.4");
     let found = &report.diagnoses[0].findings[0];
     let source = found.source.as_ref().unwrap();
     assert_eq!((found.line_column(), source.path.as_path()), (Some((10, 7)), file));

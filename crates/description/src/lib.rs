@@ -39,15 +39,15 @@ pub use model::{
     Tolerance,
 };
 pub use robot_file::{
-    ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace, dh_section, robot_file_schema,
-    robot_file_text,
+    ChangedLines, ConstantKey, ConstantPart, RobotFilePlaces, RowKey, TextEdit, ValuePlace, dh_section,
+    robot_file_schema, robot_file_text,
 };
 pub use ros_packages::RosPackages;
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use written::{
     array::fixed_array,
     name::serde_name,
-    number::fitted_number,
+    number::{Slack, fitted_number},
     toml_text,
     transform::{WrittenTransform, fitted_transform},
 };

@@ -78,6 +78,7 @@ pub fn check(
         verdict: verdict(&comparisons),
         worst: worst_of(&comparisons),
         tolerance: description.tolerance,
+        replaced_tolerance: None,
         configurations: configurations.len(),
         seed: options.seed,
         comparisons,

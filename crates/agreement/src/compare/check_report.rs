@@ -101,6 +101,9 @@ pub struct CheckReport {
     pub worst: WorstDifference,
     /// The largest difference that counts as agreement.
     pub tolerance: Tolerance,
+    /// The robot file's tolerance, if the caller checked with another one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub replaced_tolerance: Option<Tolerance>,
     /// Number of configurations: zero, single axes, random ones, limits, the worst one of each certificate,
     /// and those that were requested.
     pub configurations: usize,

@@ -52,6 +52,17 @@ pub enum ModelParameter {
     Tool(usize),
 }
 
+impl ModelParameter {
+    /// Whether it is an angle; the others are lengths and ratios.
+    pub(super) fn is_angle(self) -> bool {
+        match self {
+            Self::Row(_, entry) => entry.is_angle(),
+            Self::Base(component) | Self::Tool(component) => component >= 3,
+            Self::Rate(_) => false,
+        }
+    }
+}
+
 /// A declared transform, with its roll, pitch and yaw if the file gives them: the pose does not show an angle
 /// beyond a turn, as a wrong unit gives it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -35,6 +35,8 @@ pub struct Explanation {
     pub faults: Vec<ExplainedFault>,
     /// Both models with the faults corrected.
     pub corrected: ModelPair,
+    /// The difference before any correction, then after each of `faults` is corrected, one after the other.
+    pub stages: Vec<PoseError>,
     /// The remaining difference of the corrected models.
     pub residual: PoseError,
 }

@@ -1,6 +1,7 @@
 //! The diagnosis as programs read it.
 
-use congruent_description::Diagnostic;
+use congruent_description::{ChangedLines, Diagnostic};
+use congruent_kinematics::PoseError;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -23,6 +24,9 @@ pub struct ReportedDiagnosis {
     pub indistinguishable: Vec<ReportedAlternative>,
     /// Screws and distances that differ, the most invariant first.
     pub invariants: Vec<ReportedDifference>,
+    /// The table beside the nearest one that agrees, row by row, if no cause explains everything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table: Option<TableComparison>,
     /// The first cause with its places in the robot file.
     #[serde(skip)]
     pub findings: Vec<Diagnostic>,
@@ -38,9 +42,49 @@ pub struct ReportedCause {
     pub residual_m: f64,
     /// The largest remaining angle between the tips, rad.
     pub residual_rad: f64,
-    /// The faults of `several`.
+    /// Whether that is within the tolerance: the cause explains the whole difference.
+    pub within_tolerance: bool,
+    /// The faults of `several`, the one with the largest effect first.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub parts: Vec<Fault>,
+    /// The difference before and after each fault is corrected, one after the other: of each of `parts`, or
+    /// of the only fault.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub stages: Vec<ReportedStage>,
+}
+
+/// The difference of the tips before and after a fault is corrected.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct ReportedStage {
+    /// With all faults before it corrected.
+    pub before: PoseError,
+    /// With this fault corrected as well.
+    pub after: PoseError,
+}
+
+/// The given table beside the one that agrees and is nearest to it.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct TableComparison {
+    /// The largest remaining difference of the nearest table.
+    pub residual: PoseError,
+    /// All values of the table, row by row, then those of the declared transforms.
+    pub values: Vec<ComparedValue>,
+}
+
+/// One value of the table.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ComparedValue {
+    /// The joint of the row; left out for a declared transform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// The key as the robot file has it.
+    pub key: String,
+    /// The value as the file writes it.
+    pub found: String,
+    /// The same of the nearest table that agrees.
+    pub expected: String,
+    /// Whether the two differ.
+    pub differs: bool,
 }
 
 /// A cause that cannot be distinguished from the first.
@@ -90,8 +134,16 @@ pub struct Fault {
     /// Line in the file, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
-    /// What to change.
+    /// The fault in words.
+    pub message: String,
+    /// What to change: whole lines of the robot file, or a sentence if the file cannot say it.
     pub suggestion: String,
+    /// The lines of the robot file that change, with what they become.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub changes: Vec<ChangedLines>,
+    /// The new lines to paste, with a comment that says where.
+    #[serde(skip)]
+    pub pasted: Vec<String>,
 }
 
 /// A quantity in which the chains differ.

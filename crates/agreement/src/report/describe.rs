@@ -1,84 +1,110 @@
 //! A diagnosis in names of the robot, as a report for programs and as findings for people.
 
 use congruent_description::{Diagnostic, display::length_and_angle};
+use congruent_kinematics::PoseError;
 
 use super::{
-    content::{Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference},
-    fault_message::{FaultMessage, FileLocation, fault_message_of},
+    advice,
+    content::{
+        Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference, ReportedStage,
+    },
+    fault_message::{FaultContext, FaultMessage, FileLocation, fault_message_of},
     names::ModelNames,
+    table::table_comparison,
 };
 use crate::{
-    diagnosis::{Cause, Diagnosis, Equivalence, Explanation, JointDifference, ModelPair},
+    diagnosis::{Cause, Criterion, Diagnosis, Equivalence, Explanation, JointDifference, ModelPair},
     source_pair::SourcePair,
 };
 
 pub(super) fn reported_diagnosis(
     pair: SourcePair,
-    models: &ModelPair,
+    (models, criterion): (&ModelPair, &Criterion),
     diagnosis: &Diagnosis,
     names: &ModelNames<'_>,
 ) -> ReportedDiagnosis {
-    let described: Vec<(ReportedCause, Vec<Diagnostic>)> =
-        diagnosis.explanations.iter().map(|explanation| describe(models, explanation, names)).collect();
-    let findings = described.first().map(|(_, findings)| findings.clone()).unwrap_or_default();
+    let described = |explanation: &Explanation| describe(explanation, (models, criterion), names);
+    let causes: Vec<(ReportedCause, Vec<Diagnostic>)> =
+        diagnosis.explanations.iter().map(described).collect();
+    let findings = causes.first().map(|(_, findings)| findings.clone()).unwrap_or_default();
+    let unexplained = diagnosis.explanations.first().filter(|first| !criterion.accepts(&first.residual));
     let alternative = |(explanation, equivalence): &(Explanation, Equivalence)| ReportedAlternative {
-        cause: describe(models, explanation, names).0,
+        cause: described(explanation).0,
         equivalence: *equivalence,
         reason: equivalence.sentence(),
     };
     ReportedDiagnosis {
         name: pair,
         title: pair.title(),
-        causes: described.into_iter().map(|(cause, _)| cause).collect(),
+        causes: causes.into_iter().map(|(cause, _)| cause).collect(),
         indistinguishable: diagnosis.indistinguishable.iter().map(alternative).collect(),
         invariants: diagnosis.differences.iter().map(|each| difference(each, names)).collect(),
+        table: unexplained.and_then(|first| table_comparison(models, first, criterion, names)),
         findings,
     }
 }
 
 fn describe(
-    models: &ModelPair,
     explanation: &Explanation,
+    (models, criterion): (&ModelPair, &Criterion),
     names: &ModelNames<'_>,
 ) -> (ReportedCause, Vec<Diagnostic>) {
-    let fault_messages: Vec<FaultMessage> = explanation
-        .faults
-        .iter()
-        .map(|fault| fault_message_of(fault, models, &explanation.corrected, names))
-        .collect();
-    let residual = explanation.residual;
-    let after_the_fix = format!(
-        "residual after the fix: {}",
-        length_and_angle(residual.position_m, residual.orientation_rad)
-    );
-    let findings =
-        fault_messages.iter().map(|fault_message| finding(fault_message, &after_the_fix)).collect();
-    let mut parts: Vec<Fault> = fault_messages.into_iter().map(|fault_message| fault_message.fault).collect();
-    let located = parts.iter().find(|part| part.line.is_some());
+    let slack = advice::slack(models, explanation, criterion);
+    let message = |fault| {
+        fault_message_of(&FaultContext { fault, before: models, after: &explanation.corrected, slack, names })
+    };
+    let mut messages: Vec<FaultMessage> = explanation.faults.iter().map(message).collect();
+    if let Some(places) = names.places {
+        let changes = advice::lines_by_fault(models, explanation, places, slack);
+        for (message, changes) in messages.iter_mut().zip(changes) {
+            if let Some(changes) = changes {
+                message.advise(changes, &places.source().text);
+            }
+        }
+    }
+    let stages = explanation.stages.windows(2).map(|pair| ReportedStage { before: pair[0], after: pair[1] });
+    let stages: Vec<ReportedStage> = stages.collect();
+    let findings = messages.iter().zip(&stages).map(|(message, stage)| finding(message, stage));
+    let findings = findings.collect();
+    let mut parts: Vec<Fault> = messages.into_iter().map(|message| message.fault).collect();
     let fault = match parts.len() {
         0 => Fault {
             cause: Cause::Unexplained,
+            message: "no known cause explains the difference".to_owned(),
             suggestion: "no known cause explains the difference: see `invariants` for the screws that differ"
                 .into(),
             ..Fault::default()
         },
         1 => parts.remove(0),
-        _ => Fault {
-            cause: Cause::Several,
-            joints: involved(&parts),
-            file: located.and_then(|part| part.file.clone()),
-            line: located.and_then(|part| part.line),
-            suggestion: parts.iter().map(|part| part.suggestion.as_str()).collect::<Vec<_>>().join("; "),
-            ..Fault::default()
-        },
+        _ => several(&parts),
     };
+    let PoseError { position_m, orientation_rad } = explanation.residual;
     let cause = ReportedCause {
         fault,
-        residual_m: residual.position_m,
-        residual_rad: residual.orientation_rad,
+        residual_m: position_m,
+        residual_rad: orientation_rad,
+        within_tolerance: criterion.accepts(&explanation.residual),
         parts,
+        stages,
     };
     (cause, findings)
+}
+
+/// Several faults as one: all of their lines.
+fn several(parts: &[Fault]) -> Fault {
+    let located = parts.iter().find(|part| part.line.is_some());
+    let all =
+        |words: fn(&Fault) -> &str, between: &str| parts.iter().map(words).collect::<Vec<_>>().join(between);
+    Fault {
+        cause: Cause::Several,
+        joints: involved(parts),
+        file: located.and_then(|part| part.file.clone()),
+        line: located.and_then(|part| part.line),
+        message: all(|part| &part.message, "; "),
+        suggestion: all(|part| &part.suggestion, "\n"),
+        changes: parts.iter().flat_map(|part| part.changes.iter().cloned()).collect(),
+        ..Fault::default()
+    }
 }
 
 fn involved(parts: &[Fault]) -> Vec<String> {
@@ -90,10 +116,13 @@ fn involved(parts: &[Fault]) -> Vec<String> {
 }
 
 /// A fault as a finding in its file.
-fn finding(fault_message: &FaultMessage, after_the_fix: &str) -> Diagnostic {
+fn finding(fault_message: &FaultMessage, stage: &ReportedStage) -> Diagnostic {
     let FaultMessage { fault, message, location } = fault_message;
-    let finding = Diagnostic::error(fault.cause.code(), message.clone())
-        .with_help(format!("{}; {after_the_fix}", fault.suggestion));
+    let shown = |error: &PoseError| length_and_angle(error.position_m, error.orientation_rad);
+    let error = format!("error before the fix: {}, after it: {}", shown(&stage.before), shown(&stage.after));
+    let advice = if fault.pasted.is_empty() { fault.suggestion.clone() } else { fault.pasted.join("\n") };
+    let finding =
+        Diagnostic::error(fault.cause.code(), message.clone()).with_help(format!("{advice}\n{error}"));
     match location {
         Some(FileLocation { source, span }) => finding.at(span.clone()).in_file(source),
         None => finding,

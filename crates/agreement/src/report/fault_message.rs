@@ -1,10 +1,15 @@
 //! One fault in words: the line of the file, the found and the expected value, what to change.
 
-use std::{ops::Range, sync::Arc};
+use std::{
+    f64::consts::{PI, TAU},
+    ops::Range,
+    sync::Arc,
+};
 
 use congruent_description::{
-    ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, SourceFile,
-    display::{angle, length},
+    ChangedLines, ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, Slack,
+    SourceFile,
+    display::{angle, length, number},
     fitted_number, fitted_transform, line_column,
     units::{Unit, UnitSystem},
 };
@@ -13,7 +18,7 @@ use congruent_kinematics::{Pose, rotation_log};
 use super::{
     content::Fault,
     names::ModelNames,
-    values::{ReportedValue, isometry},
+    values::{ReportedValue, isometry, value_literal},
 };
 use crate::diagnosis::{Candidate, Cause, DhEntry, ExplainedFault, ModelPair, Place, RowConstants};
 
@@ -22,6 +27,36 @@ pub(super) struct FaultMessage {
     pub(super) fault: Fault,
     pub(super) message: String,
     pub(super) location: Option<FileLocation>,
+}
+
+impl FaultMessage {
+    /// Replaces the suggestion in words by whole lines of the file with this text.
+    pub(super) fn advise(&mut self, changes: Vec<ChangedLines>, text: &str) {
+        let (mut lines, mut pasted) = (Vec::new(), Vec::new());
+        for change in &changes {
+            let (new, place) = new_lines(change, text);
+            lines.push(new);
+            pasted.push(format!("{new}  # {place}"));
+        }
+        self.fault.suggestion = if lines.is_empty() {
+            "the lines of the other causes correct this as well".to_owned()
+        } else {
+            lines.join("\n")
+        };
+        self.fault.pasted = pasted;
+        self.fault.changes = changes;
+    }
+}
+
+/// The new lines and where they belong; of a line that stays and gets others below it, these alone.
+fn new_lines<'a>(change: &'a ChangedLines, text: &str) -> (&'a str, String) {
+    let ChangedLines { from_line, to_line, text: new } = change;
+    let old: Vec<&str> = text.lines().skip(from_line - 1).take(to_line + 1 - from_line).collect();
+    match new.strip_prefix(&old.join("\n")).and_then(|rest| rest.strip_prefix('\n')) {
+        Some(added) => (added, format!("below line {to_line}")),
+        None if from_line == to_line => (new, format!("line {from_line}")),
+        None => (new, format!("lines {from_line} to {to_line}")),
+    }
 }
 
 /// A place in a file.
@@ -35,27 +70,27 @@ pub(super) struct FaultContext<'a> {
     pub(super) fault: &'a ExplainedFault,
     pub(super) before: &'a ModelPair,
     pub(super) after: &'a ModelPair,
-    names: &'a ModelNames<'a>,
+    pub(super) slack: Slack,
+    pub(super) names: &'a ModelNames<'a>,
 }
 
-/// The message of one fault of an explanation.
-pub(super) fn fault_message_of(
-    fault: &ExplainedFault,
-    before: &ModelPair,
-    after: &ModelPair,
-    names: &ModelNames<'_>,
-) -> FaultMessage {
-    let context = FaultContext { fault, before, after, names };
+/// The message of one fault.
+pub(super) fn fault_message_of(context: &FaultContext<'_>) -> FaultMessage {
+    let fault = context.fault;
     let mut described = match &fault.place {
         Place::Model => context.model(),
         Place::Rows(rows) => context.rows(rows),
         Place::Entries(entry, rows) => context.entries(*entry, rows),
+        Place::Column(entries) if fault.cause == Cause::ParametersExchanged => {
+            context.columns_exchanged(entries)
+        }
         Place::Column(entries) => context.columns(entries),
         Place::Base => context.declared_transform(ConstantKey::BaseFromDh0),
         Place::Tool => context.declared_transform(ConstantKey::DhnFromTip),
         Place::ReferenceJoints(joints) => context.reference_joints(joints),
     };
     described.fault.cause = fault.cause;
+    described.fault.message.clone_from(&described.message);
     if let Some(FileLocation { source, span }) = &described.location {
         described.fault.file = Some(source.path.display().to_string());
         described.fault.line = Some(line_column(&source.text, span.start).0);
@@ -77,10 +112,10 @@ impl FaultContext<'_> {
         let fault = Fault {
             found: Some(ReportedValue::Text(found.to_owned())),
             expected: Some(ReportedValue::Text(expected.to_owned())),
-            suggestion: format!("write convention = \"{expected}\""),
+            suggestion: format!("convention = \"{expected}\""),
             ..Fault::default()
         };
-        let message = format!("the table is read as {found}, its values are {expected}");
+        let message = format!("the table is written in the other DH convention ({expected}, not {found})");
         FaultMessage { fault, message, location: self.in_robot_file(span) }
     }
 
@@ -109,14 +144,11 @@ impl FaultContext<'_> {
                     fitted_number(found),
                     fitted_number(expected)
                 ),
-                format!("write sign = {}, or reverse the joint's axis", fitted_number(expected)),
+                format!("sign = {}", fitted_number(expected)),
             ),
             Cause::Ratio => (
                 ratio(named),
-                format!(
-                    "joint \"{listed}\" moves {} times as far as expected",
-                    fitted_number(found / expected)
-                ),
+                format!("joint \"{listed}\" moves {} times as far as expected", number(found / expected)),
                 "check the joint's gear ratio and unit".to_owned(),
             ),
             Cause::JointsSwapped => {
@@ -156,19 +188,17 @@ impl FaultContext<'_> {
             parameter: Some("kind".to_owned()),
             found: Some(ReportedValue::Text(found.to_owned())),
             expected: Some(ReportedValue::Text(expected.to_owned())),
-            suggestion: format!("write kind = \"{expected}\""),
+            suggestion: format!("kind = \"{expected}\""),
             ..Fault::default()
         };
         FaultMessage { fault, message, location: self.location(row, RowKey::Kind) }
     }
 
     fn lengths_exchanged(&self, named: Fault, row: usize) -> (Fault, String, String) {
-        let pair = |models: &ModelPair| {
-            let written =
-                |entry| self.written(row, entry, models.candidate.entry(row, entry).unwrap_or_default());
-            [written(DhEntry::A), written(DhEntry::D)]
-        };
-        let (found, expected) = (pair(self.before).join(", "), pair(self.after));
+        let value = |models: &ModelPair, entry| models.candidate.entry(row, entry).unwrap_or_default();
+        let lengths = [DhEntry::A, DhEntry::D];
+        let found = lengths.map(|entry| self.given(row, entry, value(self.before, entry))).join(", ");
+        let expected = lengths.map(|entry| self.written(row, entry, value(self.after, entry)));
         let fault = Fault {
             parameter: Some("a, d".to_owned()),
             found: Some(ReportedValue::Text(found.clone())),
@@ -176,7 +206,7 @@ impl FaultContext<'_> {
             ..named
         };
         let message = format!("a and d of joint \"{}\" are exchanged: {found}", self.joint(row));
-        (fault, message, format!("write {}", expected.join(" and ")))
+        (fault, message, expected.join("\n"))
     }
 
     fn entries(&self, entry: DhEntry, rows: &[usize]) -> FaultMessage {
@@ -188,7 +218,7 @@ impl FaultContext<'_> {
             let joints = vec![self.joint(first), self.joint(second)];
             let message = format!("alpha of joints \"{}\" are exchanged", joints.join("\", \""));
             let suggestion = format!(
-                "exchange them: {} and {}",
+                "{}\n{}",
                 self.written(first, entry, expected),
                 self.written(second, entry, value(self.after, second))
             );
@@ -196,12 +226,13 @@ impl FaultContext<'_> {
             return FaultMessage { fault, message, location: self.location(second, row_key(entry)) };
         }
         let joint = self.joint(row);
-        let right = self.written(row, entry, expected);
-        let (given, suggestion) = if self.is_written(row, row_key(entry)) {
-            (self.written(row, entry, found), format!("write {right}"))
+        let right = self.corrected(row, entry, (found, expected));
+        let given = if self.is_written(row, row_key(entry)) {
+            self.given(row, entry, found)
         } else {
-            (format!("{entry} is not given (0)"), format!("add {right} to the row"))
+            format!("{entry} is not given (0)")
         };
+        let expected = within_a_turn(entry, expected);
         let message = format!("joint \"{joint}\": {given}, expected {right}");
         let fault = Fault {
             joint: Some(joint),
@@ -209,7 +240,7 @@ impl FaultContext<'_> {
             value: Some(off(entry, found, expected)),
             found: Some(ReportedValue::Number(found)),
             expected: Some(ReportedValue::Number(expected)),
-            suggestion,
+            suggestion: right,
             ..Fault::default()
         };
         FaultMessage { fault, message, location: self.location(row, row_key(entry)) }
@@ -231,13 +262,10 @@ impl FaultContext<'_> {
         };
         let places = self.names.places;
         let [found, expected] = [found, expected].map(|pose| isometry(&pose));
-        let suggestion = match places {
-            Some(places) => places.constant_as(key, &expected),
-            None => format!("write {name} = {}", fitted_transform(&expected)),
-        };
+        let suggestion = format!("{name} = {}", fitted_transform(&expected, self.slack));
         let fault = Fault {
-            found: Some(ReportedValue::Text(fitted_transform(&found))),
-            expected: Some(ReportedValue::Text(fitted_transform(&expected))),
+            found: Some(ReportedValue::Text(fitted_transform(&found, Slack::default()))),
+            expected: Some(ReportedValue::Text(fitted_transform(&expected, self.slack))),
             translation_m: Some(shift.into()),
             rotation_rad: Some(turn.into()),
             suggestion,
@@ -248,46 +276,6 @@ impl FaultContext<'_> {
         let span = places.map(|places| places.constant(key, part));
         let message = format!("the declared transform {name} {how}");
         FaultMessage { fault, message, location: self.in_robot_file(span) }
-    }
-
-    fn reference_joints(&self, joints: &[usize]) -> FaultMessage {
-        let names: Vec<String> = joints.iter().map(|&joint| self.names.chain_joint(joint)).collect();
-        let listed = names.join("\", \"");
-        let rotation =
-            |models: &ModelPair, joint: usize| models.reference.joints[joint].parent_from_joint.rotation;
-        let turn = |joint: usize| {
-            rotation_log(&(rotation(self.after, joint).transpose() * rotation(self.before, joint))).norm()
-        };
-        let most = joints.iter().map(|&joint| turn(joint)).fold(0.0, f64::max);
-        let mut fault = Fault::default();
-        let (message, suggestion) = match self.fault.cause {
-            Cause::FixedJointDropped => (
-                format!("the model leaves out the fixed joint \"{listed}\" of the URDF"),
-                format!("put the origin of \"{listed}\" into the model"),
-            ),
-            Cause::RpyOrder => (
-                format!("the rpy of joint \"{listed}\" has another order in the URDF than in the model"),
-                format!("check the rpy of joint \"{listed}\": R = Rz(yaw) Ry(pitch) Rx(roll)"),
-            ),
-            _ => {
-                fault.parameter = Some("rpy".to_owned());
-                fault.value = Some(most);
-                (
-                    format!(
-                        "the URDF writes quarter turns of joints \"{listed}\" with too few digits, off by up to {most:.1e} rad"
-                    ),
-                    "write pi/2 as 1.5707963267948966 in the URDF".to_owned(),
-                )
-            }
-        };
-        let location = self.names.urdf.as_ref().and_then(|urdf| {
-            Some(FileLocation { source: Arc::clone(urdf.source()), span: urdf.joint_origin(names.first()?)? })
-        });
-        match <[String; 1]>::try_from(names) {
-            Ok([name]) => fault.joint = Some(name),
-            Err(names) => fault.joints = names,
-        }
-        FaultMessage { fault: Fault { suggestion, ..fault }, message, location }
     }
 
     fn joint(&self, row: usize) -> String {
@@ -316,13 +304,36 @@ impl FaultContext<'_> {
 
     /// A value of a row as the file writes it, with its key and in the unit of that key.
     fn written(&self, row: usize, entry: DhEntry, value: f64) -> String {
+        self.corrected(row, entry, (f64::INFINITY, value))
+    }
+
+    /// The expected value of a row, with the digits that tell it from the found one.
+    fn corrected(&self, row: usize, entry: DhEntry, values: (f64, f64)) -> String {
         let place = self.names.places.and_then(|places| places.value(row, row_key(entry)));
         let unit = if entry.is_angle() { Unit::Angle } else { Unit::Length };
+        let (key, units) =
+            place.map_or_else(|| (entry.to_string(), UnitSystem::Si), |place| (place.key, place.units));
+        format!("{key} = {}", value_literal(unit, units, values, self.slack))
+    }
+
+    /// The given value of a row, in the digits of the file.
+    fn given(&self, row: usize, entry: DhEntry, value: f64) -> String {
+        let place = self.names.places.and_then(|places| Some((places, places.value(row, row_key(entry))?)));
         match place {
-            Some(place) => format!("{} = {}", place.key, unit.fitted(value, place.units)),
-            None => format!("{} = {}", entry, unit.fitted(value, UnitSystem::Si)),
+            Some((places, place)) if place.is_written => {
+                format!("{} = {}", place.key, &places.source().text[place.span])
+            }
+            _ => self.written(row, entry, value),
         }
     }
+}
+
+/// An angle in `-pi < angle <= pi`; a length as it is.
+fn within_a_turn(entry: DhEntry, value: f64) -> f64 {
+    if !entry.is_angle() || (value > -PI && value <= PI) {
+        return value;
+    }
+    value - TAU * ((value - PI) / TAU).ceil()
 }
 
 /// The error of a transform; a part that is rounding is left out.

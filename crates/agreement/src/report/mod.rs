@@ -1,15 +1,21 @@
 //! A diagnosis in names, lines and values of the robot file.
 
+mod advice;
 mod content;
 mod describe;
 mod diagnose_models;
 mod fault_message;
 mod names;
+mod reference;
 mod statement;
+mod table;
 mod units;
 mod values;
 
-pub use content::{Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference};
+pub use content::{
+    ComparedValue, Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference,
+    ReportedStage, TableComparison,
+};
 pub use diagnose_models::diagnose_models;
 pub use statement::foremost;
 pub use values::ReportedValue;

@@ -4,19 +4,24 @@ use std::slice;
 
 use congruent_description::{Diagnostic, Finding, display::length_and_angle};
 
-use super::content::{Fault, ReportedDiagnosis};
+use super::content::{Fault, ReportedCause, ReportedDiagnosis};
 use crate::diagnosis::Cause;
 
 impl ReportedDiagnosis {
-    /// Whether a cause was found.
+    /// Whether a cause was found that leaves no more than the tolerance.
     pub fn is_explained(&self) -> bool {
-        self.causes.first().is_some_and(|cause| cause.fault.cause != Cause::Unexplained)
+        self.named_cause().is_some_and(|cause| cause.within_tolerance)
+    }
+
+    /// The first cause, unless nothing was found.
+    fn named_cause(&self) -> Option<&ReportedCause> {
+        self.causes.first().filter(|cause| cause.fault.cause != Cause::Unexplained)
     }
 
     /// The first cause, one line for each of its faults: the place, what is wrong, what to write; the last has the
     /// residual after all of it. Empty if no cause was found.
     pub fn statements(&self) -> Vec<String> {
-        let Some(cause) = self.causes.first().filter(|_| self.is_explained()) else { return Vec::new() };
+        let Some(cause) = self.named_cause() else { return Vec::new() };
         let faults = if cause.parts.is_empty() { slice::from_ref(&cause.fault) } else { &cause.parts };
         let line = |(finding, fault): (&Diagnostic, &Fault)| {
             let help = Some(fault.suggestion.clone());

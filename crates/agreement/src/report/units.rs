@@ -1,4 +1,4 @@
-//! The message of a wrong unit of whole columns.
+//! Messages about whole columns: a wrong unit, and exchanged columns.
 
 use congruent_description::fitted_number;
 
@@ -10,6 +10,21 @@ use super::{
 use crate::diagnosis::{DhEntry, ModelPair, Place};
 
 impl FaultContext<'_> {
+    /// Two columns that are exchanged in every row.
+    pub(super) fn columns_exchanged(&self, entries: &[DhEntry]) -> FaultMessage {
+        let names: Vec<String> = entries.iter().map(DhEntry::to_string).collect();
+        let message = format!("columns {} are exchanged throughout the table", names.join(" and "));
+        let value = |models: &ModelPair, row| models.candidate.entry(row, entries[0]);
+        let rows = 0..self.before.candidate.rows.len();
+        let row = rows.into_iter().find(|&row| value(self.before, row) != value(self.after, row));
+        let fault = Fault {
+            parameter: Some(names.join(", ")),
+            suggestion: format!("exchange {} in every row", names.join(" and ")),
+            ..Fault::default()
+        };
+        FaultMessage { fault, message, location: self.location(row.unwrap_or(0), row_key(entries[0])) }
+    }
+
     /// Columns whose values are not in the unit of their keys.
     pub(super) fn columns(&self, entries: &[DhEntry]) -> FaultMessage {
         let rows = 0..self.before.candidate.rows.len();
@@ -30,28 +45,20 @@ impl FaultContext<'_> {
             let columns: Vec<String> = entries.iter().map(|&entry| column(models, entry)).collect();
             Some(ReportedValue::Text(columns.join(", ")))
         };
-        let (unit, key) = match (entry.is_angle(), factor > 1.0) {
-            (true, true) => ("degrees", "deg"),
-            (true, false) => ("radians", "rad"),
-            (false, true) => ("millimetres", "mm"),
-            (false, false) => ("metres", "m"),
+        let (unit, right) = match (entry.is_angle(), factor > 1.0) {
+            (true, true) => ("degrees", "radians"),
+            (true, false) => ("radians", "degrees"),
+            (false, true) => ("millimetres", "metres"),
+            (false, false) => ("metres", "millimetres"),
         };
-        let joined = |name: fn(DhEntry) -> String| {
-            entries.iter().map(|&entry| name(entry)).collect::<Vec<_>>().join(" and ")
-        };
-        let names = joined(|entry| entry.to_string());
-        let keys = joined(|entry| format!("{entry}_*")).replace('*', key);
-        let (also, of_constants) = if self.fault.place == Place::Model {
-            (" and of the declared transforms", format!(", xyz under xyz_{key}"))
-        } else {
-            ("", String::new())
-        };
+        let names = entries.iter().map(DhEntry::to_string).collect::<Vec<_>>().join(" and ");
+        let also = if self.fault.place == Place::Model { " and of the declared transforms" } else { "" };
         let fault = Fault {
             parameter: Some(names.replace(" and ", ", ")),
             value: factor.is_finite().then_some(factor),
             found: table(self.before),
             expected: table(self.after),
-            suggestion: format!("the values are in {unit}: write them under {keys}{of_constants}"),
+            suggestion: format!("write {names} in {right}"),
             ..Fault::default()
         };
         let message =

@@ -1,5 +1,9 @@
 //! Values and poses in the forms that reports need.
 
+use congruent_description::{
+    Slack,
+    units::{Unit, UnitSystem},
+};
 use congruent_kinematics::Pose;
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 use schemars::JsonSchema;
@@ -19,4 +23,18 @@ pub enum ReportedValue {
 pub(super) fn isometry(pose: &Pose) -> Isometry3<f64> {
     let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(pose.rotation));
     Isometry3::from_parts(Translation3::from(pose.translation), rotation)
+}
+
+/// The expected value as a file writes it: short, but with the digits that tell it from the found one.
+pub(super) fn value_literal(
+    unit: Unit,
+    units: UnitSystem,
+    (found, expected): (f64, f64),
+    slack: Slack,
+) -> String {
+    /// Part of its change that a value may be off.
+    const PART_OF_CHANGE: f64 = 0.05;
+    let most = PART_OF_CHANGE * (found - expected).abs();
+    let slack = Slack { length_m: slack.length_m.min(most), angle_rad: slack.angle_rad.min(most) };
+    unit.fitted(expected, units, slack)
 }

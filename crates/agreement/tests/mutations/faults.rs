@@ -126,6 +126,15 @@ fn table(list: &mut Vec<InjectedFault>) {
             _ => Some(DhConvention::Standard),
         };
     }));
+    for column in [[DhEntry::A, DhEntry::D], [DhEntry::Alpha, DhEntry::Theta]] {
+        let place = Place::Column(column.to_vec());
+        list.push(InjectedFault::new(Cause::ParametersExchanged, place, move |models| {
+            for row in 0..models.candidate.rows.len() {
+                let [one, two] = column.map(|what| *entry(models, row, what));
+                (*entry(models, row, column[0]), *entry(models, row, column[1])) = (two, one);
+            }
+        }));
+    }
     for (cause, factor, column) in [
         (Cause::DegreesAsRadians, 180.0 / PI, vec![DhEntry::Alpha]),
         (Cause::RadiansAsDegrees, PI / 180.0, vec![DhEntry::Alpha]),

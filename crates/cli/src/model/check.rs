@@ -11,7 +11,10 @@ use congruent::{
 
 use serde::{Serialize, Serializer};
 
-use super::check_text::{basics, text};
+use super::{
+    check_text::{basics, text},
+    tolerance::ToleranceArgument,
+};
 use crate::{
     batch::{Batch, BatchReport},
     failure::{FAILED, Failure, NOTHING},
@@ -38,6 +41,10 @@ pub(crate) struct Arguments {
     /// {"q": {"joint": value}} in rad and m; joints that are not named are at 0.
     #[arg(long, value_name = "FILE")]
     configurations: Option<PathBuf>,
+    /// Tolerance of positions and orientations in place of the robot file's, each with its unit: 1mm,0.1deg; a part
+    /// that is not given stays the file's.
+    #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
+    tolerance: Option<ToleranceArgument>,
     /// Also show the pose of the TCP at zero and its motion with each joint; JSON always has both.
     #[arg(long)]
     basics: bool,
@@ -95,8 +102,13 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         configurations = read.entries;
     }
     batch.warn(path, &description.warnings);
+    let declared = description.tolerance;
+    if let Some(tolerance) = arguments.tolerance {
+        description.tolerance = tolerance.replace(declared);
+    }
     let options = CheckOptions { seed: arguments.seed, configurations };
-    let report = congruent::check(&description, &options)
+    let mut report = congruent::check(&description, &options)
         .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
+    report.replaced_tolerance = arguments.tolerance.map(|_| declared);
     Ok(Checked { report, with_basics: arguments.basics })
 }

@@ -3,36 +3,21 @@
 use std::fmt::Write;
 
 use congruent::{
-    agreement::{
-        compare::{
-            Agreement, Basics, Brackets, BySource, CheckReport, Comparison, CoordinateUnit, NotAsked,
-            PoseSource, Premise, ReportedBracket, ReportedCertificate,
-        },
-        diagnosis::Invariant,
-        report::{Fault, ReportedCause, ReportedDiagnosis},
+    agreement::compare::{
+        Agreement, Basics, Brackets, BySource, CheckReport, Comparison, CoordinateUnit, NotAsked, PoseSource,
+        Premise, ReportedBracket, ReportedCertificate,
     },
-    description::display::{angle, length, length_and_angle},
+    description::{
+        Tolerance,
+        display::{angle, length, length_and_angle},
+    },
 };
 
-use crate::print::rendered;
+use super::diagnosis_text::diagnosed;
 
 pub(super) fn text(report: &CheckReport) -> String {
     let mut text = String::new();
-    if report.verdict == Agreement::NothingCompared {
-        let what = "nothing was compared: there is no [dh] table, and the physics was not asked";
-        let _ = writeln!(text, "{}: {what}", report.file);
-    } else {
-        let _ = writeln!(
-            text,
-            "{}: {}, worst {} over {} configurations (tolerance {:e} m, {:e} rad)",
-            report.file,
-            report.verdict,
-            length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),
-            report.configurations,
-            report.tolerance.position_m,
-            report.tolerance.orientation_rad
-        );
-    }
+    headline(&mut text, report);
     let _ = writeln!(text, "  {}", report.chain);
     if !report.table_compared && report.verdict != Agreement::NothingCompared {
         let agree = report.verdict == Agreement::Agree;
@@ -60,6 +45,28 @@ pub(super) fn text(report: &CheckReport) -> String {
         diagnosed(&mut text, diagnosis);
     }
     text
+}
+
+fn headline(text: &mut String, report: &CheckReport) {
+    if report.verdict == Agreement::NothingCompared {
+        let what = "nothing was compared: there is no [dh] table, and the physics was not asked";
+        let _ = writeln!(text, "{}: {what}", report.file);
+        return;
+    }
+    let tolerance = |tolerance: &Tolerance| length_and_angle(tolerance.position_m, tolerance.orientation_rad);
+    let replaced = match &report.replaced_tolerance {
+        Some(declared) => format!(" by --tolerance, the robot file's is {}", tolerance(declared)),
+        None => String::new(),
+    };
+    let _ = writeln!(
+        text,
+        "{}: {}, worst {} of the links that decide, over {} configurations (tolerance {}{replaced})",
+        report.file,
+        report.verdict,
+        length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),
+        report.configurations,
+        tolerance(&report.tolerance),
+    );
 }
 
 /// The first checks: the pose of the TCP at zero and its motion with each joint.
@@ -148,63 +155,6 @@ fn narrow(text: &mut String, certificate: &ReportedCertificate) {
     }
 }
 
-/// The first cause with its lines of the file, then the causes that cannot be distinguished from it and the
-/// next best ones.
-fn diagnosed(text: &mut String, diagnosis: &ReportedDiagnosis) {
-    /// Alternatives shown to people; JSON has all of them.
-    const SHOWN: usize = 6;
-    let _ = writeln!(text, "\n  {}: {}", diagnosis.title, cause(&diagnosis.causes[0]));
-    for finding in &diagnosis.findings {
-        text.push_str(&rendered(finding));
-    }
-    if diagnosis.findings.is_empty() {
-        for difference in &diagnosis.invariants {
-            let _ = writeln!(
-                text,
-                "    {:14} {:24} found {:>12} expected {:>12}",
-                difference.invariant,
-                difference.joint,
-                invariant(difference.invariant, difference.found),
-                invariant(difference.invariant, difference.expected)
-            );
-        }
-    }
-    for alternative in diagnosis.indistinguishable.iter().take(SHOWN) {
-        let _ = writeln!(text, "  indistinguishable: {} ({})", cause(&alternative.cause), alternative.reason);
-    }
-    if let Some(more) = diagnosis.indistinguishable.len().checked_sub(SHOWN + 1) {
-        let _ = writeln!(text, "  and {} more indistinguishable causes", more + 1);
-    }
-    for next in &diagnosis.causes[1..] {
-        let _ = writeln!(text, "  next best: {}", cause(next));
-    }
-}
-
-/// The value of an invariant: a kind of joint by its name, and `none` if a chain does not have the quantity.
-fn invariant(invariant: Invariant, value: f64) -> String {
-    match invariant {
-        _ if value.is_nan() => "none".to_owned(),
-        Invariant::Kind => if value > 0.0 { "prismatic" } else { "revolute" }.to_owned(),
-        _ => format!("{value:.6}"),
-    }
-}
-
-/// One line for a cause.
-fn cause(cause: &ReportedCause) -> String {
-    let one = |fault: &Fault| {
-        let joints = fault.joint.iter().chain(&fault.joints).cloned().collect::<Vec<_>>().join(", ");
-        let cause = fault.cause.to_string();
-        let words = [&cause, fault.parameter.as_deref().unwrap_or_default(), &joints];
-        words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
-    };
-    let what = if cause.parts.is_empty() {
-        one(&cause.fault)
-    } else {
-        cause.parts.iter().map(one).collect::<Vec<_>>().join(" and ")
-    };
-    format!("{what}, residual {}", length_and_angle(cause.residual_m, cause.residual_rad))
-}
-
 fn compared(text: &mut String, comparison: &Comparison) {
     let _ = writeln!(
         text,
@@ -220,7 +170,7 @@ fn compared(text: &mut String, comparison: &Comparison) {
     }
     for link in &comparison.links {
         let fitted = match link.source {
-            PoseSource::DhFitted => "(constant fitted at zero)",
+            PoseSource::DhFitted => "(constant fitted at zero, does not decide)",
             _ => "",
         };
         let _ = writeln!(

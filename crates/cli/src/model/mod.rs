@@ -5,4 +5,6 @@ pub(crate) mod check;
 mod check_text;
 pub(crate) mod convert;
 pub(crate) mod derive;
+mod diagnosis_text;
+mod tolerance;
 mod written_model;

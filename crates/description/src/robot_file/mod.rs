@@ -1,12 +1,14 @@
 //! The robot file `robot.toml`: which URDF, which chain, which analytical model.
 
 mod check;
+mod edits;
 mod places;
 mod rows;
 mod write;
 mod written;
 
 pub(crate) use check::{Declared, check};
+pub use edits::{ChangedLines, TextEdit};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
 pub use write::{dh_section, robot_file_text};
 pub(crate) use written::WrittenRobot;

@@ -10,7 +10,7 @@ use super::written::{WrittenDh, WrittenRow};
 use crate::{
     diagnostic::SourceFile,
     units::{Unit, UnitSystem},
-    written::{name::serde_name, transform::WrittenTransform},
+    written::{name::serde_name, number::Slack, transform::WrittenTransform},
 };
 
 /// A key of a row of the table; those of lengths and angles without their unit.
@@ -150,24 +150,12 @@ impl RobotFilePlaces {
         }
     }
 
-    /// How the file would write another value of a declared transform, to be put at
-    /// [`RobotFilePlaces::constant`]: in its units, its kind of rotation and its form.
-    pub fn constant_as(&self, key: ConstantKey, pose: &Isometry3<f64>) -> String {
-        let name = key.name();
-        let (written, default) = (self.written(key), WrittenTransform::default());
+    /// The keys of another value of a declared transform, as the file writes it: in its units and by its kind
+    /// of rotation.
+    pub fn constant_keys(&self, key: ConstantKey, pose: &Isometry3<f64>, slack: Slack) -> Vec<String> {
         let units = [Unit::Length, Unit::Angle].map(|unit| self.units(unit));
-        let keys = written.map_or(&default, Spanned::get_ref).with_keys(pose, units);
-        match written.map(|written| self.source.text[written.span()].trim_start()) {
-            Some(text) if text.starts_with('{') => format!("write {name} = {{ {} }}", keys.join(", ")),
-            Some(text) if text.starts_with('[') => {
-                format!("write under [dh.{name}]: {}", keys.join(" and "))
-            }
-            Some(_) => {
-                let dotted: Vec<String> = keys.iter().map(|line| format!("{name}.{line}")).collect();
-                format!("write {}", dotted.join(" and "))
-            }
-            None => format!("write under [dh]: {name} = {{ {} }}", keys.join(", ")),
-        }
+        let default = WrittenTransform::default();
+        self.written(key).map_or(&default, Spanned::get_ref).with_keys(pose, units, slack)
     }
 
     /// Place of a declared transform: that of the part that is asked for, or else of what is written of
@@ -193,7 +181,7 @@ impl RobotFilePlaces {
         Unit::Angle.vector("rpy", rpy_rad.as_ref(), rpy_deg.as_ref()).ok().flatten()
     }
 
-    fn written(&self, key: ConstantKey) -> Option<&Spanned<WrittenTransform>> {
+    pub(super) fn written(&self, key: ConstantKey) -> Option<&Spanned<WrittenTransform>> {
         match key {
             ConstantKey::BaseFromDh0 => self.dh.get_ref().base_from_dh0.as_ref(),
             ConstantKey::DhnFromTip => self.dh.get_ref().dhn_from_tip.as_ref(),

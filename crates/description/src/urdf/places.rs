@@ -2,8 +2,11 @@
 
 use std::{ops::Range, sync::Arc};
 
-use super::node::{last, place};
-use crate::{diagnostic::SourceFile, xml};
+use super::node::{element, last, place};
+use crate::{
+    diagnostic::{SourceFile, line_column},
+    xml,
+};
 
 /// The text of a URDF, in which joints are found.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,11 +31,29 @@ impl UrdfPlaces {
         let document = xml::parse(&self.source.text).ok()?;
         Some(place(last(document.root_element(), "joint", name)?, "origin"))
     }
+
+    /// The `rpy` of a joint's `<origin>` as the file writes it, and its line from 1; `None` if it has none.
+    pub fn joint_rpy(&self, name: &str) -> Option<(String, usize)> {
+        let document = xml::parse(&self.source.text).ok()?;
+        let origin = element(last(document.root_element(), "joint", name)?, "origin")?;
+        let rpy = origin.attributes().find(|attribute| attribute.name() == "rpy")?;
+        Some((rpy.value().to_owned(), line_column(&self.source.text, rpy.range().start).0))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_rpy_of_a_joint_is_shown_as_it_is_written() {
+        let text = "<robot name='two'>\n<joint name='a'>\n<origin xyz='1 0 0'\n rpy='1.5708 0 0'/></joint>\n\
+                    <joint name='b'><origin xyz='0 0 0'/></joint></robot>";
+        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned() };
+        let places = UrdfPlaces::new(Arc::new(source));
+        assert_eq!(places.joint_rpy("a"), Some(("1.5708 0 0".to_owned(), 4)));
+        assert_eq!([places.joint_rpy("b"), places.joint_rpy("c")], [None, None]);
+    }
 
     #[test]
     fn the_place_of_a_joint_is_that_of_its_origin() {

@@ -1,5 +1,7 @@
 //! Numbers as they are written into files: short if that loses nothing, with all digits otherwise.
 
+use std::f64::consts::{PI, TAU};
+
 use crate::units::{Unit, UnitSystem};
 
 /// How far an angle written in degrees may be from the one in memory. Kind: rounding of the unit
@@ -17,42 +19,82 @@ pub(crate) fn number(value: f64) -> String {
 /// Kind: rounding of a fit on some hundred numbers, two digits above eps.
 pub(super) const FITTED: f64 = 5e-14;
 
+/// How far a value that is written may be from the fitted one; rounding of the fit is always taken off.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Slack {
+    /// Of a length.
+    pub length_m: f64,
+    /// Of an angle.
+    pub angle_rad: f64,
+}
+
 /// A fitted number (m, rad, or without unit) by the fewest decimals that say the same: a fit fills all
 /// digits with its rounding.
 pub fn fitted_number(value: f64) -> String {
-    fitted_in(value, 1.0)
+    fitted_in(value, 1.0, 0.0)
+}
+
+/// The same angle in `-pi < angle <= pi`; a half turn is positive also if it is only nearly one.
+fn within_a_turn(angle_rad: f64, slack_rad: f64) -> f64 {
+    let whole_turns = ((angle_rad - PI) / TAU).ceil();
+    // An angle that is within already keeps its last digit.
+    let reduced = if whole_turns == 0.0 { angle_rad } else { angle_rad - whole_turns * TAU };
+    if reduced + PI <= slack_rad.max(FITTED) { reduced + TAU } else { reduced }
 }
 
 /// The same in a unit of which `one` make a metre or a radian.
-fn fitted_in(value: f64, one: f64) -> String {
+fn fitted_in(value: f64, one: f64, slack: f64) -> String {
     /// More decimals than any number within [`FITTED`] needs.
     const MOST_DECIMALS: usize = 15;
     let is_near = |text: &String| {
         let off = text.parse::<f64>().map_or(f64::INFINITY, |written| (written - value).abs());
-        off <= FITTED * value.abs().max(one)
+        off <= (FITTED * value.abs().max(one)).max(slack * one)
     };
     let near = (0..MOST_DECIMALS).map(|decimals| format!("{value:.decimals$}")).find(is_near);
     match near.unwrap_or_else(|| format!("{value:?}")) {
-        negative if negative == "-0" => "0".to_owned(),
+        zero if zero.trim_start_matches('-').chars().all(|digit| matches!(digit, '0' | '.')) => {
+            "0".to_owned()
+        }
         shortest => shortest,
     }
 }
 
 impl Unit {
-    /// A fitted value (m, rad) as it is written in SI units or in engineering units.
-    pub fn fitted(self, value: f64, units: UnitSystem) -> String {
+    /// A fitted value (m, rad) as it is written in SI units or in engineering units: by the fewest decimals
+    /// within the slack; angles within half a turn.
+    ///
+    /// # Examples
+    /// ```
+    /// use congruent_description::{Slack, units::{Unit, UnitSystem}};
+    /// let nearly = (-269.999_999_990_52_f64).to_radians();
+    /// let slack = Slack { length_m: 1e-9, angle_rad: 1e-9 };
+    /// assert_eq!(Unit::Angle.fitted(nearly, UnitSystem::Engineering, slack), "90");
+    /// ```
+    pub fn fitted(self, value: f64, units: UnitSystem, slack: Slack) -> String {
+        let (value, slack) = match self {
+            Self::Length => (value, slack.length_m),
+            Self::Angle => (within_a_turn(value, slack.angle_rad), slack.angle_rad),
+        };
         match (units, self) {
-            (UnitSystem::Si, _) => fitted_in(value, 1.0),
-            (UnitSystem::Engineering, Self::Length) => fitted_in(value * 1000.0, 1000.0),
-            (UnitSystem::Engineering, Self::Angle) => fitted_in(value.to_degrees(), 1_f64.to_degrees()),
+            (UnitSystem::Si, _) => fitted_in(value, 1.0, slack),
+            (UnitSystem::Engineering, Self::Length) => fitted_in(value * 1000.0, 1000.0, slack),
+            (UnitSystem::Engineering, Self::Angle) => {
+                fitted_in(value.to_degrees(), 1_f64.to_degrees(), slack)
+            }
         }
     }
 
     /// A fitted vector under the key that says its unit.
-    pub(crate) fn fitted_vector(self, quantity: &str, values: [f64; 3], units: UnitSystem) -> String {
+    pub(crate) fn fitted_vector(
+        self,
+        quantity: &str,
+        values: [f64; 3],
+        units: UnitSystem,
+        slack: Slack,
+    ) -> String {
         let [si_key, engineering_key] = self.keys(quantity);
         let key = if units == UnitSystem::Engineering { engineering_key } else { si_key };
-        format!("{key} = [{}]", values.map(|value| self.fitted(value, units)).join(", "))
+        format!("{key} = [{}]", values.map(|value| self.fitted(value, units, slack)).join(", "))
     }
 }
 
@@ -83,6 +125,27 @@ mod tests {
         assert_eq!(short_degrees(FRAC_PI_2), Some(90.0));
         assert_eq!(short_degrees(FRAC_PI_2 + 2.05e-10), None);
         assert_eq!(number(-0.0), "0.0");
+    }
+
+    #[test]
+    fn fitted_angles_are_within_a_turn() {
+        let slack = Slack { length_m: 0.0, angle_rad: 1e-10 };
+        for (degrees, written) in [
+            (270.0, "-90"),
+            (-180.0, "180"),
+            (-179.999_999_999_9, "180"),
+            (180.0, "180"),
+            (-0.000_000_000_71, "0"),
+            (725.0, "5"),
+            (12.345_678_9, "12.3456789"),
+        ] {
+            let found = Unit::Angle.fitted(f64::to_radians(degrees), UnitSystem::Engineering, slack);
+            assert_eq!(found, written, "{degrees}");
+        }
+        assert_eq!(
+            Unit::Length.fitted(0.061_734_99, UnitSystem::Engineering, Slack { length_m: 1e-6, ..slack }),
+            "61.735"
+        );
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
 
-use super::number::FITTED;
+use super::number::{FITTED, Slack};
 
 /// The rotation that turns about the fixed axes x, then y, then z: `Rz(yaw) Ry(pitch) Rx(roll)`.
 pub(crate) fn rotation_from_rpy_fixed_xyz([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
@@ -20,12 +20,13 @@ pub(crate) fn rpy_fixed_xyz_rad(pose: &Isometry3<f64>) -> [f64; 3] {
 
 /// The same for a fitted rotation: without yaw if roll and a pitch within a quarter turn say the same.
 /// At a pitch of a quarter turn yaw would be whatever the fit's rounding makes of it.
-pub(crate) fn fitted_rpy_fixed_xyz_rad(pose: &Isometry3<f64>) -> [f64; 3] {
+pub(crate) fn fitted_rpy_fixed_xyz_rad(pose: &Isometry3<f64>, slack: Slack) -> [f64; 3] {
+    let near = slack.angle_rad.max(FITTED);
     let matrix = pose.rotation.to_rotation_matrix();
     let without_yaw = rpy_at_yaw(&matrix, 0.0);
     let off = rotation_from_rpy_fixed_xyz(without_yaw).to_rotation_matrix().matrix() - matrix.matrix();
-    let is_within = without_yaw[1].abs() <= FRAC_PI_2 + FITTED;
-    if is_within && off.amax() <= FITTED { without_yaw } else { rpy_fixed_xyz_rad(pose) }
+    let is_within = without_yaw[1].abs() <= FRAC_PI_2 + near;
+    if is_within && off.amax() <= near { without_yaw } else { rpy_fixed_xyz_rad(pose) }
 }
 
 fn rpy_at_yaw(matrix: &Rotation3<f64>, yaw: f64) -> [f64; 3] {

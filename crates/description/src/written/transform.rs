@@ -8,7 +8,7 @@ use toml::Spanned;
 
 use super::{
     array::{fixed_array, fixed_matrix},
-    number::fitted_list,
+    number::{Slack, fitted_list},
     rpy::{fitted_rpy_fixed_xyz_rad, rotation_from_rpy_fixed_xyz},
 };
 use crate::{
@@ -87,25 +87,32 @@ impl WrittenTransform {
 
     /// The keys that write another transform as this one is written: in its units and by its kind of
     /// rotation. A key that this one lacks is written in the units `default`, of lengths and of angles.
-    pub(crate) fn with_keys(&self, pose: &Isometry3<f64>, default: [UnitSystem; 2]) -> Vec<String> {
+    pub(crate) fn with_keys(
+        &self,
+        pose: &Isometry3<f64>,
+        default: [UnitSystem; 2],
+        slack: Slack,
+    ) -> Vec<String> {
         if self.matrix.is_some() {
             let matrix = pose.to_homogeneous();
             let rows = (0..4).map(|row| fitted_list(matrix.row(row).iter().copied()));
             return vec![format!("matrix = [{}]", rows.collect::<Vec<_>>().join(", "))];
         }
-        let shift = (pose.translation.vector.norm() > 0.0 || self.xyz_m.is_some() || self.xyz_mm.is_some())
-            .then(|| {
-                let units = UnitSystem::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), default[0]);
-                Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), units)
-            });
+        let shift = (pose.translation.vector.amax() > slack.length_m
+            || self.xyz_m.is_some()
+            || self.xyz_mm.is_some())
+        .then(|| {
+            let units = UnitSystem::of(self.xyz_m.as_ref(), self.xyz_mm.as_ref(), default[0]);
+            Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), units, slack)
+        });
         let turn = if self.quaternion_wxyz.is_some() {
             let Quaternion { coords } = *pose.rotation.quaternion();
             Some(format!("quaternion_wxyz = {}", fitted_list([coords.w, coords.x, coords.y, coords.z])))
         } else {
             let units = UnitSystem::of(self.rpy_rad.as_ref(), self.rpy_deg.as_ref(), default[1]);
-            let rpy_rad = fitted_rpy_fixed_xyz_rad(pose);
-            let has_turn = self.has_rotation() || rpy_rad.iter().any(|angle| angle.abs() > 0.0);
-            has_turn.then(|| Unit::Angle.fitted_vector("rpy", rpy_rad, units))
+            let rpy_rad = fitted_rpy_fixed_xyz_rad(pose, slack);
+            let has_turn = self.has_rotation() || rpy_rad.iter().any(|angle| angle.abs() > slack.angle_rad);
+            has_turn.then(|| Unit::Angle.fitted_vector("rpy", rpy_rad, units, slack))
         };
         shift.into_iter().chain(turn).collect()
     }
@@ -137,9 +144,9 @@ impl WrittenTransform {
 }
 
 /// A fitted transform in metres and radians, as a robot file could write it.
-pub fn fitted_transform(pose: &Isometry3<f64>) -> String {
-    let xyz = Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), UnitSystem::Si);
-    let rpy = Unit::Angle.fitted_vector("rpy", fitted_rpy_fixed_xyz_rad(pose), UnitSystem::Si);
+pub fn fitted_transform(pose: &Isometry3<f64>, slack: Slack) -> String {
+    let xyz = Unit::Length.fitted_vector("xyz", pose.translation.vector.into(), UnitSystem::Si, slack);
+    let rpy = Unit::Angle.fitted_vector("rpy", fitted_rpy_fixed_xyz_rad(pose, slack), UnitSystem::Si, slack);
     format!("{{ {xyz}, {rpy} }}")
 }
 
@@ -305,7 +312,8 @@ mod tests {
     fn read_again(like: &str, pose: &Isometry3<f64>) -> Isometry3<f64> {
         let mut diagnostics = Diagnostics::default();
         let like = parse_toml::<WrittenTransform>(like, &mut diagnostics).unwrap();
-        let keys = like.with_keys(pose, [UnitSystem::Si, UnitSystem::Engineering]).join("\n");
+        let keys =
+            like.with_keys(pose, [UnitSystem::Si, UnitSystem::Engineering], Slack::default()).join("\n");
         parse_toml::<WrittenTransform>(&keys, &mut diagnostics).expect(&keys).isometry().unwrap()
     }
 
@@ -336,7 +344,7 @@ mod tests {
     fn a_transform_is_written_as_the_file_writes_it() {
         let written = |like: &str, pose: &Isometry3<f64>| {
             let like = parse_toml::<WrittenTransform>(like, &mut Diagnostics::default()).unwrap();
-            like.with_keys(pose, [UnitSystem::Engineering; 2]).join(", ")
+            like.with_keys(pose, [UnitSystem::Engineering; 2], Slack::default()).join(", ")
         };
         let down = Isometry3::from_parts(
             Translation3::new(0.0, 0.0, 0.12),

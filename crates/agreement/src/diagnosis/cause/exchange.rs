@@ -1,4 +1,5 @@
-//! `parameters_exchanged`: `a` and `d` of a row, or `alpha` of neighbouring rows, are exchanged.
+//! `parameters_exchanged`: `a` and `d` of a row, `alpha` of neighbouring rows, or two columns of the whole table
+//! are exchanged.
 
 use crate::diagnosis::{
     candidate::{Candidate, DhEntry},
@@ -15,7 +16,19 @@ pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
         let place = Place::Entries(DhEntry::Alpha, vec![row - 1, row]);
         exchanged(place, (row - 1, DhEntry::Alpha), (row, DhEntry::Alpha))
     });
-    lengths.chain(twists).collect()
+    lengths.chain(twists).chain(COLUMNS.map(columns)).collect()
+}
+
+/// Columns that a reader may take for each other: both lengths, and both angles.
+const COLUMNS: [[DhEntry; 2]; 2] = [[DhEntry::A, DhEntry::D], [DhEntry::Alpha, DhEntry::Theta]];
+
+fn columns([first, second]: [DhEntry; 2]) -> Hypothesis {
+    let place = Place::Column(vec![first, second]);
+    Hypothesis::edit(Cause::ParametersExchanged, place, move |models: &mut ModelPair| {
+        for row in 0..models.candidate.rows.len() {
+            swap(&mut models.candidate, (row, first), (row, second));
+        }
+    })
 }
 
 fn exchanged(place: Place, first: (usize, DhEntry), second: (usize, DhEntry)) -> Hypothesis {

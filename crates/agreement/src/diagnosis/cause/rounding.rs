@@ -1,6 +1,11 @@
 //! `parameter` in the reference model: quarter turns that its file writes with too few digits.
 
+use std::f64::consts::FRAC_PI_2;
+
+use congruent_kinematics::EulerSet;
 use nalgebra::Matrix3;
+
+use super::rpy::rpy_of;
 
 use crate::diagnosis::{
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
@@ -21,7 +26,7 @@ fn hypothesis(joints: Vec<usize>) -> Hypothesis {
         move |models: &mut ModelPair| {
             for &joint in &joints {
                 let rotation = &mut models.reference.joints[joint].parent_from_joint.rotation;
-                if let Some(exact) = quarter_turns(rotation) {
+                if let Some(exact) = exact(rotation) {
                     *rotation = exact;
                 }
             }
@@ -34,9 +39,26 @@ fn rounded(reference: &ReferenceModel) -> Vec<usize> {
     let near = |&joint: &usize| {
         let rotation = &reference.joints[joint].parent_from_joint.rotation;
         reference.joints[joint].is_written
-            && quarter_turns(rotation).is_some_and(|exact| (exact - rotation).amax() > NO_TURN)
+            && exact(rotation).is_some_and(|exact| (exact - rotation).amax() > NO_TURN)
     };
     (0..reference.joints.len()).filter(near).collect()
+}
+
+/// The rotation that is meant: by quarter turns, or with quarter turns among its roll, pitch and yaw.
+fn exact(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    quarter_turns(rotation).or_else(|| {
+        let rpy = rpy_of(rotation);
+        let meant = rpy.map(|angle| {
+            let quarters = (angle / FRAC_PI_2).round() * FRAC_PI_2;
+            if (quarters - angle).abs() < FOUR_DECIMALS_RAD { quarters } else { angle }
+        });
+        let [roll, pitch, yaw] = meant;
+        meant
+            .iter()
+            .zip(rpy)
+            .any(|(meant, angle)| (meant - angle).abs() > NO_TURN)
+            .then(|| EulerSet::Zyx.rotation([yaw, pitch, roll]))
+    })
 }
 
 fn quarter_turns(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {

@@ -59,7 +59,7 @@ fn reread(rotation: &mut Matrix3<f64>, written_rpy_rad: Option<[f64; 3]>, readin
 }
 
 /// Roll, pitch and yaw about the fixed axes x, y, z.
-fn rpy_of(rotation: &Matrix3<f64>) -> [f64; 3] {
+pub(super) fn rpy_of(rotation: &Matrix3<f64>) -> [f64; 3] {
     let [yaw, pitch, roll] = EulerSet::Zyx.angles_singular_below(rotation, SINGULAR_BELOW_RAD).angles_rad;
     [roll, pitch, yaw]
 }

@@ -61,7 +61,7 @@ impl<'a> FitContext<'a> {
 
     fn angle_starts(&self, hypothesis: usize) -> Vec<Vec<f64>> {
         match self.hypotheses[hypothesis].free[..] {
-            [only] if is_angle(only) => ANGLE_STARTS_RAD.iter().map(|&start| vec![start]).collect(),
+            [only] if only.is_angle() => ANGLE_STARTS_RAD.iter().map(|&start| vec![start]).collect(),
             _ => Vec::new(),
         }
     }
@@ -132,16 +132,8 @@ impl<'a> FitContext<'a> {
     }
 }
 
-fn is_angle(parameter: ModelParameter) -> bool {
-    match parameter {
-        ModelParameter::Row(_, entry) => entry.is_angle(),
-        ModelParameter::Base(component) | ModelParameter::Tool(component) => component >= 3,
-        ModelParameter::Rate(_) => false,
-    }
-}
-
 /// The change of a parameter; of a declared transform as if its components commuted.
-fn moved(from: &Candidate, to: &Candidate, parameter: ModelParameter) -> f64 {
+pub(in crate::diagnosis) fn moved(from: &Candidate, to: &Candidate, parameter: ModelParameter) -> f64 {
     let of_pose = |from: &congruent_kinematics::Pose, to: &congruent_kinematics::Pose, component: usize| {
         if component < 3 {
             (to.translation - from.translation)[component]

@@ -1,4 +1,8 @@
-//! The search for the simplest explanation: one hypothesis, then two, then several parameters.
+//! The search for the simplest explanation: one hypothesis, then two (`pairs.rs`), then the one with the
+//! largest effect and the parameters that are wrong besides (`stages.rs`).
+
+mod pairs;
+mod stages;
 
 use congruent_kinematics::PoseError;
 
@@ -10,9 +14,7 @@ use super::{
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
     invariants::{self, JointDifference},
     score::{Rank, is_refuted, rank},
-    thresholds::{
-        EVALUATED_BELOW, MAX_IN_PAIRS, MAX_NEXT_BEST, MAX_PARAMETERS, PARAMETER_GAIN, SAME_EFFECT, SAME_NORM,
-    },
+    thresholds::{EVALUATED_BELOW, MAX_NEXT_BEST, SAME_EFFECT},
 };
 
 /// Why two models differ: the answer of [`diagnose`].
@@ -71,7 +73,7 @@ pub fn diagnose(models: &ModelPair, criterion: &Criterion) -> Diagnosis {
     }
     let hypotheses = cause::hypotheses(models);
     let context = FitContext::new(models, &hypotheses);
-    let search = ExplanationSearch { context, criterion };
+    let search = ExplanationSearch { context: &context, criterion };
     let (explained, others) = search.run();
     let mut found: Vec<Explanation> = explained.iter().map(|fit| search.explanation(fit)).collect();
     let others_alike = found.split_off(found.len().min(1));
@@ -82,14 +84,19 @@ pub fn diagnose(models: &ModelPair, criterion: &Criterion) -> Diagnosis {
     let indistinguishable = others_alike.into_iter().map(alike).collect();
     if found.is_empty() {
         let residual = models.residual(criterion);
-        found.push(Explanation { faults: Vec::new(), corrected: models.clone(), residual });
+        found.push(Explanation {
+            faults: Vec::new(),
+            corrected: models.clone(),
+            stages: vec![residual],
+            residual,
+        });
     }
     found.extend(others.iter().map(|fit| search.explanation(fit)));
     Diagnosis { explanations: found, indistinguishable, differences }
 }
 
 struct ExplanationSearch<'a> {
-    context: FitContext<'a>,
+    context: &'a FitContext<'a>,
     criterion: &'a Criterion,
 }
 
@@ -106,7 +113,11 @@ impl ExplanationSearch<'_> {
         if !explained.is_empty() {
             return (explained, self.next_best(&singles));
         }
-        let explained: Vec<HypothesisFit> = self.several_parameters().into_iter().collect();
+        let gross = self.gross(&singles);
+        let explained = self.staged(&gross);
+        if explained.is_empty() && !gross.is_empty() {
+            return (gross, Vec::new());
+        }
         pairs.extend(singles);
         (explained, self.next_best(&pairs))
     }
@@ -121,142 +132,10 @@ impl ExplanationSearch<'_> {
         (0..self.context.hypotheses.len()).map(|index| self.context.single(index)).filter(changes).collect()
     }
 
-    /// The hypotheses to try in pairs: those with the smallest norms alone; of edits with the same effect
-    /// only the first.
-    fn pair_candidates<'a>(&self, singles: &'a [HypothesisFit]) -> Vec<&'a HypothesisFit> {
-        let mut effects: Vec<Vec<f64>> = Vec::new();
-        let is_new = |fit: &&HypothesisFit| {
-            if !self.context.hypotheses[fit.hypotheses[0]].free.is_empty() {
-                return true;
-            }
-            let effect = self.difference(&fit.corrected);
-            let is_new = !effects.iter().any(|known| is_same(known, &effect));
-            effects.push(effect);
-            is_new
-        };
-        let mut best: Vec<&HypothesisFit> = singles.iter().filter(is_new).collect();
-        best.sort_by(|a, b| a.norm.total_cmp(&b.norm));
-        best.truncate(MAX_IN_PAIRS);
-        best.sort_by_key(|fit| fit.hypotheses[0]);
-        best
-    }
-
     fn difference(&self, models: &ModelPair) -> Vec<f64> {
         let evaluation_point = &self.context.evaluation_point;
         let state = models.reference.state(&evaluation_point.q);
         evaluation_point.difference(&models.candidate, &models.candidate.walk(&evaluation_point.q), &state)
-    }
-
-    /// Two hypotheses together, for all candidates.
-    fn pairs(&self, singles: &[HypothesisFit]) -> Vec<HypothesisFit> {
-        let best = self.pair_candidates(singles);
-        let mut fits = Vec::new();
-        for (at, second) in best.iter().enumerate() {
-            for first in &best[..at] {
-                let [a, b] = [first, second].map(|fit| &self.context.hypotheses[fit.hypotheses[0]]);
-                if a.free.iter().any(|parameter| b.free.contains(parameter)) {
-                    continue;
-                }
-                fits.push(self.pair(first, second));
-                // The order of two edits of one place matters.
-                if a.edit.is_some() && b.edit.is_some() {
-                    fits.push(self.pair(second, first));
-                }
-            }
-        }
-        let equivalent = self.equivalent_pairs(singles, &fits);
-        fits.extend(equivalent);
-        fits
-    }
-
-    /// The fit of two hypotheses together, given the fits of each alone.
-    fn pair(&self, first: &HypothesisFit, second: &HypothesisFit) -> HypothesisFit {
-        let [a, b] = [first, second].map(|fit| self.context.starts(fit));
-        let unchanged = |fit: &HypothesisFit| vec![0.0; fit.changes.len()];
-        let with_a = a.into_iter().map(|start| [start, unchanged(second)].concat());
-        let with_b = b.into_iter().map(|start| [unchanged(first), start].concat());
-        let starts: Vec<Vec<f64>> = with_a.chain(with_b).collect();
-        self.context.fit([&first.hypotheses[..], &second.hypotheses[..]].concat(), &starts)
-    }
-
-    /// For each pair that reaches the tolerance, the pairs with other edits of the same effect.
-    fn equivalent_pairs(&self, singles: &[HypothesisFit], pairs: &[HypothesisFit]) -> Vec<HypothesisFit> {
-        let effects: Vec<Vec<f64>> = singles.iter().map(|fit| self.difference(&fit.corrected)).collect();
-        let same = |hypothesis: usize| -> Vec<&HypothesisFit> {
-            let Some(at) = singles.iter().position(|fit| fit.hypotheses[0] == hypothesis) else {
-                return Vec::new();
-            };
-            let is_edit = |fit: &HypothesisFit| self.context.hypotheses[fit.hypotheses[0]].free.is_empty();
-            let is_same = |other: &usize| {
-                *other == at
-                    || (is_edit(&singles[at])
-                        && is_edit(&singles[*other])
-                        && is_same(&effects[*other], &effects[at]))
-            };
-            (0..singles.len()).filter(is_same).map(|other| &singles[other]).collect()
-        };
-        let mut fits = Vec::new();
-        for pair in pairs.iter().filter(|pair| self.accepts(pair)) {
-            let [firsts, seconds] = [same(pair.hypotheses[0]), same(pair.hypotheses[1])];
-            let all = firsts.iter().flat_map(|first| seconds.iter().map(move |second| (first, second)));
-            let others = all
-                .filter(|(first, second)| [first.hypotheses[0], second.hypotheses[0]] != pair.hypotheses[..]);
-            fits.extend(others.map(|(first, second)| self.pair(first, second)));
-        }
-        fits
-    }
-
-    /// Several parameters that are wrong together: adds the parameter with the smallest norm each time, and
-    /// in the end removes those that are not needed.
-    fn several_parameters(&self) -> Option<HypothesisFit> {
-        let is_parameter = |hypothesis: &&usize| {
-            let Hypothesis { cause, free, .. } = &self.context.hypotheses[**hypothesis];
-            free.len() == 1 && *cause != Cause::Ratio
-        };
-        let all: Vec<usize> = (0..self.context.hypotheses.len()).collect();
-        let parameters: Vec<usize> = all.iter().filter(is_parameter).copied().collect();
-        let mut chosen: Option<HypothesisFit> = None;
-        for _ in 0..MAX_PARAMETERS {
-            let (before, changes, norm) = match &chosen {
-                Some(fit) => (fit.hypotheses.clone(), fit.changes.clone(), fit.norm),
-                None => (Vec::new(), Vec::new(), self.context.norm(self.context.models)),
-            };
-            let with = |&parameter: &usize| {
-                let start = [changes.clone(), vec![0.0]].concat();
-                self.context.fit([before.clone(), vec![parameter]].concat(), &[start])
-            };
-            let further = parameters.iter().filter(|parameter| !before.contains(parameter)).map(with);
-            let best = further.min_by(|a, b| self.compare_parameters(a, b))?;
-            if best.norm > PARAMETER_GAIN * norm {
-                return None;
-            }
-            if self.accepts(&best) {
-                return Some(self.pruned(best));
-            }
-            chosen = Some(best);
-        }
-        None
-    }
-
-    fn pruned(&self, mut fit: HypothesisFit) -> HypothesisFit {
-        let mut at = 0;
-        while fit.hypotheses.len() > 2 && at < fit.hypotheses.len() {
-            let (mut fewer, mut start) = (fit.hypotheses.clone(), fit.changes.clone());
-            fewer.remove(at);
-            start.remove(at); // one free parameter each
-            let without = self.context.fit(fewer, &[start]);
-            if self.accepts(&without) { fit = without } else { at += 1 }
-        }
-        fit
-    }
-
-    /// The smaller norm first; of equal norms the better rank.
-    fn compare_parameters(&self, a: &HypothesisFit, b: &HypothesisFit) -> std::cmp::Ordering {
-        if (a.norm - b.norm).abs() <= SAME_NORM * a.norm.max(b.norm) + SAME_EFFECT {
-            self.rank(a).cmp(&self.rank(b))
-        } else {
-            a.norm.total_cmp(&b.norm)
-        }
     }
 
     fn explaining(&self, fits: &[HypothesisFit]) -> Vec<HypothesisFit> {
@@ -266,7 +145,7 @@ impl ExplanationSearch<'_> {
             self.criterion.in_tolerances(a).total_cmp(&self.criterion.in_tolerances(b))
         };
         let Some(best) = residuals.min_by(in_tolerances) else { return Vec::new() };
-        let refuted = |fit: &HypothesisFit| is_refuted(&self.context, fit, self.criterion, &best);
+        let refuted = |fit: &HypothesisFit| is_refuted(self.context, fit, self.criterion, &best);
         let mut explaining: Vec<(bool, Rank, &HypothesisFit)> =
             accepted.iter().map(|fit| (refuted(fit), self.rank(fit), *fit)).collect();
         explaining.sort_by(|(a, rank_a, _), (b, rank_b, _)| (a, rank_a).cmp(&(b, rank_b)));
@@ -312,21 +191,30 @@ impl ExplanationSearch<'_> {
     }
 
     fn rank(&self, fit: &HypothesisFit) -> Rank {
-        rank(&self.context, fit, self.criterion)
+        rank(self.context, fit, self.criterion)
     }
 
     /// A fit as an explanation: components of one declared transform are one fault.
     fn explanation(&self, fit: &HypothesisFit) -> Explanation {
         let mut faults: Vec<ExplainedFault> = Vec::new();
-        for &at in &fit.hypotheses {
+        let mut stages = vec![self.context.models.residual(self.criterion)];
+        let (order, residuals) = self.in_turn(fit);
+        for (at, residual) in order.into_iter().zip(residuals) {
             let Hypothesis { cause, place, free, .. } = &self.context.hypotheses[at];
-            match faults.iter_mut().find(|fault| fault.cause == *cause && fault.place == *place) {
-                Some(fault) if !free.is_empty() => fault.free.extend(free),
-                _ => faults.push(ExplainedFault { cause: *cause, place: place.clone(), free: free.clone() }),
+            match faults.iter().position(|fault| fault.cause == *cause && fault.place == *place) {
+                Some(known) if !free.is_empty() => faults[known].free.extend(free),
+                _ => {
+                    faults.push(ExplainedFault { cause: *cause, place: place.clone(), free: free.clone() });
+                    stages.push(residual);
+                    continue;
+                }
+            }
+            if let Some(last) = stages.last_mut() {
+                *last = residual;
             }
         }
         let residual = fit.corrected.residual(self.criterion);
-        Explanation { faults, residual, corrected: fit.corrected.clone() }
+        Explanation { faults, stages, residual, corrected: fit.corrected.clone() }
     }
 }
 

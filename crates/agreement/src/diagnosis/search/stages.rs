@@ -1,0 +1,196 @@
+//! A cause with a large effect and the parameters that are wrong besides: the first is found under a tolerance
+//! as loose as what the others leave, these are added one by one.
+
+use congruent_description::Tolerance;
+use congruent_kinematics::PoseError;
+
+use super::ExplanationSearch;
+use crate::diagnosis::{
+    candidate::ModelParameter,
+    explanation::Criterion,
+    fit::hypothesis_fit::{HypothesisFit, moved},
+    hypothesis::{Cause, Hypothesis, Place},
+    nearest_table::nearby_table,
+    thresholds::{
+        GROSS_PART, GROSS_WITHIN, MAX_GROSS, MAX_GROSS_ONE_BY_ONE, MAX_PARAMETERS, PARAMETER_GAIN,
+        SAME_EFFECT, SAME_NORM, SAME_VALUE,
+    },
+};
+
+impl ExplanationSearch<'_> {
+    /// The causes that explain most of the difference, the best first: those that a diagnosis would name
+    /// under a tolerance as loose as the smallest residual of all. None if no cause explains most of it.
+    pub(super) fn gross(&self, singles: &[HypothesisFit]) -> Vec<HypothesisFit> {
+        let unchanged = self.context.norm(self.context.models);
+        let gross: Vec<HypothesisFit> =
+            singles.iter().filter(|fit| fit.norm < GROSS_PART * unchanged).cloned().collect();
+        let residual =
+            |fit: &HypothesisFit| self.criterion.in_tolerances(&fit.corrected.residual(self.criterion));
+        let Some(best) = gross.iter().map(residual).min_by(f64::total_cmp) else { return Vec::new() };
+        let Tolerance { position_m, orientation_rad } = self.criterion.tolerance;
+        let loose = Criterion {
+            tolerance: Tolerance {
+                position_m: GROSS_WITHIN * best * position_m,
+                orientation_rad: GROSS_WITHIN * best * orientation_rad,
+            },
+            configurations: self.criterion.configurations.clone(),
+        };
+        ExplanationSearch { context: self.context, criterion: &loose }.explaining(&gross)
+    }
+
+    /// Each gross cause, and none, with the parameters that are wrong besides; those that reach the
+    /// tolerance with the fewest faults.
+    pub(super) fn staged(&self, gross: &[HypothesisFit]) -> Vec<HypothesisFit> {
+        // Rounding has a small effect, but one that many values would have to make up for.
+        let rounding = (0..self.context.hypotheses.len()).find(|&at| self.is_rounding(at));
+        let rounding = rounding.map(|at| self.context.single(at));
+        let starts: Vec<Option<&HypothesisFit>> =
+            gross.iter().take(MAX_GROSS).chain(&rounding).map(Some).chain([None]).collect();
+        let mut grown: Vec<HypothesisFit> =
+            starts.iter().filter_map(|start| self.with_changed_values(*start)).collect();
+        if grown.is_empty() {
+            // One by one is slower.
+            let starts = gross.iter().take(MAX_GROSS_ONE_BY_ONE).map(Some).chain([None]);
+            grown = starts.filter_map(|start| self.with_parameters(start.cloned())).collect();
+        }
+        let Some(fewest) = grown.iter().map(|fit| fit.hypotheses.len()).min() else { return Vec::new() };
+        let simplest: Vec<HypothesisFit> =
+            grown.into_iter().filter(|fit| fit.hypotheses.len() == fewest).collect();
+        self.explaining(&simplest)
+    }
+
+    /// Several parameters that are wrong together, the rounding of the reference model's file among them: adds
+    /// the one with the smallest norm each time, and in the end removes those that are not needed.
+    fn with_parameters(&self, gross: Option<HypothesisFit>) -> Option<HypothesisFit> {
+        let is_parameter = |hypothesis: &usize| {
+            let Hypothesis { cause, free, .. } = &self.context.hypotheses[*hypothesis];
+            (free.len() == 1 && *cause != Cause::Ratio) || self.is_rounding(*hypothesis)
+        };
+        let kept = usize::from(gross.is_some());
+        let parameters: Vec<usize> = (0..self.context.hypotheses.len()).filter(is_parameter).collect();
+        let mut chosen = gross;
+        for _ in 0..MAX_PARAMETERS {
+            let (before, changes, norm) = match &chosen {
+                Some(fit) => (fit.hypotheses.clone(), fit.changes.clone(), fit.norm),
+                None => (Vec::new(), Vec::new(), self.context.norm(self.context.models)),
+            };
+            let with = |&parameter: &usize| {
+                let start = [changes.clone(), vec![0.0]].concat();
+                self.context.fit([before.clone(), vec![parameter]].concat(), &[start])
+            };
+            let further =
+                parameters.iter().filter(|parameter| !self.overlaps(&before, **parameter)).map(with);
+            let best = further.min_by(|a, b| self.compare_parameters(a, b))?;
+            if best.norm > PARAMETER_GAIN * norm {
+                return None;
+            }
+            if self.accepts(&best) {
+                return Some(self.pruned(best, kept));
+            }
+            chosen = Some(best);
+        }
+        None
+    }
+
+    /// The values that differ in the nearest table that agrees.
+    fn with_changed_values(&self, gross: Option<&HypothesisFit>) -> Option<HypothesisFit> {
+        let (mut hypotheses, mut changes, models) = match gross {
+            Some(fit) => (fit.hypotheses.clone(), fit.changes.clone(), &fit.corrected),
+            None => (Vec::new(), Vec::new(), self.context.models),
+        };
+        let kept = hypotheses.len();
+        let fitted: Vec<ModelParameter> =
+            hypotheses.iter().flat_map(|&at| self.context.hypotheses[at].free.iter().copied()).collect();
+        let nearest = nearby_table(models, &fitted)?;
+        let length_m = self.context.evaluation_point.length_m;
+        let mut changed: Vec<(f64, usize, f64)> = Vec::new();
+        for (at, Hypothesis { cause, free, .. }) in self.context.hypotheses.iter().enumerate() {
+            let [parameter] = free[..] else { continue };
+            let by = moved(&models.candidate, &nearest, parameter);
+            // The offset of a prismatic joint has two hypotheses.
+            let is_known = changed.iter().any(|(_, known, _)| self.context.hypotheses[*known].free == *free);
+            if by.abs() > SAME_VALUE && *cause != Cause::Ratio && !fitted.contains(&parameter) && !is_known {
+                changed.push((if parameter.is_angle() { by.abs() * length_m } else { by.abs() }, at, by));
+            }
+        }
+        if changed.len() > MAX_PARAMETERS {
+            return None;
+        }
+        changed.sort_by(|(one, ..), (other, ..)| other.total_cmp(one));
+        hypotheses.extend(changed.iter().map(|(_, at, _)| *at));
+        changes.extend(changed.iter().map(|(.., by)| *by));
+        let fit = self.context.fit(hypotheses, &[changes]);
+        self.accepts(&fit).then(|| self.pruned(fit, kept))
+    }
+
+    /// Whether a hypothesis is about rounded angles in the reference model's file.
+    fn is_rounding(&self, hypothesis: usize) -> bool {
+        let Hypothesis { cause, place, .. } = &self.context.hypotheses[hypothesis];
+        *cause == Cause::Parameter && matches!(place, Place::ReferenceJoints(_))
+    }
+
+    /// The number of free parameters of a hypothesis.
+    fn free(&self, hypothesis: usize) -> usize {
+        self.context.hypotheses[hypothesis].free.len()
+    }
+
+    /// Whether one of the hypotheses fits the same parameter already.
+    fn overlaps(&self, chosen: &[usize], parameter: usize) -> bool {
+        let free = |at: usize| &self.context.hypotheses[at].free;
+        chosen.iter().any(|&at| free(parameter).iter().any(|each| free(at).contains(each)))
+    }
+
+    /// Without the parameters that are not needed; the first `kept` hypotheses stay.
+    fn pruned(&self, mut fit: HypothesisFit, kept: usize) -> HypothesisFit {
+        // The last ones have the smallest effects.
+        for at in (kept..fit.hypotheses.len()).rev() {
+            if fit.hypotheses.len() <= 1 {
+                break;
+            }
+            let (mut fewer, mut start) = (fit.hypotheses.clone(), fit.changes.clone());
+            fewer.remove(at);
+            let first: usize = fit.hypotheses[..at].iter().map(|&before| self.free(before)).sum();
+            start.drain(first..first + self.free(fit.hypotheses[at]));
+            let without = self.context.fit(fewer, &[start]);
+            if self.accepts(&without) {
+                fit = without;
+            }
+        }
+        fit
+    }
+
+    /// The smaller norm first; of equal norms the better rank.
+    fn compare_parameters(&self, a: &HypothesisFit, b: &HypothesisFit) -> std::cmp::Ordering {
+        if (a.norm - b.norm).abs() <= SAME_NORM * a.norm.max(b.norm) + SAME_EFFECT {
+            self.rank(a).cmp(&self.rank(b))
+        } else {
+            a.norm.total_cmp(&b.norm)
+        }
+    }
+
+    /// The hypotheses of a fit in the order in which they are corrected, that with the largest effect first,
+    /// and the residual after each.
+    pub(super) fn in_turn(&self, fit: &HypothesisFit) -> (Vec<usize>, Vec<PoseError>) {
+        let mut order = fit.hypotheses.clone();
+        if let [first, second] = order[..] {
+            let [one, other] = [first, second].map(|hypothesis| self.context.single(hypothesis).norm);
+            if other < one {
+                order.reverse();
+            }
+        }
+        let mut residuals: Vec<PoseError> = Vec::new();
+        let mut changes: Vec<f64> = Vec::new();
+        for count in 1..order.len() {
+            let start = [changes, vec![0.0; self.free(order[count - 1])]].concat();
+            let partial = if count == 1 {
+                self.context.single(order[0])
+            } else {
+                self.context.fit(order[..count].to_vec(), &[start])
+            };
+            residuals.push(partial.corrected.residual(self.criterion));
+            changes = partial.changes;
+        }
+        residuals.push(fit.corrected.residual(self.criterion));
+        (order, residuals)
+    }
+}

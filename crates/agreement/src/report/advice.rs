@@ -1,0 +1,192 @@
+//! What to write into the robot file: every value in which the corrected table differs from the given one, as
+//! whole lines, by the shortest text that the tolerance allows.
+
+use congruent_description::{
+    ChangedLines, ConstantKey, DhRowKind, RobotFilePlaces, RowKey, Slack, TextEdit, units::Unit,
+};
+
+use super::{
+    fault_message::row_key,
+    values::{isometry, value_literal},
+};
+use crate::diagnosis::{
+    Candidate, Cause, Criterion, DhEntry, ExplainedFault, Explanation, ModelPair, Place, RowConstants,
+};
+
+/// Most that a written value may be off if the fit is exact. Unit: m or rad; kind: choice, a digit below
+/// what data sheets and calibrations give.
+const MOST_SLACK: f64 = 1e-7;
+
+/// Digits below this part of the residual say nothing. Kind: choice.
+const PART_OF_RESIDUAL: f64 = 0.3;
+
+/// A fitted ratio of 1. No unit; kind: rounding of a fit.
+const SAME_RATIO: f64 = 1e-9;
+
+/// Part of what the tolerance leaves that the written digits may use up. Kind: choice.
+const PART_OF_MARGIN: f64 = 0.5;
+
+/// How far the written values of a corrected model may be from the fitted ones: so little that all of them
+/// together stay within the tolerance.
+pub(super) fn slack(models: &ModelPair, explanation: &Explanation, criterion: &Criterion) -> Slack {
+    let count = changed(&models.candidate, &explanation.corrected.candidate).len().max(1);
+    let reach = criterion.configurations.iter().map(|q| models.reference.base_from_tip(q).translation.norm());
+    let reach_m = reach.fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let (residual, tolerance) = (explanation.residual, criterion.tolerance);
+    #[expect(clippy::cast_precision_loss, reason = "tables have few entries")]
+    let values = count as f64;
+    let least = (PART_OF_RESIDUAL * residual.position_m).max(MOST_SLACK);
+    let angle_rad = (least / reach_m).max(PART_OF_RESIDUAL * residual.orientation_rad);
+    if !criterion.accepts(&residual) {
+        return Slack { length_m: least, angle_rad };
+    }
+    let share = |residual: f64, tolerance: f64| PART_OF_MARGIN * (tolerance - residual) / values;
+    let length_m = least.min(share(residual.position_m, tolerance.position_m));
+    let by_length = share(residual.position_m, tolerance.position_m) / reach_m;
+    let angle_rad = angle_rad.min(by_length).min(share(residual.orientation_rad, tolerance.orientation_rad));
+    Slack { length_m, angle_rad }
+}
+
+/// A value of the robot file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum FileValue {
+    Convention,
+    Row(usize, RowKey),
+    Constant(ConstantKey),
+}
+
+/// The values in which two tables differ.
+fn changed(before: &Candidate, after: &Candidate) -> Vec<FileValue> {
+    let mut list = Vec::new();
+    list.extend((before.convention != after.convention).then_some(FileValue::Convention));
+    let constants = [
+        (&before.base, &after.base, ConstantKey::BaseFromDh0),
+        (&before.tool, &after.tool, ConstantKey::DhnFromTip),
+    ];
+    let moved = constants.into_iter().filter(|(before, after, _)| before.pose != after.pose);
+    list.extend(moved.map(|(.., key)| FileValue::Constant(key)));
+    for (row, (one, two)) in before.rows.iter().zip(&after.rows).enumerate() {
+        let kind = |link| matches!(link, RowConstants::Dh { kind: DhRowKind::Prismatic, .. });
+        let keys = [
+            (one.joint != two.joint, RowKey::Joint),
+            (kind(one.link) != kind(two.link), RowKey::Kind),
+            // Other ratios cannot be written.
+            (one.rate * two.rate < 0.0 && (two.rate.abs() - 1.0).abs() < SAME_RATIO, RowKey::Sign),
+        ];
+        let differs = |entry: &DhEntry| before.entry(row, *entry) != after.entry(row, *entry);
+        let entries = DhEntry::ALL.into_iter().filter(differs).map(row_key);
+        let keys = keys.into_iter().filter_map(|(is_changed, key)| is_changed.then_some(key));
+        list.extend(keys.chain(entries).map(|key| FileValue::Row(row, key)));
+    }
+    list
+}
+
+impl FileValue {
+    /// Whether correcting a fault changes this value.
+    fn is_of(self, fault: &ExplainedFault) -> bool {
+        match (self, &fault.place) {
+            (_, Place::Model) => (fault.cause == Cause::ConventionSwapped) == (self == Self::Convention),
+            (Self::Constant(ConstantKey::BaseFromDh0), Place::Base)
+            | (Self::Constant(ConstantKey::DhnFromTip), Place::Tool) => true,
+            (Self::Row(row, key), Place::Rows(rows)) => {
+                rows.contains(&row)
+                    && match fault.cause {
+                        Cause::JointsSwapped => true,
+                        Cause::ParametersExchanged => matches!(key, RowKey::A | RowKey::D),
+                        Cause::Parameter => key == RowKey::Kind,
+                        _ => key == RowKey::Sign,
+                    }
+            }
+            (Self::Row(row, key), Place::Entries(entry, rows)) => {
+                rows.contains(&row) && row_key(*entry) == key
+            }
+            (Self::Row(_, key), Place::Column(entries)) => entries.iter().any(|&entry| row_key(entry) == key),
+            _ => false,
+        }
+    }
+
+    /// The value of the corrected table, as a change of the file.
+    fn edits(
+        self,
+        places: &RobotFilePlaces,
+        [before, after]: [&Candidate; 2],
+        slack: Slack,
+    ) -> Vec<TextEdit> {
+        let (row, key) = match self {
+            Self::Convention => {
+                let convention = after.convention;
+                return convention.and_then(|written| places.set_convention(written)).into_iter().collect();
+            }
+            Self::Constant(key) => {
+                let constant =
+                    if key == ConstantKey::BaseFromDh0 { after.base.pose } else { after.tool.pose };
+                return places.set_constant(key, &isometry(&constant), slack);
+            }
+            Self::Row(row, key) => (row, key),
+        };
+        let literal = match key {
+            RowKey::Joint => {
+                let own = before.rows.iter().position(|each| each.joint == after.rows[row].joint);
+                let place = own.and_then(|own| places.value(own, RowKey::Joint));
+                place.map(|place| places.source().text[place.span].to_owned())
+            }
+            RowKey::Sign => Some(if after.rows[row].rate < 0.0 { "-1" } else { "1" }.to_owned()),
+            RowKey::Kind => match after.rows[row].link {
+                RowConstants::Dh { kind, .. } => Some(format!("\"{}\"", kind.name())),
+                RowConstants::Screw { .. } => None,
+            },
+            RowKey::A | RowKey::Alpha | RowKey::D | RowKey::Theta => {
+                let entry = DhEntry::ALL.into_iter().find(|&entry| row_key(entry) == key);
+                let value = |of: &Candidate| entry.and_then(|entry| of.entry(row, entry));
+                let unit =
+                    if matches!(key, RowKey::Alpha | RowKey::Theta) { Unit::Angle } else { Unit::Length };
+                let place = places.value(row, key);
+                value(before).zip(value(after)).zip(place).map(|((found, expected), place)| {
+                    value_literal(unit, place.units, (found, expected), slack)
+                })
+            }
+        };
+        literal.and_then(|literal| places.set_value(row, key, &literal)).into_iter().collect()
+    }
+}
+
+/// The lines that each fault of an explanation changes; `None` if the file cannot say its correction. A line that
+/// two faults share is the first one's, with both corrections.
+pub(super) fn lines_by_fault(
+    models: &ModelPair,
+    explanation: &Explanation,
+    places: &RobotFilePlaces,
+    slack: Slack,
+) -> Vec<Option<Vec<ChangedLines>>> {
+    let tables = [&models.candidate, &explanation.corrected.candidate];
+    let mut edits: Vec<(usize, TextEdit)> = Vec::new();
+    let values = changed(tables[0], tables[1]);
+    for &value in &values {
+        let is_of_entry = |fault: &ExplainedFault| matches!(fault.place, Place::Entries(..));
+        let faults = || explanation.faults.iter();
+        // A fault of this entry alone comes before one of the whole row.
+        let own = faults().position(|fault| is_of_entry(fault) && value.is_of(fault));
+        let Some(fault) = own.or_else(|| faults().position(|fault| value.is_of(fault))) else { continue };
+        edits.extend(value.edits(places, tables, slack).into_iter().map(|edit| (fault, edit)));
+    }
+    let text = &places.source().text;
+    let all: Vec<TextEdit> = edits
+        .iter()
+        .map(|(_, edit)| edit.clone())
+        .filter(|edit| text[edit.span.clone()] != *edit.text)
+        .collect();
+    let is_said = |fault| values.iter().any(|value: &FileValue| value.is_of(fault));
+    let mut by_fault: Vec<Option<Vec<ChangedLines>>> =
+        explanation.faults.iter().map(|fault| is_said(fault).then(Vec::new)).collect();
+    for lines in places.changed_lines(&all) {
+        let is_in = |edit: &TextEdit| {
+            let line = congruent_description::line_column(text, edit.span.start).0;
+            (lines.from_line..=lines.to_line).contains(&line)
+        };
+        let first = edits.iter().filter(|(_, edit)| is_in(edit)).map(|(fault, _)| *fault).min();
+        if let Some(of_first) = first.and_then(|fault| by_fault[fault].as_mut()) {
+            of_first.push(lines);
+        }
+    }
+    by_fault
+}

@@ -1,0 +1,79 @@
+//! Messages about joints of the URDF: one that the model leaves out, angles in another order, and rounded ones.
+
+use std::{f64::consts::FRAC_PI_2, sync::Arc};
+
+use congruent_description::display::angle;
+use congruent_kinematics::rotation_log;
+
+use super::{
+    content::Fault,
+    fault_message::{FaultContext, FaultMessage, FileLocation},
+};
+use crate::diagnosis::{Cause, ModelPair};
+
+impl FaultContext<'_> {
+    pub(super) fn reference_joints(&self, joints: &[usize]) -> FaultMessage {
+        let names: Vec<String> = joints.iter().map(|&joint| self.names.chain_joint(joint)).collect();
+        let listed = names.join("\", \"");
+        let rotation =
+            |models: &ModelPair, joint: usize| models.reference.joints[joint].parent_from_joint.rotation;
+        let turn = |joint: usize| {
+            rotation_log(&(rotation(self.after, joint).transpose() * rotation(self.before, joint))).norm()
+        };
+        let most = joints.iter().map(|&joint| turn(joint)).fold(0.0, f64::max);
+        let mut fault = Fault::default();
+        let (message, suggestion) = match self.fault.cause {
+            Cause::FixedJointDropped => (
+                format!("the model leaves out the fixed joint \"{listed}\" of the URDF"),
+                format!("put the origin of \"{listed}\" into the model"),
+            ),
+            Cause::RpyOrder => (
+                format!("the rpy of joint \"{listed}\" has another order in the URDF than in the model"),
+                format!("check the rpy of joint \"{listed}\": R = Rz(yaw) Ry(pitch) Rx(roll)"),
+            ),
+            _ => {
+                fault.parameter = Some("rpy".to_owned());
+                fault.value = Some(most);
+                self.rounded(&names, most)
+            }
+        };
+        let location = self.names.urdf.as_ref().and_then(|urdf| {
+            Some(FileLocation { source: Arc::clone(urdf.source()), span: urdf.joint_origin(names.first()?)? })
+        });
+        match <[String; 1]>::try_from(names) {
+            Ok([name]) => fault.joint = Some(name),
+            Err(names) => fault.joints = names,
+        }
+        FaultMessage { fault: Fault { suggestion, ..fault }, message, location }
+    }
+
+    /// Quarter turns that the URDF rounds, each with its line, and how it would write them.
+    fn rounded(&self, names: &[String], most_rad: f64) -> (String, String) {
+        let (mut found, mut expected) = (Vec::new(), Vec::new());
+        for name in names {
+            let Some((rpy, line)) = self.names.urdf.as_ref().and_then(|urdf| urdf.joint_rpy(name)) else {
+                continue;
+            };
+            found.push(format!("rpy=\"{rpy}\" of joint \"{name}\" in line {line}"));
+            expected.push(format!("rpy=\"{}\" in line {line}", with_exact_quarters(&rpy)));
+        }
+        let most = angle(most_rad);
+        let message = format!("the URDF rounds quarter turns, off by up to {most}: {}", found.join(", "));
+        (message, format!("in the URDF: {}", expected.join(", ")))
+    }
+}
+
+/// Angles of a URDF with all digits of those that are rounded quarter turns.
+fn with_exact_quarters(rpy: &str) -> String {
+    /// Quarter turns as files write them, with four decimals. Unit: rad; kind: digits of a file.
+    const FOUR_DECIMALS_RAD: f64 = 1e-4;
+    let exact = |word: &str| {
+        let quarters = (word.parse::<f64>().ok()? / FRAC_PI_2).round() * FRAC_PI_2;
+        let off = word.parse::<f64>().ok()? - quarters;
+        (off.abs() < FOUR_DECIMALS_RAD).then(|| (quarters + 0.0).to_string())
+    };
+    rpy.split_whitespace()
+        .map(|word| exact(word).unwrap_or_else(|| word.to_owned()))
+        .collect::<Vec<_>>()
+        .join(" ")
+}

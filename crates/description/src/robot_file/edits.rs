@@ -1,0 +1,164 @@
+//! Corrections of a robot file as changes of its text: a value is replaced, one that is left out is added
+//! beside its neighbour, and everything else in the line stays.
+
+use std::ops::Range;
+
+use nalgebra::Isometry3;
+use schemars::JsonSchema;
+use serde::Serialize;
+use toml::Spanned;
+
+use super::places::{ConstantKey, RobotFilePlaces, RowKey};
+use crate::{
+    diagnostic::line_column,
+    model::DhConvention,
+    written::{number::Slack, transform::WrittenTransform},
+};
+
+/// A part of a text, and what it becomes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TextEdit {
+    /// Byte range; empty if text is added.
+    pub span: Range<usize>,
+    /// The new text.
+    pub text: String,
+}
+
+/// Whole lines of a file, and the lines that take their place.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct ChangedLines {
+    /// The first line that is replaced, from 1.
+    pub from_line: usize,
+    /// The last one.
+    pub to_line: usize,
+    /// The new lines.
+    pub text: String,
+}
+
+impl RobotFilePlaces {
+    /// Another convention.
+    pub fn set_convention(&self, convention: DhConvention) -> Option<TextEdit> {
+        Some(TextEdit { span: self.convention()?, text: format!("\"{}\"", convention.name()) })
+    }
+
+    /// Another value of a row under the key that it has or would have: the literal as TOML writes it.
+    pub fn set_value(&self, row: usize, key: RowKey, literal: &str) -> Option<TextEdit> {
+        let place = self.value(row, key)?;
+        Some(if place.is_written {
+            TextEdit { span: place.span, text: literal.to_owned() }
+        } else {
+            self.beside(&place.span, &format!("{} = {literal}", place.key))
+        })
+    }
+
+    /// Another value of a declared transform, in the file's units, kind of rotation and form.
+    pub fn set_constant(&self, key: ConstantKey, pose: &Isometry3<f64>, slack: Slack) -> Vec<TextEdit> {
+        let name = key.name();
+        let keys = self.constant_keys(key, pose, slack);
+        let Some(written) = self.written(key) else {
+            let Some(convention) = self.convention() else { return Vec::new() };
+            return vec![self.beside(&convention, &format!("{name} = {{ {} }}", keys.join(", ")))];
+        };
+        let text = &self.source().text;
+        if text[written.span()].starts_with('{') {
+            let inline = if keys.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", keys.join(", ")) };
+            return vec![TextEdit { span: written.span(), text: inline }];
+        }
+        // Under a header of its own, or with dotted keys.
+        let is_header = text[written.span()].starts_with('[');
+        let last = spans(written.get_ref()).map(|(_, span)| span).max_by_key(|span| span.end);
+        let mut edits = Vec::new();
+        for assignment in keys {
+            let Some((key, value)) = assignment.split_once(" = ") else { continue };
+            let mut known = spans(written.get_ref());
+            let edit = match (known.find(|(known, _)| *known == key), &last) {
+                (Some((_, span)), _) => TextEdit { span, text: value.to_owned() },
+                (None, Some(sibling)) => self.beside(sibling, &assignment),
+                (None, None) if is_header => {
+                    let end = self.line_end(written.span().start);
+                    TextEdit { span: end..end, text: format!("\n{assignment}") }
+                }
+                (None, None) => continue,
+            };
+            edits.push(edit);
+        }
+        edits
+    }
+
+    /// A key beside a value of the same table: in an inline table behind it, otherwise on a line of its own.
+    fn beside(&self, sibling: &Range<usize>, assignment: &str) -> TextEdit {
+        let text = &self.source().text;
+        let is_inline = text[sibling.end..].trim_start().starts_with([',', '}']);
+        if is_inline {
+            return TextEdit { span: sibling.end..sibling.end, text: format!(", {assignment}") };
+        }
+        let line = text[..sibling.start].rfind('\n').map_or(0, |at| at + 1);
+        // `dh.convention = ...` has a prefix that its siblings need as well, `  convention` an indentation.
+        let key = text[line..sibling.start].trim_end().trim_end_matches('=').trim_end();
+        let own = key.rfind(['.', ' ', '\t']).map_or(0, |at| at + 1);
+        let end = self.line_end(sibling.end);
+        TextEdit { span: end..end, text: format!("\n{}{assignment}", &key[..own]) }
+    }
+
+    fn line_end(&self, from: usize) -> usize {
+        let rest = &self.source().text[from..];
+        let end = rest.find('\n').unwrap_or(rest.len());
+        from + rest[..end].trim_end_matches('\r').len()
+    }
+
+    /// The lines that edits change, each with all edits in it; in the order of the file.
+    pub fn changed_lines(&self, edits: &[TextEdit]) -> Vec<ChangedLines> {
+        let text = &self.source().text;
+        let mut edits: Vec<&TextEdit> = edits.iter().collect();
+        edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
+        let mut changed: Vec<(Range<usize>, String)> = Vec::new();
+        let mut written_to = 0;
+        for TextEdit { span, text: new } in edits {
+            let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
+            match changed.last_mut() {
+                Some((lines, so_far)) if start < lines.end => {
+                    so_far.push_str(&text[written_to..span.start]);
+                    lines.end = lines.end.max(self.line_end(span.end) + 1);
+                }
+                _ => {
+                    if let Some((lines, so_far)) = changed.last_mut() {
+                        so_far.push_str(&text[written_to..lines.end - 1]);
+                    }
+                    let lines = start..self.line_end(span.end) + 1;
+                    changed.push((lines, text[start..span.start].to_owned()));
+                }
+            }
+            if let Some((_, so_far)) = changed.last_mut() {
+                so_far.push_str(new);
+            }
+            written_to = span.end;
+        }
+        if let Some((lines, so_far)) = changed.last_mut() {
+            so_far.push_str(&text[written_to..lines.end - 1]);
+        }
+        let line = |at: usize| line_column(text, at).0;
+        changed
+            .into_iter()
+            .map(|(lines, new)| ChangedLines {
+                from_line: line(lines.start),
+                to_line: line(lines.end - 1),
+                text: new,
+            })
+            .collect()
+    }
+}
+
+/// The keys of a transform that are written, with the places of their values.
+fn spans(written: &WrittenTransform) -> impl Iterator<Item = (&'static str, Range<usize>)> {
+    let WrittenTransform { xyz_m, xyz_mm, rpy_rad, rpy_deg, quaternion_wxyz, matrix } = written;
+    [
+        ("xyz_m", xyz_m.as_ref().map(Spanned::span)),
+        ("xyz_mm", xyz_mm.as_ref().map(Spanned::span)),
+        ("rpy_rad", rpy_rad.as_ref().map(Spanned::span)),
+        ("rpy_deg", rpy_deg.as_ref().map(Spanned::span)),
+        ("quaternion_wxyz", quaternion_wxyz.as_ref().map(Spanned::span)),
+        ("matrix", matrix.as_ref().map(Spanned::span)),
+    ]
+    .into_iter()
+    .filter_map(|(key, span)| Some((key, span?)))
+}
