@@ -1,6 +1,11 @@
 //! The size of workspaces against closed forms: the stated interval contains them, with few samples and many.
 
-use std::f64::consts::{PI, TAU};
+#![expect(clippy::unwrap_used, reason = "helpers of tests panic")]
+
+use std::{
+    f64::consts::{PI, TAU},
+    fmt::Write,
+};
 
 use congruent_description::{Robot, parse_urdf};
 use congruent_kinematics::{Arm, Pose, Sampling, WorkspaceSize};
@@ -36,11 +41,13 @@ fn robot(joints: &[Moving]) -> Robot {
     let mut urdf = "<robot name='arm'><link name='link_0'/>".to_owned();
     for (at, Moving { kind, axis, range: [lower, upper], xyz: [x, y, z] }) in joints.iter().enumerate() {
         let link = at + 1;
-        urdf += &format!(
+        write!(
+            urdf,
             "<link name='link_{link}'/><joint name='joint_{link}' type='{kind}'>\
              <parent link='link_{at}'/><child link='link_{link}'/><origin xyz='{x} {y} {z}'/>\
              <axis xyz='{axis}'/><limit lower='{lower}' upper='{upper}' velocity='1' effort='1'/></joint>"
-        );
+        )
+        .unwrap();
     }
     parse_urdf(&(urdf + "</robot>")).unwrap()
 }
