@@ -64,11 +64,14 @@ impl JointDynamics for SimulatedDynamics {
     }
 }
 
+/// The steps of the three worlds, as parts of the longest.
+const SHARES: [f64; 3] = [1.0, 0.5, 0.25];
+
 /// One robot in three worlds with steps of `h`, `h/2` and `h/4`.
 struct Stepped {
     robot: Robot,
     step_s: f64,
-    worlds: [World; 3],
+    worlds: Vec<World>,
 }
 
 impl Stepped {
@@ -102,10 +105,10 @@ impl Stepped {
     ) -> Result<(), SimulationError> {
         let mut torques = Torques(state.tau.to_vec());
         let mut found = [const { Vec::new() }; 3];
-        for ((world, found), halvings) in self.worlds.iter_mut().zip(&mut found).zip(0..) {
+        for ((world, found), share) in self.worlds.iter_mut().zip(&mut found).zip(SHARES) {
             world.set_state(state.q, state.qd)?;
             world.step(&mut torques, &Setpoint { q: state.q, qd: state.qd })?;
-            let step_s = self.step_s / 2_f64.powi(halvings);
+            let step_s = self.step_s * share;
             found.extend(world.qd().iter().zip(state.qd).map(|(after, before)| (after - before) / step_s));
         }
         let [whole, half, quarter] = &found;
@@ -118,9 +121,12 @@ impl Stepped {
     }
 }
 
-fn worlds(robot: &Robot, step_s: f64) -> Result<[World; 3], SimulationError> {
-    let world = |step_s| World::new(robot, &WorldSettings { step_s, ..WorldSettings::default() });
-    Ok([world(step_s)?, world(step_s / 2.0)?, world(step_s / 4.0)?])
+fn worlds(robot: &Robot, longest_s: f64) -> Result<Vec<World>, SimulationError> {
+    let world = |share: f64| {
+        let settings = WorldSettings { step_s: longest_s * share, ..WorldSettings::default() };
+        World::new(robot, &settings)
+    };
+    SHARES.into_iter().map(world).collect()
 }
 
 /// Exerts given torques.
