@@ -1,6 +1,6 @@
 //! `congruent dynamics`: torques and accelerations of a robot at given states.
 
-use congruent_description::{Diagnostic, JointState, ReportedChain, Robot, RobotDescription};
+use congruent_description::{Diagnostic, Finding, JointState, ReportedChain, Robot, RobotDescription};
 use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError, JointMotion, SpatialInertia};
 use nalgebra::{DMatrix, Point3, Vector3};
 use schemars::JsonSchema;
@@ -69,6 +69,9 @@ pub struct DynamicsReport {
     pub payload: Option<Payload>,
     /// One entry for each state, in input order.
     pub results: Vec<DynamicsResult>,
+    /// Warnings about the input.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
 }
 
 /// The robot that is asked: with the payload, and without damping and friction unless they are wanted.
@@ -115,6 +118,7 @@ pub fn dynamics(
         friction: options.friction,
         payload: options.payload,
         results,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
     })
 }
 

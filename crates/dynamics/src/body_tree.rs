@@ -5,8 +5,8 @@ use congruent_kinematics::{Pose, Twist, rotation_exp};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
+    algebra::rigid::{BodyInertia, JointFrame},
     error::DynamicsError,
-    rigid::{BodyInertia, JointFrame},
     spatial_inertia::SpatialInertia,
 };
 

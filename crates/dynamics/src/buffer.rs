@@ -4,9 +4,9 @@ use congruent_kinematics::SinCos;
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
+    algebra::rigid::{ArticulatedInertia, BodyInertia, BodyMotion, BodyWrench, Placement},
     body_tree::BodyTree,
     error::DynamicsError,
-    rigid::{ArticulatedInertia, BodyInertia, BodyMotion, BodyWrench, Placement},
 };
 
 /// Intermediate values of one robot's algorithms: [`BodyTree::buffer`] makes it, and no call allocates after that.

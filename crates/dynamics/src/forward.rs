@@ -7,11 +7,11 @@ use nalgebra::DMatrix;
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::{
+    algebra::columns::Column,
+    algebra::rigid::{ArticulatedInertia, BodyMotion, BodyTwist},
     body_tree::BodyTree,
     buffer::{DynamicsBuffer, Release},
-    columns::Column,
     error::DynamicsError,
-    rigid::{ArticulatedInertia, BodyMotion, BodyTwist},
 };
 
 /// Positions, speeds and torques of all moving joints.

@@ -6,11 +6,11 @@ use congruent_description::RobotQ;
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::{
+    algebra::columns::Column,
+    algebra::rigid::{BodyMotion, BodyTwist},
     body_tree::{BodyTree, JointMotion, JointResistance},
     buffer::{BodyValues, DynamicsBuffer},
-    columns::Column,
     error::DynamicsError,
-    rigid::{BodyMotion, BodyTwist},
 };
 
 impl BodyTree {

@@ -13,27 +13,25 @@
 //! Units are SI and radians. Nothing here reads a file, a clock or a random number, and calls that are made per sample
 //! allocate nothing: [`BodyTree::buffer`] makes their memory once.
 
-mod base_parameters;
+mod algebra;
 mod body_tree;
 mod buffer;
-mod columns;
 mod energy;
 mod error;
 mod forward;
 mod inverse;
 mod joint_dynamics;
 mod mass_matrix;
-mod regressor;
-mod rigid;
+mod parameters;
 mod rollout;
 mod spatial_inertia;
 
-pub use base_parameters::{BaseParameter, BaseParameters, InertialParameter};
 pub use body_tree::{BodyTree, GRAVITY_M_S2, JointMotion, JointResistance};
 pub use buffer::DynamicsBuffer;
 pub use energy::Energy;
 pub use error::DynamicsError;
 pub use forward::DrivenState;
 pub use joint_dynamics::{JointDynamics, JointDynamicsError, TreeDynamics};
+pub use parameters::{BaseParameter, BaseParameters, InertialParameter};
 pub use rollout::{Rollout, RolloutState};
 pub use spatial_inertia::{PARAMETER_NAMES, PARAMETERS, SpatialInertia};

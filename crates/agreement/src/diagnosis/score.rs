@@ -45,8 +45,14 @@ pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Cr
         .filter_map(|hypothesis| UnitEvidence::of(context, fit, hypothesis))
         .map(|wrong_unit| wrong_unit.unproven(&residual))
         .sum();
-    let given_as_zero =
-        hypotheses().filter(|hypothesis| is_given_as_zero(&context.models.candidate, hypothesis)).count();
+    let given_as_zero = hypotheses()
+        .filter(|hypothesis| {
+            is_given_as_zero(&context.models.candidate, hypothesis)
+                && !is_left_out_turn(context, fit, hypothesis)
+        })
+        .count();
+    let in_place_of_base =
+        hypotheses().filter(|hypothesis| is_zero_in_place_of_base(context, fit, hypothesis)).count();
     let choices: usize = hypotheses().map(|hypothesis| choices(context, fit, hypothesis)).sum();
     Rank {
         cost: choices + unproven + fit.hypotheses.len() - 1,
@@ -55,7 +61,7 @@ pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Cr
         } else {
             u8::from(in_tolerances > BELOW_TOLERANCE) + 1
         },
-        unlikely: given_as_zero + unproven,
+        unlikely: given_as_zero + in_place_of_base + unproven,
         in_reference: hypotheses().filter(|hypothesis| is_in_reference(hypothesis)).count(),
         causes,
         hypotheses: fit.hypotheses.clone(),
@@ -186,6 +192,32 @@ fn is_given_as_zero(candidate: &Candidate, hypothesis: &Hypothesis) -> bool {
         [ModelParameter::Tool(component)] => is_zero(&candidate.tool.pose, component),
         _ => false,
     }
+}
+
+/// Whether the whole declared base is left out, and is a turn by quarters: data sheets give tables without it, so
+/// that its zeros are no evidence against it.
+fn is_left_out_turn(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> bool {
+    let rotation = fit.corrected.candidate.base.pose.rotation;
+    hypothesis.cause == Cause::Base
+        && has_no_base(context)
+        && (rotation - rotation.map(f64::round)).amax() < QUARTER_TURNS
+        && fit.corrected.candidate.base.pose.translation == context.models.candidate.base.pose.translation
+}
+
+/// Whether the zero of the first joint is off by quarter turns in a table without a base: then it is the base
+/// that is left out, which the first joint's zero cannot be told from if both are about one axis.
+fn is_zero_in_place_of_base(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> bool {
+    let theta_rad = |candidate: &Candidate| candidate.entry(0, DhEntry::Theta);
+    let turn = theta_rad(&fit.corrected.candidate).zip(theta_rad(&context.models.candidate));
+    let quarters = turn.map(|(expected, found)| (expected - found) / std::f64::consts::FRAC_PI_2);
+    hypothesis.cause == Cause::ZeroOffset
+        && hypothesis.free[..] == [ModelParameter::Row(0, DhEntry::Theta)]
+        && has_no_base(context)
+        && quarters.is_some_and(|quarters| (quarters - quarters.round()).abs() < QUARTER_TURNS)
+}
+
+fn has_no_base(context: &FitContext<'_>) -> bool {
+    context.models.candidate.base.pose == congruent_kinematics::Pose::identity()
 }
 
 fn is_zero(pose: &congruent_kinematics::Pose, component: usize) -> bool {

@@ -108,9 +108,10 @@ fn the_base_of_a_data_sheet_is_named_before_its_lengths() {
         let texts = ur10(&TABLE_MM);
         let report = texts.check(tolerance);
         explains(&texts, &report, tolerance);
-        let base = first_faults(&report).into_iter().find(|fault| fault.cause == Cause::Base).unwrap();
-        assert_eq!(base.suggestion, "base_from_dh0 = { rpy_deg = [0, 0, 180] }");
         let cause = &report.diagnosis[0];
+        assert_eq!(parts(cause)[0].suggestion, "base_from_dh0 = { rpy_deg = [0, 0, 180] }");
+        // The zero of the first joint cannot be told from it.
+        assert!(first_faults(&report).iter().any(|fault| fault.cause == Cause::ZeroOffset));
         assert!(cause.stages[0].before.position_m > 2.6 && cause.stages[0].after.position_m < 3e-3);
         let mut lines: Vec<&str> = cause.parts[1..].iter().map(|fault| fault.suggestion.as_str()).collect();
         lines.sort_unstable();
@@ -124,11 +125,10 @@ fn a_loose_tolerance_needs_fewer_lengths() {
     for (tolerance, faults) in [(1e-3, 2..=4), (5e-3, 1..=1)] {
         let report = texts.check(tolerance);
         explains(&texts, &report, tolerance);
-        assert!(first_faults(&report).iter().any(|fault| fault.cause == Cause::Base));
         let cause = &report.diagnosis[0];
         assert!(faults.contains(&parts(cause).len()), "{}", cause.fault.message);
         // Digits that the residual does not determine are left out.
-        assert!(parts(cause)[0].suggestion == "theta_deg = 180", "{}", cause.fault.suggestion);
+        assert_eq!(parts(cause)[0].suggestion, "base_from_dh0 = { rpy_deg = [0, 0, 180] }");
     }
 }
 

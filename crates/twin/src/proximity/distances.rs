@@ -1,6 +1,6 @@
 //! `congruent clearance`: distances between links at given configurations.
 
-use congruent_description::{RobotDescription, RobotQ};
+use congruent_description::{Finding, RobotDescription, RobotQ};
 use congruent_kinematics::{KinematicsError, Pose, UrdfTree};
 use congruent_simulation::Obstacle;
 use nalgebra::Isometry3;
@@ -40,6 +40,9 @@ pub struct DistanceReport {
     /// Every pair that comes below the limit, the nearest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub below: Vec<BelowLimit>,
+    /// Warnings about the input.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
 }
 
 /// A pair below the limit.
@@ -138,6 +141,7 @@ pub fn distances(
         ignored,
         results,
         limit_m: options.limit_m,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
     })
 }
 

@@ -3,10 +3,10 @@
 use nalgebra::DMatrix;
 
 use crate::{
+    algebra::rigid::{BodyInertia, BodyWrench},
     body_tree::{BodyTree, JointMotion},
     buffer::DynamicsBuffer,
     error::DynamicsError,
-    rigid::{BodyInertia, BodyWrench},
     spatial_inertia::{PARAMETERS, SpatialInertia},
 };
 

@@ -5,7 +5,7 @@
 use congruent_kinematics::SinCos;
 
 use crate::{
-    columns::{Block, Column},
+    algebra::columns::{Block, Column},
     spatial_inertia::SpatialInertia,
 };
 

@@ -1,0 +1,4 @@
+//! The algebra of the algorithms' loops: vectors as wide as the machine's, and what one body needs of them.
+
+pub(crate) mod columns;
+pub(crate) mod rigid;
