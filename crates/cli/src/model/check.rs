@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use congruent::{
     agreement::compare::{Agreement, CheckOptions, CheckReport},
     check_suite,
-    description::{Diagnostic, load_robot_with, read_configurations},
+    description::{Diagnostic, Robot, load_robot_with, read_configurations},
     twin::report::TestSuite,
 };
 
@@ -59,6 +59,7 @@ pub(crate) struct Arguments {
 /// The report on one robot, and whether its first checks are shown too.
 struct Checked {
     report: CheckReport,
+    robot: Robot,
     with_basics: bool,
 }
 
@@ -79,7 +80,7 @@ impl BatchReport for Checked {
 
     fn text(&self) -> String {
         let basics = if self.with_basics { basics(&self.report.basics) } else { String::new() };
-        text(&self.report) + &basics
+        text(&self.report, &self.robot) + &basics
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -110,5 +111,5 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
     let mut report = congruent::check(&description, &options)
         .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
     report.replaced_tolerance = arguments.tolerance.map(|_| declared);
-    Ok(Checked { report, with_basics: arguments.basics })
+    Ok(Checked { report, robot: description.robot, with_basics: arguments.basics })
 }

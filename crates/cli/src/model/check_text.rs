@@ -8,14 +8,15 @@ use congruent::{
         Premise, ReportedBracket, ReportedCertificate,
     },
     description::{
-        Tolerance,
+        Robot, Tolerance,
         display::{angle, length, length_and_angle},
     },
 };
 
 use super::diagnosis_text::diagnosed;
+use crate::table::wrapped;
 
-pub(super) fn text(report: &CheckReport) -> String {
+pub(super) fn text(report: &CheckReport, robot: &Robot) -> String {
     let mut text = String::new();
     headline(&mut text, report);
     let _ = writeln!(text, "  {}", report.chain);
@@ -34,13 +35,14 @@ pub(super) fn text(report: &CheckReport) -> String {
         }
     }
     if report.verdict == Agreement::Disagree {
-        let _ = writeln!(text, "  worst at link {}: {}", report.worst.link, report.worst.at.listed(4));
+        let _ = writeln!(text, "  worst at link {}, at", report.worst.link);
+        text += &wrapped(&report.worst.at.for_people(robot));
     }
     for (at, difference) in (1..).zip(&report.at_configurations) {
         let error = length_and_angle(difference.error.position_m, difference.error.orientation_rad);
         let _ = writeln!(text, "  at configuration {at}: {error}");
     }
-    certified(&mut text, report);
+    certified(&mut text, report, robot);
     if let Some(diagnosis) = report.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty()) {
         diagnosed(&mut text, diagnosis);
     }
@@ -118,7 +120,7 @@ fn to_mm(metres: f64) -> f64 {
 }
 
 /// The certificate: a bound over the whole joint range, not a sample.
-fn certified(text: &mut String, report: &CheckReport) {
+fn certified(text: &mut String, report: &CheckReport, robot: &Robot) {
     if report.verdict != Agreement::Disagree {
         report.certificates.iter().for_each(|certificate| narrow(text, certificate));
         return;
@@ -126,11 +128,11 @@ fn certified(text: &mut String, report: &CheckReport) {
     let mut line = |what: &str, bracket: &ReportedBracket, shown: fn(f64) -> String| {
         let _ = writeln!(
             text,
-            "  worst {what} disagreement {} at q = ({}), certified below {} over the whole joint range",
+            "  worst {what} disagreement {}, certified below {} over the whole joint range, at",
             shown(bracket.attained),
-            bracket.at.listed(4),
             shown(bracket.certified)
         );
+        *text += &wrapped(&bracket.at.for_people(robot));
     };
     if let Some(Brackets { position_m, orientation_rad }) = &report.certificate_bracket {
         line("position", position_m, length);

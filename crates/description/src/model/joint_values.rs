@@ -15,7 +15,7 @@ use crate::display::position;
 /// use congruent_description::JointValues;
 /// let names = ["shoulder".to_owned(), "elbow".to_owned()];
 /// let q = JointValues::new(&names, &[0.25, 1.5]);
-/// assert_eq!(q.listed(2), "shoulder 0.25, elbow 1.50");
+/// assert_eq!(q.iter().next(), Some(("shoulder", 0.25)));
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct JointValues(Vec<(String, f64)>);
@@ -34,13 +34,6 @@ impl JointValues {
     /// Joints and values, base to tip.
     pub fn iter(&self) -> impl Iterator<Item = (&str, f64)> {
         self.0.iter().map(|(name, value)| (name.as_str(), *value))
-    }
-
-    /// All of them in one line, with this number of decimals.
-    pub fn listed(&self, decimals: usize) -> String {
-        let each: Vec<String> =
-            self.iter().map(|(joint, value)| format!("{joint} {value:.decimals$}")).collect();
-        each.join(", ")
     }
 
     /// All of them in one line for people, in deg and mm to two decimals by the kind of each joint of `robot`.
