@@ -12,8 +12,8 @@ use congruent::{
     twin::{
         ExecuteError, Options, RecordingFormat, RunSetup, execute,
         report::{OutputFolder, Reason, RunReport, TestCase, TestResult, TestSuite, lines},
-        scenario::{Expectation, Override},
-        verdict::{CheckResult, Verdict},
+        scenario::{CheckKind, Expectation, Override},
+        verdict::{CheckResult, Status, Verdict},
     },
 };
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
@@ -222,12 +222,14 @@ fn progress_bar(setup: &RunSetup) -> ProgressBar {
 fn described(report: &RunReport) -> String {
     let mut text = String::new();
     let verdict = match (report.verdict, &report.expected) {
-        (Verdict::AsExpected, Expectation::Pass) => "pass",
-        (Verdict::AsExpected, Expectation::Fail { .. }) => "pass (expected failure)",
-        (Verdict::NotAsExpected, Expectation::Pass) => "FAIL",
-        (Verdict::NotAsExpected, Expectation::Fail { .. }) => "FAIL (the expected failure did not occur)",
-        (Verdict::NothingChecked, _) => "NOTHING CHECKED: add a [[check]]",
-        (Verdict::Broken, _) => "BROKEN",
+        (Verdict::AsExpected, Expectation::Pass) => "pass".to_owned(),
+        (Verdict::AsExpected, Expectation::Fail { .. }) => "pass (expected failure)".to_owned(),
+        (Verdict::NotAsExpected, Expectation::Pass) => "FAIL".to_owned(),
+        (Verdict::NotAsExpected, Expectation::Fail { checks }) => {
+            format!("FAIL ({})", unexpected(report, checks))
+        }
+        (Verdict::NothingChecked, _) => "NOTHING CHECKED: add a [[check]]".to_owned(),
+        (Verdict::Broken, _) => "BROKEN".to_owned(),
     };
     let _ = writeln!(
         text,
@@ -247,6 +249,29 @@ fn described(report: &RunReport) -> String {
         checked(&mut text, check);
     }
     text
+}
+
+/// Why a failure is not the expected one: what did not fail although it should, and what failed besides.
+fn unexpected(report: &RunReport, expected: &[CheckKind]) -> String {
+    let has_failed = |kind: &CheckKind| {
+        report.checks.iter().any(|check| check.check == *kind && check.status == Status::Fail)
+    };
+    let listed = |kinds: Vec<&CheckKind>| kinds.iter().map(|kind| kind.word()).collect::<Vec<_>>().join(", ");
+    let missing: Vec<&CheckKind> = expected.iter().filter(|kind| !has_failed(kind)).collect();
+    let mut besides: Vec<&CheckKind> = Vec::new();
+    for CheckResult { check, .. } in report.checks.iter().filter(|check| check.status == Status::Fail) {
+        if !expected.contains(check) && !besides.contains(&check) {
+            besides.push(check);
+        }
+    }
+    match (missing.is_empty(), besides.is_empty()) {
+        _ if expected.is_empty() => "no check failed, and a failure was expected".to_owned(),
+        (false, true) => format!("expected to fail, and did not: {}", listed(missing)),
+        (true, _) => format!("failed besides the expected ones: {}", listed(besides)),
+        (false, false) => {
+            format!("expected to fail, and did not: {}; failed instead: {}", listed(missing), listed(besides))
+        }
+    }
 }
 
 fn checked(text: &mut String, check: &CheckResult) {

@@ -100,12 +100,15 @@ fn indented(text: &mut String, lines: &str) {
 /// A cause that cannot be distinguished from the named one: what is other than there.
 fn equivalent(text: &mut String, alternative: &ReportedAlternative, named: &[&Fault]) {
     let is_named = |fault: &&Fault| named.iter().any(|known| known.message == fault.message);
+    let is_pasted =
+        |fault: &Fault| !fault.pasted.is_empty() && named.iter().any(|known| known.pasted == fault.pasted);
     let all = faults(&alternative.cause);
     let others: Vec<&Fault> = all.iter().copied().filter(|fault| !is_named(fault)).collect();
     let others = if others.is_empty() { all } else { others };
     let messages: Vec<&str> = others.iter().map(|fault| fault.message.as_str()).collect();
-    let _ = writeln!(text, "  indistinguishable: {} ({})", messages.join("; "), alternative.reason);
-    for fault in others {
+    let same = if others.iter().all(|fault| is_pasted(fault)) { "; the same lines mend it" } else { "" };
+    let _ = writeln!(text, "  indistinguishable: {} ({}{same})", messages.join("; "), alternative.reason);
+    for fault in others.into_iter().filter(|fault| !is_pasted(fault)) {
         fault.pasted.iter().for_each(|lines| indented(text, lines));
     }
 }

@@ -13,6 +13,7 @@ pub(super) struct AgreementMonitor {
     position: Watch,
     orientation: Watch,
     samples: u64,
+    has_table: bool,
 }
 
 impl AgreementMonitor {
@@ -25,7 +26,16 @@ impl AgreementMonitor {
             position: Watch::new("position", "m", Bound::AtMost, position_m, dof),
             orientation: Watch::new("orientation", "rad", Bound::AtMost, orientation_rad, dof),
             samples: 0,
+            has_table: description.dh.is_some(),
         }
+    }
+}
+
+impl AgreementMonitor {
+    /// A model that comes from the URDF itself says nothing about a table.
+    fn notes(&self) -> Vec<String> {
+        let note = "the robot has no table: the kinematics of its URDF was compared with the physics";
+        if self.has_table { Vec::new() } else { vec![note.to_owned()] }
     }
 }
 
@@ -46,7 +56,7 @@ impl Monitor for AgreementMonitor {
                 self.position.measure(&names.joints, name),
                 self.orientation.measure(&names.joints, name),
             ],
-            notes: Vec::new(),
+            notes: self.notes(),
         }
     }
 

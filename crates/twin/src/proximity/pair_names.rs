@@ -69,6 +69,16 @@ impl PairNames {
             };
             return Err(Box::new(PairFault { key: "pairs", entry, diagnostic: fault }));
         }
+        if let Some(entry) = self.ignore.len().checked_sub(1)
+            && !measured.is_empty()
+            && !measured.iter().any(|&pair| self.look_at(pair))
+        {
+            let diagnostic = Diagnostic::error("clearance::no_pair", "`ignore` leaves no pair to look at")
+                .with_help(
+                    "a check that looks at nothing would always pass: leave out fewer pairs, or the check",
+                );
+            return Err(Box::new(PairFault { key: "ignore", entry, diagnostic }));
+        }
         Ok(())
     }
 
@@ -151,6 +161,8 @@ mod tests {
             let fault = found.examine(&subjects, &measured).unwrap_err();
             assert_eq!((fault.key, fault.entry, fault.diagnostic.code), (key, entry, code));
         }
+        let nothing = names(&[], &[["*", "*"]]).examine(&subjects, &measured).unwrap_err();
+        assert_eq!((nothing.key, nothing.diagnostic.code), ("ignore", "clearance::no_pair"));
         let fault = names(&[], &[["wirst", "table"]]).examine(&subjects, &measured).unwrap_err();
         assert!(fault.diagnostic.help.unwrap().contains("did you mean \"wrist\""));
         assert_eq!(names(&[["*", "table"]], &[["base", "table"]]).examine(&subjects, &measured), Ok(()));

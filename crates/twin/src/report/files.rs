@@ -105,11 +105,19 @@ impl OutputFolder {
     }
 }
 
-/// Writes a file under a temporary name beside it and renames it.
+/// Writes a file under a temporary name beside it and renames it. A link stays one, and its target is written; a pipe
+/// or a device is written as it is.
 ///
 /// # Errors
 /// [`OutputError`] if it cannot be written.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
+    let refused = |source| OutputError { path: path.to_owned(), source };
+    let is_replaceable = fs::metadata(path).map_or(true, |metadata| metadata.is_file() || metadata.is_dir());
+    if !is_replaceable {
+        return fs::write(path, contents).map_err(refused);
+    }
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let path = target.as_path();
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(".tmp");
     let temporary = PathBuf::from(temporary);
@@ -117,7 +125,7 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
     written.map_err(|source| {
         // The remainder is of no use; the first error is the one to report.
         let _ = fs::remove_file(&temporary);
-        OutputError { path: path.to_owned(), source }
+        refused(source)
     })
 }
 
@@ -156,6 +164,22 @@ mod tests {
         let left: Vec<_> =
             fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(left, ["report.json"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_links_and_devices_devices() {
+        let folder = tempfile::tempdir().unwrap();
+        let [link, target] = ["link.xml", "target.xml"].map(|name| folder.path().join(name));
+        fs::write(&target, "before").unwrap();
+        std::os::unix::fs::symlink(&target, &link).unwrap();
+        write_whole(&link, b"after").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read_to_string(&target).unwrap(), "after");
+        let device = folder.path().join("null");
+        std::os::unix::fs::symlink("/dev/null", &device).unwrap();
+        write_whole(&device, b"nothing").unwrap();
+        assert_eq!(fs::canonicalize(&device).unwrap(), Path::new("/dev/null"));
     }
 
     #[test]

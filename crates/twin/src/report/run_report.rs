@@ -135,7 +135,12 @@ impl RunReport {
     /// The checks, those that failed first.
     pub fn checks_failed_first(&self) -> Vec<&CheckResult> {
         let mut checks: Vec<&CheckResult> = self.checks.iter().collect();
-        checks.sort_by_key(|check| !matches!(check.status, Status::Fail | Status::Error));
+        let rank = |check: &CheckResult| !matches!(check.status, Status::Fail | Status::Error);
+        let first_s = |check: &CheckResult| {
+            let violations = check.measures.iter().filter_map(|measure| measure.first_violation.as_ref());
+            violations.map(|violation| violation.time_s).fold(f64::INFINITY, f64::min)
+        };
+        checks.sort_by(|a, b| rank(a).cmp(&rank(b)).then(first_s(a).total_cmp(&first_s(b))));
         checks
     }
 }

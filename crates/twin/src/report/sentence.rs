@@ -58,6 +58,9 @@ fn margin(value: f64, measure: &Measure) -> String {
     let shown = quantity(margin, measure.unit);
     match measure.bound {
         _ if value.is_nan() => "not a number".to_owned(),
+        _ if measure.bound == Bound::Above && value <= measure.limit && measure.limit == 0.0 => {
+            "they touch or overlap".to_owned()
+        }
         _ if margin == 0.0 => "at the limit".to_owned(),
         bound if bound.holds(value, measure.limit) => format!("{shown} left"),
         Bound::AtMost => format!("{shown} above the limit"),
@@ -65,13 +68,26 @@ fn margin(value: f64, measure: &Measure) -> String {
     }
 }
 
+/// Within this a joint is at its limit, m or rad. Kind: digits of files; the tolerance of a check that states none.
+const NEGLIGIBLE: f64 = 1e-6;
+
 /// The distance of a joint from the end of its range; negative values are inside it.
 fn beyond_joint_limit(value: f64, measure: &Measure) -> String {
     let shown = quantity(value.abs(), measure.unit);
     match value {
         _ if value.is_nan() => "not a number".to_owned(),
         _ if value < -measure.limit => format!("{shown} left"),
-        _ if measure.bound.holds(value, measure.limit) => "at the limit".to_owned(),
+        _ if measure.bound.holds(value, measure.limit) && value.abs() <= NEGLIGIBLE => {
+            "at the limit".to_owned()
+        }
+        _ if measure.bound.holds(value, measure.limit) => {
+            let side = if value > 0.0 { "beyond" } else { "inside" };
+            format!("{shown} {side} the limit, with a tolerance of {}", quantity(measure.limit, measure.unit))
+        }
+        _ if measure.limit > NEGLIGIBLE => {
+            let tolerance = quantity(measure.limit, measure.unit);
+            format!("{shown} beyond the limit, with a tolerance of {tolerance}")
+        }
         _ => format!("{shown} beyond the limit"),
     }
 }
