@@ -45,9 +45,8 @@ pub(super) const ROUNDING_RESIDUAL: f64 = 1e-11;
 
 // Rotations as files write them.
 
-/// Largest error of a rotation by quarter turns that a file writes with four decimals (1.5708): half of the
-/// last decimal, doubled for a half turn or two turns in one joint. Unit: rad; kind: digits of a file.
-pub(super) const FOUR_DECIMALS_RAD: f64 = 1e-4;
+/// Largest error of a quarter turn that a file rounds: 1.57 is off by 8e-4. Unit: rad; kind: digits of a file.
+pub(super) const ROUNDED_QUARTER_RAD: f64 = 1e-3;
 
 /// Entries of a rotation by quarter turns are 0 or 1 within this; kind: digits of a file, three decimals.
 /// Every rpy order of quarter turns is a quarter turn again, so a match is weak evidence for a wrong order.
@@ -158,3 +157,9 @@ pub(super) struct DampingSchedule {
     pub(super) after_success: f64,
     pub(super) after_failure: f64,
 }
+
+/// Two hypotheses together are tried anyway.
+pub(super) const PAIR: usize = 2;
+
+/// Joints of a chain whose signs are all tried together: 2^8 sets take some milliseconds.
+pub(super) const MAX_FLIPPED_JOINTS: usize = 8;

@@ -65,12 +65,12 @@ impl FaultContext<'_> {
 
 /// Angles of a URDF with all digits of those that are rounded quarter turns.
 fn with_exact_quarters(rpy: &str) -> String {
-    /// Quarter turns as files write them, with four decimals. Unit: rad; kind: digits of a file.
-    const FOUR_DECIMALS_RAD: f64 = 1e-4;
+    /// Quarter turns as files write them, to three digits. Unit: rad; kind: digits of a file.
+    const ROUNDED_QUARTER_RAD: f64 = 1e-3;
     let exact = |word: &str| {
         let quarters = (word.parse::<f64>().ok()? / FRAC_PI_2).round() * FRAC_PI_2;
         let off = word.parse::<f64>().ok()? - quarters;
-        (off.abs() < FOUR_DECIMALS_RAD).then(|| (quarters + 0.0).to_string())
+        (off.abs() < ROUNDED_QUARTER_RAD).then(|| (quarters + 0.0).to_string())
     };
     rpy.split_whitespace()
         .map(|word| exact(word).unwrap_or_else(|| word.to_owned()))

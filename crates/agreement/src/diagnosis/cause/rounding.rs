@@ -10,7 +10,7 @@ use super::rpy::rpy_of;
 use crate::diagnosis::{
     hypothesis::{Cause, Hypothesis, ModelPair, Place},
     reference_model::ReferenceModel,
-    thresholds::{FOUR_DECIMALS_RAD, NO_TURN},
+    thresholds::{NO_TURN, ROUNDED_QUARTER_RAD},
 };
 
 pub(super) fn hypotheses(models: &ModelPair) -> Vec<Hypothesis> {
@@ -50,7 +50,7 @@ fn exact(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
         let rpy = rpy_of(rotation);
         let meant = rpy.map(|angle| {
             let quarters = (angle / FRAC_PI_2).round() * FRAC_PI_2;
-            if (quarters - angle).abs() < FOUR_DECIMALS_RAD { quarters } else { angle }
+            if (quarters - angle).abs() < ROUNDED_QUARTER_RAD { quarters } else { angle }
         });
         let [roll, pitch, yaw] = meant;
         meant
@@ -63,6 +63,6 @@ fn exact(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
 
 fn quarter_turns(rotation: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     let exact = rotation.map(f64::round);
-    ((exact - rotation).amax() < FOUR_DECIMALS_RAD && (exact.determinant() - 1.0).abs() < 0.5)
+    ((exact - rotation).amax() < ROUNDED_QUARTER_RAD && (exact.determinant() - 1.0).abs() < 0.5)
         .then_some(exact)
 }

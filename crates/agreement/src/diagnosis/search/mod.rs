@@ -1,6 +1,7 @@
-//! The search for the simplest explanation: one hypothesis, then two (`pairs.rs`), then the one with the
-//! largest effect and the parameters that are wrong besides (`stages.rs`).
+//! The search for the simplest explanation: one hypothesis, then two (`pairs.rs`) or any joints that are turned
+//! around (`flips.rs`), then the one with the largest effect and the parameters that are wrong besides (`stages.rs`).
 
+mod flips;
 mod pairs;
 mod stages;
 
@@ -108,12 +109,13 @@ impl ExplanationSearch<'_> {
         if !explained.is_empty() {
             return (explained, self.next_best(&singles));
         }
-        let mut pairs = self.pairs(&singles);
+        let flips = self.flips();
+        let mut pairs = [self.pairs(&singles), flips.clone()].concat();
         let explained = self.explaining(&pairs);
         if !explained.is_empty() {
             return (explained, self.next_best(&singles));
         }
-        let gross = self.gross(&singles);
+        let gross = self.gross(&[&singles[..], &flips].concat());
         let explained = self.staged(&gross);
         if explained.is_empty() && !gross.is_empty() {
             return (gross, Vec::new());
