@@ -47,8 +47,8 @@ fn every_command_says_which_chain_it_used() {
     let folder = tempfile::tempdir().unwrap();
     for command in commands(folder.path()) {
         let printed = congruent(&command).stdout;
-        let line = "chain from base_link (chosen: the root link) to gripper_frame_cp (chosen: the end of the longest \
-                    chain), 4 moving joints";
+        let line = "chain from base_link (chosen: the root link) to gripper_frame_cp (chosen: the end of the arm), 4 \
+                    moving joints";
         assert!(printed.contains(line), "{command:?}: {printed}");
         let chain = congruent_json(&command).json()["chain"].clone();
         assert_eq!(

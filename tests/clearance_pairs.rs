@@ -176,7 +176,7 @@ fn the_command_has_a_limit_and_names_too() {
     assert!((number(&found["distance_m"]) - apart_m).abs() < DISTANCE_M, "{found}");
     assert_eq!(clearance(&["--limit", "0.6m"]).code, 0);
     let ignored = clearance(&["--limit", "700mm", "--ignore", "mast,foot"]);
-    assert_eq!((ignored.code, &ignored.json()["ignored"][0][1]), (4, &Value::from("mast")));
+    assert!(ignored.code == 2 && ignored.stderr.contains("leaves no pair"), "{}", ignored.stderr);
     assert_eq!(clearance(&["--pair", "f*,mast"]).code, 0);
     for wrong in [["--pair", "foot,cart"], ["--ignore", "foot,masd"], ["--limit", "-3mm"], ["--pair", "foot"]]
     {

@@ -47,7 +47,7 @@ const ROUNDING: [Filter; 4] = [
 const NO_RESIDUAL: Filter = (r"(?:  )?\b0\.0+e0\b", "<rounding>");
 
 /// The configuration of an extreme: several are equal but for rounding, which chooses one of them.
-const CONFIGURATION: Filter = (r"(joint(?:_\d+)?) -?\d+\.\d+\b", "$1 <any>");
+const CONFIGURATION: Filter = (r"( at\n)(?: +\w+ -?[\d.]+ (?:deg|mm)[^\n]*\n)+", "$1    <configuration>\n");
 
 /// The sample of the extreme distance of a run: the links often move together for long.
 const SAMPLE: Filter = (r"((?:distance|position) [1-9]\S* mm at \S+ \()[\d.]+ s\)", "$1<any> s)");

@@ -182,9 +182,10 @@ fn packages_of_ros_are_followed_only_if_asked_for() {
     };
     let (ask, path) = (&["--ros-packages"][..], workspace.path().to_owned());
     assert_eq!(code(&[], "ROS_PACKAGE_PATH", path.clone()), Some(2));
-    assert_eq!(code(ask, "ROS_PACKAGE_PATH", path.clone()), Some(0));
+    // The mesh is found; with it alone there is no pair to measure.
+    assert_eq!(code(ask, "ROS_PACKAGE_PATH", path.clone()), Some(4));
     assert_eq!(code(ask, "AMENT_PREFIX_PATH", path.clone()), Some(2));
     fs::rename(path.join("src"), path.join("share")).unwrap();
     assert_eq!(code(&[], "AMENT_PREFIX_PATH", path.clone()), Some(2));
-    assert_eq!(code(ask, "AMENT_PREFIX_PATH", path), Some(0));
+    assert_eq!(code(ask, "AMENT_PREFIX_PATH", path), Some(4));
 }

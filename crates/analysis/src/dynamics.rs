@@ -108,6 +108,7 @@ pub fn dynamics(
     states: &[JointState],
 ) -> Result<DynamicsReport, JointDynamicsError> {
     let results = states.iter().map(|state| at(state, by)).collect::<Result<_, _>>()?;
+    let at_rest = (source == DynamicsSource::Model).then(|| stiction(robot, states)).flatten();
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     Ok(DynamicsReport {
         robot: robot.name().to_owned(),
@@ -118,8 +119,24 @@ pub fn dynamics(
         friction: options.friction,
         payload: options.payload,
         results,
-        warnings: description.warnings.iter().map(Finding::from).collect(),
+        warnings: description.warnings.iter().chain(&at_rest).map(Finding::from).collect(),
     })
+}
+
+/// Whether joints stand still that dry friction may hold.
+pub fn stiction(robot: &Robot, states: &[JointState]) -> Option<Diagnostic> {
+    let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint)).enumerate();
+    let rests = |row: usize| states.iter().any(|state| state.qd[row] == 0.0);
+    let held: Vec<&str> = joints()
+        .filter(|(row, joint)| joint.friction > 0.0 && rests(*row))
+        .map(|(_, joint)| joint.name.as_str())
+        .collect();
+    let message = format!(
+        "dry friction does not hold joints at rest in the equations of motion, and may in the robot: {}",
+        held.join(", ")
+    );
+    let help = "their accelerations are those without dry friction: give speeds, or ask --source simulation";
+    (!held.is_empty()).then(|| Diagnostic::warning("dynamics::at_rest", message).with_help(help))
 }
 
 fn at(state: &JointState, by: &mut dyn JointDynamics) -> Result<DynamicsResult, JointDynamicsError> {

@@ -62,7 +62,7 @@ pub struct ForwardReport {
 #[non_exhaustive]
 pub enum ForwardError {
     /// The robot file has no table.
-    #[error("robot \"{robot}\" has no [dh] table")]
+    #[error("robot \"{robot}\" has no [dh] table along this chain")]
     NoTable {
         /// The robot.
         robot: String,

@@ -98,7 +98,10 @@ impl JacobianFrame {
             (Some(link), _) => Ok(Self::Link(link)),
             (None, Some(tip_from_tcp)) if name == TCP => Ok(Self::Tcp(description.tip, tip_from_tcp.into())),
             (None, None) if name == TCP => {
-                let message = format!("robot \"{}\" declares no tool centre point", robot.name());
+                let message = format!(
+                    "robot \"{}\" declares no tool centre point at the end of this chain",
+                    robot.name()
+                );
                 Err(Diagnostic::error("jacobian::no_tcp", message)
                     .with_help("declare it under [tcp] in robot.toml, or name a link"))
             }

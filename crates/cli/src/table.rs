@@ -67,13 +67,28 @@ pub(crate) fn pose_cells(pose: &ReportedPose) -> impl Iterator<Item = String> {
     // Half a turn has one name.
     let angle = |value| in_column(value, "rad").replace("-180.00", "180.00");
     let angles = pose.rpy_rad().map(angle);
-    let quaternion = pose.quaternion_wxyz.map(|value| in_column(value, ""));
+    let quaternion = with_one_sign(pose.quaternion_wxyz).map(|value| in_column(value, ""));
     lengths.into_iter().chain(angles).chain(quaternion)
+}
+
+/// Of the two quaternions of an orientation the one whose first component that is not rounding is positive.
+pub(crate) fn with_one_sign(quaternion_wxyz: [f64; 4]) -> [f64; 4] {
+    const ROUNDING: f64 = 1e-9;
+    let first = quaternion_wxyz.iter().find(|component| component.abs() > ROUNDING);
+    let sign = first.map_or(1.0, |component| component.signum());
+    quaternion_wxyz.map(|component| sign * component)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rounding_does_not_turn_a_quaternion_around() {
+        assert_eq!(with_one_sign([-1e-17, 0.0, 0.6, 0.8])[2..], [0.6, 0.8]);
+        assert_eq!(with_one_sign([1e-17, 0.0, -0.6, -0.8])[2..], [0.6, 0.8]);
+        assert_eq!(with_one_sign([-1.0, 0.0, 0.0, 0.0])[0].to_bits(), 1.0_f64.to_bits());
+    }
 
     #[test]
     fn long_lists_are_wrapped() {

@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "A,B", value_parser = pair)]
     ignore: Vec<[String; 2]>,
     /// Smallest distance that is allowed; exit code 1 if a pair is nearer.
-    #[arg(long, value_name = "LENGTH", value_parser = positive_length)]
+    #[arg(long, value_name = "LENGTH", value_parser = positive_length, allow_hyphen_values = true)]
     limit: Option<f64>,
 }
 
@@ -66,21 +66,26 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         DistanceError::Pair(fault) => fault.diagnostic,
         error => Diagnostic::error("clearance::shape", error.to_string()),
     })?;
-    printer.result(&report, text)?;
-    Ok(match report.limit_m {
-        Some(_) if report.pairs.is_empty() || report.results.is_empty() => NOTHING,
-        _ if report.below.is_empty() => 0,
-        _ => FAILED,
-    })
+    let has_shape = description.robot.links().iter().any(|link| !link.collisions.is_empty());
+    printer.result(&report, |report| text(report, has_shape))?;
+    let is_nothing = report.pairs.is_empty() || report.results.is_empty();
+    let has_failed = !report.below.is_empty();
+    Ok(if is_nothing { NOTHING } else { u8::from(has_failed) * FAILED })
 }
 
-fn text(report: &DistanceReport) -> String {
+fn text(report: &DistanceReport, has_shape: bool) -> String {
     let mut text = String::new();
     for [a, b] in &report.ignored {
         let _ = writeln!(text, "ignored: {a} -- {b}");
     }
     if report.pairs.is_empty() {
-        text += "no pair of links to measure; --all-pairs adds neighbours\n";
+        text += match (has_shape, report.ignored.is_empty()) {
+            (false, _) => "nothing to measure: no link has a <collision> shape\n",
+            (true, false) => "no pair of links to measure: all are ignored\n",
+            (true, true) => {
+                "no pair of links to measure; --all-pairs adds neighbours and pairs that the SRDF disables\n"
+            }
+        };
         return text;
     }
     if let Some(limit_m) = report.limit_m {

@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use congruent::{
-    analysis::dynamics::{DynamicsOptions, DynamicsReport, DynamicsResult, DynamicsSource, Payload},
+    analysis::dynamics::{
+        DynamicsOptions, DynamicsReport, DynamicsResult, DynamicsSource, Payload, stiction,
+    },
     description::{display::quantity, serde_name},
 };
 
@@ -30,7 +32,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     friction: bool,
     /// A mass at the tool centre point, in kg; with X,Y,Z in m it is there in the frame of the TCP.
-    #[arg(long, value_name = "KG[,X,Y,Z]", value_parser = payload)]
+    #[arg(long, value_name = "KG[,X,Y,Z]", value_parser = payload, allow_hyphen_values = true)]
     payload: Option<Payload>,
 }
 
@@ -54,6 +56,9 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let states = arguments.configurations.read_states_or_rest(&mut description, printer)?;
     let options = DynamicsOptions { friction: arguments.friction, payload: arguments.payload };
     let report = congruent::joint_dynamics(&description, arguments.source, &options, &states)?;
+    if options.friction && arguments.source == DynamicsSource::Model {
+        printer.warnings(stiction(&description.robot, &states).as_slice());
+    }
     printer.result(&report, text)?;
     Ok(0)
 }
@@ -66,6 +71,7 @@ fn text(report: &DynamicsReport) -> String {
         let _ = write!(text, ", with {mass_kg} kg at ({x}, {y}, {z}) m from the TCP");
     }
     let _ = writeln!(text, "\n  {}", report.chain);
+    text += "  gravity: torque that holds it still; bias: at the speeds v; motion: at v and a; acceleration: under tau\n";
     for (index, result) in report.results.iter().enumerate() {
         let _ = writeln!(text, "state {}", index + 1);
         state(&mut text, report, result);
@@ -78,7 +84,7 @@ fn state(text: &mut String, report: &DynamicsReport, result: &DynamicsResult) {
     let _ = writeln!(
         text,
         "  {:width$}  {:>12}  {:>12}  {:>12}  {:>15}",
-        "joint", "gravity", "no accel.", "this motion", "acceleration"
+        "joint", "gravity", "bias", "motion", "acceleration"
     );
     let [gravity, bias, inverse, forward] =
         [&result.gravity_n_m, &result.bias_n_m, &result.inverse_dynamics_n_m, &result.forward_dynamics]

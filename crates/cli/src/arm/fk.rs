@@ -31,14 +31,15 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let mut description = arguments.arm.load_for(needed, printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
     let report = congruent::forward(&description, arguments.source, &configurations)?;
-    printer.result(&report, text)?;
+    let root = &description.robot.link(description.robot.root()).name;
+    printer.result(&report, |report| text(report, root))?;
     Ok(0)
 }
 
-fn text(report: &ForwardReport) -> String {
+fn text(report: &ForwardReport, root: &str) -> String {
     let mut text = format!("{}\n", report.chain);
     for (index, poses) in report.results.iter().enumerate() {
-        let _ = writeln!(text, "configuration {}: poses in the root link", index + 1);
+        let _ = writeln!(text, "configuration {}: poses in the root link {root}", index + 1);
         let mut table = Table::headed(POSE_COLUMNS);
         for (name, pose) in &poses.links {
             table.row([name.clone()].into_iter().chain(pose_cells(pose)));

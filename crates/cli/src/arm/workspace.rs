@@ -52,7 +52,11 @@ const WIDE: f64 = 0.1;
 
 fn text(report: &WorkspaceReport, robot: &Robot) -> String {
     let mut text = format!("{}\n", report.chain);
-    let _ = writeln!(text, "{}: the tool in link base, {} configurations", report.robot, report.samples);
+    let _ = writeln!(
+        text,
+        "{}: the tool in link {}, {} configurations",
+        report.robot, report.chain.base, report.samples
+    );
     for (name, reach) in ["nearest", "farthest"].iter().zip(&report.reach) {
         let distance = position(reach.distance_m, "m");
         let _ = writeln!(text, "  {name} {distance} from the base's origin, at");

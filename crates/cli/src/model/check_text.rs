@@ -14,7 +14,7 @@ use congruent::{
 };
 
 use super::diagnosis_text::diagnosed;
-use crate::table::wrapped;
+use crate::table::{with_one_sign, wrapped};
 
 pub(super) fn text(report: &CheckReport, robot: &Robot) -> String {
     let mut text = String::new();
@@ -76,7 +76,8 @@ pub(super) fn basics(basics: &Basics) -> String {
     let mut text = format!("  the TCP on {}, in the axes of {}:\n", basics.tip, basics.base);
     let width = basics.joints.iter().map(|joint| joint.joint.len()).max().unwrap_or(0);
     by_source(&mut text, &format!("{:width$} {:8}", "at zero", ""), &basics.zero, |pose| {
-        let [at, quaternion] = [&pose.translation_m.map(to_mm)[..], &pose.quaternion_wxyz].map(listed);
+        let [at, quaternion] =
+            [&pose.translation_m.map(to_mm)[..], &with_one_sign(pose.quaternion_wxyz)].map(listed);
         format!("at    {at} mm  quaternion {quaternion}")
     });
     for joint in &basics.joints {

@@ -10,6 +10,8 @@ const TOOL_FRAMES: [&[&str]; 4] =
     [&["flange"], &["ee", "eef", "effector", "endpoint"], &["tool", "tool0"], &["tcp"]];
 /// Words that only say that something is a link or a frame.
 const FILLERS: [&str; 3] = ["link", "frame", "joint"];
+/// Words for what looks on, and is no place for a tool.
+const SENSORS: [&str; 9] = ["camera", "cam", "optical", "lidar", "laser", "imu", "sensor", "rgb", "depth"];
 /// Words for joints that open and close a gripper.
 const JAWS: [&str; 6] = ["gripper", "finger", "jaw", "knuckle", "claw", "thumb"];
 /// Words for joints that turn a gripper and belong to the arm.
@@ -25,11 +27,12 @@ pub(super) fn tool_rank(link: &Link) -> usize {
     TOOL_FRAMES.iter().position(|names| names.contains(&last.as_str())).map_or(0, |rank| rank + 1)
 }
 
-/// Order of the frames of the last body: by name, then the farther in joints, then those that are frames and
+/// Order of the frames of the last body: by name, sensors last, then the farther in joints, then those that are frames and
 /// nothing else, then by file order.
 pub(super) fn preference(link: &Link, fixed_joints: usize, index: usize) -> impl Ord + use<> {
     let is_frame = link.inertia.is_none() && link.visuals.is_empty() && link.collisions.is_empty();
-    (tool_rank(link), fixed_joints, is_frame, Reverse(index))
+    let is_sensor = words(&link.name).any(|word| SENSORS.contains(&word.as_str()));
+    (tool_rank(link), !is_sensor, fixed_joints, is_frame, Reverse(index))
 }
 
 /// Whether a joint opens and closes a gripper, by its name.
@@ -41,6 +44,15 @@ pub(super) fn is_jaw(joint: &Joint) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_camera_is_no_tool() {
+        let link = |name: &str| Link { name: name.to_owned(), ..Link::default() };
+        let frames = [link("wrist_camera_optical_frame"), link("gripper_base"), link("tool0")];
+        let preferences = frames.each_ref().map(|link| preference(link, 3, 0));
+        assert!(preferences[0] < preferences[1] && preferences[1] < preferences[2]);
+        assert!(preference(&frames[0], 9, 0) < preference(&frames[1], 1, 0));
+    }
 
     #[test]
     fn the_last_word_of_a_name_counts() {

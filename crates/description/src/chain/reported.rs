@@ -57,7 +57,7 @@ impl fmt::Display for ReportedChain {
             self.base,
             why(self.base_is, "chosen: the root link"),
             self.tip,
-            why(self.tip_is, "chosen: the end of the longest chain"),
+            why(self.tip_is, "chosen: the end of the arm"),
             if joints == 1 { "" } else { "s" }
         )
     }
