@@ -1,0 +1,178 @@
+//! Two descriptions of one robot against each other.
+
+use congruent_description::UrdfPlaces;
+use congruent_dynamics::DynamicsError;
+use nalgebra::Matrix3;
+
+use super::{
+    content::{DynamicsReport, Premise, Sides, Verdict},
+    explained::Teller,
+};
+use crate::{
+    compare::{hidden, invariants::invariants, limits},
+    diagnosis::{Setting, Suspect, diagnose},
+    side::{Inertial, Side},
+    thresholds::{Precision, STATES},
+    torque::{
+        compressed::{Compressed, torques},
+        states::random_states,
+    },
+};
+
+/// One of the two descriptions.
+#[derive(Debug, Clone, Copy)]
+pub struct Description<'a> {
+    /// Its name in messages, such as the path of its file.
+    pub name: &'a str,
+    /// What it says.
+    pub side: &'a Side,
+    /// Where it says it, for messages with lines.
+    pub places: Option<&'a UrdfPlaces>,
+}
+
+/// Why two descriptions cannot be compared.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompareError {
+    /// A joint of one is missing in the other: they are not the same chain.
+    #[error("joint \"{joint}\" is in one of the two descriptions only")]
+    Joint {
+        /// The joint.
+        joint: String,
+    },
+    /// A figure is no number, or so large that torques overflow.
+    #[error("a figure is not finite, or too large to compute torques with")]
+    NotFinite,
+    /// A vector is another robot's.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
+}
+
+/// Compares two descriptions of the same chain at seeded random states.
+///
+/// Links and joints are matched by name; frames of equal name must be equal, which is the question of the kinematic
+/// comparison before this one.
+///
+/// # Errors
+/// [`CompareError`] if a joint is missing in one of them, or if figures are not finite.
+///
+/// # Examples
+/// A mass that is given in grams:
+/// ```
+/// use congruent_description::parse_urdf;
+/// use congruent_dynamics_agreement::{Cause, Description, Side, compare};
+/// let rod = |mass: &str| {
+///     let text = format!(r#"<robot name="rod"><link name="base"/>
+///     <link name="rod"><inertial><origin xyz="0.5 0 0"/><mass value="{mass}"/>
+///       <inertia ixx="0.01" iyy="0.2" izz="0.2" ixy="0" ixz="0" iyz="0"/></inertial></link>
+///     <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint>
+///     </robot>"#);
+///     Side::new(&parse_urdf(&text).unwrap())
+/// };
+/// let (wrong, right) = (rod("2000"), rod("2"));
+/// let description = |name, side| Description { name, side, places: None };
+/// let report = compare(&description("wrong", &wrong), &description("right", &right), 1)?;
+/// assert_eq!(report.explanations[0].cause, Cause::MassUnit);
+/// assert_eq!(report.explanations[0].sentence(), "rod: the mass is given in another unit (g)");
+/// # Ok::<(), congruent_dynamics_agreement::CompareError>(())
+/// ```
+pub fn compare(
+    candidate: &Description<'_>,
+    reference: &Description<'_>,
+    seed: u64,
+) -> Result<DynamicsReport, CompareError> {
+    let joints = matched(candidate.side, reference.side)?;
+    if [candidate, reference].iter().any(|description| !has_usable_numbers(description.side)) {
+        return Err(CompareError::NotFinite);
+    }
+    let seen_as_candidate = in_geometry_of(candidate.side, reference.side, &joints);
+    let states = random_states(&candidate.side.frames, seed, STATES);
+    let expected = torques(&seen_as_candidate, &states)?;
+    let torque = Compressed::new(candidate.side, &states, &expected)?;
+    let setting = Setting {
+        candidate: candidate.side,
+        reference: Some(reference.side),
+        suspect: Suspect::Candidate,
+        precision: Precision::EXACT,
+    };
+    let diagnosed = diagnose(&setting, &torque);
+    let teller = Teller {
+        candidate: candidate.side,
+        suspect: setting.suspect,
+        places: candidate.places,
+        difference: torque.difference.norm(),
+    };
+    let mut explained = diagnosed.explanations.iter().map(|grouped| teller.explanation(grouped));
+    let (explanations, indistinguishable) =
+        (explained.by_ref().take(1).collect::<Vec<_>>(), explained.collect());
+    let [differences, hidden_differences] =
+        hidden::differences(candidate.side, reference.side, &torque, diagnosed.same);
+    let limits = limits::differences(candidate.side, reference.side, &joints);
+    let verdict = match (diagnosed.same, explanations.is_empty()) {
+        (true, _) if differences.is_empty() => Verdict::Same,
+        (true, _) => Verdict::SameTorques,
+        (false, false) => Verdict::Explained,
+        (false, true) => Verdict::Unexplained,
+    };
+    let tree = seen_as_candidate.tree().without_resistances();
+    let link_name = |&link: &usize| candidate.side.frames.link_name(link).to_owned();
+    Ok(DynamicsReport {
+        sides: Sides {
+            candidate: candidate.name.to_owned(),
+            reference: reference.name.to_owned(),
+            suspect: setting.suspect,
+        },
+        verdict,
+        premise: Premise {
+            fit_relative: torque.outside / torque.torques,
+            held_out_relative: None,
+            states: states.len(),
+        },
+        seen: torque.seen,
+        invariants: Some(invariants([candidate.side, reference.side], &tree, &states[..INVARIANT_STATES])?),
+        links: diagnosed.links.iter().map(link_name).collect(),
+        differences,
+        hidden_differences,
+        explanations,
+        indistinguishable,
+        limits,
+    })
+}
+
+/// Invariants are compared at so many of the states. Kind: choice; they are an impression, the certificate is the bound.
+const INVARIANT_STATES: usize = 20;
+
+/// For each joint of the candidate the reference's of that name.
+fn matched(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareError> {
+    let missing = |joint: &str| CompareError::Joint { joint: joint.to_owned() };
+    for joint in &reference.frames.joints {
+        candidate.frames.find_joint(&joint.name).ok_or_else(|| missing(&joint.name))?;
+    }
+    let place = |name: &str| reference.frames.find_joint(name).ok_or_else(|| missing(name));
+    candidate.frames.joints.iter().map(|joint| place(&joint.name)).collect()
+}
+
+/// Larger figures overflow in squares of torques. Kind: range of numbers.
+const LARGEST_NUMBER: f64 = 1e60;
+
+fn has_usable_numbers(side: &Side) -> bool {
+    let terms = side.resistances.iter().flat_map(|of| [of.damping, of.friction, of.armature]);
+    let numbers = side.inertials.iter().flatten().flat_map(|inertial| inertial.about_origin().parameters());
+    terms.chain(numbers).chain(side.gravity_m_s2.iter().copied()).all(|number| number.abs() < LARGEST_NUMBER)
+}
+
+/// The figures of a reference in a candidate's geometry: one inertial for each body, in the frame of the link that its
+/// joint carries.
+fn in_geometry_of(candidate: &Side, reference: &Side, joints: &[usize]) -> Side {
+    let bodies = reference.bodies();
+    let mut seen = candidate.clone();
+    seen.inertials.fill(None);
+    for (joint, &other) in joints.iter().enumerate() {
+        let link = candidate.frames.joints[joint].link;
+        seen.inertials[link] = Some(Inertial::from_origin(&bodies[other], Matrix3::identity()));
+        seen.resistances[joint] = reference.resistances[other];
+        seen.limits[joint] = reference.limits[other];
+    }
+    seen.gravity_m_s2 = reference.gravity_m_s2;
+    seen
+}

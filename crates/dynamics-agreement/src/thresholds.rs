@@ -1,0 +1,91 @@
+//! Every threshold of the comparison, with its unit, its kind and the reason for its value.
+//!
+//! The benchmark `tests/planted.rs` justifies them together; a changed threshold is measured by
+//! `cargo test --release -p congruent-dynamics-agreement --test planted -- --ignored --nocapture`.
+
+/// What a source of torques is worth: how much of a difference an explanation may leave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Precision {
+    /// Share of the difference that may be left. No unit; kind: rounding, or truncation of the source.
+    pub of_difference: f64,
+    /// Share of both torques that may be left besides. No unit; kind: rounding.
+    pub of_torque: f64,
+    /// Differences below this share of the torque are none. No unit; kind: rounding of somebody's file.
+    pub same: f64,
+}
+
+impl Precision {
+    /// Two descriptions. Some thousand products leave 1e-15 of the torque, and a slip of 1e9 that much of its own.
+    pub const EXACT: Self = Self { of_difference: 1e-8, of_torque: 1e-13, same: 1e-10 };
+
+    /// Accelerations of a physics engine, extrapolated to a step of zero; worst seen 1e-10 of the acceleration.
+    pub const ENGINE: Self = Self { of_difference: 1e-5, of_torque: 1e-9, same: 1e-8 };
+
+    /// The largest norm that counts as nothing left.
+    pub(crate) fn exact(&self, difference: f64, torques: f64) -> f64 {
+        self.of_difference * difference + self.of_torque * torques
+    }
+}
+
+// States.
+
+/// States that torques are compared at. Kind: choice; the singular values of 20 give the number of base parameters
+/// already, 100 give every column some thousand digits' worth of rows.
+pub(crate) const STATES: usize = 100;
+/// Largest speed, rad/s or m/s. Kind: choice, so that velocity products are as large as gravity.
+pub(crate) const LARGEST_SPEED: f64 = 2.0;
+/// Smallest speed: dry friction is undefined at rest. Unit: rad/s or m/s; kind: choice.
+pub(crate) const SMALLEST_SPEED: f64 = 0.2;
+/// Largest acceleration, rad/s^2 or m/s^2. Kind: choice, that of a fast arm.
+pub(crate) const LARGEST_ACCELERATION: f64 = 10.0;
+
+// Numbers that torques see.
+
+/// Singular values below this share of the largest are none. No unit; kind: rounding of some thousand products; axes
+/// that a rounded pi/2 leaves almost parallel give 1e-6.
+pub(crate) const SEEN: f64 = 1e-11;
+/// Singular values below this share are seen by the rounding of the axes only. No unit; kind: digits of a file.
+pub(crate) const WEAKLY_SEEN: f64 = 1e-5;
+/// A direction of free numbers with a smaller share of the largest effect stays as it is written: nothing shows it.
+/// No unit; kind: rounding. Weakly seen numbers are above it.
+pub(crate) const FREE_AND_SEEN: f64 = 1e-7;
+/// A joint whose torque is a smaller share of the largest is weighted by the largest. No unit; kind: rounding.
+pub(crate) const NO_TORQUE: f64 = 1e-12;
+
+// Figures.
+
+/// Figures that differ by a smaller share of the link's own are equal. No unit; kind: digits of a file.
+pub(crate) const SAME_FIGURE: f64 = 1e-9;
+/// A figure below this share of the link's own is zero: a reader's rotation leaves as much. No unit; kind: rounding.
+pub(crate) const ZERO_FIGURE: f64 = 1e-12;
+/// A tensor is a power of ten times identity within this share. No unit; kind: rounding.
+pub(crate) const PLACEHOLDER: f64 = 1e-9;
+
+// Choice between explanations.
+
+/// Price of figures that the file does not have or that stand there as a placeholder, however many they are. Unit:
+/// free numbers; kind: choice, dearer than a slip and cheaper than any free number.
+pub(crate) const PRICE_OF_MISSING: f64 = 0.5;
+/// Price of each part beyond the first. Unit: free numbers; kind: choice.
+pub(crate) const PRICE_OF_PART: f64 = 1.0;
+
+// Fits.
+
+/// Most steps of a fit. Kind: loop bound; fits that reach zero take some six.
+pub(crate) const MAX_STEPS: usize = 30;
+/// A fit ends at a step below this share of its unknowns. No unit; kind: solver stop.
+pub(crate) const LAST_STEP: f64 = 1e-13;
+/// Step of a central difference of figures that are quadratic in each unknown, where it is exact. Unit: that of the
+/// unknown; kind: rounding.
+pub(crate) const QUADRATIC_STEP: f64 = 1e-2;
+/// Step of a central difference of a rotation. Unit: rad; kind: truncation of 1e-10, which costs a step more.
+pub(crate) const ROTATION_STEP_RAD: f64 = 1e-5;
+
+// Bounds.
+
+/// Boxes for each joint before a bracket is reported as it stands. Kind: speed; 0.1 ms to 1 ms a hundred.
+pub(crate) const MAX_BOXES: usize = 20_000;
+/// A bracket is closed within this share. No unit; kind: choice.
+pub(crate) const CLOSED: f64 = 0.01;
+/// Coefficients below this share of the largest are left out and added as slack. No unit; kind: rounding.
+pub(crate) const NO_COEFFICIENT: f64 = 1e-13;
