@@ -10,6 +10,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("description", &[]),
     ("kinematics", &["description"]),
     ("dynamics", &["description", "kinematics"]),
+    ("dynamics-agreement", &["description", "kinematics", "dynamics"]),
     ("simulation", &["description"]),
     ("agreement", &["description", "kinematics"]),
     ("calibration", &["description", "kinematics"]),

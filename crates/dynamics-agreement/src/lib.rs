@@ -7,9 +7,13 @@
 //! |---|---|
 //! | what does a description say | [`Side::new`] |
 //! | do two descriptions agree, and why not | [`compare`] |
+//! | does a source of accelerations agree | [`compare_with_source`] |
+//! | how large can the difference of gravity torque get | [`Certificates`] of a [`DynamicsReport`] |
 //!
-//! Nothing here reads a file, a clock or a random number but from a caller's seed.
+//! Nothing here reads a file, a clock or a random number but from a caller's seed, and the physics engine is unknown: it
+//! is an [`AccelerationSource`].
 
+mod bound;
 mod compare;
 mod diagnosis;
 mod report;
@@ -17,11 +21,12 @@ mod side;
 mod thresholds;
 mod torque;
 
+pub use bound::{TorqueBracket, TorqueCertificate};
 pub use compare::{Compared, FigureDifference, Invariants, LimitCause, LimitDifference};
-pub use diagnosis::{Cause, Place, Reason, Suspect};
+pub use diagnosis::{Cause, Reason, Suspect};
 pub use report::{
-    CompareError, Description, DynamicsReport, Explanation, Name, Premise, Sides, Verdict, compare,
+    Certificates, CompareError, Description, DynamicsReport, Explanation, Name, Premise, Sides, Verdict,
+    compare, compare_with_source,
 };
 pub use side::{BodyLaw, Frames, Inertial, Side};
-pub use thresholds::Precision;
-pub use torque::{SeenNumbers, State, random_states};
+pub use torque::{AccelerationSource, Probing, SeenNumbers};

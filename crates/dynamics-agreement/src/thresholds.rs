@@ -1,25 +1,25 @@
 //! Every threshold of the comparison, with its unit, its kind and the reason for its value.
 //!
-//! The benchmark `tests/planted.rs` justifies them together; a changed threshold is measured by
-//! `cargo test --release -p congruent-dynamics-agreement --test planted -- --ignored --nocapture`.
+//! The benchmark `diagnosis/planted.rs` justifies them together; a changed threshold is measured by
+//! `cargo test --release -p congruent-dynamics-agreement --lib planted -- --ignored --nocapture`.
 
 /// What a source of torques is worth: how much of a difference an explanation may leave.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Precision {
+pub(crate) struct Precision {
     /// Share of the difference that may be left. No unit; kind: rounding, or truncation of the source.
-    pub of_difference: f64,
+    pub(crate) of_difference: f64,
     /// Share of both torques that may be left besides. No unit; kind: rounding.
-    pub of_torque: f64,
+    pub(crate) of_torque: f64,
     /// Differences below this share of the torque are none. No unit; kind: rounding of somebody's file.
-    pub same: f64,
+    pub(crate) same: f64,
 }
 
 impl Precision {
     /// Two descriptions. Some thousand products leave 1e-15 of the torque, and a slip of 1e9 that much of its own.
-    pub const EXACT: Self = Self { of_difference: 1e-8, of_torque: 1e-13, same: 1e-10 };
+    pub(crate) const EXACT: Self = Self { of_difference: 1e-8, of_torque: 1e-13, same: 1e-10 };
 
     /// Accelerations of a physics engine, extrapolated to a step of zero; worst seen 1e-10 of the acceleration.
-    pub const ENGINE: Self = Self { of_difference: 1e-5, of_torque: 1e-9, same: 1e-8 };
+    pub(crate) const ENGINE: Self = Self { of_difference: 1e-5, of_torque: 1e-9, same: 1e-8 };
 
     /// The largest norm that counts as nothing left.
     pub(crate) fn exact(&self, difference: f64, torques: f64) -> f64 {
@@ -49,6 +49,9 @@ pub(crate) const WEAKLY_SEEN: f64 = 1e-5;
 /// A direction of free numbers with a smaller share of the largest effect stays as it is written: nothing shows it.
 /// No unit; kind: rounding. Weakly seen numbers are above it.
 pub(crate) const FREE_AND_SEEN: f64 = 1e-7;
+/// Effects below this share of the largest there is are rounding. No unit; kind: rounding. Not more: beside a tensor
+/// that is 1e9 times too large, weights make the effect of everything else that small.
+pub(crate) const ROUNDING: f64 = 1e-15;
 /// A joint whose torque is a smaller share of the largest is weighted by the largest. No unit; kind: rounding.
 pub(crate) const NO_TORQUE: f64 = 1e-12;
 
@@ -75,6 +78,8 @@ pub(crate) const PRICE_OF_PART: f64 = 1.0;
 pub(crate) const MAX_STEPS: usize = 30;
 /// A fit ends at a step below this share of its unknowns. No unit; kind: solver stop.
 pub(crate) const LAST_STEP: f64 = 1e-13;
+/// Further starts of a centre of mass beside what is written. Unit: m; kind: choice, the size of a link.
+pub(crate) const COM_START_M: f64 = 0.05;
 /// Step of a central difference of figures that are quadratic in each unknown, where it is exact. Unit: that of the
 /// unknown; kind: rounding.
 pub(crate) const QUADRATIC_STEP: f64 = 1e-2;
@@ -83,9 +88,13 @@ pub(crate) const ROTATION_STEP_RAD: f64 = 1e-5;
 
 // Bounds.
 
-/// Boxes for each joint before a bracket is reported as it stands. Kind: speed; 0.1 ms to 1 ms a hundred.
+/// Boxes for each joint before a bracket is reported as it stands. Kind: speed; a box of four joints costs 10 us.
 pub(crate) const MAX_BOXES: usize = 20_000;
+/// Control values for each joint before a bracket is reported as it stands. Kind: speed; some 0.2 s.
+pub(crate) const MAX_CONTROL_VALUES: usize = 20_000_000;
+/// Joints of which one torque may depend; more have 3^10 coefficients. Kind: speed and memory.
+pub(crate) const MAX_VARIABLES: usize = 9;
 /// A bracket is closed within this share. No unit; kind: choice.
-pub(crate) const CLOSED: f64 = 0.01;
+pub(crate) const CLOSED: f64 = 0.005;
 /// Coefficients below this share of the largest are left out and added as slack. No unit; kind: rounding.
 pub(crate) const NO_COEFFICIENT: f64 = 1e-13;

@@ -1,6 +1,7 @@
 //! Figures that differ, one by one.
 
 use congruent_dynamics::JointResistance;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::{
     side::{Frames, Inertial, JointTerm},
@@ -35,14 +36,11 @@ const FIGURES: [(&str, &str); 10] = [
     ("izz", "kg m^2"),
 ];
 
-/// The ten figures, each with the size that it is compared with; the tensor in the axes of the inertial frame, or in
-/// those of the link.
-fn figures(inertial: &Inertial, as_written: bool) -> ([f64; 10], [f64; 10]) {
+/// The ten figures, each with the size that it is compared with.
+fn figures(inertial: &Inertial, t: &Matrix3<f64>) -> ([f64; 10], [f64; 10]) {
     let (m, c) = (inertial.mass_kg, inertial.com_m);
-    let t = if as_written { inertial.tensor_kg_m2 } else { inertial.tensor_in_link() };
     let (length, size) = (c.amax(), t.amax());
-    let values =
-        [m, c.x, c.y, c.z, t[(0, 0)], t[(0, 1)], t[(0, 2)], t[(1, 1)], t[(1, 2)], t[(2, 2)]];
+    let values = [m, c.x, c.y, c.z, t[(0, 0)], t[(0, 1)], t[(0, 2)], t[(1, 1)], t[(1, 2)], t[(2, 2)]];
     let mut sizes = [size; 10];
     sizes[0] = m.abs();
     sizes[1..4].fill(length);
@@ -60,7 +58,10 @@ pub(crate) fn of_link(
         (Some(found), Some(expected)) => found.link_from_axes == expected.link_from_axes,
         _ => true,
     };
-    let values = [found, expected].map(|side| side.map(|inertial| figures(inertial, as_written)));
+    let tensor = |inertial: &Inertial| {
+        if as_written { inertial.tensor_kg_m2 } else { inertial.tensor_in_link() }
+    };
+    let values = [found, expected].map(|side| side.map(|inertial| figures(inertial, &tensor(inertial))));
     let differs = |at: usize| match &values {
         [Some((a, sizes)), Some((b, other_sizes))] => {
             (a[at] - b[at]).abs() > SAME_FIGURE * sizes[at].max(other_sizes[at])
@@ -96,7 +97,7 @@ pub(crate) fn of_joints(
                     figure: term.name().to_owned(),
                     found: Some(found),
                     expected: Some(expected),
-                    unit: term.unit(joint.is_angular).to_owned(),
+                    unit: term.unit(joint).to_owned(),
                 });
             }
         }
@@ -105,10 +106,7 @@ pub(crate) fn of_joints(
 }
 
 /// The components of gravity that differ.
-pub(crate) fn of_gravity(
-    found: &nalgebra::Vector3<f64>,
-    expected: &nalgebra::Vector3<f64>,
-) -> Vec<FigureDifference> {
+pub(crate) fn of_gravity(found: &Vector3<f64>, expected: &Vector3<f64>) -> Vec<FigureDifference> {
     let size = found.amax().max(expected.amax());
     let names = ["gravity_x", "gravity_y", "gravity_z"].into_iter().enumerate();
     let differing = names.filter(|(at, _)| (found[*at] - expected[*at]).abs() > SAME_FIGURE * size);

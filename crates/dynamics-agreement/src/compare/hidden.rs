@@ -9,33 +9,44 @@ use crate::{
     torque::compressed::Compressed,
 };
 
-/// All figures that differ, and those of them whose difference alone changes no torque; all of them if none does.
-pub(crate) fn differences(
+/// All figures of links that differ.
+pub(crate) fn differences(candidate: &Side, reference: &Side) -> Vec<FigureDifference> {
+    differing(candidate, reference).into_iter().map(|(_, difference)| difference).collect()
+}
+
+/// Those whose difference alone changes no torque.
+pub(crate) fn without_effect(
     candidate: &Side,
     reference: &Side,
     torque: &Compressed,
-    same_torques: bool,
-) -> [Vec<FigureDifference>; 2] {
-    let [mut all, mut hidden] = [Vec::new(), Vec::new()];
+) -> Vec<FigureDifference> {
+    let mut all = differing(candidate, reference);
+    all.retain(|(pair, difference)| !is_seen(torque, pair, &difference.figure));
+    all.into_iter().map(|(_, difference)| difference).collect()
+}
+
+/// A link on both sides.
+struct LinkPair {
+    link: usize,
+    found: Option<Inertial>,
+    expected: Option<Inertial>,
+}
+
+fn differing(candidate: &Side, reference: &Side) -> Vec<(LinkPair, FigureDifference)> {
+    let mut all = Vec::new();
     for (link, place) in candidate.frames.links.iter().enumerate() {
         let Some(other) = reference.frames.find_link(&place.name) else { continue };
-        let sides = [candidate.inertials[link], reference.inertials[other]];
-        let [found, expected] = &sides;
-        for difference in of_link(&place.name, found.as_ref(), expected.as_ref()) {
-            if same_torques || !is_seen(torque, link, sides, &difference.figure) {
-                hidden.push(difference.clone());
-            }
-            all.push(difference);
-        }
+        let (found, expected) = (candidate.inertials[link], reference.inertials[other]);
+        let differences = of_link(&place.name, found.as_ref(), expected.as_ref()).into_iter();
+        all.extend(differences.map(|difference| (LinkPair { link, found, expected }, difference)));
     }
-    [all, hidden]
+    all
 }
 
 /// Whether the difference of one figure, alone, changes a torque.
-fn is_seen(torque: &Compressed, link: usize, sides: [Option<Inertial>; 2], figure: &str) -> bool {
-    let (Some(block), [Some(found), Some(expected)]) = (torque.link(link), sides) else {
-        return torque.link(link).is_some();
-    };
+fn is_seen(torque: &Compressed, pair: &LinkPair, figure: &str) -> bool {
+    let Some(block) = torque.link(pair.link) else { return false };
+    let (Some(found), Some(expected)) = (pair.found, pair.expected) else { return true };
     let mut changed = found;
     let (tensor, other) = (found.tensor_in_link(), expected.tensor_in_link());
     match figure {

@@ -3,10 +3,7 @@
 use congruent_dynamics::{BodyTree, DynamicsError};
 use nalgebra::{DMatrix, SymmetricEigen, Vector3};
 
-use crate::{
-    side::Side,
-    torque::states::State,
-};
+use crate::{side::Side, torque::states::State};
 
 /// A value of both sides.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]

@@ -44,10 +44,13 @@ const FACTOR: f64 = 1e-3;
 pub(crate) fn differences(candidate: &Side, reference: &Side, joints: &[usize]) -> Vec<LimitDifference> {
     let mut differences = Vec::new();
     for (joint, &other) in joints.iter().enumerate() {
-        let (Some(found), Some(expected)) = (candidate.limits[joint], reference.limits[other]) else { continue };
+        let (Some(found), Some(expected)) = (candidate.limits[joint], reference.limits[other]) else {
+            continue;
+        };
         for (cause, figure, value) in LIMITS {
             let (found, expected) = (value(&found), value(&expected));
-            let states = |value: f64| value.is_finite() && (cause == LimitCause::PositionLimit || value != 0.0);
+            let states =
+                |value: f64| value.is_finite() && (cause == LimitCause::PositionLimit || value != 0.0);
             if !states(found) || !states(expected) {
                 continue;
             }

@@ -1,6 +1,7 @@
 //! Does a hypothesis leave nothing of the difference of torque, and with which figures?
 
 use congruent_dynamics::JointResistance;
+use congruent_kinematics::rotation_exp;
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 
 use super::{
@@ -9,7 +10,7 @@ use super::{
 };
 use crate::{
     side::{Inertial, JointTerm, Side},
-    thresholds::{LAST_STEP, MAX_STEPS},
+    thresholds::{COM_START_M, LAST_STEP, MAX_STEPS},
     torque::{compressed::Compressed, least_squares::solve},
 };
 
@@ -26,7 +27,6 @@ pub(crate) struct Corrected {
 pub(crate) struct Fit {
     pub(crate) hypothesis: Hypothesis,
     pub(super) corrected: Corrected,
-    pub(super) effect: DVector<f64>,
     /// Norm of what is left of the difference, with what lies outside.
     pub(super) left: f64,
     /// Combinations of the free numbers that torque shows.
@@ -45,14 +45,14 @@ pub(super) struct Target<'a> {
 /// What a correction does to the torques, and its figures.
 struct Effect {
     corrected: Corrected,
-    effect: DVector<f64>,
+    torque: DVector<f64>,
     rank: usize,
 }
 
 impl Target<'_> {
     /// The fit of a hypothesis, if it leaves nothing.
     pub(super) fn fit(&self, hypothesis: &Hypothesis) -> Option<Fit> {
-        let Effect { corrected, effect, rank } = match &hypothesis.change {
+        let Effect { corrected, torque, rank } = match &hypothesis.change {
             Change::Links(links) => self.links(links)?,
             Change::FreeLink { link, free } => {
                 let written = self.side.inertials[*link].unwrap_or_else(Inertial::nothing);
@@ -64,18 +64,18 @@ impl Target<'_> {
             Change::Gravity(gravity) => self.gravity(*gravity),
             Change::FreeGravity(along) => self.free_gravity(along),
         };
-        let left = (&self.torque.difference - &effect).norm().hypot(self.torque.outside);
-        (left <= self.exact).then(|| Fit { hypothesis: hypothesis.clone(), corrected, effect, left, rank })
+        let left = (&self.torque.difference - &torque).norm().hypot(self.torque.outside);
+        (left <= self.exact).then(|| Fit { hypothesis: hypothesis.clone(), corrected, left, rank })
     }
 
     /// What a correction does to the torques; `None` if it is about a link that does not move.
     pub(super) fn effect(&self, corrected: &Corrected) -> Option<DVector<f64>> {
-        let mut effect = self.links(&corrected.links)?.effect;
+        let mut effect = self.links(&corrected.links)?.torque;
         if let Some(joints) = &corrected.joints {
-            effect += self.joints(joints).effect;
+            effect += self.joints(joints).torque;
         }
         if let Some(gravity) = corrected.gravity {
-            effect += self.gravity(gravity).effect;
+            effect += self.gravity(gravity).torque;
         }
         Some(effect)
     }
@@ -92,7 +92,7 @@ impl Target<'_> {
             effect += self.of_figures(*link, figures)?;
         }
         let corrected = Corrected { links: links.to_vec(), ..Corrected::default() };
-        Some(Effect { corrected, effect, rank: 0 })
+        Some(Effect { corrected, torque: effect, rank: 0 })
     }
 
     fn free_link(&self, link: usize, from: &Inertial, free: Free) -> Option<Effect> {
@@ -109,7 +109,7 @@ impl Target<'_> {
         let written = self.side.inertials[link].unwrap_or_else(Inertial::nothing);
         let effect = block * (crate::side::inertial::TenNumbers::from(numbers) - written.ten_numbers());
         let corrected = Corrected { links: vec![(link, figures)], ..Corrected::default() };
-        Some(Effect { corrected, effect, rank: end.rank })
+        Some(Effect { corrected, torque: effect, rank: end.rank })
     }
 
     /// Where fits start: linear ones anywhere.
@@ -121,9 +121,7 @@ impl Target<'_> {
         free: Free,
     ) -> Vec<(Free, DVector<f64>)> {
         let zeros = DVector::zeros(free.count());
-        let linear = |free: Free| {
-            self.descend(block, target, (from, free), DVector::zeros(free.count()))
-        };
+        let linear = |free: Free| self.descend(block, target, (from, free), DVector::zeros(free.count()));
         match free {
             Free::Payload => {
                 let all = linear(Free::Inertial).unknowns;
@@ -140,8 +138,14 @@ impl Target<'_> {
                 let tensor = Free::Inertia.figures(from, fitted.unknowns.as_slice()).tensor_in_link();
                 turns_onto(&from.tensor_in_link(), &tensor)
                     .into_iter()
+                    .chain(SKEW_STARTS_RAD.map(|turn| rotation_exp(&Vector3::from(turn))))
                     .map(|turn| (Free::Rotation(turn), zeros.clone()))
                     .collect()
+            }
+            // A shift of the centre of mass is quadratic: where it is zero, its first step has no direction.
+            Free::Com | Free::ComEntry(_) => {
+                let shifted = |by_m: f64| (free, DVector::repeat(free.count(), by_m));
+                vec![(free, zeros), shifted(COM_START_M), shifted(-COM_START_M)]
             }
             _ => vec![(free, zeros)],
         }
@@ -190,7 +194,7 @@ impl Target<'_> {
             effect += self.torque.term(term) * DVector::from_vec(change);
         }
         let corrected = Corrected { joints: Some(joints.to_vec()), ..Corrected::default() };
-        Effect { corrected, effect, rank: 0 }
+        Effect { corrected, torque: effect, rank: 0 }
     }
 
     fn free_joints(&self, term: JointTerm, groups: &[Vec<usize>]) -> Effect {
@@ -207,12 +211,16 @@ impl Target<'_> {
             }
         }
         let corrected = Corrected { joints: Some(joints), ..Corrected::default() };
-        Effect { corrected, effect: columns * solution.unknowns, rank: solution.rank }
+        Effect { corrected, torque: columns * solution.unknowns, rank: solution.rank }
     }
 
     fn gravity(&self, gravity: Vector3<f64>) -> Effect {
         let effect = self.torque.gravity() * (gravity - self.side.gravity_m_s2);
-        Effect { corrected: Corrected { gravity: Some(gravity), ..Corrected::default() }, effect, rank: 0 }
+        Effect {
+            corrected: Corrected { gravity: Some(gravity), ..Corrected::default() },
+            torque: effect,
+            rank: 0,
+        }
     }
 
     fn free_gravity(&self, along: &[Vector3<f64>]) -> Effect {
@@ -222,9 +230,12 @@ impl Target<'_> {
         let changes = along.iter().zip(solution.unknowns.iter()).map(|(along, by)| along * *by);
         let gravity = self.side.gravity_m_s2 + changes.sum::<Vector3<f64>>();
         let corrected = Corrected { gravity: Some(gravity), ..Corrected::default() };
-        Effect { corrected, effect: columns * solution.unknowns, rank: solution.rank }
+        Effect { corrected, torque: columns * solution.unknowns, rank: solution.rank }
     }
 }
+
+/// Turns that lie square to nothing: a tensor that is turned onto its own axes changes no moment at first.
+const SKEW_STARTS_RAD: [[f64; 3]; 2] = [[0.5, 0.4, 0.3], [-0.4, 0.5, -0.3]];
 
 /// Where a fit ends.
 struct Descent {

@@ -37,11 +37,7 @@ const PRODUCTS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 impl Free {
     pub(super) fn count(self) -> usize {
         match self {
-            Self::Mass
-            | Self::Density
-            | Self::ComEntry(_)
-            | Self::InertiaEntry(..)
-            | Self::InertiaScale => 1,
+            Self::Mass | Self::Density | Self::ComEntry(_) | Self::InertiaEntry(..) | Self::InertiaScale => 1,
             Self::Com | Self::Products | Self::Rotation(_) => 3,
             Self::Payload => 4,
             Self::Inertia => 6,
@@ -53,8 +49,7 @@ impl Free {
     pub(super) fn about_origin(self, written: &Inertial, x: &[f64]) -> SpatialInertia {
         match self {
             Self::Payload => {
-                written.about_origin()
-                    + SpatialInertia::point_mass(x[0], Vector3::new(x[1], x[2], x[3]))
+                written.about_origin() + SpatialInertia::point_mass(x[0], Vector3::new(x[1], x[2], x[3]))
             }
             Self::Inertial => {
                 let mut numbers = written.about_origin().parameters();

@@ -22,7 +22,7 @@ pub enum Suspect {
 
 /// The place of a fault.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Place {
+pub(crate) enum Place {
     /// Links, by number.
     Links(Vec<usize>),
     /// Moving joints, by number.

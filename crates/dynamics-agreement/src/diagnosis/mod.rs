@@ -17,6 +17,10 @@ mod search;
 pub use cause_names::Cause;
 pub(crate) use diagnose::{Grouped, Setting, diagnose};
 pub(crate) use fit::Corrected;
-pub use hypothesis::{Place, Suspect};
+pub(crate) use hypothesis::Place;
+pub use hypothesis::Suspect;
 pub(crate) use rank::Exact;
 pub use reason::Reason;
+
+#[cfg(test)]
+mod planted;

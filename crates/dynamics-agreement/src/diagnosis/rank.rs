@@ -32,7 +32,8 @@ impl Exact {
             if let Some(joints) = &part.corrected.joints {
                 let before = corrected.joints.take().unwrap_or_else(|| side.resistances.clone());
                 let changed = joints.iter().zip(&side.resistances).zip(before);
-                corrected.joints = Some(changed.map(|((new, old), before)| added(new, old, before)).collect());
+                corrected.joints =
+                    Some(changed.map(|((new, old), before)| added(new, old, before)).collect());
             }
         }
         let law_broken = corrected
@@ -48,10 +49,6 @@ impl Exact {
     /// The left norm, of the part that was fitted last.
     pub(crate) fn left(&self) -> f64 {
         self.parts.last().map_or(0.0, |part| part.left)
-    }
-
-    pub(super) fn cause(&self) -> Cause {
-        if self.parts.len() > 1 { Cause::Several } else { self.parts[0].hypothesis.cause }
     }
 
     /// Smaller is first; prices are halves.
@@ -112,11 +109,16 @@ impl Fit {
     }
 }
 
+/// Exactly, as figures that nobody has touched are.
+fn is_equal(a: f64, b: f64) -> bool {
+    a.total_cmp(&b).is_eq()
+}
+
 /// What one correction changes, on top of what another one did.
 fn added(new: &JointResistance, old: &JointResistance, before: JointResistance) -> JointResistance {
     let mut sum = before;
     for term in JointTerm::ALL {
-        if term.of(new) != term.of(old) {
+        if !is_equal(term.of(new), term.of(old)) {
             term.set(&mut sum, term.of(new));
         }
     }
@@ -140,13 +142,13 @@ fn is_contradicted(side: &Side, reference: &Side, corrected: &Corrected) -> bool
         let (Some(written), Some(other)) = (written, reference.inertials[other]) else {
             return written.is_none() && reference.inertials[other].is_none();
         };
-        Difference::between(&written, figures).blames_what_is_equal(&Difference::between(&written, &other))
+        Differences::between(&written, figures).blame_what_is_equal(Differences::between(&written, &other))
     });
     let joints = corrected.joints.iter().flatten().enumerate().any(|(joint, new)| {
         let name = side.frames.joint_name(joint);
         let Some(other) = reference.frames.find_joint(name) else { return false };
         let (old, other) = (&side.resistances[joint], &reference.resistances[other]);
-        let blames = |new: f64, old: f64, other: f64| new != old && old == other;
+        let blames = |new: f64, old: f64, other: f64| !is_equal(new, old) && is_equal(old, other);
         blames(new.damping, old.damping, other.damping)
             || blames(new.friction, old.friction, other.friction)
             || blames(new.armature, old.armature, other.armature)
@@ -155,33 +157,27 @@ fn is_contradicted(side: &Side, reference: &Side, corrected: &Corrected) -> bool
     links || joints || gravity
 }
 
-/// Which of a link's figures differ.
-struct Difference {
-    mass: bool,
-    com: bool,
-    tensor: bool,
-}
+/// Which of a link's figures differ: mass, centre of mass, tensor.
+#[derive(Clone, Copy, PartialEq)]
+struct Differences([bool; 3]);
 
-impl Difference {
+impl Differences {
     fn between(a: &Inertial, b: &Inertial) -> Self {
-        let close = |a: f64, b: f64, size: f64| (a - b).abs() <= SAME_FIGURE * size;
-        let length = a.com_m.amax().max(b.com_m.amax());
+        let differs = |difference: f64, size: f64| difference > SAME_FIGURE * size;
         let tensors = [a.tensor_in_link(), b.tensor_in_link()];
-        let size = tensors[0].amax().max(tensors[1].amax());
-        Self {
-            mass: !close(a.mass_kg, b.mass_kg, a.mass_kg.abs().max(b.mass_kg.abs())),
-            com: (a.com_m - b.com_m).amax() > SAME_FIGURE * length,
-            tensor: (tensors[0] - tensors[1]).amax() > SAME_FIGURE * size,
-        }
+        Self([
+            differs((a.mass_kg - b.mass_kg).abs(), a.mass_kg.abs().max(b.mass_kg.abs())),
+            differs((a.com_m - b.com_m).amax(), a.com_m.amax().max(b.com_m.amax())),
+            differs((tensors[0] - tensors[1]).amax(), tensors[0].amax().max(tensors[1].amax())),
+        ])
     }
 
-    fn blames_what_is_equal(&self, real: &Self) -> bool {
-        (self.mass && !real.mass) || (self.com && !real.com) || (self.tensor && !real.tensor)
+    fn blame_what_is_equal(self, real: Self) -> bool {
+        self.0.into_iter().zip(real.0).any(|(blamed, real)| blamed && !real)
     }
 }
 
 /// Whether two figures describe the same body.
 fn is_same(a: &Inertial, b: &Inertial) -> bool {
-    let difference = Difference::between(a, b);
-    !(difference.mass || difference.com || difference.tensor)
+    Differences::between(a, b) == Differences([false; 3])
 }

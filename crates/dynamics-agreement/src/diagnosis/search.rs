@@ -118,9 +118,8 @@ impl<'a> Catalogue<'a> {
         let Some(effect) = target.effect(&fit.corrected) else { return Vec::new() };
         let rest = target.torque.with_difference(&target.torque.difference - &effect);
         let rest = Target { torque: &rest, ..*target };
-        let first = Fit { effect, ..fit.clone() };
         let completed = self.fits_of(&rest, second).into_iter();
-        completed.map(|second| [first.clone(), second]).collect()
+        completed.map(|second| [fit.clone(), second]).collect()
     }
 }
 

@@ -1,16 +1,16 @@
 //! Two descriptions of one robot against each other.
 
-use congruent_description::UrdfPlaces;
 use congruent_dynamics::DynamicsError;
 use nalgebra::Matrix3;
 
 use super::{
-    content::{DynamicsReport, Premise, Sides, Verdict},
-    explained::Teller,
+    content::{Certificates, DynamicsReport, Premise, Sides, Verdict},
+    told::{Description, Told},
 };
 use crate::{
+    bound::{TorqueCertificate, certify},
     compare::{hidden, invariants::invariants, limits},
-    diagnosis::{Setting, Suspect, diagnose},
+    diagnosis::{Setting, Suspect},
     side::{Inertial, Side},
     thresholds::{Precision, STATES},
     torque::{
@@ -18,17 +18,6 @@ use crate::{
         states::random_states,
     },
 };
-
-/// One of the two descriptions.
-#[derive(Debug, Clone, Copy)]
-pub struct Description<'a> {
-    /// Its name in messages, such as the path of its file.
-    pub name: &'a str,
-    /// What it says.
-    pub side: &'a Side,
-    /// Where it says it, for messages with lines.
-    pub places: Option<&'a UrdfPlaces>,
-}
 
 /// Why two descriptions cannot be compared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -43,6 +32,12 @@ pub enum CompareError {
     /// A figure is no number, or so large that torques overflow.
     #[error("a figure is not finite, or too large to compute torques with")]
     NotFinite,
+    /// The source of accelerations failed.
+    #[error("the source of accelerations: {message}")]
+    Source {
+        /// What it said.
+        message: String,
+    },
     /// A vector is another robot's.
     #[error(transparent)]
     Dynamics(#[from] DynamicsError),
@@ -95,27 +90,26 @@ pub fn compare(
         suspect: Suspect::Candidate,
         precision: Precision::EXACT,
     };
-    let diagnosed = diagnose(&setting, &torque);
-    let teller = Teller {
-        candidate: candidate.side,
-        suspect: setting.suspect,
-        places: candidate.places,
-        difference: torque.difference.norm(),
+    let told = Told::new(&setting, candidate, &torque);
+    let differences = hidden::differences(candidate.side, reference.side);
+    let hidden_differences = if told.same {
+        differences.clone()
+    } else {
+        hidden::without_effect(candidate.side, reference.side, &torque)
     };
-    let mut explained = diagnosed.explanations.iter().map(|grouped| teller.explanation(grouped));
-    let (explanations, indistinguishable) =
-        (explained.by_ref().take(1).collect::<Vec<_>>(), explained.collect());
-    let [differences, hidden_differences] =
-        hidden::differences(candidate.side, reference.side, &torque, diagnosed.same);
+    let gravity = if told.same {
+        TorqueCertificate::default()
+    } else {
+        certify(candidate.side, &seen_as_candidate, seed)?
+    };
     let limits = limits::differences(candidate.side, reference.side, &joints);
-    let verdict = match (diagnosed.same, explanations.is_empty()) {
+    let verdict = match (told.same, told.explanations.is_empty()) {
         (true, _) if differences.is_empty() => Verdict::Same,
         (true, _) => Verdict::SameTorques,
         (false, false) => Verdict::Explained,
         (false, true) => Verdict::Unexplained,
     };
     let tree = seen_as_candidate.tree().without_resistances();
-    let link_name = |&link: &usize| candidate.side.frames.link_name(link).to_owned();
     Ok(DynamicsReport {
         sides: Sides {
             candidate: candidate.name.to_owned(),
@@ -130,12 +124,13 @@ pub fn compare(
         },
         seen: torque.seen,
         invariants: Some(invariants([candidate.side, reference.side], &tree, &states[..INVARIANT_STATES])?),
-        links: diagnosed.links.iter().map(link_name).collect(),
+        links: told.links,
         differences,
         hidden_differences,
-        explanations,
-        indistinguishable,
+        explanations: told.explanations,
+        indistinguishable: told.indistinguishable,
         limits,
+        certificates: Certificates { gravity },
     })
 }
 
@@ -155,7 +150,7 @@ fn matched(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareErro
 /// Larger figures overflow in squares of torques. Kind: range of numbers.
 const LARGEST_NUMBER: f64 = 1e60;
 
-fn has_usable_numbers(side: &Side) -> bool {
+pub(super) fn has_usable_numbers(side: &Side) -> bool {
     let terms = side.resistances.iter().flat_map(|of| [of.damping, of.friction, of.armature]);
     let numbers = side.inertials.iter().flatten().flat_map(|inertial| inertial.about_origin().parameters());
     terms.chain(numbers).chain(side.gravity_m_s2.iter().copied()).all(|number| number.abs() < LARGEST_NUMBER)

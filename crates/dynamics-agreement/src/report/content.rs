@@ -1,6 +1,7 @@
 //! The report of a comparison of dynamics, as JSON. Units are SI.
 
 use crate::{
+    bound::TorqueCertificate,
     compare::{FigureDifference, Invariants, LimitDifference},
     diagnosis::{Cause, Reason, Suspect},
     torque::SeenNumbers,
@@ -33,6 +34,15 @@ pub struct DynamicsReport {
     pub indistinguishable: Vec<Explanation>,
     /// Limits of joints that differ.
     pub limits: Vec<LimitDifference>,
+    /// How large the differences of torque can get.
+    pub certificates: Certificates,
+}
+
+/// How large the differences of torque can get over the range of the joints.
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, schemars::JsonSchema)]
+pub struct Certificates {
+    /// Of gravity alone.
+    pub gravity: TorqueCertificate,
 }
 
 /// Names of the two sides.

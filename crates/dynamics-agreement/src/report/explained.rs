@@ -34,9 +34,9 @@ impl Teller<'_> {
             numbers: exact.price,
             left_relative: exact.left() / self.difference,
             is_a_body: exact.law_broken.is_none(),
-            body_law: exact.law_broken.map(|(link, law)| {
-                format!("{}: {}", self.candidate.frames.link_name(link), law.broken())
-            }),
+            body_law: exact
+                .law_broken
+                .map(|(link, law)| format!("{}: {}", self.candidate.frames.link_name(link), law.broken())),
             contradicted: exact.contradicted,
             also_named: grouped.also.iter().map(|exact| self.name(exact)).collect(),
             reason: grouped.reason,
@@ -75,7 +75,9 @@ impl Teller<'_> {
         let frames = &self.candidate.frames;
         match place {
             Place::Links(links) => links.iter().map(|&link| frames.link_name(link).to_owned()).collect(),
-            Place::Joints(joints) => joints.iter().map(|&joint| frames.joint_name(joint).to_owned()).collect(),
+            Place::Joints(joints) => {
+                joints.iter().map(|&joint| frames.joint_name(joint).to_owned()).collect()
+            }
             Place::AllLinks | Place::AllJoints => vec!["*".to_owned()],
             Place::Gravity => vec!["gravity".to_owned()],
         }

@@ -1,9 +1,13 @@
 //! The comparison as data and in words.
 
 mod compare_descriptions;
+mod compare_with_source;
 mod content;
 mod explained;
+mod told;
 mod words;
 
-pub use compare_descriptions::{CompareError, Description, compare};
-pub use content::{DynamicsReport, Explanation, Name, Premise, Sides, Verdict};
+pub use compare_descriptions::{CompareError, compare};
+pub use compare_with_source::compare_with_source;
+pub use content::{Certificates, DynamicsReport, Explanation, Name, Premise, Sides, Verdict};
+pub use told::Description;

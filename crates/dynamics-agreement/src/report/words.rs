@@ -43,12 +43,17 @@ impl Explanation {
             place => place,
         };
         let text = if self.cause == Cause::Several {
-            let parts = self.parts.iter().map(|part| format!("{}: {}", part.place.join(", "), part.cause.text()));
+            let parts =
+                self.parts.iter().map(|part| format!("{}: {}", part.place.join(", "), part.cause.text()));
             return parts.collect::<Vec<String>>().join("; ");
         } else {
             self.cause.text()
         };
-        if self.detail.is_empty() { format!("{place}: {text}") } else { format!("{place}: {text} ({})", self.detail) }
+        if self.detail.is_empty() {
+            format!("{place}: {text}")
+        } else {
+            format!("{place}: {text} ({})", self.detail)
+        }
     }
 }
 

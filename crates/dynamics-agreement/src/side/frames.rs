@@ -156,7 +156,8 @@ fn joint_place(robot: &Robot, index: JointIndex, links: &[LinkPlace]) -> JointPl
 
 /// Root, parent, children and visuals of every link.
 fn others(robot: &Robot, links: &[LinkPlace]) -> Vec<OtherFrame> {
-    let link_from = |link: usize, root_from_frame: &Pose| links[link].root_from_link.inverse() * *root_from_frame;
+    let link_from =
+        |link: usize, root_from_frame: &Pose| links[link].root_from_link.inverse() * *root_from_frame;
     let frame = |name: &str, each: &dyn Fn(usize) -> Option<Pose>| OtherFrame {
         name: name.to_owned(),
         link_from_frame: (0..links.len()).map(each).collect(),

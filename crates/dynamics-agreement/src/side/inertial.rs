@@ -176,10 +176,8 @@ mod tests {
     #[test]
     fn each_law_is_noticed() {
         let figures = turned();
-        let moments = |x, y, z| Inertial {
-            tensor_kg_m2: Matrix3::from_diagonal(&Vector3::new(x, y, z)),
-            ..figures
-        };
+        let moments =
+            |x, y, z| Inertial { tensor_kg_m2: Matrix3::from_diagonal(&Vector3::new(x, y, z)), ..figures };
         assert_eq!(figures.law_broken(1.0), None);
         assert_eq!(Inertial { mass_kg: -1.0, ..figures }.law_broken(1.0), Some(BodyLaw::Mass));
         assert_eq!(moments(1.0, -0.1, 1.0).law_broken(1.0), Some(BodyLaw::Moments));

@@ -2,6 +2,8 @@
 
 use congruent_dynamics::JointResistance;
 
+use super::frames::JointPlace;
+
 /// A term of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum JointTerm {
@@ -37,8 +39,8 @@ impl JointTerm {
         }
     }
 
-    pub(crate) fn unit(self, is_angular: bool) -> &'static str {
-        match (self, is_angular) {
+    pub(crate) fn unit(self, joint: &JointPlace) -> &'static str {
+        match (self, joint.is_angular) {
             (Self::Damping, true) => "N m s/rad",
             (Self::Damping, false) => "N s/m",
             (Self::Friction, true) => "N m",

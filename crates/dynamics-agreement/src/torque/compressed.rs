@@ -65,11 +65,8 @@ impl Compressed {
         let above = |share: f64| values.iter().filter(|value| **value > share * scale).count();
         let numbers = above(SEEN);
         let block = |first: usize, count: usize| r.columns(first, count).into_owned();
-        let bodies: Vec<DMatrix<f64>> =
-            (0..n).map(|body| block(PARAMETERS * body, PARAMETERS)).collect();
-        let link = |place: &LinkPlace| {
-            Some(&bodies[place.body?] * numbers_in_body(&place.body_from_link))
-        };
+        let bodies: Vec<DMatrix<f64>> = (0..n).map(|body| block(PARAMETERS * body, PARAMETERS)).collect();
+        let link = |place: &LinkPlace| Some(&bodies[place.body?] * numbers_in_body(&place.body_from_link));
         Ok(Self {
             difference: difference.rows(0, columns).into_owned(),
             outside,
@@ -132,22 +129,24 @@ impl Compressed {
 }
 
 /// All rows, weighted.
-struct Weighted {
+pub(super) struct Weighted {
     /// Bodies, then damping, friction and armature of each joint, then gravity.
-    columns: DMatrix<f64>,
-    candidate: DVector<f64>,
-    reference: DVector<f64>,
+    pub(super) columns: DMatrix<f64>,
+    pub(super) candidate: DVector<f64>,
+    pub(super) reference: DVector<f64>,
 }
 
-fn weighted(side: &Side, states: &[State], reference: &[Vec<f64>]) -> Result<Weighted, DynamicsError> {
+pub(super) fn weighted(
+    side: &Side,
+    states: &[State],
+    reference: &[Vec<f64>],
+) -> Result<Weighted, DynamicsError> {
     let n = side.frames.dof();
     let tree = side.tree();
     let weightless = side.tree().with_gravity(Vector3::zeros()).without_resistances();
     let mut buffer = tree.buffer();
     let zeros = vec![0.0; n];
-    let along: Vec<_> = (0..3)
-        .map(|axis| weightless.clone().with_gravity(Vector3::ith(axis, 1.0)))
-        .collect();
+    let along: Vec<_> = (0..3).map(|axis| weightless.clone().with_gravity(Vector3::ith(axis, 1.0))).collect();
     let mut columns = DMatrix::zeros(n * states.len(), (PARAMETERS + 3) * n + 3);
     let mut candidate = DVector::zeros(columns.nrows());
     let mut block = DMatrix::zeros(n, PARAMETERS * n);

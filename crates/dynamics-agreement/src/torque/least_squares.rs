@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::thresholds::{FREE_AND_SEEN, SEEN};
+use crate::thresholds::{FREE_AND_SEEN, ROUNDING, SEEN};
 
 /// The shortest solution of a least squares problem.
 pub(crate) struct Solution {
@@ -19,7 +19,7 @@ pub(crate) fn solve(columns: &DMatrix<f64>, target: &DVector<f64>, scale: f64) -
         return Solution { unknowns: DVector::zeros(columns.ncols()), rank: 0 };
     };
     let values = &decomposition.singular_values;
-    let least = (FREE_AND_SEEN * values.max()).max(SEEN * scale);
+    let least = (FREE_AND_SEEN * values.max()).max(ROUNDING * scale);
     let mut solution = Solution { unknowns: DVector::zeros(columns.ncols()), rank: 0 };
     for (at, &value) in values.iter().enumerate().filter(|(_, value)| **value > least) {
         let along = u.column(at).dot(target) / value;
@@ -33,7 +33,7 @@ pub(crate) fn solve(columns: &DMatrix<f64>, target: &DVector<f64>, scale: f64) -
 pub(crate) fn basis(columns: &DMatrix<f64>, scale: f64) -> DMatrix<f64> {
     let decomposition = columns.clone().svd(true, false);
     let values = &decomposition.singular_values;
-    let least = SEEN * values.max().max(scale);
+    let least = (SEEN * values.max()).max(ROUNDING * scale);
     let kept: Vec<usize> = (0..values.len()).filter(|&at| values[at] > least).collect();
     decomposition.u.map_or_else(|| DMatrix::zeros(columns.nrows(), 0), |u| u.select_columns(&kept))
 }

@@ -13,13 +13,13 @@ use crate::{
 
 /// Positions, speeds and accelerations of all moving joints, mimic joints independent.
 #[derive(Debug, Clone, PartialEq)]
-pub struct State {
+pub(crate) struct State {
     /// rad, m
-    pub q: RobotQ,
+    pub(crate) q: RobotQ,
     /// rad/s, m/s
-    pub qd: Vec<f64>,
+    pub(crate) qd: Vec<f64>,
     /// rad/s^2, m/s^2
-    pub qdd: Vec<f64>,
+    pub(crate) qdd: Vec<f64>,
 }
 
 /// Draws numbers evenly from an interval.
@@ -48,7 +48,7 @@ impl Uniform {
 }
 
 /// Random states within the limits of positions: speeds are never near zero, where dry friction is undefined.
-pub fn random_states(frames: &Frames, seed: u64, count: usize) -> Vec<State> {
+pub(crate) fn random_states(frames: &Frames, seed: u64, count: usize) -> Vec<State> {
     let mut random = Uniform::seeded(seed);
     let mut state = || State {
         q: random.position(frames),

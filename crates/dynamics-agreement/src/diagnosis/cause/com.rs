@@ -23,9 +23,8 @@ pub(super) fn slips<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
     let mut slips = Vec::new();
     let com = |figures: &Inertial, com_m: Vector3<f64>| Inertial { com_m, ..*figures };
     for (axis, name) in AXES.into_iter().enumerate() {
-        slips.push(Slip::new(Cause::ComSign, name, move |figures| {
-            com(figures, mirror(axis) * figures.com_m)
-        }));
+        slips
+            .push(Slip::new(Cause::ComSign, name, move |figures| com(figures, mirror(axis) * figures.com_m)));
     }
     slips.push(Slip::new(Cause::ComSign, "all", move |figures| com(figures, -figures.com_m)));
     for (name, order) in ORDERS {

@@ -60,10 +60,7 @@ fn is_principal(figures: &Inertial) -> bool {
 
 /// Nine numbers by rows, cut to six: five are put back, the last moment is free.
 fn by_rows(link: usize, figures: &Inertial) -> Hypothesis {
-    let change = Change::FreeLinkFrom {
-        link,
-        from: put_back_from_rows(figures),
-        free: Free::InertiaEntry(2, 2),
-    };
+    let change =
+        Change::FreeLinkFrom { link, from: put_back_from_rows(figures), free: Free::InertiaEntry(2, 2) };
     Hypothesis::new(Cause::InertiaOrder, "row_major_upper", Place::Links(vec![link]), change)
 }

@@ -46,7 +46,9 @@ fn slips(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
         friction: of.damping,
         ..of
     });
-    for (detail, factor) in [("degrees", 180.0 / std::f64::consts::PI), ("radians", std::f64::consts::PI / 180.0)] {
+    for (detail, factor) in
+        [("degrees", 180.0 / std::f64::consts::PI), ("radians", std::f64::consts::PI / 180.0)]
+    {
         let factor = suspect_factor(suspect, factor);
         everywhere(Cause::DampingUnit, detail, &|_, of| JointResistance {
             damping: of.damping * factor,
@@ -55,12 +57,14 @@ fn slips(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
     }
     match suspect {
         Suspect::Candidate => {
-            // Dry friction that was written as damping.
-            everywhere(Cause::FrictionAsDamping, "", &|_, of| JointResistance {
-                damping: 0.0,
-                friction: of.damping,
-                ..of
-            });
+            // Dry friction that was written as damping leaves none where it belongs.
+            if side.resistances.iter().all(|of| of.friction == 0.0) {
+                everywhere(Cause::FrictionAsDamping, "", &|_, of| JointResistance {
+                    damping: 0.0,
+                    friction: of.damping,
+                    ..of
+                });
+            }
         }
         Suspect::Reference => {
             everywhere(Cause::JointTermsMissing, "", &|_, _| JointResistance::default());

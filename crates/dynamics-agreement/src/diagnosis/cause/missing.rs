@@ -74,7 +74,8 @@ fn could_have_inertial(side: &Side, link: usize) -> bool {
     let place = &side.frames.links[link];
     let Some(body) = place.body else { return false };
     let mut others = side.frames.links_of(body);
-    place.has_shape || (side.frames.joints[body].link == link && others.all(|other| side.inertials[other].is_none()))
+    place.has_shape
+        || (side.frames.joints[body].link == link && others.all(|other| side.inertials[other].is_none()))
 }
 
 /// A power of ten times identity.

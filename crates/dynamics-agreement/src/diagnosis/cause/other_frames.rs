@@ -10,22 +10,28 @@ use crate::{
     thresholds::ZERO_FIGURE,
 };
 
-/// Which figures are in the other frame.
+/// Figures in the other frame.
 #[derive(Clone, Copy)]
 struct Wrong {
     cause: Cause,
-    com: bool,
-    tensor: bool,
+    figures: Figures,
     /// Only the axes, not the origin.
     axes_only: bool,
 }
 
+#[derive(Clone, Copy, PartialEq)]
+enum Figures {
+    Com,
+    Tensor,
+    Both,
+}
+
 const KINDS: [Wrong; 5] = [
-    Wrong { cause: Cause::ComFrame, com: true, tensor: false, axes_only: false },
-    Wrong { cause: Cause::ComAxes, com: true, tensor: false, axes_only: true },
-    Wrong { cause: Cause::InertialFrame, com: true, tensor: true, axes_only: false },
-    Wrong { cause: Cause::InertialAxes, com: true, tensor: true, axes_only: true },
-    Wrong { cause: Cause::InertiaAxes, com: false, tensor: true, axes_only: true },
+    Wrong { cause: Cause::ComFrame, figures: Figures::Com, axes_only: false },
+    Wrong { cause: Cause::ComAxes, figures: Figures::Com, axes_only: true },
+    Wrong { cause: Cause::InertialFrame, figures: Figures::Both, axes_only: false },
+    Wrong { cause: Cause::InertialAxes, figures: Figures::Both, axes_only: true },
+    Wrong { cause: Cause::InertiaAxes, figures: Figures::Tensor, axes_only: true },
 ];
 
 pub(super) fn slips(frames: &Frames, suspect: Suspect) -> Vec<Slip<'_>> {
@@ -52,10 +58,10 @@ impl Wrong {
             moved.translation = nalgebra::Vector3::zeros();
         }
         let mut figures = *figures;
-        if self.com {
+        if self.figures != Figures::Tensor {
             figures.com_m = moved.rotation * figures.com_m + moved.translation;
         }
-        if self.tensor {
+        if self.figures != Figures::Com {
             figures.link_from_axes = moved.rotation * figures.link_from_axes;
         }
         figures
@@ -64,9 +70,8 @@ impl Wrong {
 
 fn rotations<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
     let turned = |figures: &Inertial, link_from_axes: Matrix3<f64>| Inertial { link_from_axes, ..*figures };
-    let has_rotation = |figures: &Inertial| {
-        (figures.link_from_axes - Matrix3::identity()).amax() > ZERO_FIGURE
-    };
+    let has_rotation =
+        |figures: &Inertial| (figures.link_from_axes - Matrix3::identity()).amax() > ZERO_FIGURE;
     let mut slips = vec![
         Slip::at_link(Cause::RpyInverted, "", move |_, figures| {
             has_rotation(figures).then(|| turned(figures, figures.link_from_axes.transpose()))

@@ -9,8 +9,7 @@ use crate::{
 };
 
 const PRODUCTS: [(&str, (usize, usize)); 3] = [("ixy", (0, 1)), ("ixz", (0, 2)), ("iyz", (1, 2))];
-const MOMENT_PAIRS: [(&str, [usize; 2]); 3] =
-    [("ixx_iyy", [0, 1]), ("ixx_izz", [0, 2]), ("iyy_izz", [1, 2])];
+const MOMENT_PAIRS: [(&str, [usize; 2]); 3] = [("ixx_iyy", [0, 1]), ("ixx_izz", [0, 2]), ("iyy_izz", [1, 2])];
 const PRODUCT_PAIRS: [(&str, [usize; 2]); 3] =
     [("ixy_ixz", [0, 1]), ("ixy_iyz", [0, 2]), ("ixz_iyz", [1, 2])];
 
@@ -27,12 +26,16 @@ const ORDERS: [(&str, [usize; 6]); 3] = [
 const BY_ROWS: [usize; 6] = [0, 1, 2, 1, 3, 4];
 
 pub(super) fn slips<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
+    let towards_written = match suspect {
+        Suspect::Candidate => 1.0,
+        Suspect::Reference => -1.0,
+    };
     let mut slips = vec![
         tensor_slip(Cause::ProductsSign, "", |tensor| {
             Matrix3::from_diagonal(&tensor.diagonal()) * 2.0 - tensor
         }),
-        about_origin("", suspect == Suspect::Candidate),
-        about_origin("reverse", suspect == Suspect::Reference),
+        about_origin("", -towards_written),
+        about_origin("reverse", towards_written),
     ];
     for (name, entry) in PRODUCTS {
         slips.push(tensor_slip(Cause::ProductSign, name, move |tensor| {
@@ -42,9 +45,7 @@ pub(super) fn slips<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
         }));
     }
     for (name, [a, b]) in MOMENT_PAIRS {
-        slips.push(tensor_slip(Cause::MomentsSwapped, name, move |tensor| {
-            exchanged(tensor, (a, a), (b, b))
-        }));
+        slips.push(tensor_slip(Cause::MomentsSwapped, name, move |tensor| exchanged(tensor, (a, a), (b, b))));
     }
     for (name, [a, b]) in PRODUCT_PAIRS {
         slips.push(tensor_slip(Cause::ProductsSwapped, name, move |tensor| {
@@ -92,9 +93,8 @@ fn tensor_slip<'a>(
     })
 }
 
-/// The tensor is shifted to the centre of mass, or away from it.
-fn about_origin<'a>(detail: &str, towards_com: bool) -> Slip<'a> {
-    let sign = if towards_com { -1.0 } else { 1.0 };
+/// The tensor is shifted away from the centre of mass, or with sign -1 to it.
+fn about_origin<'a>(detail: &str, sign: f64) -> Slip<'a> {
     Slip::new(Cause::InertiaAboutOrigin, detail, move |figures| {
         figures.with_tensor_in_link(&(figures.tensor_in_link() + figures.shift() * sign))
     })

@@ -53,10 +53,7 @@ fn with_other(
     let sign = if suspect == Suspect::Candidate { -1.0 } else { 1.0 };
     let mut numbers = a.about_origin().parameters();
     numbers.iter_mut().zip(part.parameters()).for_each(|(number, part)| *number += sign * part);
-    Inertial::from_origin(
-        &congruent_dynamics::SpatialInertia::from_parameters(numbers),
-        a.link_from_axes,
-    )
+    Inertial::from_origin(&congruent_dynamics::SpatialInertia::from_parameters(numbers), a.link_from_axes)
 }
 
 /// A slip at all links that it changes, if these are several.
