@@ -24,6 +24,8 @@ pub struct TorqueBracket {
     pub attained_n_m: f64,
     /// No difference within the joints' ranges is larger.
     pub certified_n_m: f64,
+    /// Unit of both: `N m`, or `N` for a sliding joint.
+    pub unit: String,
     /// Where it was found, in the order of the moving joints; rad and m.
     pub q: Vec<f64>,
     /// `certified_n_m` as a part of the joint's effort limit; `null` if there is none.
@@ -177,6 +179,7 @@ impl<'a> Problem<'a> {
             joint: self.frames.joint_name(joint).to_owned(),
             attained_n_m: attained,
             certified_n_m: certified,
+            unit: if self.frames.joints[joint].is_angular { "N m" } else { "N" }.to_owned(),
             q: q.to_vec(),
             share_of_effort: effort.map(|effort| certified / effort),
             boxes,

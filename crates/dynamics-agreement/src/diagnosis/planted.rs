@@ -132,11 +132,11 @@ fn is_name_of(planted: &Planted, cause: Cause, suspect: Suspect) -> bool {
         )
         || matches!(
             (planted.cause, cause),
-            (Cause::DampingMissing | Cause::DampingDefault | Cause::FrictionAsDamping, Cause::Damping) if file
+            (Cause::DampingMissing | Cause::JointTermsMissing | Cause::DampingDefault | Cause::FrictionAsDamping, Cause::Damping) if file
         )
         || matches!(
             (planted.cause, cause),
-            (Cause::FrictionMissing | Cause::FrictionAsDamping, Cause::Friction) if file
+            (Cause::FrictionMissing | Cause::JointTermsMissing | Cause::FrictionAsDamping, Cause::Friction) if file
         )
         || matches!((planted.cause, cause), (Cause::DampingDefault, Cause::DampingMissing) if !file)
 }

@@ -5,6 +5,7 @@ use nalgebra::Matrix3;
 
 use super::{
     content::{Certificates, DynamicsReport, Premise, Sides, Verdict},
+    link_by_link::link_by_link,
     told::{Description, Told},
 };
 use crate::{
@@ -29,6 +30,9 @@ pub enum CompareError {
         /// The joint.
         joint: String,
     },
+    /// Nothing moves.
+    #[error("no joint moves: there is no joint torque to compare")]
+    NoJoint,
     /// A figure is no number, or so large that torques overflow.
     #[error("a figure is not finite, or too large to compute torques with")]
     NotFinite,
@@ -77,6 +81,9 @@ pub fn compare(
     seed: u64,
 ) -> Result<DynamicsReport, CompareError> {
     let joints = matched(candidate.side, reference.side)?;
+    if joints.is_empty() {
+        return Err(CompareError::NoJoint);
+    }
     if [candidate, reference].iter().any(|description| !has_usable_numbers(description.side)) {
         return Err(CompareError::NotFinite);
     }
@@ -90,7 +97,11 @@ pub fn compare(
         suspect: Suspect::Candidate,
         precision: Precision::EXACT,
     };
-    let told = Told::new(&setting, candidate, &torque);
+    let mut told = Told::new(&setting, candidate, &torque);
+    if !told.same && told.explanations.is_empty() {
+        let sides = (candidate, reference.side);
+        told.explanations = link_by_link(&setting, sides, &seen_as_candidate, &states)?;
+    }
     let differences = hidden::differences(candidate.side, reference.side);
     let hidden_differences = if told.same {
         differences.clone()

@@ -28,6 +28,9 @@ pub fn compare_with_source(
     (name, source): (&str, &mut dyn AccelerationSource),
     probing: Probing,
 ) -> Result<DynamicsReport, CompareError> {
+    if candidate.side.frames.dof() == 0 {
+        return Err(CompareError::NoJoint);
+    }
     if !has_usable_numbers(candidate.side) {
         return Err(CompareError::NotFinite);
     }

@@ -28,7 +28,8 @@ pub struct DynamicsReport {
     pub differences: Vec<FigureDifference>,
     /// Those of them that no joint torque shows.
     pub hidden_differences: Vec<FigureDifference>,
-    /// What explains the difference best; empty if there is none, or if nothing explains it.
+    /// What explains the difference best; empty if there is none, or if nothing explains it. More than one if the
+    /// difference is that of more than two links: then each explains its own link, joints or gravity.
     pub explanations: Vec<Explanation>,
     /// What leaves the same torques with other figures.
     pub indistinguishable: Vec<Explanation>,

@@ -4,6 +4,7 @@ mod compare_descriptions;
 mod compare_with_source;
 mod content;
 mod explained;
+mod link_by_link;
 mod told;
 mod words;
 

@@ -4,6 +4,7 @@ use congruent_description::display::{number, quantity};
 
 use super::content::{DynamicsReport, Explanation};
 use crate::{
+    bound::TorqueBracket,
     compare::FigureDifference,
     diagnosis::{Cause, Suspect},
 };
@@ -78,6 +79,20 @@ impl DynamicsReport {
             0 => all,
             weak => format!("{all}, {} of them only by the rounding of the axes", number(count(weak))),
         }
+    }
+}
+
+impl TorqueBracket {
+    /// `3.43 N m at shoulder_lift_joint (2.3 % of its effort), certified below 3.44 N m over the whole joint range`.
+    pub fn sentence(&self) -> String {
+        let share = self.share_of_effort.map(|share| format!(" ({} % of its effort)", number(share * 100.0)));
+        format!(
+            "{} at {}{}, certified below {} over the whole joint range",
+            quantity(self.attained_n_m, &self.unit),
+            self.joint,
+            share.unwrap_or_default(),
+            quantity(self.certified_n_m, &self.unit),
+        )
     }
 }
 
