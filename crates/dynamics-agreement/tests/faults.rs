@@ -308,3 +308,44 @@ fn turned_inertial_frames_and_hidden_figures_raise_no_alarm() {
         }
     });
 }
+
+/// Two climbs of a sum of absolute values end on the same hill within this share.
+const CLIMBED_SUM: f64 = 0.02;
+
+#[test]
+fn inertia_differences_are_bracketed() {
+    /// Of the report; the golden's is 1.
+    const ACCELERATION: f64 = 10.0;
+    let (mut brackets, mut tighter, mut loosest) = (0, 0, 1.0_f64);
+    each_fault(|fault, candidate, reference| {
+        let id = text(&fault["id"]);
+        let golden = &fault["mass_matrix_row"];
+        let (Some(joint), Some(attained)) = (golden["joint"].as_str(), golden["attained"].as_f64()) else {
+            return;
+        };
+        let certified = number(&golden["certified"]);
+        if attained == 0.0 {
+            return;
+        }
+        let found = compared(candidate, reference).certificates.inertia;
+        let Some(bracket) = found.by_joint.iter().find(|bracket| bracket.joint == joint) else {
+            assert!(attained < 1e-12, "{id}: nothing at {joint}, expected {attained}");
+            return;
+        };
+        let [low, high] = [bracket.attained_n_m, bracket.certified_n_m].map(|value| value / ACCELERATION);
+        assert!(high >= attained * (1.0 - RELATIVE), "{id} {joint}: {bracket:?} {attained}");
+        assert!(low <= certified * (1.0 + RELATIVE), "{id} {joint}: {bracket:?} {certified}");
+        if bracket.boxes > 0 {
+            assert!(low >= attained * (1.0 - CLIMBED_SUM), "{id} {joint}: {bracket:?} {attained}");
+        }
+        let ratio = high / low;
+        if ratio > 1.06 {
+            let golden = certified / attained;
+            println!("{id} {joint}: {ratio:.3}, golden {golden:.3}, {} boxes", bracket.boxes);
+        }
+        brackets += 1;
+        tighter += usize::from(high <= certified * 1.01);
+        loosest = loosest.max(ratio);
+    });
+    println!("{brackets} brackets, {tighter} as tight as the golden or tighter, loosest {loosest:.3}");
+}

@@ -120,18 +120,21 @@ fn a_figure_that_is_no_bodys_is_still_explained() {
     assert!(report.explanations[0].is_a_body);
 }
 
+fn unnamed(side: &Side) -> Description<'_> {
+    Description { name: "", side, places: None }
+}
+
 #[test]
 fn inputs_that_cannot_be_compared_are_refused() {
     let (ur5e, panda) = (Side::new(&load("ur5e").robot), Side::new(&load("panda").robot));
-    let description = |side| Description { name: "", side, places: None };
-    let error = compare(&description(&ur5e), &description(&panda), 1).expect_err("other joints");
+    let error = compare(&unnamed(&ur5e), &unnamed(&panda), 1).expect_err("other joints");
     assert!(matches!(error, CompareError::Joint { .. }), "{error}");
     let mut endless = ur5e.clone();
     figures(&mut endless, "forearm_link").mass_kg = f64::NAN;
-    let error = compare(&description(&endless), &description(&ur5e), 1).expect_err("no number");
+    let error = compare(&unnamed(&endless), &unnamed(&ur5e), 1).expect_err("no number");
     assert_eq!(error, CompareError::NotFinite);
     figures(&mut endless, "forearm_link").mass_kg = 1e300;
-    assert_eq!(compare(&description(&ur5e), &description(&endless), 1), Err(CompareError::NotFinite));
+    assert_eq!(compare(&unnamed(&ur5e), &unnamed(&endless), 1), Err(CompareError::NotFinite));
 }
 
 #[test]

@@ -101,7 +101,7 @@ fn region(function: &Trigonometric, ranges: Vec<(f64, f64)>, computed: &mut usiz
         array = along(&array, (&mut sizes, function.values), at, &control_points(variable, *range));
     }
     *computed += array.len();
-    let norms = array.chunks_exact(function.values).map(norm);
+    let norms = array.chunks_exact(function.values).map(|values| function.measure.of(values));
     let largest = norms.fold(0.0, f64::max);
     let bend = |at: usize| largest_bend(&array, &sizes, function.values, at);
     let width = |at: usize| ranges[at].1 - ranges[at].0;
@@ -112,28 +112,72 @@ fn region(function: &Trigonometric, ranges: Vec<(f64, f64)>, computed: &mut usiz
     Region { ranges, upper: largest * (1.0 + ROUNDING), bends }
 }
 
-/// The control polygon of a range, as rows of features.
+/// Points whose hull contains the curve over a range, as rows of features.
 fn control_points(variable: &Variable, (lower, upper): (f64, f64)) -> Vec<Vec<f64>> {
     if !variable.turns {
-        return vec![variable.features(lower), variable.features(upper)];
+        let [first, last] = [lower, upper].map(|q| variable.features(q));
+        if variable.degree == 1 {
+            return vec![first, last];
+        }
+        let between = vec![1.0, f64::midpoint(first[1], last[1]), first[1] * last[1]];
+        return vec![first, between, last];
     }
     let width = upper - lower;
     if width > 2.0 * WIDEST_ARC_RAD {
-        // A square around the whole circle.
-        return [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]
-            .map(|[cos, sin]| vec![1.0, cos, sin])
-            .to_vec();
+        return around_the_circle(variable.degree);
     }
-    // Where two arcs meet, the point lies between the control points beside it: it is not needed.
     let arcs = if width > WIDEST_ARC_RAD { 2_u32 } else { 1 };
     let half = width / f64::from(arcs) / 2.0;
     let mut points = vec![variable.features(lower)];
     for arc in 0..arcs {
         let middle = lower + half * f64::from(2 * arc + 1);
-        points.push(vec![1.0, middle.cos() / half.cos(), middle.sin() / half.cos()]);
+        let [first, last] = [middle - half, middle + half].map(|q| [1.0, q.cos(), q.sin()]);
+        let between = [half.cos(), middle.cos(), middle.sin()];
+        if variable.degree == 1 {
+            // Where two arcs meet, the point lies between the control points beside it: it is not needed.
+            points.push(between.map(|value| value / half.cos()).to_vec());
+            continue;
+        }
+        let [ends, twice] = [product(&first, &last), product(&between, &between)];
+        let mixed = std::array::from_fn(|at| ends[at] / 3.0 + twice[at] * 2.0 / 3.0);
+        points.extend([product(&first, &between), mixed, product(&between, &last)].map(normalised));
+        points.push(normalised(product(&last, &last)));
     }
-    points.push(variable.features(upper));
+    if variable.degree == 1 {
+        points.push(variable.features(upper));
+    }
     points
+}
+
+/// The features of second degree of a product of two curves `(weight, cos, sin)`, with their weight first.
+fn product(u: &[f64; 3], v: &[f64; 3]) -> [f64; 5] {
+    [
+        u[0] * v[0],
+        f64::midpoint(u[0] * v[1], u[1] * v[0]),
+        f64::midpoint(u[0] * v[2], u[2] * v[0]),
+        u[1] * v[1] - u[2] * v[2],
+        u[1] * v[2] + u[2] * v[1],
+    ]
+}
+
+fn normalised(point: [f64; 5]) -> Vec<f64> {
+    point.iter().map(|value| value / point[0]).collect()
+}
+
+/// A square around the circle; of second degree the points where all four waves together are largest.
+fn around_the_circle(degree: usize) -> Vec<Vec<f64>> {
+    if degree == 1 {
+        return [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]
+            .map(|[cos, sin]| vec![1.0, cos, sin])
+            .to_vec();
+    }
+    let radius = 2.0 * std::f64::consts::SQRT_2;
+    let point = |index: usize| {
+        let mut point = vec![1.0, 0.0, 0.0, 0.0, 0.0];
+        point[1 + index / 2] = if index.is_multiple_of(2) { radius } else { -radius };
+        point
+    };
+    (0..8).map(point).collect()
 }
 
 /// The largest second difference along a dimension; of a sliding joint, which bends nothing, none.
@@ -152,22 +196,32 @@ fn largest_bend(array: &[f64], sizes: &[usize], values: usize, at: usize) -> f64
     largest
 }
 
-pub(super) fn norm(values: &[f64]) -> f64 {
-    match values {
-        [one] => one.abs(),
-        several => several.iter().map(|value| value * value).sum::<f64>().sqrt(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::trigonometric::Measure, *};
+
+    #[test]
+    fn second_degree_closes_as_well() {
+        let function = |q: &[f64]| vec![q[0].cos() * q[0].sin() + q[1] * q[1] * q[0].cos(), q[1]];
+        let mut variables = vec![Variable::turning(0, (-3.0, 3.0)), Variable::sliding(1, (-0.4, 0.7))];
+        for variable in &mut variables {
+            variable.degree = 2;
+        }
+        let found = Trigonometric::sampled(variables, (2, Measure::Sum), function);
+        let grid = (0..400).flat_map(|a| (0..100).map(move |b| [f64::from(a), f64::from(b)]));
+        let values = grid.map(|[a, b]| function(&[-3.0 + 6.0 * a / 399.0, -0.4 + 1.1 * b / 99.0]));
+        let largest = values.map(|values| Measure::Sum.of(&values)).fold(0.0, f64::max);
+        let stop = Stop { below: largest * 1.005, boxes: 1000, control_values: 1_000_000 };
+        let bound = upper_bound(&found, stop);
+        assert!(bound.value >= largest && bound.value < largest * 1.01, "{bound:?} for {largest}");
+        assert!(bound.boxes < 200, "{bound:?}");
+    }
 
     #[test]
     fn the_bound_closes_on_the_maximum() {
         let function = |q: &[f64]| vec![q[0].cos() + 0.7 * (q[0] + q[1]).sin()];
         let variables = vec![Variable::turning(0, (-0.5, 2.0)), Variable::turning(1, (-3.0, 0.4))];
-        let found = Trigonometric::sampled(variables, 1, function);
+        let found = Trigonometric::sampled(variables, (1, Measure::Sum), function);
         let largest = (0..200)
             .flat_map(|a| (0..200).map(move |b| [f64::from(a), f64::from(b)]))
             .map(|[a, b]| function(&[-0.5 + 2.5 * a / 199.0, -3.0 + 3.4 * b / 199.0])[0].abs())

@@ -31,6 +31,68 @@ pub(super) fn largest(function: &Trigonometric, seed: u64) -> (f64, Vec<f64>) {
     climbed.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, Vec::new()))
 }
 
+/// The same for the measure of a function of several values, or of second degree: the best of many positions of each
+/// joint, refined.
+pub(super) fn largest_sampled(function: &Trigonometric, seed: u64) -> (f64, Vec<f64>) {
+    let mut random = Uniform::seeded(seed);
+    let climbed = (0..STARTS).map(|_| {
+        let draw = |variable: &Variable| random.between((variable.lower, variable.upper));
+        let mut q: Vec<f64> = function.variables.iter().map(draw).collect();
+        let mut best = function.measure.of(&function.at(&q));
+        for _ in 0..ROUNDS {
+            let before = best;
+            for at in 0..q.len() {
+                (best, q[at]) = best_of_one(function, at, &q);
+            }
+            if best - before <= LEAST_GAIN_SAMPLED * best {
+                break;
+            }
+        }
+        (best, q)
+    });
+    climbed.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, Vec::new()))
+}
+
+/// Positions of one joint that are tried before the best is refined. Kind: choice; waves of second degree have four
+/// slopes a turn.
+const POSITIONS: u32 = 48;
+/// Halvings of the interval around the best one. Kind: choice, to 1e-9 of the range.
+const HALVINGS: usize = 28;
+/// A round that gains less than this share is the last. No unit; kind: solver stop.
+const LEAST_GAIN_SAMPLED: f64 = 1e-6;
+
+/// The largest measure along one joint, at least that of where it is.
+fn best_of_one(function: &Trigonometric, at: usize, q: &[f64]) -> (f64, f64) {
+    let (variable, coefficients) = (function.variables[at], function.of_one(at, q));
+    let value = |q: f64| {
+        let mut values = vec![0.0; function.values];
+        for (feature, row) in variable.features(q).iter().zip(coefficients.chunks_exact(function.values)) {
+            values.iter_mut().zip(row).for_each(|(value, coefficient)| *value += feature * coefficient);
+        }
+        function.measure.of(&values)
+    };
+    let step = (variable.upper - variable.lower) / f64::from(POSITIONS);
+    let grid = (0..=POSITIONS).map(|index| variable.lower + step * f64::from(index));
+    let (mut best, mut place) = (value(q[at]), q[at]);
+    let mut width = step;
+    for candidate in grid {
+        let found = value(candidate);
+        if found > best {
+            (best, place) = (found, candidate);
+        }
+    }
+    for _ in 0..HALVINGS {
+        let beside = [place - width, place + width].map(|q| q.clamp(variable.lower, variable.upper));
+        for (found, candidate) in beside.map(|q| (value(q), q)) {
+            if found > best {
+                (best, place) = (found, candidate);
+            }
+        }
+        width /= 2.0;
+    }
+    (best, place)
+}
+
 fn climb(function: &Trigonometric, mut q: Vec<f64>) -> (f64, Vec<f64>) {
     let mut best = function.at(&q)[0].abs();
     for _ in 0..ROUNDS {

@@ -5,9 +5,10 @@ use congruent_dynamics::{BodyTree, DynamicsError, SpatialInertia};
 use nalgebra::Vector3;
 
 use super::{
-    branch::{Stop, norm, upper_bound},
+    branch::{Stop, upper_bound},
     climb,
-    trigonometric::{Trigonometric, Variable},
+    trigonometric::{Measure, Trigonometric, Variable},
+    ways::Ways,
 };
 use crate::{
     side::{Frames, Side},
@@ -43,6 +44,36 @@ pub struct TorqueCertificate {
     pub by_joint: Vec<TorqueBracket>,
 }
 
+impl TorqueBracket {
+    pub(super) fn new(
+        side: &Side,
+        joint: usize,
+        [attained, certified]: [f64; 2],
+        (q, boxes): (RobotQ, usize),
+    ) -> Self {
+        let effort = side.limits[joint].map(|limit| limit.effort).filter(|effort| *effort > 0.0);
+        let place = &side.frames.joints[joint];
+        Self {
+            joint: place.name.clone(),
+            attained_n_m: attained,
+            certified_n_m: certified,
+            unit: if place.is_angular { "N m" } else { "N" }.to_owned(),
+            q: q.to_vec(),
+            share_of_effort: effort.map(|effort| certified / effort),
+            boxes,
+        }
+    }
+}
+
+impl TorqueCertificate {
+    /// Of joints that have the same difference the one nearest to the base is the worst.
+    pub(super) fn of(by_joint: Vec<TorqueBracket>) -> Self {
+        let largest = by_joint.iter().map(|bracket| bracket.attained_n_m).fold(0.0, f64::max);
+        let is_worst = |bracket: &&TorqueBracket| bracket.attained_n_m >= largest * (1.0 - SAME_FIGURE);
+        Self { worst: by_joint.iter().find(is_worst).cloned(), by_joint }
+    }
+}
+
 /// Brackets the difference of gravity torque between a candidate and a reference in the candidate's geometry.
 pub(crate) fn certify(
     candidate: &Side,
@@ -52,8 +83,7 @@ pub(crate) fn certify(
     let problem = Problem::new(candidate, reference);
     let brackets = (0..problem.frames.dof()).map(|joint| problem.bracket(joint, seed));
     let by_joint: Vec<TorqueBracket> = brackets.filter_map(Result::transpose).collect::<Result<_, _>>()?;
-    let worst = by_joint.iter().max_by(|a, b| a.attained_n_m.total_cmp(&b.attained_n_m)).cloned();
-    Ok(TorqueCertificate { worst, by_joint })
+    Ok(TorqueCertificate::of(by_joint))
 }
 
 /// Random positions for a torque of too many joints. Kind: choice.
@@ -66,9 +96,9 @@ struct Problem<'a> {
     /// The difference of the bodies' inertias alone, under unit gravity along each axis; empty if gravity differs.
     along_axes: Vec<BodyTree>,
     gravity_m_s2: f64,
-    /// Difference of each body, and whether it is one that gravity could show.
+    /// Of each body.
     differences: Vec<SpatialInertia>,
-    differs: Vec<bool>,
+    ways: Ways<'a>,
 }
 
 impl<'a> Problem<'a> {
@@ -101,23 +131,21 @@ impl<'a> Problem<'a> {
             along_axes: weightless,
             gravity_m_s2: candidate.gravity_m_s2.norm(),
             differences,
-            differs,
+            ways: Ways { frames: &candidate.frames, differs },
         }
     }
 
     /// `None` if the joint has no difference.
     fn bracket(&self, joint: usize, seed: u64) -> Result<Option<TorqueBracket>, DynamicsError> {
-        let below = self.ways_below(joint);
-        let mut variables = self.variables(&below);
-        variables
-            .extend(self.frames.way_up(joint).filter(|up| !below.contains(up)).map(|up| self.variable(up)));
-        if below.is_empty() && !self.differs[joint] {
+        let below = self.ways.below(joint);
+        let variables = self.ways.variables(&self.ways.through(joint));
+        if below.is_empty() && !self.ways.differs[joint] {
             return Ok(None);
         }
         let crude = self.crude_bound(joint);
         if variables.len() > MAX_VARIABLES {
             let (attained, q) = self.sampled(joint, seed)?;
-            return Ok(Some(self.report(joint, attained, crude, (q, 0))));
+            return Ok(Some(self.report(joint, [attained, crude], (q, 0))));
         }
         let torque = self.torque(joint, variables)?;
         let (attained, positions) = climb::largest(&torque, seed);
@@ -128,7 +156,7 @@ impl<'a> Problem<'a> {
         for (variable, position) in torque.variables.iter().zip(positions) {
             q[variable.joint] = position;
         }
-        if norm(&torque.coefficients) == 0.0 && torque.slack == 0.0 {
+        if torque.coefficients.iter().all(|value| *value == 0.0) && torque.slack == 0.0 {
             return Ok(None);
         }
         let stop =
@@ -145,7 +173,7 @@ impl<'a> Problem<'a> {
             certified = certified.min(bound.value);
             boxes += bound.boxes;
         }
-        Ok(Some(self.report(joint, attained, certified.max(attained), (q, boxes))))
+        Ok(Some(self.report(joint, [attained, certified.max(attained)], (q, boxes))))
     }
 
     /// The largest difference at random positions: for a torque of too many joints.
@@ -167,44 +195,8 @@ impl<'a> Problem<'a> {
         Ok(best)
     }
 
-    fn report(
-        &self,
-        joint: usize,
-        attained: f64,
-        certified: f64,
-        (q, boxes): (RobotQ, usize),
-    ) -> TorqueBracket {
-        let effort = self.candidate.limits[joint].map(|limit| limit.effort).filter(|effort| *effort > 0.0);
-        TorqueBracket {
-            joint: self.frames.joint_name(joint).to_owned(),
-            attained_n_m: attained,
-            certified_n_m: certified,
-            unit: if self.frames.joints[joint].is_angular { "N m" } else { "N" }.to_owned(),
-            q: q.to_vec(),
-            share_of_effort: effort.map(|effort| certified / effort),
-            boxes,
-        }
-    }
-
-    /// The joints below one on the way to bodies that differ.
-    fn ways_below(&self, joint: usize) -> Vec<usize> {
-        let mut below: Vec<usize> = (0..self.frames.dof())
-            .filter(|&body| self.differs[body] && self.frames.way_up(body).any(|up| up == joint))
-            .flat_map(|body| self.frames.way_up(body).take_while(|&up| up != joint).collect::<Vec<_>>())
-            .collect();
-        below.sort_unstable();
-        below.dedup();
-        below
-    }
-
-    fn variables(&self, joints: &[usize]) -> Vec<Variable> {
-        joints.iter().map(|&joint| self.variable(joint)).collect()
-    }
-
-    fn variable(&self, joint: usize) -> Variable {
-        let place = &self.frames.joints[joint];
-        let new = if place.is_angular { Variable::turning } else { Variable::sliding };
-        new(joint, place.range)
+    fn report(&self, joint: usize, bracket: [f64; 2], at: (RobotQ, usize)) -> TorqueBracket {
+        TorqueBracket::new(self.candidate, joint, bracket, at)
     }
 
     /// The difference of a joint's gravity torque.
@@ -214,7 +206,7 @@ impl<'a> Problem<'a> {
         let mut tau = [vec![0.0; self.frames.dof()], vec![0.0; self.frames.dof()]];
         let joints: Vec<usize> = variables.iter().map(|variable| variable.joint).collect();
         let mut q = RobotQ::zeros(self.frames.dof());
-        let function = Trigonometric::sampled(variables, 1, |positions| {
+        let function = Trigonometric::sampled(variables, (1, Measure::Sum), |positions| {
             joints.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
             for ((tree, buffer), tau) in self.trees.iter().zip(&mut buffers).zip(&mut tau) {
                 if let Err(found) = tree.gravity_into(&q, buffer, tau) {
@@ -235,17 +227,18 @@ impl<'a> Problem<'a> {
         let mut buffer = self.trees[0].buffer();
         let mut tau = vec![0.0; self.frames.dof()];
         let mut q = RobotQ::zeros(self.frames.dof());
-        let function = Trigonometric::sampled(self.variables(below), 3, |positions| {
-            below.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
-            let mut along = Vec::with_capacity(3);
-            for tree in &self.along_axes {
-                if let Err(found) = tree.gravity_into(&q, &mut buffer, &mut tau) {
-                    error = Err(found);
+        let function =
+            Trigonometric::sampled(self.ways.variables(below), (3, Measure::Length), |positions| {
+                below.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
+                let mut along = Vec::with_capacity(3);
+                for tree in &self.along_axes {
+                    if let Err(found) = tree.gravity_into(&q, &mut buffer, &mut tau) {
+                        error = Err(found);
+                    }
+                    along.push(tau[joint]);
                 }
-                along.push(tau[joint]);
-            }
-            along
-        });
+                along
+            });
         error.map(|()| Some(function))
     }
 
@@ -254,7 +247,7 @@ impl<'a> Problem<'a> {
         if self.along_axes.is_empty() {
             return f64::INFINITY;
         }
-        let below = |body: &usize| self.frames.way_up(*body).any(|up| up == joint);
+        let below = |body: &usize| self.ways.carries(joint, *body);
         let turns = self.frames.joints[joint].is_angular;
         let lever = |body: usize| {
             let difference = &self.differences[body];

@@ -9,7 +9,7 @@ use super::{
     told::{Description, Told},
 };
 use crate::{
-    bound::{TorqueCertificate, certify},
+    bound::{certify_gravity, certify_inertia},
     compare::{hidden, invariants::invariants, limits},
     diagnosis::{Setting, Suspect},
     side::{Inertial, Side},
@@ -80,13 +80,7 @@ pub fn compare(
     reference: &Description<'_>,
     seed: u64,
 ) -> Result<DynamicsReport, CompareError> {
-    let joints = matched(candidate.side, reference.side)?;
-    if joints.is_empty() {
-        return Err(CompareError::NoJoint);
-    }
-    if [candidate, reference].iter().any(|description| !has_usable_numbers(description.side)) {
-        return Err(CompareError::NotFinite);
-    }
+    let joints = comparable(candidate.side, reference.side)?;
     let seen_as_candidate = in_geometry_of(candidate.side, reference.side, &joints);
     let states = random_states(&candidate.side.frames, seed, STATES);
     let expected = torques(&seen_as_candidate, &states)?;
@@ -108,18 +102,16 @@ pub fn compare(
     } else {
         hidden::without_effect(candidate.side, reference.side, &torque)
     };
-    let gravity = if told.same {
-        TorqueCertificate::default()
+    let certificates = if told.same {
+        Certificates::default()
     } else {
-        certify(candidate.side, &seen_as_candidate, seed)?
+        Certificates {
+            gravity: certify_gravity(candidate.side, &seen_as_candidate, seed)?,
+            inertia: certify_inertia(candidate.side, &seen_as_candidate, seed)?,
+        }
     };
     let limits = limits::differences(candidate.side, reference.side, &joints);
-    let verdict = match (told.same, told.explanations.is_empty()) {
-        (true, _) if differences.is_empty() => Verdict::Same,
-        (true, _) => Verdict::SameTorques,
-        (false, false) => Verdict::Explained,
-        (false, true) => Verdict::Unexplained,
-    };
+    let verdict = if told.same && differences.is_empty() { Verdict::Same } else { told.verdict() };
     let tree = seen_as_candidate.tree().without_resistances();
     Ok(DynamicsReport {
         sides: Sides {
@@ -141,14 +133,23 @@ pub fn compare(
         explanations: told.explanations,
         indistinguishable: told.indistinguishable,
         limits,
-        certificates: Certificates { gravity },
+        certificates,
     })
 }
 
 /// Invariants are compared at so many of the states. Kind: choice; they are an impression, the certificate is the bound.
 const INVARIANT_STATES: usize = 20;
 
-/// For each joint of the candidate the reference's of that name.
+/// For each joint of the candidate the reference's of that name, if torques can be computed at all.
+fn comparable(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareError> {
+    let joints = matched(candidate, reference)?;
+    if joints.is_empty() {
+        return Err(CompareError::NoJoint);
+    }
+    let usable = [candidate, reference].into_iter().all(has_usable_numbers);
+    if usable { Ok(joints) } else { Err(CompareError::NotFinite) }
+}
+
 fn matched(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareError> {
     let missing = |joint: &str| CompareError::Joint { joint: joint.to_owned() };
     for joint in &reference.frames.joints {

@@ -2,7 +2,7 @@
 
 use super::{
     compare_descriptions::{CompareError, has_usable_numbers},
-    content::{Certificates, DynamicsReport, Premise, Sides, Verdict},
+    content::{Certificates, DynamicsReport, Premise, Sides},
     told::{Description, Told},
 };
 use crate::{
@@ -46,18 +46,13 @@ pub fn compare_with_source(
         precision: Precision::ENGINE,
     };
     let told = Told::new(&setting, candidate, &torque);
-    let verdict = match (told.same, told.explanations.is_empty()) {
-        (true, _) => Verdict::SameTorques,
-        (false, false) => Verdict::Explained,
-        (false, true) => Verdict::Unexplained,
-    };
     Ok(DynamicsReport {
         sides: Sides {
             candidate: candidate.name.to_owned(),
             reference: name.to_owned(),
             suspect: setting.suspect,
         },
-        verdict,
+        verdict: told.verdict(),
         premise: Premise { fit_relative, held_out_relative: Some(held_out), states: states.len() },
         seen: torque.seen,
         invariants: None,

@@ -44,6 +44,8 @@ pub struct DynamicsReport {
 pub struct Certificates {
     /// Of gravity alone.
     pub gravity: TorqueCertificate,
+    /// Of accelerations up to 10 rad/s^2 and m/s^2 of every joint, without armature.
+    pub inertia: TorqueCertificate,
 }
 
 /// Names of the two sides.

@@ -2,7 +2,10 @@
 
 use congruent_description::UrdfPlaces;
 
-use super::{content::Explanation, explained::Teller};
+use super::{
+    content::{Explanation, Verdict},
+    explained::Teller,
+};
 use crate::{
     diagnosis::{Setting, diagnose},
     side::Side,
@@ -29,6 +32,15 @@ pub(super) struct Told {
 }
 
 impl Told {
+    /// By torques alone.
+    pub(super) fn verdict(&self) -> Verdict {
+        match (self.same, self.explanations.is_empty()) {
+            (true, _) => Verdict::SameTorques,
+            (false, false) => Verdict::Explained,
+            (false, true) => Verdict::Unexplained,
+        }
+    }
+
     pub(super) fn new(setting: &Setting<'_>, candidate: &Description<'_>, torque: &Compressed) -> Self {
         let diagnosed = diagnose(setting, torque);
         let teller = Teller {
