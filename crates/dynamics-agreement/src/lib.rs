@@ -8,7 +8,7 @@
 //! | what does a description say | [`Side::new`] |
 //! | do two descriptions agree, and why not | [`compare`] |
 //! | does a source of accelerations agree | [`compare_with_source`] |
-//! | how large can the difference of gravity torque get | [`Certificates`] of a [`DynamicsReport`] |
+//! | how large can the differences of torque get | [`certify`] |
 //!
 //! Nothing here reads a file, a clock or a random number but from a caller's seed, and the physics engine is unknown: it
 //! is an [`AccelerationSource`].
@@ -26,7 +26,7 @@ pub use compare::{Compared, FigureDifference, Invariants, LimitCause, LimitDiffe
 pub use diagnosis::{Cause, Reason, Suspect};
 pub use report::{
     Certificates, CompareError, Description, DynamicsReport, Explanation, Name, Premise, Sides, Verdict,
-    compare, compare_with_source,
+    certify, compare, compare_with_source,
 };
 pub use side::{BodyLaw, Frames, Inertial, Side};
 pub use torque::{AccelerationSource, Probing, SeenNumbers};

@@ -94,8 +94,8 @@ pub(crate) const MAX_BOXES: usize = 20_000;
 pub(crate) const MAX_CONTROL_VALUES: usize = 20_000_000;
 /// Joints of which one torque may depend; more have 3^10 coefficients. Kind: speed and memory.
 pub(crate) const MAX_VARIABLES: usize = 9;
-/// The same for entries of the mass matrix, which are quadratic: 5^7 coefficients. Kind: speed and memory.
-pub(crate) const MAX_SQUARED_VARIABLES: usize = 7;
+/// The same for entries of the mass matrix, which are quadratic: 5^6 coefficients. Kind: speed and memory.
+pub(crate) const MAX_SQUARED_VARIABLES: usize = 6;
 /// A bracket is closed within this share. No unit; kind: choice.
 pub(crate) const CLOSED: f64 = 0.005;
 /// Coefficients below this share of the largest are left out and added as slack. No unit; kind: rounding.

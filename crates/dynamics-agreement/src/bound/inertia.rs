@@ -2,7 +2,7 @@
 //! limit: attained, and certified from above.
 
 use congruent_description::RobotQ;
-use congruent_dynamics::{BodyTree, DynamicsError, SpatialInertia};
+use congruent_dynamics::{BodyTree, DynamicsBuffer, DynamicsError, SpatialInertia};
 use nalgebra::DMatrix;
 
 use super::{
@@ -30,6 +30,12 @@ pub(crate) fn certify(
     let brackets = (0..candidate.frames.dof()).map(|joint| rows.bracket(joint, seed));
     let by_joint = brackets.filter_map(Result::transpose).collect::<Result<_, _>>()?;
     Ok(TorqueCertificate::of(by_joint))
+}
+
+/// Two mass matrices and what computes them.
+struct Memory {
+    buffers: [DynamicsBuffer; 2],
+    matrices: [DMatrix<f64>; 2],
 }
 
 /// The rows of the difference of two mass matrices.
@@ -90,7 +96,7 @@ impl<'a> Rows<'a> {
         joints.retain(|&joint| frames.joints[joint].parent.is_some());
         let zeros = RobotQ::zeros(frames.dof());
         if joints.len() > MAX_SQUARED_VARIABLES {
-            let attained = self.row(&zeros, joint)?.iter().map(|value| value.abs()).sum();
+            let attained = self.row(&zeros, joint, &mut self.memory())?.iter().map(|value| value.abs()).sum();
             return Ok(Some(self.report(joint, [attained, crude], (zeros, 0))));
         }
         let row = self.function(joint, &joints)?;
@@ -120,14 +126,21 @@ impl<'a> Rows<'a> {
     }
 
     /// The entries of one row times the largest acceleration.
-    fn row(&self, q: &RobotQ, joint: usize) -> Result<Vec<f64>, DynamicsError> {
-        let n = self.candidate.frames.dof();
-        let mut matrices = [DMatrix::zeros(n, n), DMatrix::zeros(n, n)];
-        for (tree, matrix) in self.trees.iter().zip(&mut matrices) {
-            tree.mass_matrix_into(q, &mut tree.buffer(), matrix)?;
+    fn row(&self, q: &RobotQ, joint: usize, memory: &mut Memory) -> Result<Vec<f64>, DynamicsError> {
+        for ((tree, buffer), matrix) in self.trees.iter().zip(&mut memory.buffers).zip(&mut memory.matrices) {
+            tree.mass_matrix_into(q, buffer, matrix)?;
         }
-        let entry = |column: usize| matrices[0][(joint, column)] - matrices[1][(joint, column)];
-        Ok((0..n).map(|column| entry(column) * LARGEST_ACCELERATION).collect())
+        let [found, expected] = &memory.matrices;
+        let entry = |column: usize| found[(joint, column)] - expected[(joint, column)];
+        Ok((0..found.ncols()).map(|column| entry(column) * LARGEST_ACCELERATION).collect())
+    }
+
+    fn memory(&self) -> Memory {
+        let n = self.candidate.frames.dof();
+        Memory {
+            buffers: [self.trees[0].buffer(), self.trees[1].buffer()],
+            matrices: [DMatrix::zeros(n, n), DMatrix::zeros(n, n)],
+        }
     }
 
     fn function(&self, joint: usize, joints: &[usize]) -> Result<Trigonometric, DynamicsError> {
@@ -136,11 +149,12 @@ impl<'a> Rows<'a> {
             variable.degree = 2;
         }
         let n = self.candidate.frames.dof();
+        let mut memory = self.memory();
         let mut error = Ok(());
         let mut q = RobotQ::zeros(n);
         let function = Trigonometric::sampled(variables, (n, Measure::Sum), |positions| {
             joints.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
-            self.row(&q, joint).unwrap_or_else(|found| {
+            self.row(&q, joint, &mut memory).unwrap_or_else(|found| {
                 error = Err(found);
                 vec![0.0; n]
             })

@@ -2,7 +2,7 @@
 
 use super::{
     compare_descriptions::{CompareError, has_usable_numbers},
-    content::{Certificates, DynamicsReport, Premise, Sides},
+    content::{DynamicsReport, Premise, Sides},
     told::{Description, Told},
 };
 use crate::{
@@ -62,6 +62,6 @@ pub fn compare_with_source(
         explanations: told.explanations,
         indistinguishable: told.indistinguishable,
         limits: Vec::new(),
-        certificates: Certificates::default(),
+        certificates: None,
     })
 }

@@ -35,8 +35,8 @@ pub struct DynamicsReport {
     pub indistinguishable: Vec<Explanation>,
     /// Limits of joints that differ.
     pub limits: Vec<LimitDifference>,
-    /// How large the differences of torque can get.
-    pub certificates: Certificates,
+    /// How large the differences of torque can get; `null` if nobody has asked.
+    pub certificates: Option<Certificates>,
 }
 
 /// How large the differences of torque can get over the range of the joints.

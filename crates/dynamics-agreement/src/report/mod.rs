@@ -8,7 +8,7 @@ mod link_by_link;
 mod told;
 mod words;
 
-pub use compare_descriptions::{CompareError, compare};
+pub use compare_descriptions::{CompareError, certify, compare};
 pub use compare_with_source::compare_with_source;
 pub use content::{Certificates, DynamicsReport, Explanation, Name, Premise, Sides, Verdict};
 pub use told::Description;
