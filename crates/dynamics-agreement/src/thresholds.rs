@@ -1,7 +1,19 @@
 //! Every threshold of the comparison, with its unit, its kind and the reason for its value.
 //!
-//! The benchmark `diagnosis/planted.rs` justifies them together; a changed threshold is measured by
-//! `cargo test --release -p congruent-dynamics-agreement --lib planted -- --ignored --nocapture`.
+//! The benchmark `diagnosis/planted.rs` justifies them together. It plants every cause and detail at every link, several
+//! links, all links, joints and gravity, in the candidate's file and in what was built from it, and counts how often the
+//! true cause is named, listed as having the same effect, or seen by no joint torque; none was missed:
+//!
+//! | robot | file: faults, named / listed / hidden | built from it: faults, named / listed / hidden |
+//! |---|---|---|
+//! | `ur5e` | 634: 590 / 14 / 30 | 642: 585 / 27 / 30 |
+//! | `iiwa14` | 750: 702 / 14 / 34 | 757: 695 / 28 / 34 |
+//! | `panda` | 1154: 1065 / 34 / 55 | 1162: 1009 / 98 / 55 |
+//! | `so100` | 679: 656 / 10 / 13 | 686: 653 / 20 / 13 |
+//! | `denso_hsr065` | 220: 116 / 62 / 42 | 225: 128 / 55 / 42 |
+//!
+//! Of the 71 faults of the corpus the 57 that torque shows are named, and the others raise no alarm. A changed threshold
+//! is measured by `cargo test --release -p congruent-dynamics-agreement --lib planted -- --ignored --nocapture`.
 
 /// What a source of torques is worth: how much of a difference an explanation may leave.
 #[derive(Debug, Clone, Copy, PartialEq)]
