@@ -7,7 +7,11 @@ use super::{
     reason::Reason,
     search::{Catalogue, Part},
 };
-use crate::{side::Side, thresholds::Precision, torque::compressed::Compressed};
+use crate::{
+    side::Side,
+    thresholds::{PAIRS_ABOVE, Precision},
+    torque::compressed::Compressed,
+};
 
 /// Whose figures are suspected, and what is known.
 #[derive(Clone, Copy)]
@@ -58,10 +62,12 @@ pub(crate) fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed 
     let exactly = |parts| Exact::new(parts, setting.candidate, setting.reference);
     let mut found: Vec<Exact> =
         catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit])).collect();
-    if found.is_empty() {
-        found = catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into())).collect();
-        sort(&mut found);
-        found.truncate(MOST_PAIRS);
+    if found.iter().all(|exact| exact.price > PAIRS_ABOVE) {
+        let mut pairs: Vec<Exact> =
+            catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into())).collect();
+        sort(&mut pairs);
+        pairs.truncate(MOST_PAIRS);
+        found.extend(pairs);
     }
     sort(&mut found);
     Diagnosed { same: false, links, explanations: grouped(setting.candidate, torque, found) }

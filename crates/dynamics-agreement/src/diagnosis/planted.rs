@@ -104,6 +104,15 @@ fn shifted(figures: &Inertial, free: Free) -> Inertial {
     free.figures(figures, &x)
 }
 
+/// The original with both faults of two, the second one at a link.
+fn with_both(a: &Planted, b: &Planted) -> Side {
+    let mut side = a.side.clone();
+    if let Place::Links(links) = &b.place {
+        side.inertials[links[0]] = b.side.inertials[links[0]];
+    }
+    side
+}
+
 /// What is missing at all links of a file at once has no answer: zeros tell nothing.
 fn can_be_told(planted: &Planted, suspect: Suspect) -> bool {
     let loses_numbers = matches!(
@@ -233,5 +242,56 @@ fn every_cause_is_found_on_many_robots() {
         for counts in bench(name, &[Suspect::Candidate, Suspect::Reference]) {
             assert_eq!(counts.missed, 0, "{name}: {counts:?}");
         }
+    }
+}
+
+/// Two faults on links of different bodies, in the file.
+fn two_at_once(original: &Side, faults: &[Planted], stride: usize) -> Vec<[usize; 2]> {
+    let body = |at: usize| match &faults[at].place {
+        Place::Links(links) if links.len() == 1 => original.frames.links[links[0]].body,
+        _ => None,
+    };
+    let indices = (0..).map(|step| [step * stride, step * stride * 7 + 3].map(|at| at % faults.len()));
+    let usable = |&[a, b]: &[usize; 2]| body(a).is_some() && body(b).is_some() && body(a) != body(b);
+    indices.take(20 * PAIRS).filter(usable).take(PAIRS).collect()
+}
+
+/// Pairs of faults for each robot.
+const PAIRS: usize = 150;
+
+#[test]
+#[ignore = "a benchmark of hundreds of pairs of faults: run it after a change of thresholds or causes"]
+fn two_faults_at_once_are_found() {
+    let Some(corpus) = corpus::corpus() else { return };
+    for name in ["ur5e", "iiwa14", "panda", "so100"] {
+        let path = corpus.join("robots").join(name).join("robot.urdf");
+        let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
+        let original = Side::new(&robot);
+        let mut faults = planted(&original);
+        faults.retain(|planted| can_be_told(planted, Suspect::Candidate));
+        let mut counts = [0; 4];
+        for pair in two_at_once(&original, &faults, 37) {
+            let [a, b] = pair.map(|at| &faults[at]);
+            let side = with_both(a, b);
+            let states = random_states(&side.frames, 1, STATES);
+            let torque = torques(&original, &states).expect("the robot's own states");
+            let torque = Compressed::new(&side, &states, &torque).expect("the robot's own states");
+            let suspect = Suspect::Candidate;
+            let setting = Setting { candidate: &side, reference: None, suspect, precision: Precision::EXACT };
+            let explanations = diagnose(&setting, &torque).explanations;
+            let names_one = |grouped: &Grouped| names(a, grouped, suspect) || names(b, grouped, suspect);
+            let names_both = |grouped: &Grouped| names(a, grouped, suspect) && names(b, grouped, suspect);
+            // A fault that torque does not show leaves the other one.
+            let found = match explanations.first() {
+                Some(first) if names_both(first) => 0,
+                Some(_) if explanations.iter().any(names_both) => 1,
+                Some(_) if explanations.iter().any(names_one) => 2,
+                _ => 3,
+            };
+            counts[found] += 1;
+        }
+        let [named, listed, one, missed] = counts;
+        println!("{name}: both named {named}, listed {listed}, one of them {one}, none {missed}");
+        assert!(missed * 30 <= PAIRS, "{name}: {missed}");
     }
 }
