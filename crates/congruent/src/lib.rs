@@ -8,6 +8,7 @@ pub use congruent_analysis as analysis;
 pub use congruent_calibration as calibration;
 pub use congruent_description as description;
 pub use congruent_dynamics as dynamics;
+pub use congruent_dynamics_agreement as dynamics_agreement;
 pub use congruent_kinematics as kinematics;
 #[cfg(feature = "recording")]
 pub use congruent_recording as recording;

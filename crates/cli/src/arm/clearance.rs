@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use congruent::{
     description::{
-        Diagnostic, Use,
+        Diagnostic, Robot, Use,
         display::{in_column, length},
     },
     twin::proximity::{
@@ -66,19 +66,19 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         DistanceError::Pair(fault) => fault.diagnostic,
         error => Diagnostic::error("clearance::shape", error.to_string()),
     })?;
-    let has_shape = description.robot.links().iter().any(|link| !link.collisions.is_empty());
-    printer.result(&report, |report| text(report, has_shape))?;
+    printer.result(&report, |report| text(report, &description.robot))?;
     let is_nothing = report.pairs.is_empty() || report.results.is_empty();
     let has_failed = !report.below.is_empty();
     Ok(if is_nothing { NOTHING } else { u8::from(has_failed) * FAILED })
 }
 
-fn text(report: &DistanceReport, has_shape: bool) -> String {
+fn text(report: &DistanceReport, robot: &Robot) -> String {
     let mut text = String::new();
     for [a, b] in &report.ignored {
         let _ = writeln!(text, "ignored: {a} -- {b}");
     }
     if report.pairs.is_empty() {
+        let has_shape = robot.links().iter().any(|link| !link.collisions.is_empty());
         text += match (has_shape, report.ignored.is_empty()) {
             (false, _) => "nothing to measure: no link has a <collision> shape\n",
             (true, false) => "no pair of links to measure: all are ignored\n",

@@ -1,0 +1,259 @@
+//! The largest difference of gravity torque over all positions of the joints: attained, and certified from above.
+
+use congruent_description::RobotQ;
+use congruent_dynamics::{BodyTree, DynamicsError, SpatialInertia};
+use nalgebra::Vector3;
+
+use super::{
+    branch::{Stop, upper_bound},
+    climb,
+    trigonometric::{Measure, Trigonometric, Variable},
+    ways::Ways,
+};
+use crate::{
+    side::{Frames, Side},
+    thresholds::{CLOSED, MAX_BOXES, MAX_CONTROL_VALUES, MAX_VARIABLES, SAME_FIGURE},
+    torque::states::Uniform,
+};
+
+/// The bracket of one joint.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
+pub struct TorqueBracket {
+    /// The joint.
+    pub joint: String,
+    /// The largest difference that was found, N m or N.
+    pub attained_n_m: f64,
+    /// No difference within the joints' ranges is larger.
+    pub certified_n_m: f64,
+    /// Unit of both: `N m`, or `N` for a sliding joint.
+    pub unit: String,
+    /// Where it was found, in the order of the moving joints; rad and m.
+    pub q: Vec<f64>,
+    /// `certified_n_m` as a part of the joint's effort limit; `null` if there is none.
+    pub share_of_effort: Option<f64>,
+    /// Boxes of positions that were divided for the bound.
+    pub boxes: usize,
+}
+
+/// Brackets of all joints that have a difference.
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, schemars::JsonSchema)]
+pub struct TorqueCertificate {
+    /// The largest of them; `null` if no joint has a difference.
+    pub worst: Option<TorqueBracket>,
+    /// All joints that have a difference.
+    pub by_joint: Vec<TorqueBracket>,
+}
+
+impl TorqueBracket {
+    pub(super) fn new(
+        side: &Side,
+        joint: usize,
+        [attained, certified]: [f64; 2],
+        (q, boxes): (RobotQ, usize),
+    ) -> Self {
+        let effort = side.limits[joint].and_then(|limit| limit.effort).filter(|effort| *effort > 0.0);
+        let place = &side.frames.joints[joint];
+        Self {
+            joint: place.name.clone(),
+            attained_n_m: attained,
+            certified_n_m: certified,
+            unit: if place.is_angular { "N m" } else { "N" }.to_owned(),
+            q: q.to_vec(),
+            share_of_effort: effort.map(|effort| certified / effort),
+            boxes,
+        }
+    }
+}
+
+impl TorqueCertificate {
+    /// Of joints that have the same difference the one nearest to the base is the worst.
+    pub(super) fn of(by_joint: Vec<TorqueBracket>) -> Self {
+        let largest = by_joint.iter().map(|bracket| bracket.attained_n_m).fold(0.0, f64::max);
+        let is_worst = |bracket: &&TorqueBracket| bracket.attained_n_m >= largest * (1.0 - SAME_FIGURE);
+        Self { worst: by_joint.iter().find(is_worst).cloned(), by_joint }
+    }
+}
+
+/// Brackets the difference of gravity torque between a candidate and a reference in the candidate's geometry.
+pub(crate) fn certify(
+    candidate: &Side,
+    reference: &Side,
+    seed: u64,
+) -> Result<TorqueCertificate, DynamicsError> {
+    let problem = Problem::new(candidate, reference);
+    let brackets = (0..problem.frames.dof()).map(|joint| problem.bracket(joint, seed));
+    let by_joint: Vec<TorqueBracket> = brackets.filter_map(Result::transpose).collect::<Result<_, _>>()?;
+    Ok(TorqueCertificate::of(by_joint))
+}
+
+/// Random positions for a torque of too many joints. Kind: choice.
+const SAMPLES: usize = 5_000;
+
+struct Problem<'a> {
+    frames: &'a Frames,
+    candidate: &'a Side,
+    trees: [BodyTree; 2],
+    /// The difference of the bodies' inertias alone, under unit gravity along each axis; empty if gravity differs.
+    along_axes: Vec<BodyTree>,
+    gravity_m_s2: f64,
+    /// Of each body.
+    differences: Vec<SpatialInertia>,
+    ways: Ways<'a>,
+}
+
+impl<'a> Problem<'a> {
+    fn new(candidate: &'a Side, reference: &Side) -> Self {
+        let same_gravity = candidate.gravity_m_s2 == reference.gravity_m_s2;
+        let (found, expected) = (candidate.bodies(), reference.bodies());
+        let difference = |(a, b): (&SpatialInertia, &SpatialInertia)| SpatialInertia {
+            mass_kg: a.mass_kg - b.mass_kg,
+            first_moment_kg_m: a.first_moment_kg_m - b.first_moment_kg_m,
+            tensor_kg_m2: a.tensor_kg_m2 - b.tensor_kg_m2,
+        };
+        let differences: Vec<SpatialInertia> = found.iter().zip(&expected).map(difference).collect();
+        let rounding = |a: f64, b: f64| SAME_FIGURE * SAME_FIGURE.sqrt() * a.abs().max(b.abs());
+        let differs = differences.iter().zip(found.iter().zip(&expected)).map(|(difference, (a, b))| {
+            let [h, k] = [a, b].map(|body| body.first_moment_kg_m.norm());
+            !same_gravity
+                || difference.mass_kg.abs() > rounding(a.mass_kg, b.mass_kg)
+                || difference.first_moment_kg_m.norm() > rounding(h, k)
+        });
+        let differs = differs.collect();
+        let bare = |gravity| candidate.frames.tree.clone().with_gravity(gravity);
+        let weightless: Vec<BodyTree> = (0..3)
+            .filter(|_| same_gravity)
+            .filter_map(|axis| bare(Vector3::ith(axis, 1.0)).with_inertias_in_links(&differences).ok())
+            .collect();
+        Self {
+            frames: &candidate.frames,
+            candidate,
+            trees: [candidate.tree(), reference.tree()],
+            along_axes: weightless,
+            gravity_m_s2: candidate.gravity_m_s2.norm(),
+            differences,
+            ways: Ways { frames: &candidate.frames, differs },
+        }
+    }
+
+    /// `None` if the joint has no difference.
+    fn bracket(&self, joint: usize, seed: u64) -> Result<Option<TorqueBracket>, DynamicsError> {
+        let below = self.ways.below(joint);
+        let variables = self.ways.variables(&self.ways.through(joint));
+        if below.is_empty() && !self.ways.differs[joint] {
+            return Ok(None);
+        }
+        let crude = self.crude_bound(joint);
+        if variables.len() > MAX_VARIABLES {
+            let (attained, q) = self.sampled(joint, seed)?;
+            return Ok(Some(self.report(joint, [attained, crude], (q, 0))));
+        }
+        let torque = self.torque(joint, variables)?;
+        let (attained, positions) = climb::largest(&torque, seed);
+        let mut q = RobotQ::zeros(self.frames.dof());
+        for place in 0..q.len() {
+            q[place] = q[place].clamp(self.frames.joints[place].range.0, self.frames.joints[place].range.1);
+        }
+        for (variable, position) in torque.variables.iter().zip(positions) {
+            q[variable.joint] = position;
+        }
+        if torque.coefficients.iter().all(|value| *value == 0.0) && torque.slack == 0.0 {
+            return Ok(None);
+        }
+        let stop =
+            Stop { below: attained * (1.0 + CLOSED), boxes: MAX_BOXES, control_values: MAX_CONTROL_VALUES };
+        let (mut certified, mut boxes) = (crude, 0);
+        if let Some(lever) = self.lever(joint, &below)? {
+            let stop = Stop { below: stop.below / self.gravity_m_s2, ..stop };
+            let bound = upper_bound(&lever, stop);
+            certified = certified.min(bound.value * self.gravity_m_s2);
+            boxes += bound.boxes;
+        }
+        if certified > stop.below {
+            let bound = upper_bound(&torque, stop);
+            certified = certified.min(bound.value);
+            boxes += bound.boxes;
+        }
+        Ok(Some(self.report(joint, [attained, certified.max(attained)], (q, boxes))))
+    }
+
+    /// The largest difference at random positions: for a torque of too many joints.
+    fn sampled(&self, joint: usize, seed: u64) -> Result<(f64, RobotQ), DynamicsError> {
+        let mut random = Uniform::seeded(seed);
+        let mut best = (0.0, RobotQ::zeros(self.frames.dof()));
+        let mut buffers = [self.trees[0].buffer(), self.trees[1].buffer()];
+        let mut tau = [vec![0.0; self.frames.dof()], vec![0.0; self.frames.dof()]];
+        for _ in 0..SAMPLES {
+            let q = random.position(self.frames);
+            for ((tree, buffer), tau) in self.trees.iter().zip(&mut buffers).zip(&mut tau) {
+                tree.gravity_into(&q, buffer, tau)?;
+            }
+            let difference: f64 = tau[0][joint] - tau[1][joint];
+            if difference.abs() > best.0 {
+                best = (difference.abs(), q);
+            }
+        }
+        Ok(best)
+    }
+
+    fn report(&self, joint: usize, bracket: [f64; 2], at: (RobotQ, usize)) -> TorqueBracket {
+        TorqueBracket::new(self.candidate, joint, bracket, at)
+    }
+
+    /// The difference of a joint's gravity torque.
+    fn torque(&self, joint: usize, variables: Vec<Variable>) -> Result<Trigonometric, DynamicsError> {
+        let mut error = Ok(());
+        let mut buffers = [self.trees[0].buffer(), self.trees[1].buffer()];
+        let mut tau = [vec![0.0; self.frames.dof()], vec![0.0; self.frames.dof()]];
+        let joints: Vec<usize> = variables.iter().map(|variable| variable.joint).collect();
+        let mut q = RobotQ::zeros(self.frames.dof());
+        let function = Trigonometric::sampled(variables, (1, Measure::Sum), |positions| {
+            joints.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
+            for ((tree, buffer), tau) in self.trees.iter().zip(&mut buffers).zip(&mut tau) {
+                if let Err(found) = tree.gravity_into(&q, buffer, tau) {
+                    error = Err(found);
+                }
+            }
+            vec![tau[0][joint] - tau[1][joint]]
+        });
+        error.map(|()| function)
+    }
+
+    /// The lever of gravity at a joint: its torque is at most the norm times gravity, however the joints above turn.
+    fn lever(&self, joint: usize, below: &[usize]) -> Result<Option<Trigonometric>, DynamicsError> {
+        if self.along_axes.is_empty() {
+            return Ok(None);
+        }
+        let mut error = Ok(());
+        let mut buffer = self.trees[0].buffer();
+        let mut tau = vec![0.0; self.frames.dof()];
+        let mut q = RobotQ::zeros(self.frames.dof());
+        let function =
+            Trigonometric::sampled(self.ways.variables(below), (3, Measure::Length), |positions| {
+                below.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
+                let mut along = Vec::with_capacity(3);
+                for tree in &self.along_axes {
+                    if let Err(found) = tree.gravity_into(&q, &mut buffer, &mut tau) {
+                        error = Err(found);
+                    }
+                    along.push(tau[joint]);
+                }
+                along
+            });
+        error.map(|()| Some(function))
+    }
+
+    /// Every lever stretched out: a bound that needs no search.
+    fn crude_bound(&self, joint: usize) -> f64 {
+        if self.along_axes.is_empty() {
+            return f64::INFINITY;
+        }
+        let below = |body: &usize| self.ways.carries(joint, *body);
+        let turns = self.frames.joints[joint].is_angular;
+        let lever = |body: usize| {
+            let difference = &self.differences[body];
+            let mass_kg = difference.mass_kg.abs();
+            if turns { difference.first_moment_kg_m.norm() + mass_kg * self.frames.reach_m } else { mass_kg }
+        };
+        (0..self.frames.dof()).filter(below).map(lever).sum::<f64>() * self.gravity_m_s2
+    }
+}

@@ -1,0 +1,45 @@
+//! Which joints a difference of torque depends on: those on the way to bodies that differ.
+
+use super::trigonometric::Variable;
+use crate::side::Frames;
+
+/// The bodies that differ.
+pub(super) struct Ways<'a> {
+    pub(super) frames: &'a Frames,
+    /// One for each moving joint.
+    pub(super) differs: Vec<bool>,
+}
+
+impl Ways<'_> {
+    /// The joints below one on the way to bodies that differ.
+    pub(super) fn below(&self, joint: usize) -> Vec<usize> {
+        let mut below: Vec<usize> = (0..self.frames.dof())
+            .filter(|&body| self.differs[body] && self.carries(joint, body))
+            .flat_map(|body| self.frames.way_up(body).take_while(|&up| up != joint).collect::<Vec<_>>())
+            .collect();
+        below.sort_unstable();
+        below.dedup();
+        below
+    }
+
+    /// Those and the joint itself with all above it.
+    pub(super) fn through(&self, joint: usize) -> Vec<usize> {
+        let mut all = self.below(joint);
+        all.extend(self.frames.way_up(joint));
+        all
+    }
+
+    pub(super) fn carries(&self, joint: usize, body: usize) -> bool {
+        self.frames.way_up(body).any(|up| up == joint)
+    }
+
+    /// The joints as variables, with their ranges.
+    pub(super) fn variables(&self, joints: &[usize]) -> Vec<Variable> {
+        let variable = |&joint: &usize| {
+            let place = &self.frames.joints[joint];
+            let new = if place.is_angular { Variable::turning } else { Variable::sliding };
+            new(joint, place.range)
+        };
+        joints.iter().map(variable).collect()
+    }
+}

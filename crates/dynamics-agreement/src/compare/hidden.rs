@@ -1,0 +1,73 @@
+//! Differences of two descriptions that no joint torque shows.
+
+use nalgebra::Matrix3;
+
+use super::figures::{FigureDifference, of_link};
+use crate::{
+    side::{Inertial, Side},
+    thresholds::{Precision, SEEN},
+    torque::compressed::Compressed,
+};
+
+/// All figures of links that differ.
+pub(crate) fn differences(candidate: &Side, reference: &Side) -> Vec<FigureDifference> {
+    differing(candidate, reference).into_iter().map(|(_, difference)| difference).collect()
+}
+
+/// Those whose difference alone changes no torque.
+pub(crate) fn without_effect(
+    candidate: &Side,
+    reference: &Side,
+    torque: &Compressed,
+) -> Vec<FigureDifference> {
+    let mut all = differing(candidate, reference);
+    all.retain(|(pair, difference)| !is_seen(torque, pair, &difference.figure));
+    all.into_iter().map(|(_, difference)| difference).collect()
+}
+
+/// A link on both sides.
+struct LinkPair {
+    link: usize,
+    found: Option<Inertial>,
+    expected: Option<Inertial>,
+}
+
+fn differing(candidate: &Side, reference: &Side) -> Vec<(LinkPair, FigureDifference)> {
+    let mut all = Vec::new();
+    for (link, place) in candidate.frames.links.iter().enumerate() {
+        let Some(other) = reference.frames.find_link(&place.name) else { continue };
+        let (found, expected) = (candidate.inertials[link], reference.inertials[other]);
+        let differences = of_link(&place.name, found.as_ref(), expected.as_ref()).into_iter();
+        all.extend(differences.map(|difference| (LinkPair { link, found, expected }, difference)));
+    }
+    all
+}
+
+/// Whether the difference of one figure, alone, changes a torque.
+fn is_seen(torque: &Compressed, pair: &LinkPair, figure: &str) -> bool {
+    let Some(block) = torque.link(pair.link) else { return false };
+    let (Some(found), Some(expected)) = (pair.found, pair.expected) else { return true };
+    let mut changed = found;
+    let (tensor, other) = (found.tensor_in_link(), expected.tensor_in_link());
+    match figure {
+        "mass" => changed.mass_kg = expected.mass_kg,
+        "com_x" => changed.com_m.x = expected.com_m.x,
+        "com_y" => changed.com_m.y = expected.com_m.y,
+        "com_z" => changed.com_m.z = expected.com_m.z,
+        "ixx" => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (0, 0))),
+        "ixy" => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (0, 1))),
+        "ixz" => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (0, 2))),
+        "iyy" => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (1, 1))),
+        "iyz" => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (1, 2))),
+        _ => changed = changed.with_tensor_in_link(&with_entry(tensor, &other, (2, 2))),
+    }
+    let change = changed.ten_numbers() - found.ten_numbers();
+    let effect = (block * change).norm();
+    effect > (Precision::EXACT.of_torque * torque.torques).max(SEEN * torque.scale * change.norm())
+}
+
+fn with_entry(mut tensor: Matrix3<f64>, other: &Matrix3<f64>, (row, column): (usize, usize)) -> Matrix3<f64> {
+    tensor[(row, column)] = other[(row, column)];
+    tensor[(column, row)] = other[(column, row)];
+    tensor
+}

@@ -1,0 +1,103 @@
+//! What is compared first, without a cause: masses, gravity torques, mass matrix.
+
+use congruent_dynamics::{BodyTree, DynamicsError};
+use nalgebra::{DMatrix, SymmetricEigen, Vector3};
+
+use crate::{side::Side, torque::states::State};
+
+/// A value of both sides.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
+pub struct Compared {
+    /// The candidate's.
+    pub found: f64,
+    /// The reference's.
+    pub expected: f64,
+}
+
+/// Values of the whole robot.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
+pub struct Invariants {
+    /// Mass of all links.
+    pub total_mass_kg: Compared,
+    /// Mass of all links that move.
+    pub moving_mass_kg: Compared,
+    /// Distance of the two centres of mass of what moves, joints at zero; `null` if a side has no mass.
+    pub com_distance_m: Option<f64>,
+    /// The largest difference of a gravity torque at the compared states, N m or N.
+    pub gravity_n_m: f64,
+    /// The joint that has it; `null` if there is none.
+    pub gravity_joint: Option<String>,
+    /// The largest relative difference of the mass matrix at the compared states, in any direction of acceleration;
+    /// `null` if the reference's is not positive definite.
+    pub mass_matrix_relative: Option<f64>,
+}
+
+/// Compares a candidate with a reference that is given in the candidate's geometry.
+pub(crate) fn invariants(
+    [candidate, reference]: [&Side; 2],
+    reference_in_candidate: &BodyTree,
+    states: &[State],
+) -> Result<Invariants, DynamicsError> {
+    let [total, moving] = candidate.masses_kg();
+    let [reference_total, reference_moving] = reference.masses_kg();
+    let trees = [&candidate.tree().without_resistances(), reference_in_candidate];
+    let (mut gravity_n_m, mut gravity_joint) = (0.0, None);
+    let mut mass_matrix_relative = Some(0.0_f64);
+    for state in states {
+        let [found, expected] = [gravity(trees[0], state)?, gravity(trees[1], state)?];
+        for (joint, (found, expected)) in found.iter().zip(&expected).enumerate() {
+            if (found - expected).abs() > gravity_n_m {
+                gravity_n_m = (found - expected).abs();
+                gravity_joint = Some(joint);
+            }
+        }
+        let [found, expected] = [mass_matrix(trees[0], state)?, mass_matrix(trees[1], state)?];
+        let relative = relative_difference(&found, &expected);
+        mass_matrix_relative = mass_matrix_relative.zip(relative).map(|(a, b)| a.max(b));
+    }
+    Ok(Invariants {
+        total_mass_kg: Compared { found: total, expected: reference_total },
+        moving_mass_kg: Compared { found: moving, expected: reference_moving },
+        com_distance_m: com_at_zero(candidate).zip(com_at_zero(reference)).map(|(a, b)| (a - b).norm()),
+        gravity_n_m,
+        gravity_joint: gravity_joint.map(|joint| candidate.frames.joint_name(joint).to_owned()),
+        mass_matrix_relative,
+    })
+}
+
+fn com_at_zero(side: &Side) -> Option<Vector3<f64>> {
+    let (mut mass, mut moment) = (0.0, Vector3::zeros());
+    for (place, inertial) in side.frames.links.iter().zip(&side.inertials) {
+        if let (Some(_), Some(inertial)) = (place.body, inertial) {
+            let at = place.root_from_link.rotation * inertial.com_m + place.root_from_link.translation;
+            mass += inertial.mass_kg;
+            moment += at * inertial.mass_kg;
+        }
+    }
+    (mass > 0.0).then(|| moment / mass)
+}
+
+fn gravity(tree: &BodyTree, state: &State) -> Result<Vec<f64>, DynamicsError> {
+    let mut tau = vec![0.0; tree.dof()];
+    tree.gravity_into(&state.q, &mut tree.buffer(), &mut tau)?;
+    Ok(tau)
+}
+
+fn mass_matrix(tree: &BodyTree, state: &State) -> Result<DMatrix<f64>, DynamicsError> {
+    let mut matrix = DMatrix::zeros(tree.dof(), tree.dof());
+    tree.mass_matrix_into(&state.q, &mut tree.buffer(), &mut matrix)?;
+    Ok(matrix)
+}
+
+/// The largest generalised eigenvalue of the difference against the reference.
+fn relative_difference(found: &DMatrix<f64>, expected: &DMatrix<f64>) -> Option<f64> {
+    let lower = expected.clone().cholesky()?.l();
+    let left = lower.solve_lower_triangular(&(found - expected))?;
+    let both = lower.solve_lower_triangular(&left.transpose())?;
+    let symmetric = (&both + both.transpose()) * 0.5;
+    let largest = symmetric.amax();
+    if largest == 0.0 || !largest.is_finite() {
+        return (largest == 0.0).then_some(0.0);
+    }
+    Some(SymmetricEigen::new(symmetric / largest).eigenvalues.amax() * largest)
+}

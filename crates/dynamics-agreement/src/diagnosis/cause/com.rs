@@ -1,0 +1,61 @@
+//! Signs and order of a centre of mass, and mirrored parts.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::slip::Slip;
+use crate::{
+    diagnosis::{cause_names::Cause, hypothesis::Suspect},
+    side::Inertial,
+};
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// For each of the three coordinates, which of the right ones was written there.
+const ORDERS: [(&str, [usize; 3]); 5] = [
+    ("xy", [1, 0, 2]),
+    ("xz", [2, 1, 0]),
+    ("yz", [0, 2, 1]),
+    ("cycle", [2, 0, 1]),
+    ("cycle_back", [1, 2, 0]),
+];
+
+pub(super) fn slips<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
+    let mut slips = Vec::new();
+    let com = |figures: &Inertial, com_m: Vector3<f64>| Inertial { com_m, ..*figures };
+    for (axis, name) in AXES.into_iter().enumerate() {
+        slips
+            .push(Slip::new(Cause::ComSign, name, move |figures| com(figures, mirror(axis) * figures.com_m)));
+    }
+    slips.push(Slip::new(Cause::ComSign, "all", move |figures| com(figures, -figures.com_m)));
+    for (name, order) in ORDERS {
+        slips.push(Slip::new(Cause::ComAxesSwapped, name, move |figures| {
+            com(figures, reordered(suspect, order, &figures.com_m))
+        }));
+    }
+    for (axis, name) in AXES.into_iter().enumerate() {
+        let mirror = mirror(axis);
+        slips.push(Slip::new(Cause::Mirrored, name, move |figures| {
+            com(figures, mirror * figures.com_m)
+                .with_tensor_in_link(&(mirror * figures.tensor_in_link() * mirror))
+        }));
+    }
+    slips
+}
+
+fn mirror(axis: usize) -> Matrix3<f64> {
+    let mut mirror = Matrix3::identity();
+    mirror[(axis, axis)] = -1.0;
+    mirror
+}
+
+/// Numbers put into another order, or put back.
+fn reordered(suspect: Suspect, order: [usize; 3], numbers: &Vector3<f64>) -> Vector3<f64> {
+    let mut result = Vector3::zeros();
+    for (place, taken) in order.into_iter().enumerate() {
+        match suspect {
+            Suspect::Candidate => result[taken] = numbers[place],
+            Suspect::Reference => result[place] = numbers[taken],
+        }
+    }
+    result
+}

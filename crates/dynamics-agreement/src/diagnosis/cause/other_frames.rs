@@ -1,0 +1,95 @@
+//! Figures in the frame, or only in the axes, of another frame; and slips with the rotation of the inertial frame.
+
+use congruent_kinematics::{Pose, rotation_exp, rotation_log};
+use nalgebra::Matrix3;
+
+use super::slip::Slip;
+use crate::{
+    diagnosis::{cause_names::Cause, hypothesis::Suspect},
+    side::{Frames, Inertial},
+    thresholds::ZERO_FIGURE,
+};
+
+/// Figures in the other frame.
+#[derive(Clone, Copy)]
+struct Wrong {
+    cause: Cause,
+    figures: Figures,
+    /// Only the axes, not the origin.
+    axes_only: bool,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Figures {
+    Com,
+    Tensor,
+    Both,
+}
+
+const KINDS: [Wrong; 5] = [
+    Wrong { cause: Cause::ComFrame, figures: Figures::Com, axes_only: false },
+    Wrong { cause: Cause::ComAxes, figures: Figures::Com, axes_only: true },
+    Wrong { cause: Cause::InertialFrame, figures: Figures::Both, axes_only: false },
+    Wrong { cause: Cause::InertialAxes, figures: Figures::Both, axes_only: true },
+    Wrong { cause: Cause::InertiaAxes, figures: Figures::Tensor, axes_only: true },
+];
+
+pub(super) fn slips(frames: &Frames, suspect: Suspect) -> Vec<Slip<'_>> {
+    let mut slips = Vec::new();
+    for other in &frames.others {
+        for kind in KINDS {
+            slips.push(Slip::at_link(kind.cause, other.name.clone(), move |link, figures| {
+                let link_from_frame = other.link_from_frame[link].as_ref()?;
+                Some(kind.apply(suspect, link_from_frame, figures))
+            }));
+        }
+    }
+    slips.extend(rotations(suspect));
+    slips
+}
+
+impl Wrong {
+    fn apply(self, suspect: Suspect, link_from_frame: &Pose, figures: &Inertial) -> Inertial {
+        let mut moved = match suspect {
+            Suspect::Candidate => *link_from_frame,
+            Suspect::Reference => link_from_frame.inverse(),
+        };
+        if self.axes_only {
+            moved.translation = nalgebra::Vector3::zeros();
+        }
+        let mut figures = *figures;
+        if self.figures != Figures::Tensor {
+            figures.com_m = moved.rotation * figures.com_m + moved.translation;
+        }
+        if self.figures != Figures::Com {
+            figures.link_from_axes = moved.rotation * figures.link_from_axes;
+        }
+        figures
+    }
+}
+
+fn rotations<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
+    let turned = |figures: &Inertial, link_from_axes: Matrix3<f64>| Inertial { link_from_axes, ..*figures };
+    let has_rotation =
+        |figures: &Inertial| (figures.link_from_axes - Matrix3::identity()).amax() > ZERO_FIGURE;
+    let mut slips = vec![
+        Slip::at_link(Cause::RpyInverted, "", move |_, figures| {
+            has_rotation(figures).then(|| turned(figures, figures.link_from_axes.transpose()))
+        }),
+        Slip::at_link(Cause::RpyTwice, "", move |_, figures| {
+            let turn = figures.link_from_axes;
+            let changed = match suspect {
+                Suspect::Candidate => rotation_exp(&(rotation_log(&turn) * 0.5)),
+                Suspect::Reference => turn * turn,
+            };
+            has_rotation(figures).then(|| turned(figures, changed))
+        }),
+    ];
+    // A rotation that is missing in the file cannot be put back without numbers.
+    if suspect == Suspect::Reference {
+        slips.push(Slip::at_link(Cause::RpyMissing, "", move |_, figures| {
+            has_rotation(figures).then(|| turned(figures, Matrix3::identity()))
+        }));
+    }
+    slips
+}

@@ -1,0 +1,46 @@
+//! A slip: a change of one link's figures without a free number.
+
+use crate::{
+    diagnosis::{cause_names::Cause, hypothesis::Suspect},
+    side::Inertial,
+};
+
+/// What becomes of one link's figures; `None` if the slip cannot have happened there.
+pub(in crate::diagnosis) type Change<'a> = Box<dyn Fn(usize, &Inertial) -> Option<Inertial> + 'a>;
+
+/// One slip, for any link.
+pub(in crate::diagnosis) struct Slip<'a> {
+    pub(in crate::diagnosis) cause: Cause,
+    pub(in crate::diagnosis) detail: String,
+    pub(in crate::diagnosis) change: Change<'a>,
+}
+
+impl<'a> Slip<'a> {
+    /// A slip that is the same at every link.
+    pub(super) fn new(
+        cause: Cause,
+        detail: impl Into<String>,
+        change: impl Fn(&Inertial) -> Inertial + 'a,
+    ) -> Self {
+        Self { cause, detail: detail.into(), change: Box::new(move |_, figures| Some(change(figures))) }
+    }
+
+    /// A slip that depends on the link.
+    pub(super) fn at_link(
+        cause: Cause,
+        detail: impl Into<String>,
+        change: impl Fn(usize, &Inertial) -> Option<Inertial> + 'a,
+    ) -> Self {
+        Self { cause, detail: detail.into(), change: Box::new(change) }
+    }
+}
+
+impl Suspect {
+    /// The factor that undoes or does a wrong unit, of which so many make one right unit.
+    pub(super) fn factor(self, per_right_unit: f64) -> f64 {
+        match self {
+            Self::Candidate => per_right_unit.recip(),
+            Self::Reference => per_right_unit,
+        }
+    }
+}

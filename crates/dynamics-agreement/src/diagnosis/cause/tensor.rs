@@ -1,0 +1,157 @@
+//! Slips with the six numbers of a tensor.
+
+use nalgebra::Matrix3;
+
+use super::slip::Slip;
+use crate::{
+    diagnosis::{cause_names::Cause, free::ENTRIES, hypothesis::Suspect},
+    side::Inertial,
+};
+
+const PRODUCTS: [(&str, (usize, usize)); 3] = [("ixy", (0, 1)), ("ixz", (0, 2)), ("iyz", (1, 2))];
+const MOMENT_PAIRS: [(&str, [usize; 2]); 3] = [("ixx_iyy", [0, 1]), ("ixx_izz", [0, 2]), ("iyy_izz", [1, 2])];
+const PRODUCT_PAIRS: [(&str, [usize; 2]); 3] =
+    [("ixy_ixz", [0, 1]), ("ixy_iyz", [0, 2]), ("ixz_iyz", [1, 2])];
+
+/// For each of the six places of a URDF, `xx xy xz yy yz zz`, the place of the number that was written there.
+const ORDERS: [(&str, [usize; 6]); 3] = [
+    // xx yy zz xy xz yz
+    ("diagonal_first", [0, 3, 5, 1, 2, 4]),
+    // xx yy zz yz xz xy
+    ("diagonal_first_voigt", [0, 3, 5, 4, 2, 1]),
+    // xx xy yy xz yz zz
+    ("column_major", [0, 1, 3, 2, 4, 5]),
+];
+/// The first six of nine numbers by rows, `xx xy xz xy yy yz`: the last moment is lost.
+const BY_ROWS: [usize; 6] = [0, 1, 2, 1, 3, 4];
+
+pub(super) fn slips<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
+    let towards_written = match suspect {
+        Suspect::Candidate => 1.0,
+        Suspect::Reference => -1.0,
+    };
+    let mut slips = vec![
+        tensor_slip(Cause::ProductsSign, "", |tensor| {
+            Matrix3::from_diagonal(&tensor.diagonal()) * 2.0 - tensor
+        }),
+        about_origin("", -towards_written),
+        about_origin("reverse", towards_written),
+    ];
+    for (name, entry) in PRODUCTS {
+        slips.push(tensor_slip(Cause::ProductSign, name, move |tensor| {
+            let mut changed = *tensor;
+            set(&mut changed, entry, -tensor[entry]);
+            changed
+        }));
+    }
+    for (name, [a, b]) in MOMENT_PAIRS {
+        slips.push(tensor_slip(Cause::MomentsSwapped, name, move |tensor| exchanged(tensor, (a, a), (b, b))));
+    }
+    for (name, [a, b]) in PRODUCT_PAIRS {
+        slips.push(tensor_slip(Cause::ProductsSwapped, name, move |tensor| {
+            exchanged(tensor, PRODUCTS[a].1, PRODUCTS[b].1)
+        }));
+    }
+    for (name, order) in ORDERS {
+        slips.push(tensor_slip(Cause::InertiaOrder, name, move |tensor| reordered(suspect, order, tensor)));
+    }
+    if suspect == Suspect::Reference {
+        slips.push(tensor_slip(Cause::InertiaOrder, "row_major_upper", |tensor| {
+            reordered(Suspect::Reference, BY_ROWS, tensor)
+        }));
+    }
+    for turn in quarter_turns() {
+        slips.push(tensor_slip(Cause::InertiaRotation, "quarter", move |tensor| {
+            turn * tensor * turn.transpose()
+        }));
+    }
+    slips
+}
+
+/// The figures of a file in which nine numbers by rows were cut to six, with zero for the moment that is lost.
+pub(super) fn put_back_from_rows(figures: &Inertial) -> Inertial {
+    let mut tensor = reordered(Suspect::Candidate, BY_ROWS, &figures.tensor_kg_m2);
+    tensor[(2, 2)] = 0.0;
+    Inertial { tensor_kg_m2: tensor, ..*figures }
+}
+
+/// Whether six numbers could be the first of nine by rows.
+pub(super) fn could_be_by_rows(figures: &Inertial) -> bool {
+    let tensor = &figures.tensor_kg_m2;
+    let scale = tensor.amax() * crate::thresholds::SAME_FIGURE;
+    (tensor[(0, 1)] - tensor[(1, 1)]).abs() <= scale && tensor[(1, 2)] != 0.0
+}
+
+fn tensor_slip<'a>(
+    cause: Cause,
+    detail: &str,
+    change: impl Fn(&Matrix3<f64>) -> Matrix3<f64> + 'a,
+) -> Slip<'a> {
+    Slip::new(cause, detail, move |figures| Inertial {
+        tensor_kg_m2: change(&figures.tensor_kg_m2),
+        ..*figures
+    })
+}
+
+/// The tensor is shifted away from the centre of mass, or with sign -1 to it.
+fn about_origin<'a>(detail: &str, sign: f64) -> Slip<'a> {
+    Slip::new(Cause::InertiaAboutOrigin, detail, move |figures| {
+        figures.with_tensor_in_link(&(figures.tensor_in_link() + figures.shift() * sign))
+    })
+}
+
+fn set(tensor: &mut Matrix3<f64>, (row, column): (usize, usize), value: f64) {
+    tensor[(row, column)] = value;
+    tensor[(column, row)] = value;
+}
+
+fn exchanged(tensor: &Matrix3<f64>, a: (usize, usize), b: (usize, usize)) -> Matrix3<f64> {
+    let mut result = *tensor;
+    set(&mut result, a, tensor[b]);
+    set(&mut result, b, tensor[a]);
+    result
+}
+
+fn reordered(suspect: Suspect, order: [usize; 6], tensor: &Matrix3<f64>) -> Matrix3<f64> {
+    let mut result = Matrix3::zeros();
+    for (place, taken) in order.into_iter().enumerate() {
+        match suspect {
+            Suspect::Candidate => set(&mut result, ENTRIES[taken], tensor[ENTRIES[place]]),
+            Suspect::Reference => set(&mut result, ENTRIES[place], tensor[ENTRIES[taken]]),
+        }
+    }
+    result
+}
+
+/// The 23 turns by quarters that are none.
+fn quarter_turns() -> Vec<Matrix3<f64>> {
+    let mut turns = Vec::new();
+    for order in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]] {
+        for signs in 0..8_usize {
+            let mut turn = Matrix3::zeros();
+            for (row, column) in order.into_iter().enumerate() {
+                turn[(row, column)] = if signs >> row & 1 == 1 { -1.0 } else { 1.0 };
+            }
+            if turn.determinant() > 0.0 && turn != Matrix3::identity() {
+                turns.push(turn);
+            }
+        }
+    }
+    turns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orders_are_undone_by_their_reverse() {
+        let tensor = Matrix3::new(1.0, 2.0, 3.0, 2.0, 4.0, 5.0, 3.0, 5.0, 6.0);
+        for (_, order) in ORDERS {
+            let written = reordered(Suspect::Reference, order, &tensor);
+            assert_ne!(written, tensor);
+            assert_eq!(reordered(Suspect::Candidate, order, &written), tensor);
+        }
+        assert_eq!(quarter_turns().len(), 23);
+    }
+}

@@ -1,0 +1,93 @@
+//! The names of causes, in the order of the catalogue: of two that cost the same the earlier one is named.
+
+use serde::Serialize;
+
+/// Declares [`Cause`] with the name and the sentence of each variant beside it.
+macro_rules! causes {
+    ($($(#[$attribute:meta])* $variant:ident = $name:literal, $text:literal;)*) => {
+        /// The cause of a difference, in the order in which causes of equal price are named.
+        #[derive(
+            Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, schemars::JsonSchema,
+        )]
+        pub enum Cause {
+            $(#[doc = $text] $(#[$attribute])* #[serde(rename = $name)] $variant,)*
+        }
+
+        impl Cause {
+            /// The name in JSON.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)*
+                }
+            }
+
+            /// What happened, as a person would say it.
+            pub fn text(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $text,)*
+                }
+            }
+        }
+    };
+}
+
+causes! {
+    MassUnit = "mass_unit", "the mass is given in another unit";
+    ComUnit = "com_unit", "the centre of mass is given in another unit";
+    InertiaUnit = "inertia_unit", "the inertia is given in another unit";
+    CadUnits = "cad_units", "masses, centres of mass and inertias are in the units of a CAD program";
+    ComSign = "com_sign", "the centre of mass has a wrong sign";
+    ComAxesSwapped = "com_axes_swapped", "coordinates of the centre of mass are exchanged";
+    Mirrored = "mirrored", "the inertia is that of the mirrored part";
+    ComFrame = "com_frame", "the centre of mass is given in another frame";
+    ComAxes = "com_axes", "the centre of mass is given in the axes of another frame";
+    InertialFrame = "inertial_frame", "centre of mass and inertia are given in another frame";
+    InertialAxes = "inertial_axes", "centre of mass and inertia are given in the axes of another frame";
+    InertiaAboutOrigin = "inertia_about_origin", "the inertia is about the link's origin instead of its centre of mass";
+    ProductsSign = "products_sign", "all products of inertia have the other sign";
+    ProductSign = "product_sign", "one product of inertia has the other sign";
+    MomentsSwapped = "moments_swapped", "two moments of inertia are exchanged";
+    ProductsSwapped = "products_swapped", "two products of inertia are exchanged";
+    InertiaOrder = "inertia_order", "the six numbers of the inertia are in another order";
+    InertiaAxes = "inertia_axes", "the inertia is given in the axes of another frame";
+    RpyMissing = "rpy_missing", "the rotation of the inertial frame is left out";
+    RpyInverted = "rpy_inverted", "the rotation of the inertial frame is inverted";
+    RpyTwice = "rpy_twice", "the rotation of the inertial frame is applied twice";
+    CountedTwice = "counted_twice", "the inertia of one link is contained in that of another as well";
+    InertialsSwapped = "inertials_swapped", "the inertias of two links are exchanged";
+    InertialLeftOut = "inertial_left_out", "the inertia of a link is left out";
+    InertiaRotation = "inertia_rotation", "the inertia has the right principal moments and wrong axes";
+    ComMissing = "com_missing", "the centre of mass is missing";
+    ProductsMissing = "products_missing", "the products of inertia are missing";
+    PrincipalAxesMissing = "principal_axes_missing", "principal moments are given without their axes";
+    InertiaPlaceholder = "inertia_placeholder", "the inertia is a placeholder";
+    InertiaMissing = "inertia_missing", "the inertia is missing";
+    InertialMissing = "inertial_missing", "the link has no inertia";
+    Mass = "mass", "the mass is off";
+    Density = "density", "mass and inertia are off by one factor";
+    ComEntry = "com_entry", "one coordinate of the centre of mass is off";
+    InertiaScale = "inertia_scale", "the inertia is off by one factor";
+    InertiaEntry = "inertia_entry", "one entry of the inertia is off";
+    Com = "com", "the centre of mass is off";
+    Payload = "payload", "a payload at the tip is missing or too much";
+    Inertia = "inertia", "the inertia is off";
+    Inertial = "inertial", "mass, centre of mass and inertia are off";
+    JointTermsMissing = "joint_terms_missing", "damping, dry friction and armature are left out";
+    DampingMissing = "damping_missing", "damping is left out";
+    FrictionMissing = "friction_missing", "dry friction is left out";
+    DampingFrictionSwapped = "damping_friction_swapped", "damping and dry friction are exchanged";
+    FrictionAsDamping = "friction_as_damping", "dry friction is taken for damping";
+    DampingDefault = "damping_default", "damping is a default value";
+    DampingUnit = "damping_unit", "damping is given per degree instead of per radian, or the reverse";
+    JointsSwapped = "joints_swapped", "damping, dry friction and armature of two joints are exchanged";
+    Damping = "damping", "damping is off";
+    Friction = "friction", "dry friction is off";
+    Armature = "armature", "armature is off";
+    GravitySign = "gravity_sign", "gravity points the other way";
+    GravityMissing = "gravity_missing", "gravity is left out";
+    GravityDirection = "gravity_direction", "gravity has another direction";
+    GravityMagnitude = "gravity_magnitude", "gravity has another magnitude";
+    Several = "several", "several figures are wrong";
+    #[default]
+    Unexplained = "unexplained", "no known cause explains the difference";
+}

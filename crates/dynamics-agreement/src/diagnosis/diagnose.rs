@@ -1,0 +1,92 @@
+//! The explanations of a difference, in order.
+
+use super::{
+    fit::Target,
+    hypothesis::Suspect,
+    rank::Exact,
+    reason::Reason,
+    search::{Catalogue, Part},
+};
+use crate::{
+    side::Side,
+    thresholds::{PAIRS_ABOVE, Precision},
+    torque::compressed::Compressed,
+};
+
+/// Whose figures are suspected, and what is known.
+#[derive(Clone, Copy)]
+pub(crate) struct Setting<'a> {
+    pub(crate) candidate: &'a Side,
+    /// The other description, if there is one: explanations that blame what is equal in both come last.
+    pub(crate) reference: Option<&'a Side>,
+    pub(crate) suspect: Suspect,
+    pub(crate) precision: Precision,
+}
+
+/// What explains a difference.
+#[derive(Debug, Clone)]
+pub(crate) struct Diagnosed {
+    /// Whether there is no difference to explain.
+    pub(crate) same: bool,
+    /// Links whose numbers alone can contain the difference.
+    pub(crate) links: Vec<usize>,
+    /// Explanations with different figures, the first one named.
+    pub(crate) explanations: Vec<Grouped>,
+}
+
+/// An explanation with all its names.
+#[derive(Debug, Clone)]
+pub(crate) struct Grouped {
+    pub(crate) named: Exact,
+    /// Others that end at the same figures.
+    pub(crate) also: Vec<Exact>,
+    /// Why it cannot be told from the first.
+    pub(crate) reason: Option<Reason>,
+}
+
+/// Most pairs that are kept. Kind: choice; more of them say no more.
+const MOST_PAIRS: usize = 40;
+
+/// Finds what explains a difference of torque.
+pub(crate) fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed {
+    let size = torque.difference.norm().hypot(torque.outside);
+    let exact = setting.precision.exact(size, torque.torques);
+    let target = Target { side: setting.candidate, torque, exact };
+    if size <= setting.precision.same * torque.torques {
+        return Diagnosed { same: true, links: Vec::new(), explanations: Vec::new() };
+    }
+    let frames = &setting.candidate.frames;
+    let containing = (0..frames.dof()).filter(|&body| target.contains(Part::Body(body)));
+    let links = containing.flat_map(|body| frames.links_of(body)).collect();
+    let catalogue = Catalogue::new(setting.candidate, setting.suspect);
+    let exactly = |parts| Exact::new(parts, setting.candidate, setting.reference);
+    let mut found: Vec<Exact> =
+        catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit])).collect();
+    if found.iter().all(|exact| exact.price > PAIRS_ABOVE) {
+        let mut pairs: Vec<Exact> =
+            catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into())).collect();
+        sort(&mut pairs);
+        pairs.truncate(MOST_PAIRS);
+        found.extend(pairs);
+    }
+    sort(&mut found);
+    Diagnosed { same: false, links, explanations: grouped(setting.candidate, torque, found) }
+}
+
+fn sort(found: &mut [Exact]) {
+    found.sort_by(|a, b| a.rank().cmp(&b.rank()));
+}
+
+/// Puts explanations with the same figures together.
+fn grouped(side: &Side, torque: &Compressed, found: Vec<Exact>) -> Vec<Grouped> {
+    let mut groups: Vec<Grouped> = Vec::new();
+    for exact in found {
+        if let Some(group) = groups.iter_mut().find(|group| group.named.has_figures_of(&exact, side)) {
+            group.also.push(exact);
+            continue;
+        }
+        let reason = groups.first().map(|first| Reason::between(side, torque, &first.named, &exact));
+        groups.push(Grouped { named: exact, also: Vec::new(), reason });
+    }
+    groups
+}

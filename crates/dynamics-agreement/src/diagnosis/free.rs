@@ -1,0 +1,108 @@
+//! Free numbers of one link: what may be off if no slip explains it.
+
+use congruent_dynamics::{PARAMETERS, SpatialInertia};
+use congruent_kinematics::rotation_exp;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::{
+    side::{Inertial, inertial::TenNumbers},
+    thresholds::{QUADRATIC_STEP, ROTATION_STEP_RAD},
+};
+
+/// Which numbers of a link are free; all are added to what stands there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Free {
+    Mass,
+    /// One factor of mass and tensor.
+    Density,
+    ComEntry(usize),
+    Com,
+    /// One entry of the tensor as it is written.
+    InertiaEntry(usize, usize),
+    InertiaScale,
+    Products,
+    Inertia,
+    /// All ten.
+    Inertial,
+    /// A point mass and its place.
+    Payload,
+    /// The axes of the tensor, starting from this turn.
+    Rotation(Matrix3<f64>),
+}
+
+/// Entries of a symmetric tensor, in the order of the ten numbers.
+pub(super) const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+const PRODUCTS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
+impl Free {
+    pub(super) fn count(self) -> usize {
+        match self {
+            Self::Mass | Self::Density | Self::ComEntry(_) | Self::InertiaEntry(..) | Self::InertiaScale => 1,
+            Self::Com | Self::Products | Self::Rotation(_) => 3,
+            Self::Payload => 4,
+            Self::Inertia => 6,
+            Self::Inertial => PARAMETERS,
+        }
+    }
+
+    /// The link's inertia about its origin with these numbers.
+    pub(super) fn about_origin(self, written: &Inertial, x: &[f64]) -> SpatialInertia {
+        match self {
+            Self::Payload => {
+                written.about_origin() + SpatialInertia::point_mass(x[0], Vector3::new(x[1], x[2], x[3]))
+            }
+            Self::Inertial => {
+                let mut numbers = written.about_origin().parameters();
+                numbers.iter_mut().zip(x).for_each(|(number, x)| *number += x);
+                SpatialInertia::from_parameters(numbers)
+            }
+            _ => self.figures(written, x).about_origin(),
+        }
+    }
+
+    /// The link's figures with these numbers.
+    pub(super) fn figures(self, written: &Inertial, x: &[f64]) -> Inertial {
+        let mut figures = *written;
+        let add = |tensor: &mut Matrix3<f64>, entries: &[(usize, usize)]| {
+            for (&(row, column), x) in entries.iter().zip(x) {
+                tensor[(row, column)] += x;
+                if row != column {
+                    tensor[(column, row)] += x;
+                }
+            }
+        };
+        match self {
+            Self::Mass => figures.mass_kg += x[0],
+            Self::Density => {
+                figures.mass_kg *= 1.0 + x[0];
+                figures.tensor_kg_m2 *= 1.0 + x[0];
+            }
+            Self::ComEntry(axis) => figures.com_m[axis] += x[0],
+            Self::Com => figures.com_m += Vector3::new(x[0], x[1], x[2]),
+            Self::InertiaEntry(row, column) => add(&mut figures.tensor_kg_m2, &[(row, column)]),
+            Self::InertiaScale => figures.tensor_kg_m2 *= 1.0 + x[0],
+            Self::Products => add(&mut figures.tensor_kg_m2, &PRODUCTS),
+            Self::Inertia => add(&mut figures.tensor_kg_m2, &ENTRIES),
+            Self::Rotation(start) => {
+                let turn = rotation_exp(&Vector3::new(x[0], x[1], x[2])) * start;
+                let tensor = turn * written.tensor_in_link() * turn.transpose();
+                figures = figures.with_tensor_in_link(&tensor);
+            }
+            Self::Payload | Self::Inertial => {
+                figures = Inertial::from_origin(&self.about_origin(written, x), written.link_from_axes);
+            }
+        }
+        figures
+    }
+
+    /// Derivatives of the ten numbers by the free ones: exact, except for a rotation.
+    pub(super) fn derivatives(self, written: &Inertial, x: &[f64]) -> Vec<TenNumbers> {
+        let step = if matches!(self, Self::Rotation(_)) { ROTATION_STEP_RAD } else { QUADRATIC_STEP };
+        let at = |entry: usize, by: f64| -> TenNumbers {
+            let mut moved = x.to_vec();
+            moved[entry] += by;
+            self.about_origin(written, &moved).parameters().into()
+        };
+        (0..self.count()).map(|entry| (at(entry, step) - at(entry, -step)) / (2.0 * step)).collect()
+    }
+}

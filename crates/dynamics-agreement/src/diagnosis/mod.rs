@@ -1,0 +1,26 @@
+//! Why two sides have other torques.
+//!
+//! [`diagnose`] tries the hypotheses of `cause/` (one file a family) on the compressed difference of torque (`fit.rs`,
+//! `search.rs`), orders those that leave nothing by what they cost (`rank.rs`), and says of the others why torque cannot
+//! tell them from the first (`reason.rs`).
+
+mod cause;
+mod cause_names;
+mod diagnose;
+mod fit;
+mod free;
+mod hypothesis;
+mod rank;
+mod reason;
+mod search;
+
+pub use cause_names::Cause;
+pub(crate) use diagnose::{Grouped, Setting, diagnose};
+pub(crate) use fit::Corrected;
+pub(crate) use hypothesis::Place;
+pub use hypothesis::Suspect;
+pub(crate) use rank::Exact;
+pub use reason::Reason;
+
+#[cfg(test)]
+mod planted;

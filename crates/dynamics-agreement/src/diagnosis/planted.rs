@@ -1,0 +1,297 @@
+//! The benchmark: every cause planted at every link, several links, joints and gravity, in both directions.
+
+#![expect(clippy::print_stdout, reason = "measured values, for --nocapture")]
+
+#[path = "../../../../tests/corpus.rs"]
+mod corpus;
+
+use congruent_description::load_robot;
+use nalgebra::{DVector, Vector3};
+
+use super::{
+    cause,
+    cause_names::Cause,
+    diagnose::{Diagnosed, Grouped, Setting, diagnose},
+    free::Free,
+    hypothesis::{Change, Hypothesis, Place, Suspect},
+};
+use crate::{
+    side::{Inertial, JointTerm, Side},
+    thresholds::{Precision, STATES},
+    torque::{
+        compressed::{Compressed, torques},
+        states::random_states,
+    },
+};
+
+/// A fault: what the wrong side says.
+struct Planted {
+    cause: Cause,
+    detail: String,
+    place: Place,
+    side: Side,
+}
+
+fn planted(original: &Side) -> Vec<Planted> {
+    let slips = cause::slips(&original.frames, Suspect::Reference);
+    let mut hypotheses = cause::of_all_links(original, &slips);
+    hypotheses.extend(cause::of_two_links(original, Suspect::Reference));
+    hypotheses.extend(cause::of_joints_and_gravity(original, Suspect::Reference));
+    for link in 0..original.inertials.len() {
+        if original.frames.links[link].body.is_some() {
+            hypotheses.extend(cause::of_link(original, Suspect::Reference, &slips, link));
+        }
+    }
+    hypotheses.iter().filter_map(|hypothesis| plant(original, hypothesis)).collect()
+}
+
+/// What a hypothesis would make of a side; free numbers get values that no slip has.
+fn plant(original: &Side, hypothesis: &Hypothesis) -> Option<Planted> {
+    let mut side = original.clone();
+    match &hypothesis.change {
+        Change::Links(links) => {
+            for (link, figures) in links {
+                side.inertials[*link] = Some(*figures);
+            }
+        }
+        Change::FreeLink { link, free } | Change::FreeLinkFrom { link, free, .. } => {
+            let figures = side.inertials[*link]?;
+            side.inertials[*link] = Some(shifted(&figures, *free));
+        }
+        Change::Joints(joints) => side.resistances.clone_from(joints),
+        Change::FreeJoints { term, groups } => {
+            for (at, group) in groups.iter().enumerate() {
+                for &joint in group {
+                    let by = 0.037 * (1.0 + 0.3 * f64::from(u32::try_from(at).ok()?));
+                    let value = term.of(&side.resistances[joint]) + by;
+                    JointTerm::set(*term, &mut side.resistances[joint], value);
+                }
+            }
+        }
+        Change::Gravity(gravity) => side.gravity_m_s2 = *gravity,
+        Change::FreeGravity(along) if along.len() == 1 => side.gravity_m_s2 *= 1.013,
+        Change::FreeGravity(_) => {
+            let turn = congruent_kinematics::rotation_exp(&Vector3::new(0.05, 0.02, 0.0));
+            side.gravity_m_s2 = turn * side.gravity_m_s2;
+        }
+    }
+    let (cause, detail) = (hypothesis.cause, hypothesis.detail.clone());
+    Some(Planted { cause, detail, place: hypothesis.place.clone(), side })
+}
+
+fn shifted(figures: &Inertial, free: Free) -> Inertial {
+    let size = figures.tensor_kg_m2.trace();
+    let lengths = Vector3::new(0.013, -0.021, 0.008);
+    let entries = [0.31, 0.02, -0.03, 0.23, 0.05, 0.17].map(|share| share * size);
+    let x: Vec<f64> = match free {
+        Free::Mass => vec![-0.3 * figures.mass_kg],
+        Free::Density => vec![0.2],
+        Free::InertiaScale => vec![0.5],
+        Free::ComEntry(axis) => vec![lengths[axis]],
+        Free::Com => lengths.as_slice().to_vec(),
+        Free::InertiaEntry(row, column) => vec![if row == column { 0.1 * size } else { 0.03 * size }],
+        Free::Products => entries[1..4].to_vec(),
+        Free::Inertia => entries.to_vec(),
+        Free::Inertial => {
+            let mass = 0.4 * figures.mass_kg;
+            let moved = Inertial { mass_kg: mass, com_m: figures.com_m + lengths, ..*figures };
+            let numbers: Vec<f64> = moved.ten_numbers().iter().copied().collect();
+            numbers
+        }
+        Free::Payload => vec![0.15, 0.02, -0.01, 0.06],
+        Free::Rotation(_) => vec![0.3, -0.2, 0.4],
+    };
+    free.figures(figures, &x)
+}
+
+/// The original with both faults of two, the second one at a link.
+fn with_both(a: &Planted, b: &Planted) -> Side {
+    let mut side = a.side.clone();
+    if let Place::Links(links) = &b.place {
+        side.inertials[links[0]] = b.side.inertials[links[0]];
+    }
+    side
+}
+
+/// What is missing at all links of a file at once has no answer: zeros tell nothing.
+fn can_be_told(planted: &Planted, suspect: Suspect) -> bool {
+    let loses_numbers = matches!(
+        planted.cause,
+        Cause::ComMissing
+            | Cause::ProductsMissing
+            | Cause::InertiaMissing
+            | Cause::InertialLeftOut
+            | Cause::InertiaPlaceholder
+            | Cause::RpyMissing
+    ) || planted.detail == "row_major_upper";
+    suspect == Suspect::Reference || planted.place != Place::AllLinks || !loses_numbers
+}
+
+/// Faults whose file says the same under another name.
+fn is_name_of(planted: &Planted, cause: Cause, suspect: Suspect) -> bool {
+    let file = suspect == Suspect::Candidate;
+    cause == planted.cause
+        || matches!(
+            (planted.cause, cause),
+            (Cause::InertialLeftOut, Cause::InertialMissing | Cause::Inertial | Cause::InertiaMissing) if file
+        )
+        || matches!(
+            (planted.cause, cause),
+            (Cause::RpyMissing, Cause::PrincipalAxesMissing | Cause::InertiaRotation) if file
+        )
+        || matches!(
+            (planted.cause, cause),
+            (Cause::DampingMissing | Cause::JointTermsMissing | Cause::DampingDefault | Cause::FrictionAsDamping, Cause::Damping) if file
+        )
+        || matches!(
+            (planted.cause, cause),
+            (Cause::FrictionMissing | Cause::JointTermsMissing | Cause::FrictionAsDamping, Cause::Friction) if file
+        )
+        || matches!((planted.cause, cause), (Cause::DampingDefault, Cause::DampingMissing) if !file)
+}
+
+fn names(planted: &Planted, grouped: &Grouped, suspect: Suspect) -> bool {
+    let also = grouped.also.iter();
+    std::iter::once(&grouped.named).chain(also).any(|exact| {
+        exact.parts.iter().any(|part| {
+            is_name_of(planted, part.hypothesis.cause, suspect) && part.hypothesis.place == planted.place
+        })
+    })
+}
+
+#[derive(Debug, Default)]
+struct Counts {
+    faults: usize,
+    named: usize,
+    listed: usize,
+    hidden: usize,
+    other: usize,
+    missed: usize,
+}
+
+fn judged(original: &Side, planted: &Planted, suspect: Suspect, counts: &mut Counts) {
+    let (candidate, reference) = match suspect {
+        Suspect::Candidate => (&planted.side, original),
+        Suspect::Reference => (original, &planted.side),
+    };
+    let states = random_states(&candidate.frames, 1, STATES);
+    let torque = torques(reference, &states).expect("the robot's own states");
+    let torque = Compressed::new(candidate, &states, &torque).expect("the robot's own states");
+    let setting = Setting { candidate, reference: None, suspect, precision: Precision::EXACT };
+    let Diagnosed { same, explanations, .. } = diagnose(&setting, &torque);
+    counts.faults += 1;
+    let first = explanations.first();
+    if same {
+        counts.hidden += 1;
+    } else if first.is_some_and(|grouped| names(planted, grouped, suspect)) {
+        counts.named += 1;
+    } else if explanations.iter().any(|grouped| names(planted, grouped, suspect)) {
+        counts.listed += 1;
+    } else {
+        let found = first.map(|grouped| {
+            let parts = grouped.named.parts.iter();
+            parts.map(|part| (part.hypothesis.cause, part.hypothesis.place.clone())).collect::<Vec<_>>()
+        });
+        let relative = DVector::norm(&torque.difference) / torque.torques;
+        println!(
+            "{suspect:?} {:?} {} {:?}: {found:?} of {}, {relative:.1e}, {:.1e}",
+            planted.cause,
+            planted.detail,
+            planted.place,
+            explanations.len(),
+            torque.outside / torque.torques,
+        );
+        if explanations.is_empty() {
+            counts.missed += 1;
+        } else {
+            counts.other += 1;
+        }
+    }
+}
+
+fn bench(name: &str, suspects: &[Suspect]) -> Vec<Counts> {
+    let Some(corpus) = corpus::corpus() else { return Vec::new() };
+    let path = corpus.join("robots").join(name).join("robot.urdf");
+    let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
+    let original = Side::new(&robot);
+    let faults = planted(&original);
+    let count = |&suspect: &Suspect| {
+        let mut counts = Counts::default();
+        for planted in faults.iter().filter(|planted| can_be_told(planted, suspect)) {
+            judged(&original, planted, suspect, &mut counts);
+        }
+        println!("{name} {suspect:?}: {counts:?}");
+        counts
+    };
+    suspects.iter().map(count).collect()
+}
+
+/// Every cause at every link of a small robot: nothing is missed.
+#[test]
+fn every_cause_is_found_on_a_small_robot() {
+    for counts in bench("denso_hsr065", &[Suspect::Candidate, Suspect::Reference]) {
+        assert_eq!((counts.missed, counts.other), (0, 0), "{counts:?}");
+        assert!(counts.faults > 100);
+    }
+}
+
+#[test]
+#[ignore = "a benchmark of thousands of faults: run it after a change of thresholds or causes"]
+fn every_cause_is_found_on_many_robots() {
+    for name in ["ur5e", "iiwa14", "panda", "so100"] {
+        for counts in bench(name, &[Suspect::Candidate, Suspect::Reference]) {
+            assert_eq!(counts.missed, 0, "{name}: {counts:?}");
+        }
+    }
+}
+
+/// Two faults on links of different bodies, in the file.
+fn two_at_once(original: &Side, faults: &[Planted], stride: usize) -> Vec<[usize; 2]> {
+    let body = |at: usize| match &faults[at].place {
+        Place::Links(links) if links.len() == 1 => original.frames.links[links[0]].body,
+        _ => None,
+    };
+    let indices = (0..).map(|step| [step * stride, step * stride * 7 + 3].map(|at| at % faults.len()));
+    let usable = |&[a, b]: &[usize; 2]| body(a).is_some() && body(b).is_some() && body(a) != body(b);
+    indices.take(20 * PAIRS).filter(usable).take(PAIRS).collect()
+}
+
+/// Pairs of faults for each robot.
+const PAIRS: usize = 150;
+
+#[test]
+#[ignore = "a benchmark of hundreds of pairs of faults: run it after a change of thresholds or causes"]
+fn two_faults_at_once_are_found() {
+    let Some(corpus) = corpus::corpus() else { return };
+    for name in ["ur5e", "iiwa14", "panda", "so100"] {
+        let path = corpus.join("robots").join(name).join("robot.urdf");
+        let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
+        let original = Side::new(&robot);
+        let mut faults = planted(&original);
+        faults.retain(|planted| can_be_told(planted, Suspect::Candidate));
+        let mut counts = [0; 4];
+        for pair in two_at_once(&original, &faults, 37) {
+            let [a, b] = pair.map(|at| &faults[at]);
+            let side = with_both(a, b);
+            let states = random_states(&side.frames, 1, STATES);
+            let torque = torques(&original, &states).expect("the robot's own states");
+            let torque = Compressed::new(&side, &states, &torque).expect("the robot's own states");
+            let suspect = Suspect::Candidate;
+            let setting = Setting { candidate: &side, reference: None, suspect, precision: Precision::EXACT };
+            let explanations = diagnose(&setting, &torque).explanations;
+            let names_one = |grouped: &Grouped| names(a, grouped, suspect) || names(b, grouped, suspect);
+            let names_both = |grouped: &Grouped| names(a, grouped, suspect) && names(b, grouped, suspect);
+            // A fault that torque does not show leaves the other one.
+            let found = match explanations.first() {
+                Some(first) if names_both(first) => 0,
+                Some(_) if explanations.iter().any(names_both) => 1,
+                Some(_) if explanations.iter().any(names_one) => 2,
+                _ => 3,
+            };
+            counts[found] += 1;
+        }
+        let [named, listed, one, missed] = counts;
+        println!("{name}: both named {named}, listed {listed}, one of them {one}, none {missed}");
+        assert!(missed * 30 <= PAIRS, "{name}: {missed}");
+    }
+}

@@ -1,0 +1,194 @@
+//! Two descriptions of one robot against each other.
+
+use congruent_dynamics::DynamicsError;
+use nalgebra::Matrix3;
+
+use super::{
+    content::{Certificates, DynamicsReport, Premise, Sides, Verdict},
+    link_by_link::link_by_link,
+    told::{Description, Told},
+};
+use crate::{
+    bound::{certify_gravity, certify_inertia},
+    compare::{hidden, invariants::invariants, limits},
+    diagnosis::{Setting, Suspect},
+    side::{Inertial, Side},
+    thresholds::{Precision, STATES},
+    torque::{
+        compressed::{Compressed, torques},
+        states::random_states,
+    },
+};
+
+/// Why two descriptions cannot be compared.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompareError {
+    /// A joint of one is missing in the other: they are not the same chain.
+    #[error("joint \"{joint}\" is in one of the two descriptions only")]
+    Joint {
+        /// The joint.
+        joint: String,
+    },
+    /// Nothing moves.
+    #[error("no joint moves: there is no joint torque to compare")]
+    NoJoint,
+    /// A figure is no number, or so large that torques overflow.
+    #[error("a figure is not finite, or too large to compute torques with")]
+    NotFinite,
+    /// The source of accelerations failed.
+    #[error("the source of accelerations: {message}")]
+    Source {
+        /// What it said.
+        message: String,
+    },
+    /// A vector is another robot's.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
+}
+
+/// Compares two descriptions of the same chain at seeded random states.
+///
+/// Links and joints are matched by name; frames of equal name must be equal, which is the question of the kinematic
+/// comparison before this one.
+///
+/// # Errors
+/// [`CompareError`] if a joint is missing in one of them, or if figures are not finite.
+///
+/// # Examples
+/// A mass that is given in grams:
+/// ```
+/// use congruent_description::parse_urdf;
+/// use congruent_dynamics_agreement::{Cause, Description, Side, compare};
+/// let rod = |mass: &str| {
+///     let text = format!(r#"<robot name="rod"><link name="base"/>
+///     <link name="rod"><inertial><origin xyz="0.5 0 0"/><mass value="{mass}"/>
+///       <inertia ixx="0.01" iyy="0.2" izz="0.2" ixy="0" ixz="0" iyz="0"/></inertial></link>
+///     <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint>
+///     </robot>"#);
+///     Side::new(&parse_urdf(&text).unwrap())
+/// };
+/// let (wrong, right) = (rod("2000"), rod("2"));
+/// let description = |name, side| Description { name, side, places: None };
+/// let report = compare(&description("wrong", &wrong), &description("right", &right), 1)?;
+/// assert_eq!(report.explanations[0].cause, Cause::MassUnit);
+/// assert_eq!(report.explanations[0].sentence(), "rod: the mass is given in another unit (g)");
+/// # Ok::<(), congruent_dynamics_agreement::CompareError>(())
+/// ```
+pub fn compare(
+    candidate: &Description<'_>,
+    reference: &Description<'_>,
+    seed: u64,
+) -> Result<DynamicsReport, CompareError> {
+    let joints = comparable(candidate.side, reference.side)?;
+    let seen_as_candidate = in_geometry_of(candidate.side, reference.side, &joints);
+    let states = random_states(&candidate.side.frames, seed, STATES);
+    let expected = torques(&seen_as_candidate, &states)?;
+    let torque = Compressed::new(candidate.side, &states, &expected)?;
+    let setting = Setting {
+        candidate: candidate.side,
+        reference: Some(reference.side),
+        suspect: Suspect::Candidate,
+        precision: Precision::EXACT,
+    };
+    let mut told = Told::new(&setting, candidate, &torque);
+    if !told.same && told.explanations.is_empty() {
+        let sides = (candidate, reference.side);
+        told.explanations = link_by_link(&setting, sides, &seen_as_candidate, &states)?;
+    }
+    let differences = hidden::differences(candidate.side, reference.side);
+    let hidden_differences = if told.same {
+        differences.clone()
+    } else {
+        hidden::without_effect(candidate.side, reference.side, &torque)
+    };
+    let limits = limits::differences(candidate.side, reference.side, &joints);
+    let verdict = if told.same && differences.is_empty() { Verdict::Same } else { told.verdict() };
+    let tree = seen_as_candidate.tree().without_resistances();
+    Ok(DynamicsReport {
+        sides: Sides {
+            candidate: candidate.name.to_owned(),
+            reference: reference.name.to_owned(),
+            suspect: setting.suspect,
+        },
+        verdict,
+        premise: Premise {
+            fit_relative: torque.outside / torque.torques,
+            held_out_relative: None,
+            states: states.len(),
+        },
+        seen: torque.seen,
+        invariants: Some(invariants([candidate.side, reference.side], &tree, &states[..INVARIANT_STATES])?),
+        links: told.links,
+        differences,
+        hidden_differences,
+        explanations: told.explanations,
+        indistinguishable: told.indistinguishable,
+        limits,
+        certificates: None,
+    })
+}
+
+/// Invariants are compared at so many of the states. Kind: choice; they are an impression, the certificate is the bound.
+const INVARIANT_STATES: usize = 20;
+
+/// Brackets the largest differences of torque between two descriptions of the same chain: seconds for a long arm.
+///
+/// # Errors
+/// As [`compare`].
+pub fn certify(
+    candidate: &Description<'_>,
+    reference: &Description<'_>,
+    seed: u64,
+) -> Result<Certificates, CompareError> {
+    let joints = comparable(candidate.side, reference.side)?;
+    let reference = in_geometry_of(candidate.side, reference.side, &joints);
+    Ok(Certificates {
+        gravity: certify_gravity(candidate.side, &reference, seed)?,
+        inertia: certify_inertia(candidate.side, &reference, seed)?,
+    })
+}
+
+/// For each joint of the candidate the reference's of that name, if torques can be computed at all.
+fn comparable(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareError> {
+    let joints = matched(candidate, reference)?;
+    if joints.is_empty() {
+        return Err(CompareError::NoJoint);
+    }
+    let usable = [candidate, reference].into_iter().all(has_usable_numbers);
+    if usable { Ok(joints) } else { Err(CompareError::NotFinite) }
+}
+
+fn matched(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareError> {
+    let missing = |joint: &str| CompareError::Joint { joint: joint.to_owned() };
+    for joint in &reference.frames.joints {
+        candidate.frames.find_joint(&joint.name).ok_or_else(|| missing(&joint.name))?;
+    }
+    let place = |name: &str| reference.frames.find_joint(name).ok_or_else(|| missing(name));
+    candidate.frames.joints.iter().map(|joint| place(&joint.name)).collect()
+}
+
+/// Larger figures overflow in squares of torques. Kind: range of numbers.
+const LARGEST_NUMBER: f64 = 1e60;
+
+pub(super) fn has_usable_numbers(side: &Side) -> bool {
+    let terms = side.resistances.iter().flat_map(|of| [of.damping, of.friction, of.armature]);
+    let numbers = side.inertials.iter().flatten().flat_map(|inertial| inertial.about_origin().parameters());
+    terms.chain(numbers).chain(side.gravity_m_s2.iter().copied()).all(|number| number.abs() < LARGEST_NUMBER)
+}
+
+/// The figures of a reference in a candidate's geometry: one inertial for each body, in the frame of the link that its
+/// joint carries.
+fn in_geometry_of(candidate: &Side, reference: &Side, joints: &[usize]) -> Side {
+    let bodies = reference.bodies();
+    let mut seen = candidate.clone();
+    seen.inertials.fill(None);
+    for (joint, &other) in joints.iter().enumerate() {
+        let link = candidate.frames.joints[joint].link;
+        seen.inertials[link] = Some(Inertial::from_origin(&bodies[other], Matrix3::identity()));
+        seen.resistances[joint] = reference.resistances[other];
+        seen.limits[joint] = reference.limits[other];
+    }
+    seen.gravity_m_s2 = reference.gravity_m_s2;
+    seen
+}

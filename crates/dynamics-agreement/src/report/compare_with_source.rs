@@ -1,0 +1,67 @@
+//! A description against a source of accelerations that was built from it, such as a physics engine.
+
+use super::{
+    compare_descriptions::{CompareError, has_usable_numbers},
+    content::{DynamicsReport, Premise, Sides},
+    told::{Description, Told},
+};
+use crate::{
+    diagnosis::{Setting, Suspect},
+    thresholds::{Precision, STATES},
+    torque::{
+        compressed::Compressed,
+        held_out::fit_and_hold_out,
+        source::{AccelerationSource, Probing, probed},
+        states::random_states,
+    },
+};
+
+/// Compares a description with a source of accelerations of the same robot: what of the source would have to be other
+/// for the description's torques? The source is suspected, so figures are found there and expected in the description.
+///
+/// Mimic joints must be free of their masters in the source.
+///
+/// # Errors
+/// [`CompareError`] if the source fails, or if figures are not finite.
+pub fn compare_with_source(
+    candidate: &Description<'_>,
+    (name, source): (&str, &mut dyn AccelerationSource),
+    probing: Probing,
+) -> Result<DynamicsReport, CompareError> {
+    if candidate.side.frames.dof() == 0 {
+        return Err(CompareError::NoJoint);
+    }
+    if !has_usable_numbers(candidate.side) {
+        return Err(CompareError::NotFinite);
+    }
+    let states = random_states(&candidate.side.frames, probing.seed, STATES);
+    let (states, torques) = probed(candidate.side, source, states, probing.step_s)
+        .map_err(|message| CompareError::Source { message })?;
+    let torque = Compressed::new(candidate.side, &states, &torques)?;
+    let [fit_relative, held_out] = fit_and_hold_out(candidate.side, &states, &torques)?;
+    let setting = Setting {
+        candidate: candidate.side,
+        reference: None,
+        suspect: Suspect::Reference,
+        precision: Precision::ENGINE,
+    };
+    let told = Told::new(&setting, candidate, &torque);
+    Ok(DynamicsReport {
+        sides: Sides {
+            candidate: candidate.name.to_owned(),
+            reference: name.to_owned(),
+            suspect: setting.suspect,
+        },
+        verdict: told.verdict(),
+        premise: Premise { fit_relative, held_out_relative: Some(held_out), states: states.len() },
+        seen: torque.seen,
+        invariants: None,
+        links: told.links,
+        differences: Vec::new(),
+        hidden_differences: Vec::new(),
+        explanations: told.explanations,
+        indistinguishable: told.indistinguishable,
+        limits: Vec::new(),
+        certificates: None,
+    })
+}

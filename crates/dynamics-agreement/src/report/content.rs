@@ -1,0 +1,131 @@
+//! The report of a comparison of dynamics, as JSON. Units are SI.
+
+use crate::{
+    bound::TorqueCertificate,
+    compare::{FigureDifference, Invariants, LimitDifference},
+    diagnosis::{Cause, Reason, Suspect},
+    torque::SeenNumbers,
+};
+
+/// What a comparison of dynamics found.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
+pub struct DynamicsReport {
+    /// Names of the two.
+    pub sides: Sides,
+    /// The result.
+    pub verdict: Verdict,
+    /// How well the reference's torques are those of a rigid body chain at all.
+    pub premise: Premise,
+    /// How many inertial numbers torques tell.
+    pub seen: SeenNumbers,
+    /// Masses, gravity torques, mass matrix; `null` if the reference is no description.
+    pub invariants: Option<Invariants>,
+    /// Links whose numbers alone can contain the difference.
+    #[serde(rename = "where")]
+    pub links: Vec<String>,
+    /// Figures of links that differ between two descriptions; tensors in the axes of the inertial frame if both have the
+    /// same, else in those of the link.
+    pub differences: Vec<FigureDifference>,
+    /// Those of them that no joint torque shows.
+    pub hidden_differences: Vec<FigureDifference>,
+    /// What explains the difference best; empty if there is none, or if nothing explains it. More than one if the
+    /// difference is that of more than two links: then each explains its own link, joints or gravity.
+    pub explanations: Vec<Explanation>,
+    /// What leaves the same torques with other figures.
+    pub indistinguishable: Vec<Explanation>,
+    /// Limits of joints that differ.
+    pub limits: Vec<LimitDifference>,
+    /// How large the differences of torque can get; `null` if nobody has asked.
+    pub certificates: Option<Certificates>,
+}
+
+/// How large the differences of torque can get over the range of the joints.
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, schemars::JsonSchema)]
+pub struct Certificates {
+    /// Of gravity alone.
+    pub gravity: TorqueCertificate,
+    /// Of accelerations up to 10 rad/s^2 and m/s^2 of every joint, without armature.
+    pub inertia: TorqueCertificate,
+}
+
+/// Names of the two sides.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+pub struct Sides {
+    /// Whose figures are known and corrected.
+    pub candidate: String,
+    /// What it is held against.
+    pub reference: String,
+    /// Which of the two is suspected.
+    pub suspect: Suspect,
+}
+
+/// The result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Torques and figures are the same.
+    Same,
+    /// Torques are the same, but figures differ that no torque shows.
+    SameTorques,
+    /// Torques differ, and an explanation leaves nothing of the difference.
+    Explained,
+    /// Torques differ for no known reason.
+    Unexplained,
+}
+
+/// How well the reference's torques are those of a rigid body chain.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
+pub struct Premise {
+    /// Part of the reference's torque that no numbers of such a chain explain, at the states that are fitted.
+    pub fit_relative: f64,
+    /// The same at the states that are held out; `null` if the torques are computed from a description.
+    pub held_out_relative: Option<f64>,
+    /// How many states.
+    pub states: usize,
+}
+
+/// One explanation.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
+pub struct Explanation {
+    /// `several` if it has parts.
+    pub cause: Cause,
+    /// Which unit, axis, entry, frame.
+    pub detail: String,
+    /// Links or joints; `*` for all of them, `gravity`.
+    pub place: Vec<String>,
+    /// The figures that it corrects, as they are written and as they should be.
+    pub figures: Vec<FigureDifference>,
+    /// What it costs: free numbers that torque shows, 0.5 for a figure that the file does not have, 1 for each further part.
+    pub numbers: f64,
+    /// What is left of the difference.
+    pub left_relative: f64,
+    /// Whether the corrected figures are those of a body.
+    pub is_a_body: bool,
+    /// The law that they break.
+    pub body_law: Option<String>,
+    /// Whether it blames a figure that is the same in both descriptions.
+    pub contradicted: bool,
+    /// Other names of the same correction.
+    pub also_named: Vec<Name>,
+    /// Why torque cannot tell it from the first explanation.
+    pub reason: Option<Reason>,
+    /// The parts of several faults at once.
+    pub parts: Vec<Name>,
+    /// The file that is to be corrected.
+    pub file: Option<String>,
+    /// The line of the first figure.
+    pub line: Option<usize>,
+    /// What to write instead.
+    pub suggestion: Option<String>,
+}
+
+/// A cause with its place.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+pub struct Name {
+    /// The cause.
+    pub cause: Cause,
+    /// Which unit, axis, entry, frame.
+    pub detail: String,
+    /// Links or joints; `*` for all of them, `gravity`.
+    pub place: Vec<String>,
+}

@@ -1,0 +1,14 @@
+//! The comparison as data and in words.
+
+mod compare_descriptions;
+mod compare_with_source;
+mod content;
+mod explained;
+mod link_by_link;
+mod told;
+mod words;
+
+pub use compare_descriptions::{CompareError, certify, compare};
+pub use compare_with_source::compare_with_source;
+pub use content::{Certificates, DynamicsReport, Explanation, Name, Premise, Sides, Verdict};
+pub use told::Description;

@@ -1,0 +1,185 @@
+//! Where the links of a robot are at zero: what a figure in a wrong frame is measured against. Both sides share it.
+
+use congruent_description::{JointIndex, Robot};
+use congruent_dynamics::BodyTree;
+use congruent_kinematics::Pose;
+
+/// The geometry that both sides have in common.
+#[derive(Debug, Clone)]
+pub struct Frames {
+    pub(crate) tree: BodyTree,
+    pub(crate) links: Vec<LinkPlace>,
+    pub(crate) joints: Vec<JointPlace>,
+    pub(crate) others: Vec<OtherFrame>,
+    pub(crate) reach_m: f64,
+}
+
+/// Where a link stands in the robot.
+#[derive(Debug, Clone)]
+pub(crate) struct LinkPlace {
+    pub(crate) name: String,
+    /// The moving joint that carries it; `None` if it is fixed to the root.
+    pub(crate) body: Option<usize>,
+    /// In the frame of the link that names its body.
+    pub(crate) body_from_link: Pose,
+    /// Joints at zero.
+    pub(crate) root_from_link: Pose,
+    /// Whether something is drawn there, which must have mass.
+    pub(crate) has_shape: bool,
+}
+
+/// A moving joint.
+#[derive(Debug, Clone)]
+pub(crate) struct JointPlace {
+    pub(crate) name: String,
+    /// The moving joint before it.
+    pub(crate) parent: Option<usize>,
+    pub(crate) is_angular: bool,
+    /// The range of positions: one turn if it has no limits.
+    pub(crate) range: (f64, f64),
+    /// The link that it carries.
+    pub(crate) link: usize,
+}
+
+/// A frame beside the link's own in which figures of a link could have been given.
+#[derive(Debug, Clone)]
+pub(crate) struct OtherFrame {
+    pub(crate) name: String,
+    /// One for each link that has it, joints at zero.
+    pub(crate) link_from_frame: Vec<Option<Pose>>,
+}
+
+impl Frames {
+    /// Of a robot.
+    pub fn new(robot: &Robot) -> Self {
+        let tree = BodyTree::new(robot).without_resistances().with_independent_mimics();
+        let mut links: Vec<LinkPlace> = Vec::with_capacity(robot.links().len());
+        let mut reach_m = vec![0.0; robot.links().len()];
+        for index in robot.link_indices() {
+            let link = robot.link(index);
+            let (mut body, mut body_from_link, mut root_from_link) =
+                (None, Pose::identity(), Pose::identity());
+            if let Some(joint) = robot.parent_joint(index) {
+                let coordinate = robot.coordinate(joint);
+                let joint = robot.joint(joint);
+                let parent = joint.parent.get();
+                let parent_from_joint = Pose::from(joint.parent_from_joint);
+                root_from_link = links[parent].root_from_link * parent_from_joint;
+                let stroke = joint.position_range().filter(|_| !joint.kind.is_angular());
+                reach_m[index.get()] = reach_m[parent]
+                    + parent_from_joint.translation.norm()
+                    + stroke.map_or(0.0, |(lower, upper)| lower.abs().max(upper.abs()));
+                if coordinate.is_some() {
+                    body = coordinate;
+                } else {
+                    body = links[parent].body;
+                    body_from_link = links[parent].body_from_link * parent_from_joint;
+                }
+            }
+            let has_shape = !(link.visuals.is_empty() && link.collisions.is_empty());
+            let name = link.name.clone();
+            links.push(LinkPlace { name, body, body_from_link, root_from_link, has_shape });
+        }
+        let joints = robot.movable_joints().iter().map(|&joint| joint_place(robot, joint, &links)).collect();
+        let others = others(robot, &links);
+        Self { tree, links, joints, others, reach_m: reach_m.into_iter().fold(0.0, f64::max) }
+    }
+
+    /// With one more frame that figures could have been given in, such as a DH frame: one for each link that has it.
+    ///
+    /// # Panics
+    /// If there is not one entry for each link of the robot.
+    #[must_use]
+    pub fn with_other_frame(mut self, name: &str, link_from_frame: Vec<Option<Pose>>) -> Self {
+        assert_eq!(link_from_frame.len(), self.links.len(), "one for each link");
+        self.others.push(OtherFrame { name: name.to_owned(), link_from_frame });
+        self
+    }
+
+    /// Number of moving joints.
+    pub fn dof(&self) -> usize {
+        self.joints.len()
+    }
+
+    /// The link with this name.
+    pub fn find_link(&self, name: &str) -> Option<usize> {
+        self.links.iter().position(|link| link.name == name)
+    }
+
+    /// The moving joint with this name.
+    pub fn find_joint(&self, name: &str) -> Option<usize> {
+        self.joints.iter().position(|joint| joint.name == name)
+    }
+
+    /// Name of a link.
+    ///
+    /// # Panics
+    /// If there is no such link.
+    pub fn link_name(&self, link: usize) -> &str {
+        &self.links[link].name
+    }
+
+    /// Name of a moving joint.
+    ///
+    /// # Panics
+    /// If there is no such joint.
+    pub fn joint_name(&self, joint: usize) -> &str {
+        &self.joints[joint].name
+    }
+
+    /// Pose of a link in the root, joints at zero.
+    pub(crate) fn root_from_link(&self, link: usize) -> &Pose {
+        &self.links[link].root_from_link
+    }
+
+    /// The links of a body.
+    pub(crate) fn links_of(&self, body: usize) -> impl Iterator<Item = usize> {
+        (0..self.links.len()).filter(move |&link| self.links[link].body == Some(body))
+    }
+
+    /// The joints from one up to the root, itself first.
+    pub(crate) fn way_up(&self, joint: usize) -> impl Iterator<Item = usize> {
+        std::iter::successors(Some(joint), |&joint| self.joints[joint].parent)
+    }
+}
+
+fn joint_place(robot: &Robot, index: JointIndex, links: &[LinkPlace]) -> JointPlace {
+    let joint = robot.joint(index);
+    JointPlace {
+        name: joint.name.clone(),
+        parent: links[joint.parent.get()].body,
+        is_angular: joint.kind.is_angular(),
+        range: congruent_kinematics::range(joint),
+        link: joint.child.get(),
+    }
+}
+
+/// Root, parent, children and visuals of every link.
+fn others(robot: &Robot, links: &[LinkPlace]) -> Vec<OtherFrame> {
+    let link_from =
+        |link: usize, root_from_frame: &Pose| links[link].root_from_link.inverse() * *root_from_frame;
+    let frame = |name: &str, each: &dyn Fn(usize) -> Option<Pose>| OtherFrame {
+        name: name.to_owned(),
+        link_from_frame: (0..links.len()).map(each).collect(),
+    };
+    let parent = |link: usize| robot.joints().iter().find(|joint| joint.child.get() == link);
+    let child = |link: usize, which: usize| {
+        robot.joints().iter().filter(|joint| joint.parent.get() == link).nth(which)
+    };
+    let visual = |link: usize, which: usize| robot.links()[link].visuals.get(which);
+    let mut frames = vec![
+        frame("root", &|link| Some(link_from(link, &Pose::identity()))),
+        frame("parent", &|link| Some(link_from(link, &links[parent(link)?.parent.get()].root_from_link))),
+    ];
+    for which in 0..FRAMES_OF_A_KIND {
+        frames.push(frame("child", &|link| {
+            Some(link_from(link, &links[child(link, which)?.child.get()].root_from_link))
+        }));
+        frames.push(frame("visual", &|link| Some(visual(link, which)?.link_from_shape.into())));
+    }
+    frames.retain(|frame| frame.link_from_frame.iter().any(Option::is_some));
+    frames
+}
+
+/// How many children and visuals of a link are tried. Kind: choice; a hand has two fingers.
+const FRAMES_OF_A_KIND: usize = 3;

@@ -1,0 +1,188 @@
+//! What a description says of one link's inertia, as it is written: hypotheses are about these figures.
+
+use congruent_description::Inertia;
+use congruent_dynamics::{PARAMETERS, SpatialInertia};
+use nalgebra::{Matrix3, SVector, SymmetricEigen, Vector3};
+
+/// The ten numbers of a link about its origin, in the order of [`SpatialInertia::parameters`].
+pub(crate) type TenNumbers = SVector<f64, PARAMETERS>;
+
+/// The figures of an `<inertial>` element.
+///
+/// | field | shape | unit | frame |
+/// |---|---|---|---|
+/// | `mass_kg` | 1 | kg | |
+/// | `com_m` | 3 | m | link |
+/// | `link_from_axes` | 3 x 3 | | axes of the inertial frame, in the link |
+/// | `tensor_kg_m2` | 3 x 3 | kg m^2 | about the centre of mass, in the axes of the inertial frame |
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inertial {
+    /// Mass.
+    pub mass_kg: f64,
+    /// Centre of mass.
+    pub com_m: Vector3<f64>,
+    /// Axes of the inertial frame.
+    pub link_from_axes: Matrix3<f64>,
+    /// Rotational inertia.
+    pub tensor_kg_m2: Matrix3<f64>,
+}
+
+impl Inertial {
+    /// No mass, at the link's origin.
+    pub fn nothing() -> Self {
+        Self {
+            mass_kg: 0.0,
+            com_m: Vector3::zeros(),
+            link_from_axes: Matrix3::identity(),
+            tensor_kg_m2: Matrix3::zeros(),
+        }
+    }
+
+    /// The inertia about the link's origin, in the link's axes.
+    pub fn about_origin(&self) -> SpatialInertia {
+        SpatialInertia {
+            mass_kg: self.mass_kg,
+            first_moment_kg_m: self.com_m * self.mass_kg,
+            tensor_kg_m2: self.tensor_in_link() + self.shift(),
+        }
+    }
+
+    /// The tensor about the centre of mass, in the link's axes.
+    pub fn tensor_in_link(&self) -> Matrix3<f64> {
+        self.link_from_axes * self.tensor_kg_m2 * self.link_from_axes.transpose()
+    }
+
+    /// What the tensor about the link's origin has more than the one about the centre of mass, in the link's axes.
+    pub(crate) fn shift(&self) -> Matrix3<f64> {
+        let c = self.com_m;
+        (Matrix3::from_diagonal_element(c.norm_squared()) - c * c.transpose()) * self.mass_kg
+    }
+
+    /// The figures of an inertia about the link's origin, with the tensor in these axes; without mass, the centre of
+    /// mass is the origin.
+    pub(crate) fn from_origin(inertia: &SpatialInertia, link_from_axes: Matrix3<f64>) -> Self {
+        let com_m = if inertia.mass_kg == 0.0 {
+            Vector3::zeros()
+        } else {
+            inertia.first_moment_kg_m / inertia.mass_kg
+        };
+        let mut figures =
+            Self { mass_kg: inertia.mass_kg, com_m, link_from_axes, tensor_kg_m2: Matrix3::zeros() };
+        let about_com = inertia.tensor_kg_m2 - figures.shift();
+        figures.tensor_kg_m2 = link_from_axes.transpose() * about_com * link_from_axes;
+        figures
+    }
+
+    /// With the tensor in the link's axes replaced; the axes stay.
+    pub(crate) fn with_tensor_in_link(&self, tensor: &Matrix3<f64>) -> Self {
+        let axes = self.link_from_axes;
+        Self { tensor_kg_m2: axes.transpose() * tensor * axes, ..*self }
+    }
+
+    pub(crate) fn ten_numbers(&self) -> TenNumbers {
+        self.about_origin().parameters().into()
+    }
+
+    /// Why no body has these figures; `None` if one has.
+    pub fn law_broken(&self, reach_m: f64) -> Option<BodyLaw> {
+        if self.mass_kg <= 0.0 {
+            return Some(BodyLaw::Mass);
+        }
+        let largest = self.tensor_kg_m2.amax();
+        if !largest.is_finite() {
+            return Some(BodyLaw::Size);
+        }
+        if largest == 0.0 {
+            return None;
+        }
+        // Scaled: entries near the largest double overflow inside the solver.
+        let mut moments: [f64; 3] = SymmetricEigen::new(self.tensor_kg_m2 / largest).eigenvalues.into();
+        moments.sort_by(f64::total_cmp);
+        let [least, middle, most] = moments;
+        if least < -MOMENT * most.abs() || most < 0.0 {
+            Some(BodyLaw::Moments)
+        } else if least + middle < most * (1.0 - MOMENT) {
+            Some(BodyLaw::Triangle)
+        } else if most * largest / self.mass_kg > reach_m * reach_m {
+            Some(BodyLaw::Size)
+        } else {
+            None
+        }
+    }
+}
+
+/// A principal moment may break a law by this share of the largest. No unit; kind: digits of a file, as the reader of
+/// URDF allows them.
+const MOMENT: f64 = 1e-6;
+
+/// What every body obeys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BodyLaw {
+    /// Its mass is positive.
+    Mass,
+    /// Its principal moments are positive.
+    Moments,
+    /// Its largest principal moment is at most the sum of the others.
+    Triangle,
+    /// Its radius of gyration is below the reach of the arm.
+    Size,
+}
+
+impl BodyLaw {
+    /// What is wrong, as the end of a sentence about a link.
+    pub fn broken(self) -> &'static str {
+        match self {
+            Self::Mass => "its mass would not be positive",
+            Self::Moments => "a principal moment of inertia would be negative",
+            Self::Triangle => "its largest principal moment would exceed the sum of the others",
+            Self::Size => "its radius of gyration would exceed the reach of the arm",
+        }
+    }
+}
+
+impl From<&Inertia> for Inertial {
+    fn from(inertia: &Inertia) -> Self {
+        Self {
+            mass_kg: inertia.mass_kg,
+            com_m: inertia.link_from_inertial.translation.vector,
+            link_from_axes: inertia.link_from_inertial.rotation.to_rotation_matrix().into_inner(),
+            tensor_kg_m2: inertia.tensor_kg_m2,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turned() -> Inertial {
+        Inertial {
+            mass_kg: 2.0,
+            com_m: Vector3::new(0.1, -0.2, 0.3),
+            link_from_axes: congruent_kinematics::rotation_exp(&Vector3::new(0.4, -0.5, 0.6)),
+            tensor_kg_m2: Matrix3::new(3.0, 0.1, 0.2, 0.1, 4.0, 0.3, 0.2, 0.3, 5.0) * 1e-2,
+        }
+    }
+
+    #[test]
+    fn figures_come_back_from_the_ten_numbers() {
+        let figures = turned();
+        let back = Inertial::from_origin(&figures.about_origin(), figures.link_from_axes);
+        assert!((back.tensor_kg_m2 - figures.tensor_kg_m2).amax() < 1e-16, "{back:?}");
+        assert!((back.com_m - figures.com_m).amax() < 1e-16);
+    }
+
+    #[test]
+    fn each_law_is_noticed() {
+        let figures = turned();
+        let moments =
+            |x, y, z| Inertial { tensor_kg_m2: Matrix3::from_diagonal(&Vector3::new(x, y, z)), ..figures };
+        assert_eq!(figures.law_broken(1.0), None);
+        assert_eq!(Inertial { mass_kg: -1.0, ..figures }.law_broken(1.0), Some(BodyLaw::Mass));
+        assert_eq!(moments(1.0, -0.1, 1.0).law_broken(1.0), Some(BodyLaw::Moments));
+        assert_eq!(moments(1.0, 1.0, 2.1).law_broken(1.0), Some(BodyLaw::Triangle));
+        assert_eq!(moments(3.0, 3.0, 3.0).law_broken(1.0), Some(BodyLaw::Size));
+        assert_eq!(moments(0.0, 0.0, 0.0).law_broken(1.0), None);
+    }
+}

@@ -1,0 +1,99 @@
+//! One side of the comparison: what a description says of inertias, joints and gravity.
+
+pub(crate) mod frames;
+pub(crate) mod inertial;
+mod joint_terms;
+
+use std::sync::Arc;
+
+use congruent_description::{JointLimit, Robot};
+use congruent_dynamics::{BodyTree, GRAVITY_M_S2, JointResistance, SpatialInertia};
+use nalgebra::{DVector, Vector3};
+
+pub use frames::Frames;
+pub use inertial::{BodyLaw, Inertial};
+pub(crate) use joint_terms::JointTerm;
+
+/// A description of a robot's dynamics, with every figure as it is written.
+///
+/// Links and moving joints are numbered as in [`congruent_description::Robot`]; mimic joints are independent.
+#[derive(Debug, Clone)]
+pub struct Side {
+    pub(crate) frames: Arc<Frames>,
+    /// One for each link.
+    pub inertials: Vec<Option<Inertial>>,
+    /// One for each moving joint.
+    pub resistances: Vec<JointResistance>,
+    /// Gravity in the root link, m/s^2.
+    pub gravity_m_s2: Vector3<f64>,
+    /// One for each moving joint.
+    pub limits: Vec<Option<JointLimit>>,
+}
+
+impl Side {
+    /// What a robot's description says.
+    pub fn new(robot: &Robot) -> Self {
+        Self::with_frames(robot, Arc::new(Frames::new(robot)))
+    }
+
+    /// The same with frames that were made before, of the same robot.
+    pub fn with_frames(robot: &Robot, frames: Arc<Frames>) -> Self {
+        let moving = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+        let resistance = |joint: &congruent_description::Joint| JointResistance {
+            damping: joint.damping,
+            friction: joint.friction,
+            armature: 0.0,
+        };
+        Self {
+            frames,
+            inertials: robot.links().iter().map(|link| link.inertia.as_ref().map(Inertial::from)).collect(),
+            resistances: moving().map(resistance).collect(),
+            gravity_m_s2: GRAVITY_M_S2.into(),
+            limits: moving().map(|joint| joint.limit).collect(),
+        }
+    }
+
+    /// The geometry.
+    pub fn frames(&self) -> &Frames {
+        &self.frames
+    }
+
+    /// Inertia of each body, in the frame of the link that its joint carries.
+    pub fn bodies(&self) -> Vec<SpatialInertia> {
+        let mut bodies = vec![SpatialInertia::zero(); self.frames.dof()];
+        for (place, inertial) in self.frames.links.iter().zip(&self.inertials) {
+            if let (Some(body), Some(inertial)) = (place.body, inertial) {
+                bodies[body] += inertial.about_origin().transformed_by(&place.body_from_link);
+            }
+        }
+        bodies
+    }
+
+    /// The numbers of all bodies, one body after another.
+    pub(crate) fn stacked_numbers(&self) -> DVector<f64> {
+        let numbers: Vec<f64> = self.bodies().iter().flat_map(SpatialInertia::parameters).collect();
+        DVector::from_vec(numbers)
+    }
+
+    /// The robot with these figures, ready for the algorithms of dynamics.
+    ///
+    /// # Panics
+    /// If a list has not one entry for each moving joint.
+    pub fn tree(&self) -> BodyTree {
+        let tree = self.frames.tree.clone().with_gravity(self.gravity_m_s2);
+        let tree = tree.with_inertias_in_links(&self.bodies()).expect("one inertia for each joint");
+        tree.with_resistances(self.resistances.clone()).expect("one resistance for each joint")
+    }
+
+    /// Mass of all links, and of those that move.
+    pub(crate) fn masses_kg(&self) -> [f64; 2] {
+        let mass = |moving: bool| -> f64 {
+            let links = self.frames.links.iter().zip(&self.inertials);
+            links
+                .filter(|(place, _)| place.body.is_some() || !moving)
+                .filter_map(|(_, inertial)| Some(inertial.as_ref()?.mass_kg))
+                .sum()
+        };
+        [mass(false), mass(true)]
+    }
+}

@@ -1,0 +1,354 @@
+//! The planted faults of the corpus: 71 changes of inertials and joints, with the torques that they change and the
+//! explanations that leave the same torques.
+
+#![expect(clippy::print_stdout, reason = "measured values, for --nocapture")]
+
+#[path = "../../../tests/corpus.rs"]
+mod corpus;
+
+use std::{collections::BTreeMap, path::Path};
+
+use congruent_description::{Robot, RobotQ, load_robot};
+use congruent_dynamics::{BodyTree, JointMotion};
+use congruent_dynamics_agreement::{
+    Certificates, Description, DynamicsReport, Explanation, Inertial, Side, TorqueCertificate, Verdict,
+    certify, compare,
+};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use serde_json::Value;
+
+/// Rounding of two programs, relative to the largest torque of the state or, where the fault itself is larger, to the
+/// fault. The golden's frames were turned by angles of 16 digits. Worst seen: see the test's output.
+const RELATIVE: f64 = 1e-11;
+
+/// An attained difference is found by climbing: both programs end on the same hill within this share.
+const CLIMBED: f64 = 1e-6;
+
+fn read(path: &Path) -> Value {
+    let text = std::fs::read_to_string(path).expect("the corpus holds the file");
+    serde_json::from_str(&text).expect("the file is JSON")
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().expect("a string")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+fn numbers<const N: usize>(value: &Value) -> [f64; N] {
+    std::array::from_fn(|at| number(&value[at]))
+}
+
+fn array(value: &Value) -> &Vec<Value> {
+    value.as_array().expect("an array")
+}
+
+fn names(value: &Value) -> Vec<&str> {
+    array(value).iter().map(text).collect()
+}
+
+/// What a file would say.
+fn inertial(value: &Value) -> Option<Inertial> {
+    if value.is_null() {
+        return None;
+    }
+    let [roll, pitch, yaw] = numbers(&value["rpy"]);
+    let [xx, xy, xz, yy, yz, zz] = numbers(&value["inertia"]);
+    Some(Inertial {
+        mass_kg: number(&value["mass"]),
+        com_m: Vector3::from(numbers::<3>(&value["xyz"])),
+        link_from_axes: Rotation3::from_euler_angles(roll, pitch, yaw).into_inner(),
+        tensor_kg_m2: Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
+    })
+}
+
+/// A side with the changes of a fault.
+fn mutated(robot: &Robot, fault: &Value) -> Side {
+    let mut side = Side::new(robot);
+    for (link, figures) in fault["changes"].as_object().expect("changes by link") {
+        let link = side.frames().find_link(link).expect("a link of the robot");
+        side.inertials[link] = inertial(figures);
+    }
+    for (joint, terms) in fault["joint_changes"].as_object().expect("changes by joint") {
+        let joint = side.frames().find_joint(joint).expect("a joint of the robot");
+        for (term, value) in terms.as_object().expect("terms") {
+            let value = number(value);
+            match term.as_str() {
+                "damping" => side.resistances[joint].damping = value,
+                "friction" => side.resistances[joint].friction = value,
+                "velocity" => side.limits[joint].as_mut().expect("a limit").velocity = value,
+                "effort" => side.limits[joint].as_mut().expect("a limit").effort = value,
+                other => panic!("{other} is no term of a joint"),
+            }
+        }
+    }
+    side
+}
+
+/// For each fault the robot, the mutated side and the original.
+fn each_fault(mut check: impl FnMut(&Value, &Side, &Side)) {
+    let Some(corpus) = corpus::corpus() else { return };
+    let golden = read(&corpus.join("dynamics-faults/faults.json"));
+    let mut robots: BTreeMap<String, Robot> = BTreeMap::new();
+    let faults = array(&golden["faults"]);
+    assert_eq!(faults.len(), 71);
+    for fault in faults {
+        let name = text(&fault["robot"]);
+        let robot = robots.entry(name.to_owned()).or_insert_with(|| {
+            load_robot(&corpus.join("robots").join(name).join("robot.urdf"))
+                .unwrap_or_else(|findings| panic!("{findings:#?}"))
+                .robot
+        });
+        check(fault, &mutated(robot, fault), &Side::new(robot));
+    }
+}
+
+fn compared(candidate: &Side, reference: &Side) -> DynamicsReport {
+    let description = |name, side| Description { name, side, places: None };
+    compare(&description("mutated", candidate), &description("original", reference), 1).expect("one chain")
+}
+
+fn brackets_of(candidate: &Side, reference: &Side) -> Certificates {
+    let description = |name, side| Description { name, side, places: None };
+    certify(&description("mutated", candidate), &description("original", reference), 1).expect("one chain")
+}
+
+/// All names of an explanation with their details and places.
+fn all_names(explanation: &Explanation) -> Vec<(&str, &str, Vec<&str>)> {
+    let own = (explanation.cause.name(), explanation.detail.as_str(), refs(&explanation.place));
+    let also = explanation
+        .also_named
+        .iter()
+        .map(|name| (name.cause.name(), name.detail.as_str(), refs(&name.place)));
+    std::iter::once(own).chain(also).collect()
+}
+
+fn refs(names: &[String]) -> Vec<&str> {
+    names.iter().map(String::as_str).collect()
+}
+
+#[test]
+fn every_fault_is_named_or_listed() {
+    let (mut named, mut listed) = (0, 0);
+    let mut missed = Vec::new();
+    each_fault(|fault, candidate, reference| {
+        let id = text(&fault["id"]);
+        let report = compared(candidate, reference);
+        let is_seen = fault["seen_by_joint_torque"].as_bool().expect("yes or no");
+        if !is_seen {
+            assert!(report.explanations.is_empty(), "{id}: {:?}", report.explanations);
+            return;
+        }
+        let (cause, place) = (text(&fault["cause"]), names(&fault["place"]));
+        let is_planted = |explanation: &Explanation| {
+            all_names(explanation).iter().any(|(name, _, at)| *name == cause && *at == place)
+        };
+        if report.explanations.iter().any(is_planted) {
+            named += 1;
+        } else if report.indistinguishable.iter().any(is_planted) {
+            listed += 1;
+            println!(
+                "{id} is listed; named is {:?}",
+                report.explanations.iter().map(all_names).collect::<Vec<_>>()
+            );
+        } else {
+            missed.push(format!(
+                "{id}: {:?} instead; {:?} {}",
+                report.explanations.iter().map(all_names).collect::<Vec<_>>(),
+                report.links,
+                report.indistinguishable.len(),
+            ));
+        }
+    });
+    println!("{named} named, {listed} listed");
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
+/// Values by name in the order of the robot's joints.
+fn by_joint(side: &Side, values: &Value) -> Vec<f64> {
+    (0..side.frames().dof()).map(|joint| number(&values[side.frames().joint_name(joint)])).collect()
+}
+
+#[derive(Clone, Copy)]
+struct At<'a> {
+    q: &'a RobotQ,
+    qd: &'a [f64],
+    qdd: &'a [f64],
+}
+
+fn torque(tree: &BodyTree, at: At<'_>) -> Vec<f64> {
+    let mut tau = vec![0.0; tree.dof()];
+    let motion = JointMotion { q: at.q, qd: at.qd, qdd: at.qdd };
+    tree.inverse_into(&motion, &mut tree.buffer(), &mut tau).expect("the robot's own state");
+    tau
+}
+
+#[test]
+fn torques_differ_by_what_another_program_says() {
+    let mut worst = 0.0_f64;
+    each_fault(|fault, candidate, reference| {
+        let trees = [candidate.tree(), reference.tree()];
+        for state in fault["states"].as_array().expect("states") {
+            let [q, qd, qdd] = ["q", "v", "a"].map(|name| by_joint(candidate, &state[name]));
+            let (q, zeros) = (RobotQ::from(q), vec![0.0; qd.len()]);
+            let moving = At { q: &q, qd: &qd, qdd: &qdd };
+            let still = At { q: &q, qd: &zeros, qdd: &zeros };
+            let rigid = trees.clone().map(BodyTree::without_resistances);
+            let difference = |trees: &[BodyTree; 2], at: At<'_>| -> (Vec<f64>, f64) {
+                let [found, expected] = [torque(&trees[0], at), torque(&trees[1], at)];
+                let size = found.iter().chain(&expected).fold(0.0_f64, |size, tau| size.max(tau.abs()));
+                (found.iter().zip(&expected).map(|(a, b)| a - b).collect(), size)
+            };
+            let (whole, size) = difference(&trees, moving);
+            let (bodies, _) = difference(&rigid, moving);
+            let terms: Vec<f64> = whole.iter().zip(&bodies).map(|(whole, bodies)| whole - bodies).collect();
+            let checks = [
+                (bodies, "inverse_dynamics_difference"),
+                (terms, "joint_terms_difference"),
+                (difference(&trees, still).0, "gravity_difference"),
+            ];
+            for (found, name) in checks {
+                for (found, expected) in found.iter().zip(by_joint(candidate, &state[name])) {
+                    let error = (found - expected).abs() / size;
+                    worst = worst.max(error);
+                    assert!(error < RELATIVE, "{}: {name} {found} for {expected}", fault["id"]);
+                }
+            }
+        }
+    });
+    println!("worst relative error {worst:e}");
+}
+
+/// Two climbs of a sum of absolute values end on the same hill within this share.
+const CLIMBED_SUM: f64 = 0.02;
+
+/// Of the report's inertia brackets; the golden's is 1.
+const ACCELERATION: f64 = 10.0;
+
+#[derive(Debug)]
+struct Brackets {
+    count: usize,
+    /// As tight as the golden or tighter.
+    tight: usize,
+    loosest: f64,
+}
+
+impl Brackets {
+    const NONE: Self = Self { count: 0, tight: 0, loosest: 1.0 };
+
+    /// Compares a bracket, `[attained, certified]`, with that of the other program.
+    fn check(&mut self, what: &str, [low, high]: [f64; 2], golden: [f64; 2]) {
+        let [attained, certified] = golden;
+        assert!(high >= low, "{what}: {low} to {high}");
+        assert!(high >= attained * (1.0 - RELATIVE), "{what}: {low} to {high}, {attained} is attained");
+        assert!(low <= certified * (1.0 + RELATIVE), "{what}: {low} to {high}, {certified} is certified");
+        self.count += 1;
+        self.tight += usize::from(high <= certified * 1.01);
+        self.loosest = self.loosest.max(high / low);
+        if high > low * 1.06 {
+            println!("{what}: {:.3}, golden {:.3}", high / low, certified / attained);
+        }
+    }
+}
+
+fn attained_and_certified(golden: &Value) -> [f64; 2] {
+    ["attained", "certified"].map(|key| number(&golden[key]))
+}
+
+fn check_gravity(
+    fault: &Value,
+    [candidate, reference]: [&Side; 2],
+    found: &TorqueCertificate,
+    brackets: &mut Brackets,
+) {
+    let id = text(&fault["id"]);
+    let golden = fault["gravity_n_m"]["by_joint"].as_object().expect("joints");
+    for (joint, golden) in golden {
+        let golden = attained_and_certified(golden);
+        let bracket = found.by_joint.iter().find(|bracket| bracket.joint == *joint);
+        let Some(bracket) = bracket else { panic!("{id}: nothing at {joint}, expected {golden:?}") };
+        brackets.check(&format!("{id} {joint}"), [bracket.attained_n_m, bracket.certified_n_m], golden);
+        assert!(bracket.attained_n_m >= golden[0] * (1.0 - CLIMBED), "{id} {joint}: {bracket:?}");
+        let at = RobotQ::from(bracket.q.clone());
+        let zeros = vec![0.0; at.len()];
+        let still = At { q: &at, qd: &zeros, qdd: &zeros };
+        let place = candidate.frames().find_joint(joint).expect("a joint");
+        let difference = torque(&candidate.tree(), still)[place] - torque(&reference.tree(), still)[place];
+        let error = (difference.abs() - bracket.attained_n_m).abs();
+        assert!(error <= 1e-9 * bracket.attained_n_m.max(1e-3), "{id} {joint}: {difference} {bracket:?}");
+    }
+    for bracket in found.by_joint.iter().filter(|bracket| !golden.contains_key(&bracket.joint)) {
+        assert!(bracket.certified_n_m < 1e-6, "{id}: {bracket:?} is not in the golden");
+    }
+}
+
+fn check_inertia(fault: &Value, found: &TorqueCertificate, brackets: &mut Brackets) {
+    let (id, golden) = (text(&fault["id"]), &fault["mass_matrix_row"]);
+    let Some(joint) = golden["joint"].as_str() else { return };
+    let golden = attained_and_certified(golden);
+    let Some(bracket) = found.by_joint.iter().find(|bracket| bracket.joint == joint) else {
+        assert!(golden[0] < 1e-12, "{id}: nothing at {joint}, expected {golden:?}");
+        return;
+    };
+    let [low, high] = [bracket.attained_n_m, bracket.certified_n_m].map(|value| value / ACCELERATION);
+    brackets.check(&format!("{id} {joint}, row of inertia"), [low, high], golden);
+    if bracket.boxes > 0 {
+        assert!(low >= golden[0] * (1.0 - CLIMBED_SUM), "{id} {joint}: {bracket:?} {golden:?}");
+    }
+}
+
+#[test]
+fn the_largest_differences_are_bracketed() {
+    let (mut gravity, mut inertia) = (Brackets::NONE, Brackets::NONE);
+    each_fault(|fault, candidate, reference| {
+        let found = brackets_of(candidate, reference);
+        check_gravity(fault, [candidate, reference], &found.gravity, &mut gravity);
+        check_inertia(fault, &found.inertia, &mut inertia);
+    });
+    println!("gravity {gravity:?}, inertia {inertia:?}");
+}
+
+#[test]
+fn no_alarm_without_a_fault() {
+    let Some(corpus) = corpus::corpus() else { return };
+    for name in ["ur5e", "iiwa14", "panda", "so100", "rrr_arm", "xarm7_gripper", "baxter", "denso_hsr065"] {
+        let path = corpus.join("robots").join(name).join("robot.urdf");
+        let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
+        let side = Side::new(&robot);
+        let report = compared(&side, &side);
+        assert_eq!(report.verdict, Verdict::Same, "{name}");
+        assert!(report.explanations.is_empty() && report.hidden_differences.is_empty(), "{name}");
+        let golden = &read(&corpus.join("dynamics-faults/faults.json"))["robots"][name];
+        let seen = [report.seen.numbers, report.seen.numbers - report.seen.weak, report.seen.of];
+        let expected =
+            ["base_parameters", "clearly_seen", "inertial_parameters"].map(|key| golden[key].as_u64());
+        assert_eq!(seen.map(|count| u64::try_from(count).ok()), expected, "{name}");
+    }
+}
+
+#[test]
+fn turned_inertial_frames_and_hidden_figures_raise_no_alarm() {
+    each_fault(|fault, candidate, reference| {
+        let (id, cause) = (text(&fault["id"]), text(&fault["cause"]));
+        let report = compared(candidate, reference);
+        let place = names(&fault["place"]);
+        match cause {
+            "none" => assert_eq!(report.verdict, Verdict::Same, "{id}: {:?}", report.differences),
+            "hidden" | "transfer" => {
+                assert_eq!(report.verdict, Verdict::SameTorques, "{id}");
+                let all_there =
+                    report.hidden_differences.iter().all(|hidden| place.contains(&hidden.of.as_str()));
+                assert!(!report.hidden_differences.is_empty() && all_there, "{id}: {report:?}");
+            }
+            "velocity_limit" | "effort_limit" => {
+                let [limit] = &report.limits[..] else { panic!("{id}: {:?}", report.limits) };
+                assert_eq!([limit.joint.as_str()], place[..], "{id}");
+                assert_eq!(limit.detail == "degrees", text(&fault["detail"]) == "degrees", "{id}");
+                assert_eq!(report.verdict, Verdict::Same, "{id}");
+            }
+            _ => assert_eq!(report.verdict, Verdict::Explained, "{id}"),
+        }
+    });
+}

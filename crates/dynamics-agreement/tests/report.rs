@@ -1,0 +1,155 @@
+//! The report as a person reads it: figures, lines of the file, sentences, several faults.
+
+#[path = "../../../tests/corpus.rs"]
+mod corpus;
+
+use congruent_description::{RobotDescription, load_robot};
+use congruent_dynamics_agreement::{
+    Cause, CompareError, Description, DynamicsReport, Explanation, Inertial, Side, Verdict, certify, compare,
+};
+use nalgebra::Matrix3;
+
+fn load(name: &str) -> RobotDescription {
+    let path = corpus::workspace().join("robots").join(name);
+    load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}"))
+}
+
+/// A robot with changes against itself without.
+fn changed(name: &str, change: impl Fn(&mut Side)) -> DynamicsReport {
+    let description = load(name);
+    let reference = Side::new(&description.robot);
+    let mut candidate = reference.clone();
+    change(&mut candidate);
+    let candidate =
+        Description { name: "changed", side: &candidate, places: description.places.urdf.as_ref() };
+    let reference = Description { name: "original", side: &reference, places: None };
+    let mut report = compare(&candidate, &reference, 1).expect("one chain");
+    report.certificates = Some(certify(&candidate, &reference, 1).expect("one chain"));
+    report
+}
+
+fn figures<'a>(side: &'a mut Side, link: &str) -> &'a mut Inertial {
+    let link = side.frames().find_link(link).expect("a link");
+    side.inertials[link].as_mut().expect("an inertial")
+}
+
+fn causes(explanations: &[Explanation]) -> Vec<(Cause, &str)> {
+    explanations.iter().map(|explanation| (explanation.cause, explanation.place[0].as_str())).collect()
+}
+
+#[test]
+fn a_fault_has_its_line_its_figures_and_its_sentence() {
+    let report = changed("ur5e", |side| figures(side, "forearm_link").com_m *= 1e3);
+    let [explanation] = &report.explanations[..] else { panic!("{:?}", report.explanations) };
+    assert_eq!(explanation.sentence(), "forearm_link: the centre of mass is given in another unit (mm)");
+    let path = explanation.file.as_deref().expect("the file of the candidate");
+    let text = std::fs::read_to_string(path).expect("it is there");
+    let line = text.lines().nth(explanation.line.expect("a line") - 1).expect("it has the line");
+    assert!(line.contains("<inertial"), "{line}");
+    let suggestion = explanation.suggestion.as_deref().expect("what to write");
+    assert!(suggestion.starts_with("forearm_link: com_x = "), "{suggestion}");
+    let mass = report.invariants.as_ref().expect("both are descriptions").total_mass_kg;
+    assert!((mass.found - mass.expected).abs() < 1e-12);
+    let worst = report
+        .certificates
+        .as_ref()
+        .and_then(|of| of.gravity.worst.as_ref())
+        .expect("a difference of gravity torque");
+    assert_eq!(worst.joint, "shoulder_lift_joint");
+    assert!(worst.sentence().contains("certified below"), "{}", worst.sentence());
+    assert_eq!(report.seen_sentence(), "joint torques show 36 of 60 inertial numbers");
+}
+
+#[test]
+fn what_no_torque_shows_is_said_with_its_numbers() {
+    let report = changed("ur5e", |side| {
+        let figures = figures(side, "shoulder_link");
+        figures.com_m.z = 0.0123;
+    });
+    assert_eq!(report.verdict, Verdict::SameTorques);
+    let sentences = report.hidden_sentences();
+    assert_eq!(sentences.len(), 1, "{sentences:?}");
+    assert!(sentences[0].starts_with("shoulder_link: com_z is 12.3 mm, expected "), "{sentences:?}");
+    assert!(sentences[0].ends_with("no joint torque shows it"), "{sentences:?}");
+}
+
+#[test]
+fn two_faults_are_named_together_and_more_link_by_link() {
+    let two = |side: &mut Side| {
+        figures(side, "forearm_link").mass_kg *= 1.25;
+        figures(side, "wrist_2_link").com_m.y *= -1.0;
+    };
+    let report = changed("ur5e", two);
+    let [explanation] = &report.explanations[..] else { panic!("{:?}", report.explanations) };
+    assert_eq!(explanation.cause, Cause::Several);
+    let mut parts: Vec<(Cause, &str)> =
+        explanation.parts.iter().map(|part| (part.cause, part.place[0].as_str())).collect();
+    parts.sort();
+    assert_eq!(parts, [(Cause::ComSign, "wrist_2_link"), (Cause::Mass, "forearm_link")]);
+    let report = changed("ur5e", |side| {
+        two(side);
+        figures(side, "upper_arm_link").tensor_kg_m2 *= 1e6;
+        let joint = side.frames().find_joint("elbow_joint").expect("a joint");
+        side.resistances[joint].damping = 0.7;
+    });
+    assert_eq!(report.verdict, Verdict::Explained);
+    assert_eq!(
+        causes(&report.explanations),
+        [
+            (Cause::Damping, "elbow_joint"),
+            (Cause::InertiaUnit, "upper_arm_link"),
+            (Cause::Mass, "forearm_link"),
+            (Cause::ComSign, "wrist_2_link"),
+        ]
+    );
+}
+
+#[test]
+fn a_figure_that_is_no_bodys_is_still_explained() {
+    let report = changed("panda", |side| {
+        // The six numbers in the order of another format: no body has such a tensor.
+        let tensor = &mut figures(side, "panda_hand").tensor_kg_m2;
+        let t = *tensor;
+        *tensor = Matrix3::new(
+            t[(0, 0)],
+            t[(1, 1)],
+            t[(2, 2)], //
+            t[(1, 1)],
+            t[(0, 1)],
+            t[(0, 2)], //
+            t[(2, 2)],
+            t[(0, 2)],
+            t[(1, 2)],
+        );
+    });
+    assert_eq!(report.explanations[0].cause, Cause::InertiaOrder, "{:?}", report.explanations);
+    assert!(report.explanations[0].is_a_body);
+}
+
+fn unnamed(side: &Side) -> Description<'_> {
+    Description { name: "", side, places: None }
+}
+
+#[test]
+fn inputs_that_cannot_be_compared_are_refused() {
+    let (ur5e, panda) = (Side::new(&load("ur5e").robot), Side::new(&load("panda").robot));
+    let error = compare(&unnamed(&ur5e), &unnamed(&panda), 1).expect_err("other joints");
+    assert!(matches!(error, CompareError::Joint { .. }), "{error}");
+    let mut endless = ur5e.clone();
+    figures(&mut endless, "forearm_link").mass_kg = f64::NAN;
+    let error = compare(&unnamed(&endless), &unnamed(&ur5e), 1).expect_err("no number");
+    assert_eq!(error, CompareError::NotFinite);
+    figures(&mut endless, "forearm_link").mass_kg = 1e300;
+    assert_eq!(compare(&unnamed(&ur5e), &unnamed(&endless), 1), Err(CompareError::NotFinite));
+}
+
+#[test]
+fn the_report_is_json() {
+    let report = changed("ur5e", |side| side.gravity_m_s2.z = -9.80665);
+    let json = serde_json::to_value(&report).expect("it is plain data");
+    assert_eq!(json["verdict"], "explained");
+    assert_eq!(json["explanations"][0]["cause"], "gravity_magnitude");
+    assert_eq!(json["explanations"][0]["place"][0], "gravity");
+    assert_eq!(json["seen"]["numbers"], 36);
+    assert!(json["where"].is_array() && json["certificates"]["gravity"]["worst"].is_object());
+}
