@@ -78,8 +78,8 @@ fn mutated(robot: &Robot, fault: &Value) -> Side {
             match term.as_str() {
                 "damping" => side.resistances[joint].damping = value,
                 "friction" => side.resistances[joint].friction = value,
-                "velocity" => side.limits[joint].as_mut().expect("a limit").velocity = value,
-                "effort" => side.limits[joint].as_mut().expect("a limit").effort = value,
+                "velocity" => side.limits[joint].as_mut().expect("a limit").velocity = Some(value),
+                "effort" => side.limits[joint].as_mut().expect("a limit").effort = Some(value),
                 other => panic!("{other} is no term of a joint"),
             }
         }
