@@ -23,10 +23,10 @@ mod torque;
 
 pub use bound::{TorqueBracket, TorqueCertificate};
 pub use compare::{Compared, FigureDifference, Invariants, LimitCause, LimitDifference};
-pub use diagnosis::{Cause, Reason, Suspect};
+pub use diagnosis::{DynamicsCause, EquivalenceReason, FaultySide};
 pub use report::{
-    Certificates, CompareError, Description, DynamicsReport, Explanation, Name, Premise, Sides, Verdict,
-    certify, compare, compare_with_source,
+    CompareError, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, NamedSide,
+    PlacedCause, Sides, TorqueCertificates, certify, compare, compare_with_source,
 };
 pub use side::{BodyLaw, Frames, Inertial, Side};
 pub use torque::{AccelerationSource, Probing, SeenNumbers};

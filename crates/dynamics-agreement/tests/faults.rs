@@ -11,8 +11,8 @@ use std::{collections::BTreeMap, path::Path};
 use congruent_description::{Robot, RobotQ, load_robot};
 use congruent_dynamics::{BodyTree, JointMotion};
 use congruent_dynamics_agreement::{
-    Certificates, Description, DynamicsReport, Explanation, Inertial, Side, TorqueCertificate, Verdict,
-    certify, compare,
+    DynamicsExplanation, DynamicsReport, DynamicsVerdict, Inertial, NamedSide, Side, TorqueCertificate,
+    TorqueCertificates, certify, compare,
 };
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde_json::Value;
@@ -106,17 +106,17 @@ fn each_fault(mut check: impl FnMut(&Value, &Side, &Side)) {
 }
 
 fn compared(candidate: &Side, reference: &Side) -> DynamicsReport {
-    let description = |name, side| Description { name, side, places: None };
+    let description = |name, side| NamedSide { name, side, places: None };
     compare(&description("mutated", candidate), &description("original", reference), 1).expect("one chain")
 }
 
-fn brackets_of(candidate: &Side, reference: &Side) -> Certificates {
-    let description = |name, side| Description { name, side, places: None };
+fn brackets_of(candidate: &Side, reference: &Side) -> TorqueCertificates {
+    let description = |name, side| NamedSide { name, side, places: None };
     certify(&description("mutated", candidate), &description("original", reference), 1).expect("one chain")
 }
 
 /// All names of an explanation with their details and places.
-fn all_names(explanation: &Explanation) -> Vec<(&str, &str, Vec<&str>)> {
+fn all_names(explanation: &DynamicsExplanation) -> Vec<(&str, &str, Vec<&str>)> {
     let own = (explanation.cause.name(), explanation.detail.as_str(), refs(&explanation.place));
     let also = explanation
         .also_named
@@ -142,7 +142,7 @@ fn every_fault_is_named_or_listed() {
             return;
         }
         let (cause, place) = (text(&fault["cause"]), names(&fault["place"]));
-        let is_planted = |explanation: &Explanation| {
+        let is_planted = |explanation: &DynamicsExplanation| {
             all_names(explanation).iter().any(|(name, _, at)| *name == cause && *at == place)
         };
         if report.explanations.iter().any(is_planted) {
@@ -318,7 +318,7 @@ fn no_alarm_without_a_fault() {
         let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
         let side = Side::new(&robot);
         let report = compared(&side, &side);
-        assert_eq!(report.verdict, Verdict::Same, "{name}");
+        assert_eq!(report.verdict, DynamicsVerdict::Same, "{name}");
         assert!(report.explanations.is_empty() && report.hidden_differences.is_empty(), "{name}");
         let golden = &read(&corpus.join("dynamics-faults/faults.json"))["robots"][name];
         let seen = [report.seen.numbers, report.seen.numbers - report.seen.weak, report.seen.of];
@@ -335,9 +335,9 @@ fn turned_inertial_frames_and_hidden_figures_raise_no_alarm() {
         let report = compared(candidate, reference);
         let place = names(&fault["place"]);
         match cause {
-            "none" => assert_eq!(report.verdict, Verdict::Same, "{id}: {:?}", report.differences),
+            "none" => assert_eq!(report.verdict, DynamicsVerdict::Same, "{id}: {:?}", report.differences),
             "hidden" | "transfer" => {
-                assert_eq!(report.verdict, Verdict::SameTorques, "{id}");
+                assert_eq!(report.verdict, DynamicsVerdict::SameTorques, "{id}");
                 let all_there =
                     report.hidden_differences.iter().all(|hidden| place.contains(&hidden.of.as_str()));
                 assert!(!report.hidden_differences.is_empty() && all_there, "{id}: {report:?}");
@@ -346,9 +346,9 @@ fn turned_inertial_frames_and_hidden_figures_raise_no_alarm() {
                 let [limit] = &report.limits[..] else { panic!("{id}: {:?}", report.limits) };
                 assert_eq!([limit.joint.as_str()], place[..], "{id}");
                 assert_eq!(limit.detail == "degrees", text(&fault["detail"]) == "degrees", "{id}");
-                assert_eq!(report.verdict, Verdict::Same, "{id}");
+                assert_eq!(report.verdict, DynamicsVerdict::Same, "{id}");
             }
-            _ => assert_eq!(report.verdict, Verdict::Explained, "{id}"),
+            _ => assert_eq!(report.verdict, DynamicsVerdict::Explained, "{id}"),
         }
     });
 }

@@ -5,7 +5,8 @@ mod corpus;
 
 use congruent_description::{RobotDescription, load_robot};
 use congruent_dynamics_agreement::{
-    Cause, CompareError, Description, DynamicsReport, Explanation, Inertial, Side, Verdict, certify, compare,
+    CompareError, DynamicsCause, DynamicsExplanation, DynamicsReport, DynamicsVerdict, Inertial, NamedSide,
+    Side, certify, compare,
 };
 use nalgebra::Matrix3;
 
@@ -20,9 +21,8 @@ fn changed(name: &str, change: impl Fn(&mut Side)) -> DynamicsReport {
     let reference = Side::new(&description.robot);
     let mut candidate = reference.clone();
     change(&mut candidate);
-    let candidate =
-        Description { name: "changed", side: &candidate, places: description.places.urdf.as_ref() };
-    let reference = Description { name: "original", side: &reference, places: None };
+    let candidate = NamedSide { name: "changed", side: &candidate, places: description.places.urdf.as_ref() };
+    let reference = NamedSide { name: "original", side: &reference, places: None };
     let mut report = compare(&candidate, &reference, 1).expect("one chain");
     report.certificates = Some(certify(&candidate, &reference, 1).expect("one chain"));
     report
@@ -33,7 +33,7 @@ fn figures<'a>(side: &'a mut Side, link: &str) -> &'a mut Inertial {
     side.inertials[link].as_mut().expect("an inertial")
 }
 
-fn causes(explanations: &[Explanation]) -> Vec<(Cause, &str)> {
+fn causes(explanations: &[DynamicsExplanation]) -> Vec<(DynamicsCause, &str)> {
     explanations.iter().map(|explanation| (explanation.cause, explanation.place[0].as_str())).collect()
 }
 
@@ -66,7 +66,7 @@ fn what_no_torque_shows_is_said_with_its_numbers() {
         let figures = figures(side, "shoulder_link");
         figures.com_m.z = 0.0123;
     });
-    assert_eq!(report.verdict, Verdict::SameTorques);
+    assert_eq!(report.verdict, DynamicsVerdict::SameTorques);
     let sentences = report.hidden_sentences();
     assert_eq!(sentences.len(), 1, "{sentences:?}");
     assert!(sentences[0].starts_with("shoulder_link: com_z is 12.3 mm, expected "), "{sentences:?}");
@@ -81,25 +81,25 @@ fn two_faults_are_named_together_and_more_link_by_link() {
     };
     let report = changed("ur5e", two);
     let [explanation] = &report.explanations[..] else { panic!("{:?}", report.explanations) };
-    assert_eq!(explanation.cause, Cause::Several);
-    let mut parts: Vec<(Cause, &str)> =
+    assert_eq!(explanation.cause, DynamicsCause::Several);
+    let mut parts: Vec<(DynamicsCause, &str)> =
         explanation.parts.iter().map(|part| (part.cause, part.place[0].as_str())).collect();
     parts.sort();
-    assert_eq!(parts, [(Cause::ComSign, "wrist_2_link"), (Cause::Mass, "forearm_link")]);
+    assert_eq!(parts, [(DynamicsCause::ComSign, "wrist_2_link"), (DynamicsCause::Mass, "forearm_link")]);
     let report = changed("ur5e", |side| {
         two(side);
         figures(side, "upper_arm_link").tensor_kg_m2 *= 1e6;
         let joint = side.frames().find_joint("elbow_joint").expect("a joint");
         side.resistances[joint].damping = 0.7;
     });
-    assert_eq!(report.verdict, Verdict::Explained);
+    assert_eq!(report.verdict, DynamicsVerdict::Explained);
     assert_eq!(
         causes(&report.explanations),
         [
-            (Cause::Damping, "elbow_joint"),
-            (Cause::InertiaUnit, "upper_arm_link"),
-            (Cause::Mass, "forearm_link"),
-            (Cause::ComSign, "wrist_2_link"),
+            (DynamicsCause::Damping, "elbow_joint"),
+            (DynamicsCause::InertiaUnit, "upper_arm_link"),
+            (DynamicsCause::Mass, "forearm_link"),
+            (DynamicsCause::ComSign, "wrist_2_link"),
         ]
     );
 }
@@ -122,12 +122,12 @@ fn a_figure_that_is_no_bodys_is_still_explained() {
             t[(1, 2)],
         );
     });
-    assert_eq!(report.explanations[0].cause, Cause::InertiaOrder, "{:?}", report.explanations);
+    assert_eq!(report.explanations[0].cause, DynamicsCause::InertiaOrder, "{:?}", report.explanations);
     assert!(report.explanations[0].is_a_body);
 }
 
-fn unnamed(side: &Side) -> Description<'_> {
-    Description { name: "", side, places: None }
+fn unnamed(side: &Side) -> NamedSide<'_> {
+    NamedSide { name: "", side, places: None }
 }
 
 #[test]

@@ -9,8 +9,8 @@ mod corpus;
 use congruent_description::{RobotQ, load_robot};
 use congruent_dynamics::{BodyTree, DrivenState};
 use congruent_dynamics_agreement::{
-    AccelerationSource, Cause, CompareError, Description, DynamicsReport, Probing, Side, Verdict,
-    compare_with_source,
+    AccelerationSource, CompareError, DynamicsCause, DynamicsReport, DynamicsVerdict, NamedSide, Probing,
+    Side, compare_with_source,
 };
 
 /// Steps to the next state and looks at it from there, as an implicit engine does: its error is of first order.
@@ -43,7 +43,7 @@ fn original(name: &str) -> Side {
 }
 
 fn probe(candidate: &Side, engine: &mut dyn AccelerationSource) -> Result<DynamicsReport, CompareError> {
-    let description = Description { name: "file", side: candidate, places: None };
+    let description = NamedSide { name: "file", side: candidate, places: None };
     compare_with_source(&description, ("engine", engine), Probing { seed: 1, step_s: 1e-4 })
 }
 
@@ -59,7 +59,7 @@ fn compared(name: &str, change: impl Fn(&mut Side)) -> DynamicsReport {
 fn an_engine_that_was_built_right_agrees() {
     for name in ["ur5e", "panda"] {
         let report = compared(name, |_| {});
-        assert_eq!(report.verdict, Verdict::SameTorques, "{name}: {:?}", report.explanations);
+        assert_eq!(report.verdict, DynamicsVerdict::SameTorques, "{name}: {:?}", report.explanations);
         let held_out = report.premise.held_out_relative.expect("half of the states are held out");
         println!("{name}: {held_out:e} held out, {:e} fitted", report.premise.fit_relative);
         assert!(held_out < 1e-9, "{name}: {held_out:e}");
@@ -72,13 +72,13 @@ fn what_an_engine_made_of_the_file_is_named() {
         let link = side.frames().find_link("forearm_link").expect("a link");
         side.inertials[link].as_mut().expect("an inertial").com_m *= 1e3;
     });
-    assert_eq!(report.explanations[0].cause, Cause::ComUnit, "{:?}", report.explanations);
+    assert_eq!(report.explanations[0].cause, DynamicsCause::ComUnit, "{:?}", report.explanations);
     assert_eq!(report.explanations[0].place, ["forearm_link"]);
     assert_eq!(report.explanations[0].suggestion, None, "the file is right");
     let report = compared("ur5e", |side| side.resistances.iter_mut().for_each(|of| of.damping = 0.1));
-    assert_eq!(report.explanations[0].cause, Cause::DampingDefault, "{:?}", report.explanations);
+    assert_eq!(report.explanations[0].cause, DynamicsCause::DampingDefault, "{:?}", report.explanations);
     let report = compared("ur5e", |side| side.gravity_m_s2 = [0.0, -9.81, 0.0].into());
-    assert_eq!(report.explanations[0].cause, Cause::GravityDirection, "{:?}", report.explanations);
+    assert_eq!(report.explanations[0].cause, DynamicsCause::GravityDirection, "{:?}", report.explanations);
     assert_eq!(report.explanations[0].detail, "-y");
     let report = compared("ur5e", |side| {
         let link = side.frames().find_link("wrist_1_link").expect("a link");
@@ -86,7 +86,7 @@ fn what_an_engine_made_of_the_file_is_named() {
         let link = side.frames().find_link("upper_arm_link").expect("a link");
         side.inertials[link].as_mut().expect("an inertial").com_m.z *= -1.0;
     });
-    assert_eq!(report.explanations[0].cause, Cause::Several, "{:?}", report.explanations);
+    assert_eq!(report.explanations[0].cause, DynamicsCause::Several, "{:?}", report.explanations);
     let places = &report.explanations[0].place;
     assert!(places.iter().all(|place| place == "wrist_1_link" || place == "upper_arm_link"), "{places:?}");
 }
@@ -96,7 +96,7 @@ fn what_is_no_rigid_body_chain_breaks_the_premise() {
     let candidate = original("ur5e");
     let mut engine = Engine { tree: candidate.tree(), spring: 3.0 };
     let report = probe(&candidate, &mut engine).expect("the engine runs");
-    assert_eq!(report.verdict, Verdict::Unexplained);
+    assert_eq!(report.verdict, DynamicsVerdict::Unexplained);
     let held_out = report.premise.held_out_relative.expect("half of the states are held out");
     assert!(held_out > 1e-3, "{held_out:e}");
 }

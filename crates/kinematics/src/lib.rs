@@ -40,3 +40,4 @@ pub use spatial::{
     DeterminedAngles, EulerAngles, EulerSet, Pose, PoseError, ReportedPose, Screw, ToolAxes, ToolAxesError,
     Twist, UnknownEulerSet, Wrench, hat, larger, log_ratio, quaternion_of, rotation_exp, rotation_log, vee,
 };
+pub use uniform::Uniform;

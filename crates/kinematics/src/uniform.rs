@@ -7,16 +7,17 @@ use rand_chacha::{
 
 /// Draws numbers evenly from an interval.
 #[derive(Debug, Clone)]
-pub(crate) struct Uniform(ChaCha8Rng);
+pub struct Uniform(ChaCha8Rng);
 
 impl Uniform {
-    pub(crate) fn seeded(seed: u64) -> Self {
+    /// From a seed.
+    pub fn seeded(seed: u64) -> Self {
         Self(ChaCha8Rng::seed_from_u64(seed))
     }
 
     /// A number in `lower..upper`, with 53 random bits.
     #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
-    pub(crate) fn between(&mut self, (lower, upper): (f64, f64)) -> f64 {
+    pub fn between(&mut self, (lower, upper): (f64, f64)) -> f64 {
         let share = (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         lower + (upper - lower) * share
     }

@@ -1,7 +1,7 @@
 //! The largest absolute value of a function of joint positions, from below: one joint at a time, each exactly.
 
 use super::trigonometric::{Trigonometric, Variable};
-use crate::torque::states::Uniform;
+use congruent_kinematics::Uniform;
 
 /// Random positions of which the best are climbed from. Kind: choice.
 const SAMPLES: usize = 200;

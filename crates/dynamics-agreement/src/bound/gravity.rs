@@ -2,6 +2,7 @@
 
 use congruent_description::RobotQ;
 use congruent_dynamics::{BodyTree, DynamicsError, SpatialInertia};
+use congruent_kinematics::Uniform;
 use nalgebra::Vector3;
 
 use super::{
@@ -13,7 +14,7 @@ use super::{
 use crate::{
     side::{Frames, Side},
     thresholds::{CLOSED, MAX_BOXES, MAX_CONTROL_VALUES, MAX_VARIABLES, SAME_FIGURE},
-    torque::states::Uniform,
+    torque::states::position,
 };
 
 /// The bracket of one joint.
@@ -183,7 +184,7 @@ impl<'a> Problem<'a> {
         let mut buffers = [self.trees[0].buffer(), self.trees[1].buffer()];
         let mut tau = [vec![0.0; self.frames.dof()], vec![0.0; self.frames.dof()]];
         for _ in 0..SAMPLES {
-            let q = random.position(self.frames);
+            let q = position(&mut random, self.frames);
             for ((tree, buffer), tau) in self.trees.iter().zip(&mut buffers).zip(&mut tau) {
                 tree.gravity_into(&q, buffer, tau)?;
             }

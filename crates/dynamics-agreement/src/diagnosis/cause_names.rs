@@ -2,18 +2,18 @@
 
 use serde::Serialize;
 
-/// Declares [`Cause`] with the name and the sentence of each variant beside it.
+/// Declares [`DynamicsCause`] with the name and the sentence of each variant beside it.
 macro_rules! causes {
     ($($(#[$attribute:meta])* $variant:ident = $name:literal, $text:literal;)*) => {
         /// The cause of a difference, in the order in which causes of equal price are named.
         #[derive(
             Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, schemars::JsonSchema,
         )]
-        pub enum Cause {
+        pub enum DynamicsCause {
             $(#[doc = $text] $(#[$attribute])* #[serde(rename = $name)] $variant,)*
         }
 
-        impl Cause {
+        impl DynamicsCause {
             /// The name in JSON.
             pub fn name(self) -> &'static str {
                 match self {

@@ -2,9 +2,9 @@
 
 use super::{
     fit::Target,
-    hypothesis::Suspect,
+    hypothesis::FaultySide,
     rank::Exact,
-    reason::Reason,
+    reason::EquivalenceReason,
     search::{Catalogue, Part},
 };
 use crate::{
@@ -13,13 +13,13 @@ use crate::{
     torque::compressed::Compressed,
 };
 
-/// Whose figures are suspected, and what is known.
+/// Whose figures are taken to be wrong, and what is known.
 #[derive(Clone, Copy)]
 pub(crate) struct Setting<'a> {
     pub(crate) candidate: &'a Side,
-    /// The other description, if there is one: explanations that blame what is equal in both come last.
+    /// The other description, if there is one: explanations that change what is equal in both come last.
     pub(crate) reference: Option<&'a Side>,
-    pub(crate) suspect: Suspect,
+    pub(crate) faulty: FaultySide,
     pub(crate) precision: Precision,
 }
 
@@ -41,7 +41,7 @@ pub(crate) struct Grouped {
     /// Others that end at the same figures.
     pub(crate) also: Vec<Exact>,
     /// Why it cannot be told from the first.
-    pub(crate) reason: Option<Reason>,
+    pub(crate) reason: Option<EquivalenceReason>,
 }
 
 /// Most pairs that are kept. Kind: choice; more of them say no more.
@@ -58,7 +58,7 @@ pub(crate) fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed 
     let frames = &setting.candidate.frames;
     let containing = (0..frames.dof()).filter(|&body| target.contains(Part::Body(body)));
     let links = containing.flat_map(|body| frames.links_of(body)).collect();
-    let catalogue = Catalogue::new(setting.candidate, setting.suspect);
+    let catalogue = Catalogue::new(setting.candidate, setting.faulty);
     let exactly = |parts| Exact::new(parts, setting.candidate, setting.reference);
     let mut found: Vec<Exact> =
         catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit])).collect();
@@ -85,7 +85,8 @@ fn grouped(side: &Side, torque: &Compressed, found: Vec<Exact>) -> Vec<Grouped> 
             group.also.push(exact);
             continue;
         }
-        let reason = groups.first().map(|first| Reason::between(side, torque, &first.named, &exact));
+        let reason =
+            groups.first().map(|first| EquivalenceReason::between(side, torque, &first.named, &exact));
         groups.push(Grouped { named: exact, also: Vec::new(), reason });
     }
     groups

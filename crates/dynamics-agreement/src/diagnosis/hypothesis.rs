@@ -4,16 +4,16 @@
 use congruent_dynamics::JointResistance;
 use nalgebra::Vector3;
 
-use super::{cause_names::Cause, free::Free};
+use super::{cause_names::DynamicsCause, free::Free};
 use crate::side::{Inertial, JointTerm};
 
-/// Which of the two sides is suspected.
+/// Which of the two sides is taken to be wrong.
 ///
-/// Only the candidate's figures are known, so either way they are what is changed: if the candidate is suspected, a slip
+/// Only the candidate's figures are known, so either way they are what is changed: if the candidate is taken to be wrong, a slip
 /// is undone on them; if the reference is, which was made from the candidate's file, the slip is done to them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Suspect {
+pub enum FaultySide {
     /// The candidate's file is wrong.
     Candidate,
     /// What was built from the candidate's file is wrong.
@@ -50,7 +50,7 @@ impl Place {
 /// One possible fault.
 #[derive(Debug, Clone)]
 pub(crate) struct Hypothesis {
-    pub(crate) cause: Cause,
+    pub(crate) cause: DynamicsCause,
     pub(crate) detail: String,
     pub(crate) place: Place,
     pub(super) change: Change,
@@ -78,7 +78,7 @@ pub(crate) enum Change {
 }
 
 impl Hypothesis {
-    pub(super) fn new(cause: Cause, detail: impl Into<String>, place: Place, change: Change) -> Self {
+    pub(super) fn new(cause: DynamicsCause, detail: impl Into<String>, place: Place, change: Change) -> Self {
         Self { cause, detail: detail.into(), place, change, is_missing: false }
     }
 

@@ -14,13 +14,13 @@ mod rank;
 mod reason;
 mod search;
 
-pub use cause_names::Cause;
+pub use cause_names::DynamicsCause;
 pub(crate) use diagnose::{Grouped, Setting, diagnose};
 pub(crate) use fit::Corrected;
+pub use hypothesis::FaultySide;
 pub(crate) use hypothesis::Place;
-pub use hypothesis::Suspect;
 pub(crate) use rank::Exact;
-pub use reason::Reason;
+pub use reason::EquivalenceReason;
 
 #[cfg(test)]
 mod planted;

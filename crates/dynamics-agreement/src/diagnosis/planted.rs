@@ -10,10 +10,10 @@ use nalgebra::{DVector, Vector3};
 
 use super::{
     cause,
-    cause_names::Cause,
+    cause_names::DynamicsCause,
     diagnose::{Diagnosed, Grouped, Setting, diagnose},
     free::Free,
-    hypothesis::{Change, Hypothesis, Place, Suspect},
+    hypothesis::{Change, FaultySide, Hypothesis, Place},
 };
 use crate::{
     side::{Inertial, JointTerm, Side},
@@ -26,20 +26,20 @@ use crate::{
 
 /// A fault: what the wrong side says.
 struct Planted {
-    cause: Cause,
+    cause: DynamicsCause,
     detail: String,
     place: Place,
     side: Side,
 }
 
 fn planted(original: &Side) -> Vec<Planted> {
-    let slips = cause::slips(&original.frames, Suspect::Reference);
+    let slips = cause::slips(&original.frames, FaultySide::Reference);
     let mut hypotheses = cause::of_all_links(original, &slips);
-    hypotheses.extend(cause::of_two_links(original, Suspect::Reference));
-    hypotheses.extend(cause::of_joints_and_gravity(original, Suspect::Reference));
+    hypotheses.extend(cause::of_two_links(original, FaultySide::Reference));
+    hypotheses.extend(cause::of_joints_and_gravity(original, FaultySide::Reference));
     for link in 0..original.inertials.len() {
         if original.frames.links[link].body.is_some() {
-            hypotheses.extend(cause::of_link(original, Suspect::Reference, &slips, link));
+            hypotheses.extend(cause::of_link(original, FaultySide::Reference, &slips, link));
         }
     }
     hypotheses.iter().filter_map(|hypothesis| plant(original, hypothesis)).collect()
@@ -114,47 +114,47 @@ fn with_both(a: &Planted, b: &Planted) -> Side {
 }
 
 /// What is missing at all links of a file at once has no answer: zeros tell nothing.
-fn can_be_told(planted: &Planted, suspect: Suspect) -> bool {
+fn can_be_told(planted: &Planted, faulty: FaultySide) -> bool {
     let loses_numbers = matches!(
         planted.cause,
-        Cause::ComMissing
-            | Cause::ProductsMissing
-            | Cause::InertiaMissing
-            | Cause::InertialLeftOut
-            | Cause::InertiaPlaceholder
-            | Cause::RpyMissing
+        DynamicsCause::ComMissing
+            | DynamicsCause::ProductsMissing
+            | DynamicsCause::InertiaMissing
+            | DynamicsCause::InertialLeftOut
+            | DynamicsCause::InertiaPlaceholder
+            | DynamicsCause::RpyMissing
     ) || planted.detail == "row_major_upper";
-    suspect == Suspect::Reference || planted.place != Place::AllLinks || !loses_numbers
+    faulty == FaultySide::Reference || planted.place != Place::AllLinks || !loses_numbers
 }
 
 /// Faults whose file says the same under another name.
-fn is_name_of(planted: &Planted, cause: Cause, suspect: Suspect) -> bool {
-    let file = suspect == Suspect::Candidate;
+fn is_name_of(planted: &Planted, cause: DynamicsCause, faulty: FaultySide) -> bool {
+    let file = faulty == FaultySide::Candidate;
     cause == planted.cause
         || matches!(
             (planted.cause, cause),
-            (Cause::InertialLeftOut, Cause::InertialMissing | Cause::Inertial | Cause::InertiaMissing) if file
+            (DynamicsCause::InertialLeftOut, DynamicsCause::InertialMissing | DynamicsCause::Inertial | DynamicsCause::InertiaMissing) if file
         )
         || matches!(
             (planted.cause, cause),
-            (Cause::RpyMissing, Cause::PrincipalAxesMissing | Cause::InertiaRotation) if file
+            (DynamicsCause::RpyMissing, DynamicsCause::PrincipalAxesMissing | DynamicsCause::InertiaRotation) if file
         )
         || matches!(
             (planted.cause, cause),
-            (Cause::DampingMissing | Cause::JointTermsMissing | Cause::DampingDefault | Cause::FrictionAsDamping, Cause::Damping) if file
+            (DynamicsCause::DampingMissing | DynamicsCause::JointTermsMissing | DynamicsCause::DampingDefault | DynamicsCause::FrictionAsDamping, DynamicsCause::Damping) if file
         )
         || matches!(
             (planted.cause, cause),
-            (Cause::FrictionMissing | Cause::JointTermsMissing | Cause::FrictionAsDamping, Cause::Friction) if file
+            (DynamicsCause::FrictionMissing | DynamicsCause::JointTermsMissing | DynamicsCause::FrictionAsDamping, DynamicsCause::Friction) if file
         )
-        || matches!((planted.cause, cause), (Cause::DampingDefault, Cause::DampingMissing) if !file)
+        || matches!((planted.cause, cause), (DynamicsCause::DampingDefault, DynamicsCause::DampingMissing) if !file)
 }
 
-fn names(planted: &Planted, grouped: &Grouped, suspect: Suspect) -> bool {
+fn names(planted: &Planted, grouped: &Grouped, faulty: FaultySide) -> bool {
     let also = grouped.also.iter();
     std::iter::once(&grouped.named).chain(also).any(|exact| {
         exact.parts.iter().any(|part| {
-            is_name_of(planted, part.hypothesis.cause, suspect) && part.hypothesis.place == planted.place
+            is_name_of(planted, part.hypothesis.cause, faulty) && part.hypothesis.place == planted.place
         })
     })
 }
@@ -169,23 +169,23 @@ struct Counts {
     missed: usize,
 }
 
-fn judged(original: &Side, planted: &Planted, suspect: Suspect, counts: &mut Counts) {
-    let (candidate, reference) = match suspect {
-        Suspect::Candidate => (&planted.side, original),
-        Suspect::Reference => (original, &planted.side),
+fn judged(original: &Side, planted: &Planted, faulty: FaultySide, counts: &mut Counts) {
+    let (candidate, reference) = match faulty {
+        FaultySide::Candidate => (&planted.side, original),
+        FaultySide::Reference => (original, &planted.side),
     };
     let states = random_states(&candidate.frames, 1, STATES);
     let torque = torques(reference, &states).expect("the robot's own states");
     let torque = Compressed::new(candidate, &states, &torque).expect("the robot's own states");
-    let setting = Setting { candidate, reference: None, suspect, precision: Precision::EXACT };
+    let setting = Setting { candidate, reference: None, faulty, precision: Precision::EXACT };
     let Diagnosed { same, explanations, .. } = diagnose(&setting, &torque);
     counts.faults += 1;
     let first = explanations.first();
     if same {
         counts.hidden += 1;
-    } else if first.is_some_and(|grouped| names(planted, grouped, suspect)) {
+    } else if first.is_some_and(|grouped| names(planted, grouped, faulty)) {
         counts.named += 1;
-    } else if explanations.iter().any(|grouped| names(planted, grouped, suspect)) {
+    } else if explanations.iter().any(|grouped| names(planted, grouped, faulty)) {
         counts.listed += 1;
     } else {
         let found = first.map(|grouped| {
@@ -194,7 +194,7 @@ fn judged(original: &Side, planted: &Planted, suspect: Suspect, counts: &mut Cou
         });
         let relative = DVector::norm(&torque.difference) / torque.torques;
         println!(
-            "{suspect:?} {:?} {} {:?}: {found:?} of {}, {relative:.1e}, {:.1e}",
+            "{faulty:?} {:?} {} {:?}: {found:?} of {}, {relative:.1e}, {:.1e}",
             planted.cause,
             planted.detail,
             planted.place,
@@ -209,27 +209,27 @@ fn judged(original: &Side, planted: &Planted, suspect: Suspect, counts: &mut Cou
     }
 }
 
-fn bench(name: &str, suspects: &[Suspect]) -> Vec<Counts> {
+fn bench(name: &str, sides: &[FaultySide]) -> Vec<Counts> {
     let Some(corpus) = corpus::corpus() else { return Vec::new() };
     let path = corpus.join("robots").join(name).join("robot.urdf");
     let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
     let original = Side::new(&robot);
     let faults = planted(&original);
-    let count = |&suspect: &Suspect| {
+    let count = |&faulty: &FaultySide| {
         let mut counts = Counts::default();
-        for planted in faults.iter().filter(|planted| can_be_told(planted, suspect)) {
-            judged(&original, planted, suspect, &mut counts);
+        for planted in faults.iter().filter(|planted| can_be_told(planted, faulty)) {
+            judged(&original, planted, faulty, &mut counts);
         }
-        println!("{name} {suspect:?}: {counts:?}");
+        println!("{name} {faulty:?}: {counts:?}");
         counts
     };
-    suspects.iter().map(count).collect()
+    sides.iter().map(count).collect()
 }
 
 /// Every cause at every link of a small robot: nothing is missed.
 #[test]
 fn every_cause_is_found_on_a_small_robot() {
-    for counts in bench("denso_hsr065", &[Suspect::Candidate, Suspect::Reference]) {
+    for counts in bench("denso_hsr065", &[FaultySide::Candidate, FaultySide::Reference]) {
         assert_eq!((counts.missed, counts.other), (0, 0), "{counts:?}");
         assert!(counts.faults > 100);
     }
@@ -239,7 +239,7 @@ fn every_cause_is_found_on_a_small_robot() {
 #[ignore = "a benchmark of thousands of faults: run it after a change of thresholds or causes"]
 fn every_cause_is_found_on_many_robots() {
     for name in ["ur5e", "iiwa14", "panda", "so100"] {
-        for counts in bench(name, &[Suspect::Candidate, Suspect::Reference]) {
+        for counts in bench(name, &[FaultySide::Candidate, FaultySide::Reference]) {
             assert_eq!(counts.missed, 0, "{name}: {counts:?}");
         }
     }
@@ -268,7 +268,7 @@ fn two_faults_at_once_are_found() {
         let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
         let original = Side::new(&robot);
         let mut faults = planted(&original);
-        faults.retain(|planted| can_be_told(planted, Suspect::Candidate));
+        faults.retain(|planted| can_be_told(planted, FaultySide::Candidate));
         let mut counts = [0; 4];
         for pair in two_at_once(&original, &faults, 37) {
             let [a, b] = pair.map(|at| &faults[at]);
@@ -276,11 +276,11 @@ fn two_faults_at_once_are_found() {
             let states = random_states(&side.frames, 1, STATES);
             let torque = torques(&original, &states).expect("the robot's own states");
             let torque = Compressed::new(&side, &states, &torque).expect("the robot's own states");
-            let suspect = Suspect::Candidate;
-            let setting = Setting { candidate: &side, reference: None, suspect, precision: Precision::EXACT };
+            let faulty = FaultySide::Candidate;
+            let setting = Setting { candidate: &side, reference: None, faulty, precision: Precision::EXACT };
             let explanations = diagnose(&setting, &torque).explanations;
-            let names_one = |grouped: &Grouped| names(a, grouped, suspect) || names(b, grouped, suspect);
-            let names_both = |grouped: &Grouped| names(a, grouped, suspect) && names(b, grouped, suspect);
+            let names_one = |grouped: &Grouped| names(a, grouped, faulty) || names(b, grouped, faulty);
+            let names_both = |grouped: &Grouped| names(a, grouped, faulty) && names(b, grouped, faulty);
             // A fault that torque does not show leaves the other one.
             let found = match explanations.first() {
                 Some(first) if names_both(first) => 0,

@@ -3,7 +3,7 @@
 use congruent_dynamics::JointResistance;
 
 use super::{
-    cause_names::Cause,
+    cause_names::DynamicsCause,
     fit::{Corrected, Fit},
     hypothesis::Place,
 };
@@ -18,7 +18,7 @@ pub(crate) struct Exact {
     pub(crate) parts: Vec<Fit>,
     pub(crate) corrected: Corrected,
     pub(crate) law_broken: Option<(usize, BodyLaw)>,
-    /// Whether a figure is blamed that is the same in both descriptions.
+    /// Whether a figure is named that is the same in both descriptions.
     pub(crate) contradicted: bool,
     pub(crate) price: f64,
 }
@@ -95,7 +95,7 @@ pub(super) struct Rank<'a> {
     no_body: bool,
     halves: i64,
     extent: usize,
-    causes: Vec<Cause>,
+    causes: Vec<DynamicsCause>,
     places: Vec<&'a Place>,
 }
 
@@ -142,16 +142,16 @@ fn is_contradicted(side: &Side, reference: &Side, corrected: &Corrected) -> bool
         let (Some(written), Some(other)) = (written, reference.inertials[other]) else {
             return written.is_none() && reference.inertials[other].is_none();
         };
-        Differences::between(&written, figures).blame_what_is_equal(Differences::between(&written, &other))
+        Differences::between(&written, figures).change_what_is_equal(Differences::between(&written, &other))
     });
     let joints = corrected.joints.iter().flatten().enumerate().any(|(joint, new)| {
         let name = side.frames.joint_name(joint);
         let Some(other) = reference.frames.find_joint(name) else { return false };
         let (old, other) = (&side.resistances[joint], &reference.resistances[other]);
-        let blames = |new: f64, old: f64, other: f64| !is_equal(new, old) && is_equal(old, other);
-        blames(new.damping, old.damping, other.damping)
-            || blames(new.friction, old.friction, other.friction)
-            || blames(new.armature, old.armature, other.armature)
+        let changes = |new: f64, old: f64, other: f64| !is_equal(new, old) && is_equal(old, other);
+        changes(new.damping, old.damping, other.damping)
+            || changes(new.friction, old.friction, other.friction)
+            || changes(new.armature, old.armature, other.armature)
     });
     let gravity = corrected.gravity.is_some() && side.gravity_m_s2 == reference.gravity_m_s2;
     links || joints || gravity
@@ -172,8 +172,8 @@ impl Differences {
         ])
     }
 
-    fn blame_what_is_equal(self, real: Self) -> bool {
-        self.0.into_iter().zip(real.0).any(|(blamed, real)| blamed && !real)
+    fn change_what_is_equal(self, real: Self) -> bool {
+        self.0.into_iter().zip(real.0).any(|(named, real)| named && !real)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::{
 /// Why two explanations leave the same torques.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Reason {
+pub enum EquivalenceReason {
     /// Fixed joints hold the links together: torque shows only their sum.
     OneBody,
     /// Torque shows few numbers of the body.
@@ -21,7 +21,7 @@ pub enum Reason {
     SameEffect,
 }
 
-impl Reason {
+impl EquivalenceReason {
     /// As the end of a sentence about two explanations.
     pub fn text(self) -> &'static str {
         match self {

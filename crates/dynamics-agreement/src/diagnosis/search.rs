@@ -6,7 +6,7 @@ use super::{
     cause,
     cause::slip::Slip,
     fit::{Fit, Target},
-    hypothesis::{Hypothesis, Place, Suspect},
+    hypothesis::{FaultySide, Hypothesis, Place},
 };
 use crate::{
     side::{JointTerm, Side},
@@ -38,11 +38,11 @@ pub(super) struct Catalogue<'a> {
 }
 
 impl<'a> Catalogue<'a> {
-    pub(super) fn new(side: &'a Side, suspect: Suspect) -> Self {
-        let slips: Vec<Slip<'_>> = cause::slips(&side.frames, suspect);
+    pub(super) fn new(side: &'a Side, faulty: FaultySide) -> Self {
+        let slips: Vec<Slip<'_>> = cause::slips(&side.frames, faulty);
         let n = side.frames.dof();
         let of_body = |body| {
-            side.frames.links_of(body).flat_map(|link| cause::of_link(side, suspect, &slips, link)).collect()
+            side.frames.links_of(body).flat_map(|link| cause::of_link(side, faulty, &slips, link)).collect()
         };
         let mut catalogue = Self {
             side,
@@ -51,8 +51,8 @@ impl<'a> Catalogue<'a> {
             of_gravity: Vec::new(),
             overall: cause::of_all_links(side, &slips),
         };
-        catalogue.overall.extend(cause::of_two_links(side, suspect));
-        for hypothesis in cause::of_joints_and_gravity(side, suspect) {
+        catalogue.overall.extend(cause::of_two_links(side, faulty));
+        for hypothesis in cause::of_joints_and_gravity(side, faulty) {
             match &hypothesis.place {
                 Place::Joints(joints) if joints.len() == 1 => {
                     catalogue.of_joints[joints[0]].push(hypothesis);

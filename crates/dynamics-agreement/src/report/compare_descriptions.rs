@@ -4,14 +4,14 @@ use congruent_dynamics::DynamicsError;
 use nalgebra::Matrix3;
 
 use super::{
-    content::{Certificates, DynamicsReport, Premise, Sides, Verdict},
+    content::{DynamicsPremise, DynamicsReport, DynamicsVerdict, Sides, TorqueCertificates},
     link_by_link::link_by_link,
-    told::{Description, Told},
+    told::{NamedSide, Told},
 };
 use crate::{
     bound::{certify_gravity, certify_inertia},
     compare::{hidden, invariants::invariants, limits},
-    diagnosis::{Setting, Suspect},
+    diagnosis::{FaultySide, Setting},
     side::{Inertial, Side},
     thresholds::{Precision, STATES},
     torque::{
@@ -59,7 +59,7 @@ pub enum CompareError {
 /// A mass that is given in grams:
 /// ```
 /// use congruent_description::parse_urdf;
-/// use congruent_dynamics_agreement::{Cause, Description, Side, compare};
+/// use congruent_dynamics_agreement::{DynamicsCause, NamedSide, Side, compare};
 /// let rod = |mass: &str| {
 ///     let text = format!(r#"<robot name="rod"><link name="base"/>
 ///     <link name="rod"><inertial><origin xyz="0.5 0 0"/><mass value="{mass}"/>
@@ -69,15 +69,15 @@ pub enum CompareError {
 ///     Side::new(&parse_urdf(&text).unwrap())
 /// };
 /// let (wrong, right) = (rod("2000"), rod("2"));
-/// let description = |name, side| Description { name, side, places: None };
+/// let description = |name, side| NamedSide { name, side, places: None };
 /// let report = compare(&description("wrong", &wrong), &description("right", &right), 1)?;
-/// assert_eq!(report.explanations[0].cause, Cause::MassUnit);
+/// assert_eq!(report.explanations[0].cause, DynamicsCause::MassUnit);
 /// assert_eq!(report.explanations[0].sentence(), "rod: the mass is given in another unit (g)");
 /// # Ok::<(), congruent_dynamics_agreement::CompareError>(())
 /// ```
 pub fn compare(
-    candidate: &Description<'_>,
-    reference: &Description<'_>,
+    candidate: &NamedSide<'_>,
+    reference: &NamedSide<'_>,
     seed: u64,
 ) -> Result<DynamicsReport, CompareError> {
     let joints = comparable(candidate.side, reference.side)?;
@@ -88,7 +88,7 @@ pub fn compare(
     let setting = Setting {
         candidate: candidate.side,
         reference: Some(reference.side),
-        suspect: Suspect::Candidate,
+        faulty: FaultySide::Candidate,
         precision: Precision::EXACT,
     };
     let mut told = Told::new(&setting, candidate, &torque);
@@ -103,16 +103,16 @@ pub fn compare(
         hidden::without_effect(candidate.side, reference.side, &torque)
     };
     let limits = limits::differences(candidate.side, reference.side, &joints);
-    let verdict = if told.same && differences.is_empty() { Verdict::Same } else { told.verdict() };
+    let verdict = if told.same && differences.is_empty() { DynamicsVerdict::Same } else { told.verdict() };
     let tree = seen_as_candidate.tree().without_resistances();
     Ok(DynamicsReport {
         sides: Sides {
             candidate: candidate.name.to_owned(),
             reference: reference.name.to_owned(),
-            suspect: setting.suspect,
+            faulty: setting.faulty,
         },
         verdict,
-        premise: Premise {
+        premise: DynamicsPremise {
             fit_relative: torque.outside / torque.torques,
             held_out_relative: None,
             states: states.len(),
@@ -137,13 +137,13 @@ const INVARIANT_STATES: usize = 20;
 /// # Errors
 /// As [`compare`].
 pub fn certify(
-    candidate: &Description<'_>,
-    reference: &Description<'_>,
+    candidate: &NamedSide<'_>,
+    reference: &NamedSide<'_>,
     seed: u64,
-) -> Result<Certificates, CompareError> {
+) -> Result<TorqueCertificates, CompareError> {
     let joints = comparable(candidate.side, reference.side)?;
     let reference = in_geometry_of(candidate.side, reference.side, &joints);
-    Ok(Certificates {
+    Ok(TorqueCertificates {
         gravity: certify_gravity(candidate.side, &reference, seed)?,
         inertia: certify_inertia(candidate.side, &reference, seed)?,
     })

@@ -2,11 +2,11 @@
 
 use super::{
     compare_descriptions::{CompareError, has_usable_numbers},
-    content::{DynamicsReport, Premise, Sides},
-    told::{Description, Told},
+    content::{DynamicsPremise, DynamicsReport, Sides},
+    told::{NamedSide, Told},
 };
 use crate::{
-    diagnosis::{Setting, Suspect},
+    diagnosis::{FaultySide, Setting},
     thresholds::{Precision, STATES},
     torque::{
         compressed::Compressed,
@@ -17,14 +17,14 @@ use crate::{
 };
 
 /// Compares a description with a source of accelerations of the same robot: what of the source would have to be other
-/// for the description's torques? The source is suspected, so figures are found there and expected in the description.
+/// for the description's torques? The source is taken to be wrong, so figures are found there and expected in the description.
 ///
 /// Mimic joints must be free of their masters in the source.
 ///
 /// # Errors
 /// [`CompareError`] if the source fails, or if figures are not finite.
 pub fn compare_with_source(
-    candidate: &Description<'_>,
+    candidate: &NamedSide<'_>,
     (name, source): (&str, &mut dyn AccelerationSource),
     probing: Probing,
 ) -> Result<DynamicsReport, CompareError> {
@@ -42,7 +42,7 @@ pub fn compare_with_source(
     let setting = Setting {
         candidate: candidate.side,
         reference: None,
-        suspect: Suspect::Reference,
+        faulty: FaultySide::Reference,
         precision: Precision::ENGINE,
     };
     let told = Told::new(&setting, candidate, &torque);
@@ -50,10 +50,10 @@ pub fn compare_with_source(
         sides: Sides {
             candidate: candidate.name.to_owned(),
             reference: name.to_owned(),
-            suspect: setting.suspect,
+            faulty: setting.faulty,
         },
         verdict: told.verdict(),
-        premise: Premise { fit_relative, held_out_relative: Some(held_out), states: states.len() },
+        premise: DynamicsPremise { fit_relative, held_out_relative: Some(held_out), states: states.len() },
         seen: torque.seen,
         invariants: None,
         links: told.links,

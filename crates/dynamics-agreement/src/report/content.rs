@@ -3,7 +3,7 @@
 use crate::{
     bound::TorqueCertificate,
     compare::{FigureDifference, Invariants, LimitDifference},
-    diagnosis::{Cause, Reason, Suspect},
+    diagnosis::{DynamicsCause, EquivalenceReason, FaultySide},
     torque::SeenNumbers,
 };
 
@@ -13,9 +13,9 @@ pub struct DynamicsReport {
     /// Names of the two.
     pub sides: Sides,
     /// The result.
-    pub verdict: Verdict,
+    pub verdict: DynamicsVerdict,
     /// How well the reference's torques are those of a rigid body chain at all.
-    pub premise: Premise,
+    pub premise: DynamicsPremise,
     /// How many inertial numbers torques tell.
     pub seen: SeenNumbers,
     /// Masses, gravity torques, mass matrix; `null` if the reference is no description.
@@ -30,18 +30,18 @@ pub struct DynamicsReport {
     pub hidden_differences: Vec<FigureDifference>,
     /// What explains the difference best; empty if there is none, or if nothing explains it. More than one if the
     /// difference is that of more than two links: then each explains its own link, joints or gravity.
-    pub explanations: Vec<Explanation>,
+    pub explanations: Vec<DynamicsExplanation>,
     /// What leaves the same torques with other figures.
-    pub indistinguishable: Vec<Explanation>,
+    pub indistinguishable: Vec<DynamicsExplanation>,
     /// Limits of joints that differ.
     pub limits: Vec<LimitDifference>,
     /// How large the differences of torque can get; `null` if nobody has asked.
-    pub certificates: Option<Certificates>,
+    pub certificates: Option<TorqueCertificates>,
 }
 
 /// How large the differences of torque can get over the range of the joints.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, schemars::JsonSchema)]
-pub struct Certificates {
+pub struct TorqueCertificates {
     /// Of gravity alone.
     pub gravity: TorqueCertificate,
     /// Of accelerations up to 10 rad/s^2 and m/s^2 of every joint, without armature.
@@ -55,14 +55,14 @@ pub struct Sides {
     pub candidate: String,
     /// What it is held against.
     pub reference: String,
-    /// Which of the two is suspected.
-    pub suspect: Suspect,
+    /// Which of the two is taken to be wrong.
+    pub faulty: FaultySide,
 }
 
 /// The result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Verdict {
+pub enum DynamicsVerdict {
     /// Torques and figures are the same.
     Same,
     /// Torques are the same, but figures differ that no torque shows.
@@ -75,7 +75,7 @@ pub enum Verdict {
 
 /// How well the reference's torques are those of a rigid body chain.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, schemars::JsonSchema)]
-pub struct Premise {
+pub struct DynamicsPremise {
     /// Part of the reference's torque that no numbers of such a chain explain, at the states that are fitted.
     pub fit_relative: f64,
     /// The same at the states that are held out; `null` if the torques are computed from a description.
@@ -86,9 +86,9 @@ pub struct Premise {
 
 /// One explanation.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
-pub struct Explanation {
+pub struct DynamicsExplanation {
     /// `several` if it has parts.
-    pub cause: Cause,
+    pub cause: DynamicsCause,
     /// Which unit, axis, entry, frame.
     pub detail: String,
     /// Links or joints; `*` for all of them, `gravity`.
@@ -103,14 +103,14 @@ pub struct Explanation {
     pub is_a_body: bool,
     /// The law that they break.
     pub body_law: Option<String>,
-    /// Whether it blames a figure that is the same in both descriptions.
+    /// Whether it changes a figure that is the same in both descriptions.
     pub contradicted: bool,
     /// Other names of the same correction.
-    pub also_named: Vec<Name>,
+    pub also_named: Vec<PlacedCause>,
     /// Why torque cannot tell it from the first explanation.
-    pub reason: Option<Reason>,
+    pub reason: Option<EquivalenceReason>,
     /// The parts of several faults at once.
-    pub parts: Vec<Name>,
+    pub parts: Vec<PlacedCause>,
     /// The file that is to be corrected.
     pub file: Option<String>,
     /// The line of the first figure.
@@ -121,9 +121,9 @@ pub struct Explanation {
 
 /// A cause with its place.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
-pub struct Name {
+pub struct PlacedCause {
     /// The cause.
-    pub cause: Cause,
+    pub cause: DynamicsCause,
     /// Which unit, axis, entry, frame.
     pub detail: String,
     /// Links or joints; `*` for all of them, `gravity`.

@@ -2,10 +2,10 @@
 
 use congruent_description::{UrdfPlaces, line_column};
 
-use super::content::{Explanation, Name};
+use super::content::{DynamicsExplanation, PlacedCause};
 use crate::{
     compare::figures,
-    diagnosis::{Cause, Corrected, Exact, Grouped, Place, Suspect},
+    diagnosis::{Corrected, DynamicsCause, Exact, FaultySide, Grouped, Place},
     side::{Inertial, Side},
 };
 
@@ -13,23 +13,23 @@ use crate::{
 #[derive(Clone, Copy)]
 pub(super) struct Teller<'a> {
     pub(super) candidate: &'a Side,
-    pub(super) suspect: Suspect,
+    pub(super) faulty: FaultySide,
     pub(super) places: Option<&'a UrdfPlaces>,
     /// Norm of the whole difference.
     pub(super) difference: f64,
 }
 
 impl Teller<'_> {
-    pub(super) fn explanation(&self, grouped: &Grouped) -> Explanation {
+    pub(super) fn explanation(&self, grouped: &Grouped) -> DynamicsExplanation {
         let exact = &grouped.named;
         let figures = self.figures(&exact.corrected);
         let (file, line) = self.file_and_line(exact).unzip();
         let first = self.name(exact);
-        Explanation {
+        DynamicsExplanation {
             cause: first.cause,
             detail: first.detail,
             place: first.place,
-            suggestion: super::words::suggestion(self.suspect, &figures),
+            suggestion: super::words::suggestion(self.faulty, &figures),
             figures,
             numbers: exact.price,
             left_relative: exact.left() / self.difference,
@@ -47,7 +47,7 @@ impl Teller<'_> {
     }
 
     /// One fault by its own name, several by their names together.
-    fn name(&self, exact: &Exact) -> Name {
+    fn name(&self, exact: &Exact) -> PlacedCause {
         let mut parts = self.parts(exact);
         if parts.len() == 1 {
             return parts.remove(0);
@@ -57,13 +57,13 @@ impl Teller<'_> {
         for part in &parts {
             place.extend(part.place.iter().cloned());
         }
-        Name { cause: Cause::Several, detail: causes.join(" + "), place }
+        PlacedCause { cause: DynamicsCause::Several, detail: causes.join(" + "), place }
     }
 
-    fn parts(&self, exact: &Exact) -> Vec<Name> {
+    fn parts(&self, exact: &Exact) -> Vec<PlacedCause> {
         let hypotheses = exact.parts.iter().map(|part| &part.hypothesis);
         hypotheses
-            .map(|hypothesis| Name {
+            .map(|hypothesis| PlacedCause {
                 cause: hypothesis.cause,
                 detail: hypothesis.detail.clone(),
                 place: self.place(&hypothesis.place),
@@ -83,7 +83,7 @@ impl Teller<'_> {
         }
     }
 
-    /// The figures that a correction changes: found is what the suspect says.
+    /// The figures that a correction changes: found is what the faulty says.
     fn figures(&self, corrected: &Corrected) -> Vec<figures::FigureDifference> {
         let side = self.candidate;
         let mut differences = Vec::new();
@@ -98,7 +98,7 @@ impl Teller<'_> {
         if let Some(gravity) = &corrected.gravity {
             differences.extend(figures::of_gravity(&side.gravity_m_s2, gravity));
         }
-        if self.suspect == Suspect::Reference {
+        if self.faulty == FaultySide::Reference {
             for difference in &mut differences {
                 std::mem::swap(&mut difference.found, &mut difference.expected);
             }
@@ -107,7 +107,7 @@ impl Teller<'_> {
     }
 
     fn file_and_line(&self, exact: &Exact) -> Option<(String, usize)> {
-        let places = self.places.filter(|_| self.suspect == Suspect::Candidate)?;
+        let places = self.places.filter(|_| self.faulty == FaultySide::Candidate)?;
         let frames = &self.candidate.frames;
         let place = &exact.parts.first()?.hypothesis.place;
         let span = match place {

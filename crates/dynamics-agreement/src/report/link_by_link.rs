@@ -3,8 +3,8 @@
 use congruent_dynamics::DynamicsError;
 
 use super::{
-    content::Explanation,
-    told::{Description, Told},
+    content::DynamicsExplanation,
+    told::{NamedSide, Told},
 };
 use crate::{
     diagnosis::Setting,
@@ -19,10 +19,10 @@ use crate::{
 /// make up the whole difference.
 pub(super) fn link_by_link(
     setting: &Setting<'_>,
-    (candidate, reference): (&Description<'_>, &Side),
+    (candidate, reference): (&NamedSide<'_>, &Side),
     seen_as_candidate: &Side,
     states: &[State],
-) -> Result<Vec<Explanation>, DynamicsError> {
+) -> Result<Vec<DynamicsExplanation>, DynamicsError> {
     let side = candidate.side;
     let mut whole = Side { gravity_m_s2: seen_as_candidate.gravity_m_s2, ..side.clone() };
     whole.resistances.clone_from(&seen_as_candidate.resistances);

@@ -10,5 +10,8 @@ mod words;
 
 pub use compare_descriptions::{CompareError, certify, compare};
 pub use compare_with_source::compare_with_source;
-pub use content::{Certificates, DynamicsReport, Explanation, Name, Premise, Sides, Verdict};
-pub use told::Description;
+pub use content::{
+    DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, PlacedCause, Sides,
+    TorqueCertificates,
+};
+pub use told::NamedSide;

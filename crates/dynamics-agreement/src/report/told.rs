@@ -3,7 +3,7 @@
 use congruent_description::UrdfPlaces;
 
 use super::{
-    content::{Explanation, Verdict},
+    content::{DynamicsExplanation, DynamicsVerdict},
     explained::Teller,
 };
 use crate::{
@@ -14,7 +14,7 @@ use crate::{
 
 /// One of the two descriptions.
 #[derive(Debug, Clone, Copy)]
-pub struct Description<'a> {
+pub struct NamedSide<'a> {
     /// Its name in messages, such as the path of its file.
     pub name: &'a str,
     /// What it says.
@@ -27,25 +27,25 @@ pub struct Description<'a> {
 pub(super) struct Told {
     pub(super) same: bool,
     pub(super) links: Vec<String>,
-    pub(super) explanations: Vec<Explanation>,
-    pub(super) indistinguishable: Vec<Explanation>,
+    pub(super) explanations: Vec<DynamicsExplanation>,
+    pub(super) indistinguishable: Vec<DynamicsExplanation>,
 }
 
 impl Told {
     /// By torques alone.
-    pub(super) fn verdict(&self) -> Verdict {
+    pub(super) fn verdict(&self) -> DynamicsVerdict {
         match (self.same, self.explanations.is_empty()) {
-            (true, _) => Verdict::SameTorques,
-            (false, false) => Verdict::Explained,
-            (false, true) => Verdict::Unexplained,
+            (true, _) => DynamicsVerdict::SameTorques,
+            (false, false) => DynamicsVerdict::Explained,
+            (false, true) => DynamicsVerdict::Unexplained,
         }
     }
 
-    pub(super) fn new(setting: &Setting<'_>, candidate: &Description<'_>, torque: &Compressed) -> Self {
+    pub(super) fn new(setting: &Setting<'_>, candidate: &NamedSide<'_>, torque: &Compressed) -> Self {
         let diagnosed = diagnose(setting, torque);
         let teller = Teller {
             candidate: setting.candidate,
-            suspect: setting.suspect,
+            faulty: setting.faulty,
             places: candidate.places,
             difference: torque.difference.norm().hypot(torque.outside),
         };

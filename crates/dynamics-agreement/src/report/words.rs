@@ -2,19 +2,19 @@
 
 use congruent_description::display::{number, quantity};
 
-use super::content::{DynamicsReport, Explanation};
+use super::content::{DynamicsExplanation, DynamicsReport};
 use crate::{
     bound::TorqueBracket,
     compare::FigureDifference,
-    diagnosis::{Cause, Suspect},
+    diagnosis::{DynamicsCause, FaultySide},
 };
 
 /// Figures that a suggestion names one by one.
 const MOST_FIGURES: usize = 10;
 
 /// What to write into the file; `None` if the file is right, or if too much of it would have to change.
-pub(super) fn suggestion(suspect: Suspect, figures: &[FigureDifference]) -> Option<String> {
-    if suspect == Suspect::Reference || figures.is_empty() || figures.len() > MOST_FIGURES {
+pub(super) fn suggestion(faulty: FaultySide, figures: &[FigureDifference]) -> Option<String> {
+    if faulty == FaultySide::Reference || figures.is_empty() || figures.len() > MOST_FIGURES {
         return None;
     }
     let values: Vec<String> = figures
@@ -35,7 +35,7 @@ impl FigureDifference {
     }
 }
 
-impl Explanation {
+impl DynamicsExplanation {
     /// `forearm_link: the centre of mass is given in another unit (mm)`.
     pub fn sentence(&self) -> String {
         let place = match self.place.join(", ") {
@@ -43,7 +43,7 @@ impl Explanation {
             all if all == "*" => "all links".to_owned(),
             place => place,
         };
-        let text = if self.cause == Cause::Several {
+        let text = if self.cause == DynamicsCause::Several {
             let parts =
                 self.parts.iter().map(|part| format!("{}: {}", part.place.join(", "), part.cause.text()));
             return parts.collect::<Vec<String>>().join("; ");
@@ -58,7 +58,7 @@ impl Explanation {
     }
 }
 
-impl Cause {
+impl DynamicsCause {
     fn is_of_joints(self) -> bool {
         (Self::JointTermsMissing..=Self::Armature).contains(&self)
     }

@@ -134,7 +134,12 @@ mod tests {
             0.0338,
             "distance 33.8 mm at here (1 s), at least 50 mm: 16.2 mm below the limit",
         );
-        reads("distance", (Bound::Above, 0.0), 0.0, "distance 0 mm at here (1 s), above 0 mm: at the limit");
+        reads(
+            "distance",
+            (Bound::Above, 0.0),
+            0.0,
+            "distance 0 mm at here (1 s), above 0 mm: they touch or overlap",
+        );
         reads(
             "position",
             (Bound::AtMost, 0.1),
@@ -149,6 +154,11 @@ mod tests {
         reads(ANGLE_BEYOND_LIMIT, limit, -1.0663, "61.1 deg left at here (1 s)");
         reads(ANGLE_BEYOND_LIMIT, limit, 5e-10, "at the limit at here (1 s)");
         reads(SHIFT_BEYOND_LIMIT, limit, 0.002, "2 mm beyond the limit at here (1 s)");
+        let wide = (Bound::AtMost, 0.005);
+        let tolerance = "the limit, with a tolerance of 5 mm at here (1 s)";
+        reads(SHIFT_BEYOND_LIMIT, wide, 0.002, &format!("2 mm beyond {tolerance}"));
+        reads(SHIFT_BEYOND_LIMIT, wide, -0.002, &format!("2 mm inside {tolerance}"));
+        reads(SHIFT_BEYOND_LIMIT, wide, 0.02, &format!("20 mm beyond {tolerance}"));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::slip::Slip;
 use crate::{
-    diagnosis::{cause_names::Cause, hypothesis::Suspect},
+    diagnosis::{cause_names::DynamicsCause, hypothesis::FaultySide},
     side::Inertial,
 };
 
@@ -19,22 +19,23 @@ const ORDERS: [(&str, [usize; 3]); 5] = [
     ("cycle_back", [1, 2, 0]),
 ];
 
-pub(super) fn slips<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
+pub(super) fn slips<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
     let mut slips = Vec::new();
     let com = |figures: &Inertial, com_m: Vector3<f64>| Inertial { com_m, ..*figures };
     for (axis, name) in AXES.into_iter().enumerate() {
-        slips
-            .push(Slip::new(Cause::ComSign, name, move |figures| com(figures, mirror(axis) * figures.com_m)));
+        slips.push(Slip::new(DynamicsCause::ComSign, name, move |figures| {
+            com(figures, mirror(axis) * figures.com_m)
+        }));
     }
-    slips.push(Slip::new(Cause::ComSign, "all", move |figures| com(figures, -figures.com_m)));
+    slips.push(Slip::new(DynamicsCause::ComSign, "all", move |figures| com(figures, -figures.com_m)));
     for (name, order) in ORDERS {
-        slips.push(Slip::new(Cause::ComAxesSwapped, name, move |figures| {
-            com(figures, reordered(suspect, order, &figures.com_m))
+        slips.push(Slip::new(DynamicsCause::ComAxesSwapped, name, move |figures| {
+            com(figures, reordered(faulty, order, &figures.com_m))
         }));
     }
     for (axis, name) in AXES.into_iter().enumerate() {
         let mirror = mirror(axis);
-        slips.push(Slip::new(Cause::Mirrored, name, move |figures| {
+        slips.push(Slip::new(DynamicsCause::Mirrored, name, move |figures| {
             com(figures, mirror * figures.com_m)
                 .with_tensor_in_link(&(mirror * figures.tensor_in_link() * mirror))
         }));
@@ -49,12 +50,12 @@ fn mirror(axis: usize) -> Matrix3<f64> {
 }
 
 /// Numbers put into another order, or put back.
-fn reordered(suspect: Suspect, order: [usize; 3], numbers: &Vector3<f64>) -> Vector3<f64> {
+fn reordered(faulty: FaultySide, order: [usize; 3], numbers: &Vector3<f64>) -> Vector3<f64> {
     let mut result = Vector3::zeros();
     for (place, taken) in order.into_iter().enumerate() {
-        match suspect {
-            Suspect::Candidate => result[taken] = numbers[place],
-            Suspect::Reference => result[place] = numbers[taken],
+        match faulty {
+            FaultySide::Candidate => result[taken] = numbers[place],
+            FaultySide::Reference => result[place] = numbers[taken],
         }
     }
     result

@@ -5,9 +5,9 @@ use nalgebra::Matrix3;
 use super::tensor::{could_be_by_rows, put_back_from_rows};
 use crate::{
     diagnosis::{
-        cause_names::Cause,
+        cause_names::DynamicsCause,
         free::{ENTRIES, Free},
-        hypothesis::{Change, Hypothesis, Place, Suspect},
+        hypothesis::{Change, FaultySide, Hypothesis, Place},
     },
     side::{Inertial, Side},
     thresholds::ZERO_FIGURE,
@@ -16,36 +16,36 @@ use crate::{
 const AXES: [&str; 3] = ["x", "y", "z"];
 const ENTRY_NAMES: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
 
-pub(super) fn of_link(side: &Side, suspect: Suspect, link: usize) -> Vec<Hypothesis> {
+pub(super) fn of_link(side: &Side, faulty: FaultySide, link: usize) -> Vec<Hypothesis> {
     let Some(figures) = &side.inertials[link] else { return Vec::new() };
     let free = |cause, detail: &str, free| {
         Hypothesis::new(cause, detail, Place::Links(vec![link]), Change::FreeLink { link, free })
     };
     let mut hypotheses = vec![
-        free(Cause::Mass, "", Free::Mass),
-        free(Cause::Density, "", Free::Density),
-        free(Cause::InertiaScale, "", Free::InertiaScale),
-        free(Cause::Com, "", Free::Com),
-        free(Cause::Inertia, "", Free::Inertia),
-        free(Cause::Inertial, "", Free::Inertial),
+        free(DynamicsCause::Mass, "", Free::Mass),
+        free(DynamicsCause::Density, "", Free::Density),
+        free(DynamicsCause::InertiaScale, "", Free::InertiaScale),
+        free(DynamicsCause::Com, "", Free::Com),
+        free(DynamicsCause::Inertia, "", Free::Inertia),
+        free(DynamicsCause::Inertial, "", Free::Inertial),
     ];
     for (axis, name) in AXES.into_iter().enumerate() {
-        hypotheses.push(free(Cause::ComEntry, name, Free::ComEntry(axis)));
+        hypotheses.push(free(DynamicsCause::ComEntry, name, Free::ComEntry(axis)));
     }
     for ((row, column), name) in ENTRIES.into_iter().zip(ENTRY_NAMES) {
-        hypotheses.push(free(Cause::InertiaEntry, name, Free::InertiaEntry(row, column)));
+        hypotheses.push(free(DynamicsCause::InertiaEntry, name, Free::InertiaEntry(row, column)));
     }
     let body = side.frames.links[link].body;
     let is_tip = body.is_some_and(|body| side.frames.joints.iter().all(|joint| joint.parent != Some(body)));
     if is_tip && body.is_some_and(|body| side.frames.joints[body].link == link) {
-        hypotheses.push(free(Cause::Payload, "", Free::Payload));
+        hypotheses.push(free(DynamicsCause::Payload, "", Free::Payload));
     }
     let rotation = Free::Rotation(Matrix3::identity());
-    hypotheses.push(free(Cause::InertiaRotation, "", rotation));
-    if suspect == Suspect::Candidate && is_principal(figures) {
-        hypotheses.push(free(Cause::PrincipalAxesMissing, "", rotation));
+    hypotheses.push(free(DynamicsCause::InertiaRotation, "", rotation));
+    if faulty == FaultySide::Candidate && is_principal(figures) {
+        hypotheses.push(free(DynamicsCause::PrincipalAxesMissing, "", rotation));
     }
-    if suspect == Suspect::Candidate && could_be_by_rows(figures) {
+    if faulty == FaultySide::Candidate && could_be_by_rows(figures) {
         hypotheses.push(by_rows(link, figures));
     }
     hypotheses
@@ -62,5 +62,5 @@ fn is_principal(figures: &Inertial) -> bool {
 fn by_rows(link: usize, figures: &Inertial) -> Hypothesis {
     let change =
         Change::FreeLinkFrom { link, from: put_back_from_rows(figures), free: Free::InertiaEntry(2, 2) };
-    Hypothesis::new(Cause::InertiaOrder, "row_major_upper", Place::Links(vec![link]), change)
+    Hypothesis::new(DynamicsCause::InertiaOrder, "row_major_upper", Place::Links(vec![link]), change)
 }

@@ -4,8 +4,8 @@ use congruent_dynamics::JointResistance;
 
 use crate::{
     diagnosis::{
-        cause_names::Cause,
-        hypothesis::{Change, Hypothesis, Place, Suspect},
+        cause_names::DynamicsCause,
+        hypothesis::{Change, FaultySide, Hypothesis, Place},
     },
     side::{JointTerm, Side},
 };
@@ -13,10 +13,14 @@ use crate::{
 /// What physics engines give joints without damping, in N m s/rad.
 const DEFAULT_DAMPING: f64 = 0.1;
 
-pub(super) fn hypotheses(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
-    let mut all = slips(side, suspect);
+pub(super) fn hypotheses(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
+    let mut all = slips(side, faulty);
     let n = side.frames.dof();
-    for (term, cause) in JointTerm::ALL.into_iter().zip([Cause::Damping, Cause::Friction, Cause::Armature]) {
+    for (term, cause) in JointTerm::ALL.into_iter().zip([
+        DynamicsCause::Damping,
+        DynamicsCause::Friction,
+        DynamicsCause::Armature,
+    ]) {
         let free = |detail: &str, place, groups| {
             Hypothesis::new(cause, detail, place, Change::FreeJoints { term, groups })
         };
@@ -31,7 +35,7 @@ pub(super) fn hypotheses(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
     all
 }
 
-fn slips(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
+fn slips(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
     let n = side.frames.dof();
     let mut all = Vec::new();
     let mut everywhere = |cause, detail: &str, change: &dyn Fn(usize, JointResistance) -> JointResistance| {
@@ -41,7 +45,7 @@ fn slips(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
             all.push(Hypothesis::new(cause, detail, Place::AllJoints, Change::Joints(changed)));
         }
     };
-    everywhere(Cause::DampingFrictionSwapped, "", &|_, of| JointResistance {
+    everywhere(DynamicsCause::DampingFrictionSwapped, "", &|_, of| JointResistance {
         damping: of.friction,
         friction: of.damping,
         ..of
@@ -49,33 +53,33 @@ fn slips(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
     for (detail, factor) in
         [("degrees", 180.0 / std::f64::consts::PI), ("radians", std::f64::consts::PI / 180.0)]
     {
-        let factor = suspect_factor(suspect, factor);
-        everywhere(Cause::DampingUnit, detail, &|_, of| JointResistance {
+        let factor = factor_of(faulty, factor);
+        everywhere(DynamicsCause::DampingUnit, detail, &|_, of| JointResistance {
             damping: of.damping * factor,
             ..of
         });
     }
-    match suspect {
-        Suspect::Candidate => {
+    match faulty {
+        FaultySide::Candidate => {
             // Dry friction that was written as damping leaves none where it belongs.
             if side.resistances.iter().all(|of| of.friction == 0.0) {
-                everywhere(Cause::FrictionAsDamping, "", &|_, of| JointResistance {
+                everywhere(DynamicsCause::FrictionAsDamping, "", &|_, of| JointResistance {
                     damping: 0.0,
                     friction: of.damping,
                     ..of
                 });
             }
         }
-        Suspect::Reference => {
-            everywhere(Cause::JointTermsMissing, "", &|_, _| JointResistance::default());
-            everywhere(Cause::DampingMissing, "", &|_, of| JointResistance { damping: 0.0, ..of });
-            everywhere(Cause::FrictionMissing, "", &|_, of| JointResistance { friction: 0.0, ..of });
-            everywhere(Cause::FrictionAsDamping, "", &|_, of| JointResistance {
+        FaultySide::Reference => {
+            everywhere(DynamicsCause::JointTermsMissing, "", &|_, _| JointResistance::default());
+            everywhere(DynamicsCause::DampingMissing, "", &|_, of| JointResistance { damping: 0.0, ..of });
+            everywhere(DynamicsCause::FrictionMissing, "", &|_, of| JointResistance { friction: 0.0, ..of });
+            everywhere(DynamicsCause::FrictionAsDamping, "", &|_, of| JointResistance {
                 damping: of.friction,
                 friction: 0.0,
                 ..of
             });
-            everywhere(Cause::DampingDefault, "0.1", &|joint, of| JointResistance {
+            everywhere(DynamicsCause::DampingDefault, "0.1", &|joint, of| JointResistance {
                 damping: if side.frames.joints[joint].is_angular { DEFAULT_DAMPING } else { of.damping },
                 ..of
             });
@@ -87,7 +91,7 @@ fn slips(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
                 let mut changed = side.resistances.clone();
                 changed.swap(first, second);
                 let place = Place::Joints(vec![first, second]);
-                all.push(Hypothesis::new(Cause::JointsSwapped, "", place, Change::Joints(changed)));
+                all.push(Hypothesis::new(DynamicsCause::JointsSwapped, "", place, Change::Joints(changed)));
             }
         }
     }
@@ -95,9 +99,9 @@ fn slips(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
 }
 
 /// Written values are so many times the right ones.
-fn suspect_factor(suspect: Suspect, factor: f64) -> f64 {
-    match suspect {
-        Suspect::Candidate => factor,
-        Suspect::Reference => factor.recip(),
+fn factor_of(faulty: FaultySide, factor: f64) -> f64 {
+    match faulty {
+        FaultySide::Candidate => factor,
+        FaultySide::Reference => factor.recip(),
     }
 }

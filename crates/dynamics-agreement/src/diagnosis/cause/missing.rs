@@ -1,12 +1,12 @@
 //! Figures that a file does not have: zeros and placeholders stand there. The zeros are the evidence; what should
-//! stand there is free. If the reference is suspected, it is the importer that put them there.
+//! stand there is free. If the reference is taken to be wrong, it is the importer that put them there.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::slip::Slip;
 use crate::{
     diagnosis::{
-        cause_names::Cause,
+        cause_names::DynamicsCause,
         free::Free,
         hypothesis::{Change, Hypothesis, Place},
     },
@@ -19,19 +19,19 @@ const PLACEHOLDERS: [(&str, f64); 3] = [("identity", 1.0), ("tenth", 0.1), ("mil
 /// What an importer leaves out.
 pub(super) fn slips_of_importers<'a>() -> Vec<Slip<'a>> {
     let mut slips = vec![
-        Slip::new(Cause::ComMissing, "", |figures| Inertial { com_m: Vector3::zeros(), ..*figures }),
-        Slip::new(Cause::ProductsMissing, "", |figures| Inertial {
+        Slip::new(DynamicsCause::ComMissing, "", |figures| Inertial { com_m: Vector3::zeros(), ..*figures }),
+        Slip::new(DynamicsCause::ProductsMissing, "", |figures| Inertial {
             tensor_kg_m2: Matrix3::from_diagonal(&figures.tensor_kg_m2.diagonal()),
             ..*figures
         }),
-        Slip::new(Cause::InertiaMissing, "", |figures| Inertial {
+        Slip::new(DynamicsCause::InertiaMissing, "", |figures| Inertial {
             tensor_kg_m2: Matrix3::zeros(),
             ..*figures
         }),
-        Slip::new(Cause::InertialLeftOut, "", |_| Inertial::nothing()),
+        Slip::new(DynamicsCause::InertialLeftOut, "", |_| Inertial::nothing()),
     ];
     for (name, moment) in PLACEHOLDERS {
-        slips.push(Slip::new(Cause::InertiaPlaceholder, name, move |figures| Inertial {
+        slips.push(Slip::new(DynamicsCause::InertiaPlaceholder, name, move |figures| Inertial {
             tensor_kg_m2: Matrix3::from_diagonal_element(moment),
             link_from_axes: Matrix3::identity(),
             ..*figures
@@ -46,7 +46,7 @@ pub(super) fn of_link(side: &Side, link: usize) -> Vec<Hypothesis> {
         Hypothesis::new(cause, detail, Place::Links(vec![link]), Change::FreeLink { link, free })
     };
     let Some(figures) = &side.inertials[link] else {
-        let missing = free(Cause::InertialMissing, "", Free::Inertial).missing();
+        let missing = free(DynamicsCause::InertialMissing, "", Free::Inertial).missing();
         return if could_have_inertial(side, link) { vec![missing] } else { Vec::new() };
     };
     let mut hypotheses = Vec::new();
@@ -54,16 +54,16 @@ pub(super) fn of_link(side: &Side, link: usize) -> Vec<Hypothesis> {
     let off_diagonal = tensor - Matrix3::from_diagonal(&tensor.diagonal());
     let largest = tensor.amax();
     if figures.com_m.amax() <= ZERO_FIGURE {
-        hypotheses.push(free(Cause::ComMissing, "", Free::Com));
+        hypotheses.push(free(DynamicsCause::ComMissing, "", Free::Com));
     }
     if largest == 0.0 {
-        hypotheses.push(free(Cause::InertiaMissing, "", Free::Inertia).missing());
+        hypotheses.push(free(DynamicsCause::InertiaMissing, "", Free::Inertia).missing());
     } else if off_diagonal.amax() <= ZERO_FIGURE * largest {
-        hypotheses.push(free(Cause::ProductsMissing, "", Free::Products));
+        hypotheses.push(free(DynamicsCause::ProductsMissing, "", Free::Products));
         if is_placeholder(tensor) {
             let name = PLACEHOLDERS.iter().find(|(_, moment)| is_near(largest, *moment));
             let detail = name.map_or("", |(name, _)| name);
-            hypotheses.push(free(Cause::InertiaPlaceholder, detail, Free::Inertia).missing());
+            hypotheses.push(free(DynamicsCause::InertiaPlaceholder, detail, Free::Inertia).missing());
         }
     }
     hypotheses

@@ -12,23 +12,23 @@ mod two_links;
 mod units;
 
 use self::slip::Slip;
-use super::hypothesis::{Change, Hypothesis, Place, Suspect};
+use super::hypothesis::{Change, FaultySide, Hypothesis, Place};
 use crate::side::{Frames, Side};
 
 /// Slips with one link's figures.
-pub(super) fn slips(frames: &Frames, suspect: Suspect) -> Vec<Slip<'_>> {
-    let mut slips = units::slips(suspect);
-    slips.extend(com::slips(suspect));
-    slips.extend(other_frames::slips(frames, suspect));
-    slips.extend(tensor::slips(suspect));
-    if suspect == Suspect::Reference {
+pub(super) fn slips(frames: &Frames, faulty: FaultySide) -> Vec<Slip<'_>> {
+    let mut slips = units::slips(faulty);
+    slips.extend(com::slips(faulty));
+    slips.extend(other_frames::slips(frames, faulty));
+    slips.extend(tensor::slips(faulty));
+    if faulty == FaultySide::Reference {
         slips.extend(missing::slips_of_importers());
     }
     slips
 }
 
 /// What can be wrong at one link.
-pub(super) fn of_link(side: &Side, suspect: Suspect, slips: &[Slip<'_>], link: usize) -> Vec<Hypothesis> {
+pub(super) fn of_link(side: &Side, faulty: FaultySide, slips: &[Slip<'_>], link: usize) -> Vec<Hypothesis> {
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
     if let Some(figures) = &side.inertials[link] {
         for slip in slips {
@@ -38,16 +38,16 @@ pub(super) fn of_link(side: &Side, suspect: Suspect, slips: &[Slip<'_>], link: u
             }
         }
     }
-    if suspect == Suspect::Candidate {
+    if faulty == FaultySide::Candidate {
         hypotheses.extend(missing::of_link(side, link));
     }
-    hypotheses.extend(free_numbers::of_link(side, suspect, link));
+    hypotheses.extend(free_numbers::of_link(side, faulty, link));
     hypotheses
 }
 
 /// What can be wrong between two links.
-pub(super) fn of_two_links(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
-    two_links::pairs(side, suspect)
+pub(super) fn of_two_links(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
+    two_links::pairs(side, faulty)
 }
 
 /// What can be wrong at all links.
@@ -56,8 +56,8 @@ pub(super) fn of_all_links(side: &Side, slips: &[Slip<'_>]) -> Vec<Hypothesis> {
 }
 
 /// What can be wrong with joints and gravity.
-pub(super) fn of_joints_and_gravity(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
-    let mut hypotheses = joint_terms::hypotheses(side, suspect);
-    hypotheses.extend(gravity::hypotheses(side, suspect));
+pub(super) fn of_joints_and_gravity(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
+    let mut hypotheses = joint_terms::hypotheses(side, faulty);
+    hypotheses.extend(gravity::hypotheses(side, faulty));
     hypotheses
 }

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 
 use super::slip::Slip;
 use crate::{
-    diagnosis::{cause_names::Cause, hypothesis::Suspect},
+    diagnosis::{cause_names::DynamicsCause, hypothesis::FaultySide},
     side::{Frames, Inertial},
     thresholds::ZERO_FIGURE,
 };
@@ -13,7 +13,7 @@ use crate::{
 /// Figures in the other frame.
 #[derive(Clone, Copy)]
 struct Wrong {
-    cause: Cause,
+    cause: DynamicsCause,
     figures: Figures,
     /// Only the axes, not the origin.
     axes_only: bool,
@@ -27,32 +27,32 @@ enum Figures {
 }
 
 const KINDS: [Wrong; 5] = [
-    Wrong { cause: Cause::ComFrame, figures: Figures::Com, axes_only: false },
-    Wrong { cause: Cause::ComAxes, figures: Figures::Com, axes_only: true },
-    Wrong { cause: Cause::InertialFrame, figures: Figures::Both, axes_only: false },
-    Wrong { cause: Cause::InertialAxes, figures: Figures::Both, axes_only: true },
-    Wrong { cause: Cause::InertiaAxes, figures: Figures::Tensor, axes_only: true },
+    Wrong { cause: DynamicsCause::ComFrame, figures: Figures::Com, axes_only: false },
+    Wrong { cause: DynamicsCause::ComAxes, figures: Figures::Com, axes_only: true },
+    Wrong { cause: DynamicsCause::InertialFrame, figures: Figures::Both, axes_only: false },
+    Wrong { cause: DynamicsCause::InertialAxes, figures: Figures::Both, axes_only: true },
+    Wrong { cause: DynamicsCause::InertiaAxes, figures: Figures::Tensor, axes_only: true },
 ];
 
-pub(super) fn slips(frames: &Frames, suspect: Suspect) -> Vec<Slip<'_>> {
+pub(super) fn slips(frames: &Frames, faulty: FaultySide) -> Vec<Slip<'_>> {
     let mut slips = Vec::new();
     for other in &frames.others {
         for kind in KINDS {
             slips.push(Slip::at_link(kind.cause, other.name.clone(), move |link, figures| {
                 let link_from_frame = other.link_from_frame[link].as_ref()?;
-                Some(kind.apply(suspect, link_from_frame, figures))
+                Some(kind.apply(faulty, link_from_frame, figures))
             }));
         }
     }
-    slips.extend(rotations(suspect));
+    slips.extend(rotations(faulty));
     slips
 }
 
 impl Wrong {
-    fn apply(self, suspect: Suspect, link_from_frame: &Pose, figures: &Inertial) -> Inertial {
-        let mut moved = match suspect {
-            Suspect::Candidate => *link_from_frame,
-            Suspect::Reference => link_from_frame.inverse(),
+    fn apply(self, faulty: FaultySide, link_from_frame: &Pose, figures: &Inertial) -> Inertial {
+        let mut moved = match faulty {
+            FaultySide::Candidate => *link_from_frame,
+            FaultySide::Reference => link_from_frame.inverse(),
         };
         if self.axes_only {
             moved.translation = nalgebra::Vector3::zeros();
@@ -68,26 +68,26 @@ impl Wrong {
     }
 }
 
-fn rotations<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
+fn rotations<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
     let turned = |figures: &Inertial, link_from_axes: Matrix3<f64>| Inertial { link_from_axes, ..*figures };
     let has_rotation =
         |figures: &Inertial| (figures.link_from_axes - Matrix3::identity()).amax() > ZERO_FIGURE;
     let mut slips = vec![
-        Slip::at_link(Cause::RpyInverted, "", move |_, figures| {
+        Slip::at_link(DynamicsCause::RpyInverted, "", move |_, figures| {
             has_rotation(figures).then(|| turned(figures, figures.link_from_axes.transpose()))
         }),
-        Slip::at_link(Cause::RpyTwice, "", move |_, figures| {
+        Slip::at_link(DynamicsCause::RpyTwice, "", move |_, figures| {
             let turn = figures.link_from_axes;
-            let changed = match suspect {
-                Suspect::Candidate => rotation_exp(&(rotation_log(&turn) * 0.5)),
-                Suspect::Reference => turn * turn,
+            let changed = match faulty {
+                FaultySide::Candidate => rotation_exp(&(rotation_log(&turn) * 0.5)),
+                FaultySide::Reference => turn * turn,
             };
             has_rotation(figures).then(|| turned(figures, changed))
         }),
     ];
     // A rotation that is missing in the file cannot be put back without numbers.
-    if suspect == Suspect::Reference {
-        slips.push(Slip::at_link(Cause::RpyMissing, "", move |_, figures| {
+    if faulty == FaultySide::Reference {
+        slips.push(Slip::at_link(DynamicsCause::RpyMissing, "", move |_, figures| {
             has_rotation(figures).then(|| turned(figures, Matrix3::identity()))
         }));
     }

@@ -1,7 +1,7 @@
 //! A slip: a change of one link's figures without a free number.
 
 use crate::{
-    diagnosis::{cause_names::Cause, hypothesis::Suspect},
+    diagnosis::{cause_names::DynamicsCause, hypothesis::FaultySide},
     side::Inertial,
 };
 
@@ -10,7 +10,7 @@ pub(in crate::diagnosis) type Change<'a> = Box<dyn Fn(usize, &Inertial) -> Optio
 
 /// One slip, for any link.
 pub(in crate::diagnosis) struct Slip<'a> {
-    pub(in crate::diagnosis) cause: Cause,
+    pub(in crate::diagnosis) cause: DynamicsCause,
     pub(in crate::diagnosis) detail: String,
     pub(in crate::diagnosis) change: Change<'a>,
 }
@@ -18,7 +18,7 @@ pub(in crate::diagnosis) struct Slip<'a> {
 impl<'a> Slip<'a> {
     /// A slip that is the same at every link.
     pub(super) fn new(
-        cause: Cause,
+        cause: DynamicsCause,
         detail: impl Into<String>,
         change: impl Fn(&Inertial) -> Inertial + 'a,
     ) -> Self {
@@ -27,7 +27,7 @@ impl<'a> Slip<'a> {
 
     /// A slip that depends on the link.
     pub(super) fn at_link(
-        cause: Cause,
+        cause: DynamicsCause,
         detail: impl Into<String>,
         change: impl Fn(usize, &Inertial) -> Option<Inertial> + 'a,
     ) -> Self {
@@ -35,7 +35,7 @@ impl<'a> Slip<'a> {
     }
 }
 
-impl Suspect {
+impl FaultySide {
     /// The factor that undoes or does a wrong unit, of which so many make one right unit.
     pub(super) fn factor(self, per_right_unit: f64) -> f64 {
         match self {

@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 
 use super::slip::Slip;
 use crate::{
-    diagnosis::{cause_names::Cause, free::ENTRIES, hypothesis::Suspect},
+    diagnosis::{cause_names::DynamicsCause, free::ENTRIES, hypothesis::FaultySide},
     side::Inertial,
 };
 
@@ -25,43 +25,47 @@ const ORDERS: [(&str, [usize; 6]); 3] = [
 /// The first six of nine numbers by rows, `xx xy xz xy yy yz`: the last moment is lost.
 const BY_ROWS: [usize; 6] = [0, 1, 2, 1, 3, 4];
 
-pub(super) fn slips<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
-    let towards_written = match suspect {
-        Suspect::Candidate => 1.0,
-        Suspect::Reference => -1.0,
+pub(super) fn slips<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
+    let towards_written = match faulty {
+        FaultySide::Candidate => 1.0,
+        FaultySide::Reference => -1.0,
     };
     let mut slips = vec![
-        tensor_slip(Cause::ProductsSign, "", |tensor| {
+        tensor_slip(DynamicsCause::ProductsSign, "", |tensor| {
             Matrix3::from_diagonal(&tensor.diagonal()) * 2.0 - tensor
         }),
         about_origin("", -towards_written),
         about_origin("reverse", towards_written),
     ];
     for (name, entry) in PRODUCTS {
-        slips.push(tensor_slip(Cause::ProductSign, name, move |tensor| {
+        slips.push(tensor_slip(DynamicsCause::ProductSign, name, move |tensor| {
             let mut changed = *tensor;
             set(&mut changed, entry, -tensor[entry]);
             changed
         }));
     }
     for (name, [a, b]) in MOMENT_PAIRS {
-        slips.push(tensor_slip(Cause::MomentsSwapped, name, move |tensor| exchanged(tensor, (a, a), (b, b))));
+        slips.push(tensor_slip(DynamicsCause::MomentsSwapped, name, move |tensor| {
+            exchanged(tensor, (a, a), (b, b))
+        }));
     }
     for (name, [a, b]) in PRODUCT_PAIRS {
-        slips.push(tensor_slip(Cause::ProductsSwapped, name, move |tensor| {
+        slips.push(tensor_slip(DynamicsCause::ProductsSwapped, name, move |tensor| {
             exchanged(tensor, PRODUCTS[a].1, PRODUCTS[b].1)
         }));
     }
     for (name, order) in ORDERS {
-        slips.push(tensor_slip(Cause::InertiaOrder, name, move |tensor| reordered(suspect, order, tensor)));
+        slips.push(tensor_slip(DynamicsCause::InertiaOrder, name, move |tensor| {
+            reordered(faulty, order, tensor)
+        }));
     }
-    if suspect == Suspect::Reference {
-        slips.push(tensor_slip(Cause::InertiaOrder, "row_major_upper", |tensor| {
-            reordered(Suspect::Reference, BY_ROWS, tensor)
+    if faulty == FaultySide::Reference {
+        slips.push(tensor_slip(DynamicsCause::InertiaOrder, "row_major_upper", |tensor| {
+            reordered(FaultySide::Reference, BY_ROWS, tensor)
         }));
     }
     for turn in quarter_turns() {
-        slips.push(tensor_slip(Cause::InertiaRotation, "quarter", move |tensor| {
+        slips.push(tensor_slip(DynamicsCause::InertiaRotation, "quarter", move |tensor| {
             turn * tensor * turn.transpose()
         }));
     }
@@ -70,7 +74,7 @@ pub(super) fn slips<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
 
 /// The figures of a file in which nine numbers by rows were cut to six, with zero for the moment that is lost.
 pub(super) fn put_back_from_rows(figures: &Inertial) -> Inertial {
-    let mut tensor = reordered(Suspect::Candidate, BY_ROWS, &figures.tensor_kg_m2);
+    let mut tensor = reordered(FaultySide::Candidate, BY_ROWS, &figures.tensor_kg_m2);
     tensor[(2, 2)] = 0.0;
     Inertial { tensor_kg_m2: tensor, ..*figures }
 }
@@ -83,7 +87,7 @@ pub(super) fn could_be_by_rows(figures: &Inertial) -> bool {
 }
 
 fn tensor_slip<'a>(
-    cause: Cause,
+    cause: DynamicsCause,
     detail: &str,
     change: impl Fn(&Matrix3<f64>) -> Matrix3<f64> + 'a,
 ) -> Slip<'a> {
@@ -95,7 +99,7 @@ fn tensor_slip<'a>(
 
 /// The tensor is shifted away from the centre of mass, or with sign -1 to it.
 fn about_origin<'a>(detail: &str, sign: f64) -> Slip<'a> {
-    Slip::new(Cause::InertiaAboutOrigin, detail, move |figures| {
+    Slip::new(DynamicsCause::InertiaAboutOrigin, detail, move |figures| {
         figures.with_tensor_in_link(&(figures.tensor_in_link() + figures.shift() * sign))
     })
 }
@@ -112,12 +116,12 @@ fn exchanged(tensor: &Matrix3<f64>, a: (usize, usize), b: (usize, usize)) -> Mat
     result
 }
 
-fn reordered(suspect: Suspect, order: [usize; 6], tensor: &Matrix3<f64>) -> Matrix3<f64> {
+fn reordered(faulty: FaultySide, order: [usize; 6], tensor: &Matrix3<f64>) -> Matrix3<f64> {
     let mut result = Matrix3::zeros();
     for (place, taken) in order.into_iter().enumerate() {
-        match suspect {
-            Suspect::Candidate => set(&mut result, ENTRIES[taken], tensor[ENTRIES[place]]),
-            Suspect::Reference => set(&mut result, ENTRIES[place], tensor[ENTRIES[taken]]),
+        match faulty {
+            FaultySide::Candidate => set(&mut result, ENTRIES[taken], tensor[ENTRIES[place]]),
+            FaultySide::Reference => set(&mut result, ENTRIES[place], tensor[ENTRIES[taken]]),
         }
     }
     result
@@ -148,9 +152,9 @@ mod tests {
     fn orders_are_undone_by_their_reverse() {
         let tensor = Matrix3::new(1.0, 2.0, 3.0, 2.0, 4.0, 5.0, 3.0, 5.0, 6.0);
         for (_, order) in ORDERS {
-            let written = reordered(Suspect::Reference, order, &tensor);
+            let written = reordered(FaultySide::Reference, order, &tensor);
             assert_ne!(written, tensor);
-            assert_eq!(reordered(Suspect::Candidate, order, &written), tensor);
+            assert_eq!(reordered(FaultySide::Candidate, order, &written), tensor);
         }
         assert_eq!(quarter_turns().len(), 23);
     }

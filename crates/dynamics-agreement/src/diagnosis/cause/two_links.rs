@@ -3,14 +3,14 @@
 use super::slip::Slip;
 use crate::{
     diagnosis::{
-        cause_names::Cause,
-        hypothesis::{Change, Hypothesis, Place, Suspect},
+        cause_names::DynamicsCause,
+        hypothesis::{Change, FaultySide, Hypothesis, Place},
     },
     side::{Frames, Inertial, Side},
 };
 
 /// Exchanged and doubled inertias.
-pub(super) fn pairs(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
+pub(super) fn pairs(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
     let moving: Vec<(usize, &Inertial)> = side
         .inertials
         .iter()
@@ -25,11 +25,11 @@ pub(super) fn pairs(side: &Side, suspect: Suspect) -> Vec<Hypothesis> {
                 Hypothesis::new(cause, "", Place::Links(vec![first, second]), Change::Links(changed))
             };
             if first < second {
-                hypotheses.push(pair(Cause::InertialsSwapped, vec![(first, *b), (second, *a)]));
+                hypotheses.push(pair(DynamicsCause::InertialsSwapped, vec![(first, *b), (second, *a)]));
             }
             if first != second && carries(&side.frames, first, second) {
-                let both = with_other(&side.frames, suspect, [(first, a), (second, b)]);
-                hypotheses.push(pair(Cause::CountedTwice, vec![(first, both)]));
+                let both = with_other(&side.frames, faulty, [(first, a), (second, b)]);
+                hypotheses.push(pair(DynamicsCause::CountedTwice, vec![(first, both)]));
             }
         }
     }
@@ -45,12 +45,12 @@ fn carries(frames: &Frames, first: usize, second: usize) -> bool {
 /// The figures of the first link with those of the second at joints zero put to them, or taken from them.
 fn with_other(
     frames: &Frames,
-    suspect: Suspect,
+    faulty: FaultySide,
     [(first, a), (second, b)]: [(usize, &Inertial); 2],
 ) -> Inertial {
     let first_from_second = frames.root_from_link(first).inverse() * *frames.root_from_link(second);
     let part = b.about_origin().transformed_by(&first_from_second);
-    let sign = if suspect == Suspect::Candidate { -1.0 } else { 1.0 };
+    let sign = if faulty == FaultySide::Candidate { -1.0 } else { 1.0 };
     let mut numbers = a.about_origin().parameters();
     numbers.iter_mut().zip(part.parameters()).for_each(|(number, part)| *number += sign * part);
     Inertial::from_origin(&congruent_dynamics::SpatialInertia::from_parameters(numbers), a.link_from_axes)

@@ -2,7 +2,7 @@
 
 use super::slip::Slip;
 use crate::{
-    diagnosis::{cause_names::Cause, hypothesis::Suspect},
+    diagnosis::{cause_names::DynamicsCause, hypothesis::FaultySide},
     side::Inertial,
 };
 
@@ -30,32 +30,32 @@ const INERTIAS: [(&str, f64); 8] = [
 /// Units of mass and length that CAD programs write all figures in.
 const CAD: [(&str, f64, f64); 2] = [("g_mm", 1e3, 1e3), ("kg_mm", 1.0, 1e3)];
 
-pub(super) fn slips<'a>(suspect: Suspect) -> Vec<Slip<'a>> {
+pub(super) fn slips<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
     let mut slips = Vec::new();
     for (unit, count) in MASSES {
-        let factor = suspect.factor(count);
-        slips.push(Slip::new(Cause::MassUnit, unit, move |figures| Inertial {
+        let factor = faulty.factor(count);
+        slips.push(Slip::new(DynamicsCause::MassUnit, unit, move |figures| Inertial {
             mass_kg: figures.mass_kg * factor,
             ..*figures
         }));
     }
     for (unit, count) in LENGTHS {
-        let factor = suspect.factor(count);
-        slips.push(Slip::new(Cause::ComUnit, unit, move |figures| Inertial {
+        let factor = faulty.factor(count);
+        slips.push(Slip::new(DynamicsCause::ComUnit, unit, move |figures| Inertial {
             com_m: figures.com_m * factor,
             ..*figures
         }));
     }
     for (unit, count) in INERTIAS {
-        let factor = suspect.factor(count);
-        slips.push(Slip::new(Cause::InertiaUnit, unit, move |figures| Inertial {
+        let factor = faulty.factor(count);
+        slips.push(Slip::new(DynamicsCause::InertiaUnit, unit, move |figures| Inertial {
             tensor_kg_m2: figures.tensor_kg_m2 * factor,
             ..*figures
         }));
     }
     for (unit, masses, lengths) in CAD {
-        let (mass, length) = (suspect.factor(masses), suspect.factor(lengths));
-        slips.push(Slip::new(Cause::CadUnits, unit, move |figures| Inertial {
+        let (mass, length) = (faulty.factor(masses), faulty.factor(lengths));
+        slips.push(Slip::new(DynamicsCause::CadUnits, unit, move |figures| Inertial {
             mass_kg: figures.mass_kg * mass,
             com_m: figures.com_m * length,
             tensor_kg_m2: figures.tensor_kg_m2 * (mass * length * length),
