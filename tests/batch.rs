@@ -34,6 +34,8 @@ duration_s = 0.01
 }
 
 const AGREEMENT: &str = "[[check]]\nkind = \"agreement\"\n";
+/// A goal out of reach.
+const FAR_GOAL: &str = "[[check]]\nkind = \"goal\"\ntcp = { xyz_m = [0, 0, 9] }\nposition_m = 0.1\n";
 /// The tenth line of the file is wrong.
 const WRONG: &str = "[[check]]\nkind = \"agreement\"\nposition_mm = 1\n";
 
@@ -186,11 +188,7 @@ fn of_two_scenarios_for_one_folder_the_first_runs() {
 fn the_exit_code_is_the_worst() {
     let bench = Bench::new();
     let passing = scenario(&bench, "passing", AGREEMENT);
-    let failing = scenario(
-        &bench,
-        "failing",
-        "[[check]]\nkind = \"goal\"\ntcp = { xyz_m = [0, 0, 9] }\nposition_m = 0.1\n",
-    );
+    let failing = scenario(&bench, "failing", FAR_GOAL);
     let unchecked = scenario(&bench, "unchecked", "");
     let (code, document, _, cases) = run(&bench, &[&failing, &passing]);
     assert_eq!((code, &document[0]["exit_code"]), (1, &Value::from(1)));
@@ -329,11 +327,7 @@ fn a_target_out_of_reach_is_the_only_finding() {
 fn inspect_ends_with_the_code_of_the_run_or_of_the_file() {
     let bench = Bench::new();
     let passing = scenario(&bench, "passing", AGREEMENT);
-    let failing = scenario(
-        &bench,
-        "failing",
-        "[[check]]\nkind = \"goal\"\ntcp = { xyz_m = [0, 0, 9] }\nposition_m = 0.1\n",
-    );
+    let failing = scenario(&bench, "failing", FAR_GOAL);
     congruent(&["run", &passing, &failing, "--out", &text(bench.path())]);
     let recording = |name: &str| text(&bench.path().join(name).join("recording.rrd"));
     let (passed, failed) = (recording("passing"), recording("failing"));

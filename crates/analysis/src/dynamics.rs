@@ -108,7 +108,7 @@ pub fn dynamics(
     states: &[JointState],
 ) -> Result<DynamicsReport, JointDynamicsError> {
     let results = states.iter().map(|state| at(state, by)).collect::<Result<_, _>>()?;
-    let at_rest = (source == DynamicsSource::Model).then(|| stiction(robot, states)).flatten();
+    let at_rest = stiction(robot, (source, options), states);
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     Ok(DynamicsReport {
         robot: robot.name().to_owned(),
@@ -123,8 +123,15 @@ pub fn dynamics(
     })
 }
 
-/// Whether joints stand still that dry friction may hold.
-pub fn stiction(robot: &Robot, states: &[JointState]) -> Option<Diagnostic> {
+/// A warning if joints stand still that dry friction may hold, and the source is one that does not know it.
+pub fn stiction(
+    robot: &Robot,
+    (source, options): (DynamicsSource, &DynamicsOptions),
+    states: &[JointState],
+) -> Option<Diagnostic> {
+    if source != DynamicsSource::Model || !options.friction {
+        return None;
+    }
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint)).enumerate();
     let rests = |row: usize| states.iter().any(|state| state.qd[row] == 0.0);
     let held: Vec<&str> = joints()

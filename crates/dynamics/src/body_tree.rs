@@ -1,7 +1,7 @@
 //! A robot as rigid bodies that joints move against each other, made ready for the algorithms.
 
-use congruent_description::{JointIndex, JointKind, LinkIndex, Robot, RobotQ};
-use congruent_kinematics::{Pose, Twist, rotation_exp};
+use congruent_description::{JointKind, LinkIndex, Robot, RobotQ};
+use congruent_kinematics::{Pose, Twist, frame_about, rotation_exp};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
@@ -96,7 +96,7 @@ impl BodyTree {
         };
         // For each link the body that it belongs to, and its pose in it.
         let mut carriers: Vec<(Option<usize>, Pose)> = vec![(None, Pose::identity()); robot.links().len()];
-        for (index, joint) in robot.joints().iter().enumerate() {
+        for joint in robot.joints() {
             let (parent, parent_from_link) = carriers[joint.parent.get()];
             let parent_from_joint = parent_from_link * Pose::from(joint.parent_from_joint);
             carriers[joint.child.get()] = if joint.kind.is_movable() {
@@ -121,7 +121,6 @@ impl BodyTree {
             } else {
                 (parent, parent_from_joint)
             };
-            debug_assert!(robot.parent_joint(joint.child).map(JointIndex::get) == Some(index));
         }
         for (link, (body, body_from_link)) in robot.links().iter().zip(carriers) {
             if let (Some(body), Some(inertia)) = (body, &link.inertia) {
@@ -259,12 +258,4 @@ impl JointFrame {
             origin: parent_from_body.translation.into(),
         }
     }
-}
-
-/// A rotation whose third column is a unit vector; exact if that is along an axis.
-fn frame_about(z: &Vector3<f64>) -> Matrix3<f64> {
-    let mut least = Vector3::zeros();
-    least[z.iamin()] = 1.0;
-    let y = z.cross(&least).normalize();
-    Matrix3::from_columns(&[y.cross(z), y, *z])
 }

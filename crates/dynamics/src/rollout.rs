@@ -20,7 +20,6 @@ pub struct RolloutState {
 pub struct Rollout<'a> {
     tree: &'a BodyTree,
     state: RolloutState,
-    step: u64,
     buffer: DynamicsBuffer,
     stage_q: RobotQ,
     stage_qd: Vec<f64>,
@@ -45,7 +44,6 @@ impl<'a> Rollout<'a> {
         Ok(Self {
             tree,
             state: RolloutState { time_s: 0.0, q, qd },
-            step: 0,
             buffer: tree.buffer(),
             stage_q: RobotQ::zeros(n),
             stage_qd: vec![0.0; n],
@@ -91,7 +89,6 @@ impl<'a> Rollout<'a> {
                 self.state.qd[joint] += weight * step_s * self.accelerations[stage][joint];
             }
         }
-        self.step += 1;
         self.state.time_s += step_s;
         Ok(())
     }

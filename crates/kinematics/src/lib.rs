@@ -38,6 +38,7 @@ pub use error::KinematicsError;
 pub use link_poses::{LinkPoses, LinkPosesError};
 pub use spatial::{
     DeterminedAngles, EulerAngles, EulerSet, Pose, PoseError, ReportedPose, Screw, ToolAxes, ToolAxesError,
-    Twist, UnknownEulerSet, Wrench, hat, larger, log_ratio, quaternion_of, rotation_exp, rotation_log, vee,
+    Twist, UnknownEulerSet, Wrench, frame_about, hat, larger, log_ratio, quaternion_of, rotation_exp,
+    rotation_log, vee,
 };
 pub use uniform::Uniform;

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use congruent_description::{ChainQ, DhConvention, DhRowKind};
+use congruent_description::{ChainQ, DhConvention, DhRow, DhRowKind};
 use congruent_kinematics::{Axes, DhRowTwists, Pose, ScrewChain, SinCos, Twist, rotation_exp};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -88,6 +88,14 @@ pub struct CandidateRow {
     pub rate: f64,
     /// Its constants.
     pub link: RowConstants,
+}
+
+impl CandidateRow {
+    /// A row of a table that this joint drives.
+    pub(super) fn of_table<J>(joint: usize, row: &DhRow<J>) -> Self {
+        let DhRow { kind, a_m, alpha_rad, d_m, theta_rad, sign, .. } = *row;
+        Self { joint, rate: sign, link: RowConstants::Dh { kind, a_m, alpha_rad, d_m, theta_rad } }
+    }
 }
 
 /// The constants of one row.

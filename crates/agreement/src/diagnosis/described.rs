@@ -5,7 +5,7 @@ use congruent_kinematics::Twist;
 use nalgebra::Vector3;
 
 use super::{
-    candidate::{Candidate, CandidateRow, RowConstants},
+    candidate::{Candidate, CandidateRow},
     reference_model::{ReferenceJoint, ReferenceModel},
 };
 
@@ -14,17 +14,8 @@ impl Candidate {
     /// from base to tip. `None` when a row names another joint.
     pub fn from_table(table: &DhTable, joints: &[JointIndex]) -> Option<Self> {
         let row = |row: &congruent_description::DhRow| {
-            Some(CandidateRow {
-                joint: joints.iter().position(|joint| *joint == row.joint)?,
-                rate: row.sign,
-                link: RowConstants::Dh {
-                    kind: row.kind,
-                    a_m: row.a_m,
-                    alpha_rad: row.alpha_rad,
-                    d_m: row.d_m,
-                    theta_rad: row.theta_rad,
-                },
-            })
+            let joint = joints.iter().position(|joint| *joint == row.joint)?;
+            Some(CandidateRow::of_table(joint, row))
         };
         Some(Self {
             convention: Some(table.convention),

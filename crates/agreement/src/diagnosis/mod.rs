@@ -20,7 +20,7 @@ mod nearest_table;
 mod reference_model;
 mod score;
 mod search;
-mod thresholds;
+pub(crate) mod thresholds;
 
 pub use candidate::{Candidate, CandidateRow, DeclaredTransform, DhEntry, ModelParameter, RowConstants};
 pub use equivalence::Equivalence;

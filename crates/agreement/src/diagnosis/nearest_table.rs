@@ -4,7 +4,7 @@
 use congruent_kinematics::derive_dh;
 
 use super::{
-    candidate::{Candidate, CandidateRow, DhEntry, ModelParameter, RowConstants},
+    candidate::{Candidate, CandidateRow, DhEntry, ModelParameter},
     fit::{evaluation_point::EvaluationPoint, least_squares::FitTarget},
     hypothesis::ModelPair,
     thresholds::{DERIVED_WITHIN, INDEPENDENT, MAX_PASSES, SAME_VALUE},
@@ -83,17 +83,7 @@ fn by_preference(given: &Candidate, preferred: &[ModelParameter]) -> Vec<ModelPa
 /// A table of the axes of the reference model, in the candidate's convention.
 fn derived(models: &ModelPair) -> Option<Candidate> {
     let dh = derive_dh(&models.reference.screws(), models.candidate.convention?, DERIVED_WITHIN).ok()?.dh;
-    let row = |(joint, row): (usize, &congruent_description::DhRow<()>)| CandidateRow {
-        joint,
-        rate: row.sign,
-        link: RowConstants::Dh {
-            kind: row.kind,
-            a_m: row.a_m,
-            alpha_rad: row.alpha_rad,
-            d_m: row.d_m,
-            theta_rad: row.theta_rad,
-        },
-    };
+    let row = |(joint, row)| CandidateRow::of_table(joint, row);
     Some(Candidate {
         convention: Some(dh.convention),
         base: dh.base_from_dh0.into(),

@@ -46,7 +46,7 @@ pub(super) const ROUNDING_RESIDUAL: f64 = 1e-11;
 // Rotations as files write them.
 
 /// Largest error of a quarter turn that a file rounds: 1.57 is off by 8e-4. Unit: rad; kind: digits of a file.
-pub(super) const ROUNDED_QUARTER_RAD: f64 = 1e-3;
+pub(crate) const ROUNDED_QUARTER_RAD: f64 = 1e-3;
 
 /// Entries of a rotation by quarter turns are 0 or 1 within this; kind: digits of a file, three decimals.
 /// Every rpy order of quarter turns is a quarter turn again, so a match is weak evidence for a wrong order.

@@ -9,7 +9,7 @@ use super::{
     content::Fault,
     fault_message::{FaultContext, FaultMessage, FileLocation},
 };
-use crate::diagnosis::{Cause, ModelPair};
+use crate::diagnosis::{Cause, ModelPair, thresholds::ROUNDED_QUARTER_RAD};
 
 impl FaultContext<'_> {
     pub(super) fn reference_joints(&self, joints: &[usize]) -> FaultMessage {
@@ -65,8 +65,6 @@ impl FaultContext<'_> {
 
 /// Angles of a URDF with all digits of those that are rounded quarter turns.
 fn with_exact_quarters(rpy: &str) -> String {
-    /// Quarter turns as files write them, to three digits. Unit: rad; kind: digits of a file.
-    const ROUNDED_QUARTER_RAD: f64 = 1e-3;
     let exact = |word: &str| {
         let quarters = (word.parse::<f64>().ok()? / FRAC_PI_2).round() * FRAC_PI_2;
         let off = word.parse::<f64>().ok()? - quarters;

@@ -56,9 +56,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let states = arguments.configurations.read_states_or_rest(&mut description, printer)?;
     let options = DynamicsOptions { friction: arguments.friction, payload: arguments.payload };
     let report = congruent::joint_dynamics(&description, arguments.source, &options, &states)?;
-    if options.friction && arguments.source == DynamicsSource::Model {
-        printer.warnings(stiction(&description.robot, &states).as_slice());
-    }
+    printer.warnings(stiction(&description.robot, (arguments.source, &options), &states).as_slice());
     printer.result(&report, text)?;
     Ok(0)
 }

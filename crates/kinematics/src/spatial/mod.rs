@@ -16,7 +16,7 @@ pub use euler::{DeterminedAngles, EulerAngles, EulerSet, UnknownEulerSet};
 pub use pose::Pose;
 pub use pose_error::{PoseError, larger};
 pub use reported_pose::ReportedPose;
-pub use rotation::{hat, quaternion_of, rotation_exp, rotation_log, vee};
+pub use rotation::{frame_about, hat, quaternion_of, rotation_exp, rotation_log, vee};
 pub use tool_axes::{ToolAxes, ToolAxesError};
 pub use twist::{Screw, Twist, log_ratio};
 pub use wrench::Wrench;

@@ -105,6 +105,21 @@ pub(crate) fn half_versine_ratio(x: f64) -> f64 {
     half * half / 2.0
 }
 
+/// A rotation whose third column is a unit vector; exact if that is along an axis.
+///
+/// # Examples
+/// ```
+/// use congruent_kinematics::frame_about;
+/// use nalgebra::Vector3;
+/// assert_eq!(frame_about(&Vector3::z()).column(2), Vector3::z());
+/// ```
+pub fn frame_about(z: &Vector3<f64>) -> Matrix3<f64> {
+    let mut least = Vector3::zeros();
+    least[z.iamin()] = 1.0;
+    let y = z.cross(&least).normalize();
+    Matrix3::from_columns(&[y.cross(z), y, *z])
+}
+
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;

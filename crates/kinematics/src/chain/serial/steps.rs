@@ -9,7 +9,7 @@ use crate::{
         dh::{modified::ModifiedDh, standard::StandardDh},
         screws::chain::ScrewChain,
     },
-    spatial::pose::Pose,
+    spatial::{pose::Pose, rotation::frame_about},
 };
 
 /// One joint of a path; its motion is along or about the z axis of a frame of its own.
@@ -140,12 +140,4 @@ fn to_root(robot: &Robot, mut link: LinkIndex) -> Vec<JointIndex> {
         link = robot.joint(joint).parent;
     }
     joints
-}
-
-/// A rotation whose third column is a unit vector; exact if that is along an axis.
-fn frame_about(z: &Vector3<f64>) -> Matrix3<f64> {
-    let mut least = Vector3::zeros();
-    least[z.iamin()] = 1.0;
-    let y = z.cross(&least).normalize();
-    Matrix3::from_columns(&[y.cross(z), y, *z])
 }
