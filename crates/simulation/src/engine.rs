@@ -1,6 +1,7 @@
 //! The robot in rapier: sets states and forces, steps, reads states. It has coordinates only; names of links
 //! and joints are in `world.rs`.
 
+use congruent_description::Inertia;
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::{
     IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint, MultibodyLink,
@@ -75,6 +76,10 @@ impl Engine {
         self.sets.multibody_joints.get_multibody(self.multibody?)
     }
 
+    fn multibody_mut(&mut self) -> Option<&mut Multibody> {
+        self.sets.multibody_joints.get_multibody_mut(self.multibody?)
+    }
+
     /// Copies positions and velocities out.
     pub(crate) fn read(&self, q: &mut [f64], qd: &mut [f64]) {
         let Some(multibody) = self.multibody() else { return };
@@ -139,6 +144,40 @@ impl Engine {
             &(),
             &(),
         );
+    }
+
+    pub(crate) fn set_damping(&mut self, coordinate: usize, damping: f64) {
+        if let Some(multibody) = self.multibody_mut() {
+            multibody.damping_mut()[coordinate] = damping;
+        }
+    }
+
+    pub(crate) fn set_dry_friction(&mut self, coordinate: usize, friction: f64) {
+        if let Some(multibody) = self.multibody_mut() {
+            multibody.frictions_mut()[coordinate] = friction;
+        }
+    }
+
+    pub(crate) fn set_armature(&mut self, coordinate: usize, armature: f64) {
+        if let Some(multibody) = self.multibody_mut() {
+            multibody.armature_mut()[coordinate] = armature;
+        }
+    }
+
+    pub(crate) fn set_inertia(&mut self, body: usize, inertia: &Inertia) {
+        let sets = &mut self.sets;
+        let body = sets.bodies.get_mut(self.handles[body]).expect("the body exists");
+        body.set_additional_mass_properties(adapter::mass_properties(inertia), false);
+        body.recompute_mass_properties_from_colliders(&sets.colliders);
+    }
+
+    /// To be called after inertias have changed: Jacobians are those of the centres of mass.
+    pub(crate) fn update_jacobians(&mut self) {
+        let Some(index) = self.multibody else { return };
+        let sets = &mut self.sets;
+        let multibody = sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
+        multibody.forward_kinematics(&sets.bodies, true);
+        multibody.update_rigid_bodies(&mut sets.bodies, true);
     }
 
     fn clear_forces(&mut self) {

@@ -30,6 +30,16 @@ pub enum SimulationError {
         /// `rad` or `m`.
         unit: &'static str,
     },
+    /// Damping, dry friction, armature or a share of the effort is no number from zero on.
+    #[error("joint \"{joint}\": a {what} of {value} is not a finite number of at least 0")]
+    Resistance {
+        /// The joint.
+        joint: String,
+        /// Which of them.
+        what: &'static str,
+        /// The value.
+        value: f64,
+    },
     /// A shape with contacts has no convex hull.
     #[error("{owner}: a shape is flat or empty and has no convex hull; give it a thickness or leave it out")]
     Shape {

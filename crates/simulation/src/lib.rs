@@ -6,6 +6,7 @@
 mod actuation;
 mod adapter;
 mod build;
+mod changes;
 mod contact;
 mod engine;
 mod error;
@@ -14,7 +15,10 @@ mod sets;
 mod settings;
 mod world;
 
-pub use actuation::{Commands, Controller, Gains, JointsView, Motor, Setpoint, controller, controller_names};
+pub use actuation::{
+    Commands, Controller, Gains, JointsView, MeasuredState, Motor, Setpoint, controller, controller_names,
+};
+pub use changes::CarriedBody;
 pub use error::SimulationError;
 pub use settings::{Obstacle, WorldSettings};
 pub use world::{World, WorldSnapshot};

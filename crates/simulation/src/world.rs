@@ -1,10 +1,10 @@
 //! The world: one robot, fixed at its root, and its obstacles.
 
-use congruent_description::{LinkIndex, Robot, RobotQ};
+use congruent_description::{Inertia, LinkIndex, Robot, RobotQ};
 use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::{
-    actuation::{Commands, Controller, JointsView, Motor, Setpoint},
+    actuation::{Commands, Controller, JointsView, MeasuredState, Motor, Setpoint},
     build,
     engine::Engine,
     error::SimulationError,
@@ -63,21 +63,25 @@ const LARGEST: f64 = 1e75;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct World {
-    engine: Engine,
-    joint_names: Vec<String>,
-    links: Vec<LinkOnBody>,
+    pub(crate) engine: Engine,
+    pub(crate) joint_names: Vec<String>,
+    pub(crate) links: Vec<LinkOnBody>,
+    /// Of each body without what it carries.
+    pub(crate) own_inertias: Vec<Inertia>,
     /// The first link without inertia, which cannot be moved by dynamics.
     massless: Option<String>,
     commands: Commands,
-    state: WorldState,
+    pub(crate) state: WorldState,
 }
 
 /// The state beside rapier's, which is [`EngineSets`].
 #[derive(Debug, Clone)]
-struct WorldState {
+pub(crate) struct WorldState {
     q: RobotQ,
     qd: Vec<f64>,
     torque: Vec<f64>,
+    /// The share of its commanded effort that each actuator delivers.
+    pub(crate) delivered: Vec<f64>,
     step_count: u64,
 }
 
@@ -109,11 +113,13 @@ impl World {
             engine,
             joint_names: movable().map(|joint| joint.name.clone()).collect(),
             links: bodies.links,
+            own_inertias: bodies.inertias,
             commands: Commands::new(dof),
             state: WorldState {
                 q: RobotQ::zeros(dof),
                 qd: vec![0.0; dof],
                 torque: vec![0.0; dof],
+                delivered: vec![1.0; dof],
                 step_count: 0,
             },
         })
@@ -188,23 +194,53 @@ impl World {
         if link.is_first { root_from_body } else { root_from_body * link.body_from_link }
     }
 
-    /// Steps once under a controller, towards the setpoint for the end of the step.
+    /// Steps once under a controller, towards the setpoint for the end of the step; the controller knows the true
+    /// state.
+    ///
+    /// # Errors
+    /// As [`World::step_measured`].
+    pub fn step(
+        &mut self,
+        controller: &mut dyn Controller,
+        setpoint: &Setpoint<'_>,
+    ) -> Result<(), SimulationError> {
+        self.check_setpoint(setpoint)?;
+        self.commands.clear();
+        let joints = JointsView { q: &self.state.q, qd: &self.state.qd, engine: &self.engine };
+        controller.command(&joints, setpoint, &mut self.commands);
+        self.apply(setpoint)
+    }
+
+    /// Steps once under a controller that knows the state by its sensors, `measured`. A servo, which acts on the state
+    /// at the end of the step, gets its target shifted by the error of the sensors.
     ///
     /// # Errors
     /// [`SimulationError::Length`] for a setpoint of another length;
     /// [`SimulationError::Massless`] for dynamics of a robot without mass;
     /// [`SimulationError::NotFinite`] if a value of the setpoint, the controller or the physics is not
     /// finite. After the last, the world needs [`World::set_state`] or [`World::restore`].
-    pub fn step(
+    pub fn step_measured(
         &mut self,
         controller: &mut dyn Controller,
         setpoint: &Setpoint<'_>,
+        measured: &MeasuredState<'_>,
     ) -> Result<(), SimulationError> {
-        self.check_vector("setpoint position", setpoint.q)?;
-        self.check_vector("setpoint velocity", setpoint.qd)?;
+        self.check_setpoint(setpoint)?;
+        self.check_vector("measured position", measured.q)?;
+        self.check_vector("measured velocity", measured.qd)?;
         self.commands.clear();
-        let joints = JointsView { q: &self.state.q, qd: &self.state.qd, engine: &self.engine };
+        let joints = JointsView { q: measured.q, qd: measured.qd, engine: &self.engine };
         controller.command(&joints, setpoint, &mut self.commands);
+        for (coordinate, motor) in self.commands.motors.iter_mut().enumerate() {
+            if let Some(motor) = motor {
+                motor.q += self.state.q[coordinate] - measured.q[coordinate];
+                motor.qd += self.state.qd[coordinate] - measured.qd[coordinate];
+            }
+        }
+        self.apply(setpoint)
+    }
+
+    fn apply(&mut self, setpoint: &Setpoint<'_>) -> Result<(), SimulationError> {
         if self.commands.placed {
             self.state.step_count += 1;
             return self.set_state(setpoint.q, setpoint.qd);
@@ -213,6 +249,7 @@ impl World {
             return Err(SimulationError::Massless { link: link.clone() });
         }
         self.check_commands()?;
+        self.commands.deliver(&self.state.delivered);
         self.engine.step(&mut self.commands);
         self.state.step_count += 1;
         self.finish_step()
@@ -256,6 +293,11 @@ impl World {
             Some(coordinate) => Err(self.not_finite("acceleration", coordinate)),
             None => Ok(()),
         }
+    }
+
+    fn check_setpoint(&self, setpoint: &Setpoint<'_>) -> Result<(), SimulationError> {
+        self.check_vector("setpoint position", setpoint.q)?;
+        self.check_vector("setpoint velocity", setpoint.qd)
     }
 
     fn check_commands(&self) -> Result<(), SimulationError> {

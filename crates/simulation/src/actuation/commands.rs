@@ -33,6 +33,18 @@ impl Commands {
         self.placed = false;
     }
 
+    /// Scales what each actuator exerts. The effort of a servo is linear in its gains.
+    pub(crate) fn deliver(&mut self, shares: &[f64]) {
+        for ((torque, motor), share) in self.torque.iter_mut().zip(&mut self.motors).zip(shares) {
+            *torque *= share;
+            *motor = motor.and_then(|mut motor| {
+                motor.gains.stiffness *= share;
+                motor.gains.damping *= share;
+                (*share > 0.0).then_some(motor)
+            });
+        }
+    }
+
     /// Torques to exert, N m or N, constant over the step; one entry for each movable joint.
     pub fn torque_mut(&mut self) -> &mut [f64] {
         &mut self.torque

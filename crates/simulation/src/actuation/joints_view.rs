@@ -19,7 +19,16 @@ pub struct Setpoint<'a> {
     pub qd: &'a [f64],
 }
 
-/// The joints at the beginning of the step.
+/// The state that the sensors of the joints give, shaped as [`Setpoint`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredState<'a> {
+    /// Positions, rad or m.
+    pub q: &'a RobotQ,
+    /// Velocities, rad/s or m/s.
+    pub qd: &'a [f64],
+}
+
+/// The joints at the beginning of the step, as the controller knows them.
 pub struct JointsView<'a> {
     pub(crate) q: &'a [f64],
     pub(crate) qd: &'a [f64],

@@ -14,5 +14,5 @@ mod pd;
 pub use commands::{Commands, Motor};
 pub use controller::Controller;
 pub use gains::Gains;
-pub use joints_view::{JointsView, Setpoint};
+pub use joints_view::{JointsView, MeasuredState, Setpoint};
 pub use known::{controller, controller_names};

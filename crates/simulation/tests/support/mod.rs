@@ -74,6 +74,18 @@ pub fn arm() -> Robot {
 
 /// The arm with each joint changed.
 pub fn arm_with(change: impl Fn(JointParts) -> JointParts) -> Robot {
+    arm_of(link("tool", 0.2, [0.01, 0.0, 0.05], [0.0002, 0.0003, 0.0001]), change)
+}
+
+/// The arm with a load that is a part of its tool.
+pub fn arm_carrying(load: &Inertia) -> Robot {
+    let mut tool = link("tool", 0.2, [0.01, 0.0, 0.05], [0.0002, 0.0003, 0.0001]);
+    let both = [tool.inertia.unwrap(), *load].into_iter().map(|part| (Isometry3::identity(), part));
+    tool.inertia = Some(Inertia::of_body(both));
+    arm_of(tool, |parts| parts)
+}
+
+fn arm_of(tool: Link, change: impl Fn(JointParts) -> JointParts) -> Robot {
     use std::f64::consts::{FRAC_PI_2 as HALF, PI};
     let links = vec![
         massless("base"),
@@ -84,7 +96,7 @@ pub fn arm_with(change: impl Fn(JointParts) -> JointParts) -> Robot {
         link("wrist_2", 1.3, [0.0, 0.016, -0.0018], [0.0026, 0.0022, 0.0025]),
         link("wrist_3", 0.365, [0.0, 0.0, -0.0012], [0.0003, 0.0003, 0.0004]),
         massless("flange"),
-        link("tool", 0.2, [0.01, 0.0, 0.05], [0.0002, 0.0003, 0.0001]),
+        tool,
     ];
     let turn = |ends, xyz_m, rpy_rad, effort| {
         limited(joint(JointKind::Revolute, ends, xyz_m, rpy_rad), (-2.0 * PI, 2.0 * PI), effort)

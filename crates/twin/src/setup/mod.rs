@@ -3,11 +3,13 @@
 mod clock;
 mod joint_targets;
 mod numbers;
+mod payload;
 mod run_setup;
 mod spaces;
 mod zones;
 
 pub use clock::RunClock;
 pub(crate) use joint_targets::JointTargets;
+pub use payload::Payload;
 pub use run_setup::RunSetup;
 pub use zones::Zone;

@@ -11,7 +11,9 @@ use congruent_simulation::{Gains, Obstacle, controller_names};
 use super::{
     clock::RunClock,
     joint_targets::JointTargets,
-    numbers, spaces,
+    numbers,
+    payload::Payload,
+    spaces,
     zones::{self, Zone},
 };
 use crate::{
@@ -46,6 +48,8 @@ pub struct RunSetup {
     pub obstacles: Vec<Obstacle>,
     /// Space that named links may not enter, in the root link's frame.
     pub zones: Vec<Zone>,
+    /// What links carry for a time, in addition to their own masses: known to controllers and checks.
+    pub payloads: Vec<Payload>,
     /// What is suspicious in the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
     check_lines: Vec<Option<usize>>,
@@ -161,6 +165,7 @@ impl RunSetup {
             trajectory,
             obstacles,
             zones,
+            payloads: Vec::new(),
             warnings,
             check_lines,
         })

@@ -1,6 +1,8 @@
 //! Sources of link poses, of dynamics and of joint states. A run takes any source of joint states.
 
+mod carried;
 mod joint_states;
+mod sensors;
 mod simulated_dynamics;
 mod simulated_poses;
 mod simulation;

@@ -1,10 +1,14 @@
 //! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
-use congruent_description::{Diagnostic, RobotQ, Use};
+use congruent_description::{Diagnostic, Use};
 use congruent_simulation::{Controller, Setpoint, World, WorldSettings, controller};
 use nalgebra::Isometry3;
 
-use super::joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError};
+use super::{
+    carried::CarriedPayloads,
+    joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError},
+    sensors::JointSensors,
+};
 use crate::{
     motion::{ReferenceGenerator, ServoResult},
     setup::RunSetup,
@@ -15,8 +19,8 @@ pub struct SimulationSource<'a> {
     world: World,
     controller: Box<dyn Controller>,
     reference: ReferenceGenerator<'a>,
-    /// Positions that the encoders give. They are exact; faults, noise and quantisation belong here.
-    measured_q: RobotQ,
+    sensors: JointSensors,
+    payloads: CarriedPayloads<'a>,
 }
 
 impl std::fmt::Debug for SimulationSource<'_> {
@@ -44,8 +48,13 @@ impl<'a> SimulationSource<'a> {
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
         let kind = &setup.scenario.controller.kind;
+        let mut sensors = JointSensors::new(robot.dof());
+        sensors.read(world.q(), world.qd());
+        let mut payloads = CarriedPayloads::new(&setup.payloads);
+        payloads.update(0.0, &mut world);
         Ok(Self {
-            measured_q: world.q().clone(),
+            sensors,
+            payloads,
             world,
             controller: controller(kind, setup.gains()).map_err(SourceError::new)?,
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
@@ -56,9 +65,10 @@ impl<'a> SimulationSource<'a> {
 impl JointStateSource for SimulationSource<'_> {
     fn joints(&self) -> JointSample<'_> {
         let (qd, effort) = (self.world.qd(), self.world.torque());
+        let measured = self.sensors.measured();
         JointSample {
             truth: JointStateView { q: self.world.q(), qd, effort },
-            measured: JointStateView { q: &self.measured_q, qd, effort },
+            measured: JointStateView { q: measured.q, qd: measured.qd, effort },
             setpoint: Some(SetpointView { q: self.reference.q(), qd: self.reference.qd() }),
         }
     }
@@ -73,14 +83,17 @@ impl JointStateSource for SimulationSource<'_> {
     }
 
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
-        self.reference.advance(time_s, &self.measured_q).map_err(SourceError::new)?;
+        let measured = self.sensors.measured();
+        self.reference.advance(time_s, measured.q).map_err(SourceError::new)?;
         let setpoint = Setpoint { q: self.reference.q(), qd: self.reference.qd() };
-        let stepped = self.world.step(&mut *self.controller, &setpoint);
-        self.measured_q.copy_from_slice(self.world.q());
+        // A payload that comes at the start of the step acts in the whole of it.
+        self.payloads.update(self.world.time_s(), &mut self.world);
+        let stepped = self.world.step_measured(&mut *self.controller, &setpoint, &measured);
+        self.sensors.read(self.world.q(), self.world.qd());
         stepped.map_err(SourceError::new)
     }
 
     fn finish(&mut self) -> Result<Vec<ServoResult>, SourceError> {
-        self.reference.finish(&self.measured_q).map_err(SourceError::new)
+        self.reference.finish(self.sensors.measured().q).map_err(SourceError::new)
     }
 }

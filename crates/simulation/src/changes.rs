@@ -1,0 +1,101 @@
+//! Changes of a robot while it runs: what resists a joint, what an actuator delivers, what a link carries.
+
+use congruent_description::{Inertia, LinkIndex};
+
+use crate::{error::SimulationError, world::World};
+
+/// A body that a link carries from now on, in addition to its own mass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CarriedBody {
+    /// The link that carries it.
+    pub link: LinkIndex,
+    /// Its inertia, in the frame of the link.
+    pub inertia: Inertia,
+}
+
+impl World {
+    /// Sets the viscous damping of a joint, N m s/rad or N s/m. It is integrated implicitly, so that any value is
+    /// stable: a very large one stops the joint.
+    ///
+    /// # Errors
+    /// [`SimulationError::Resistance`] for a value that is negative or not finite.
+    ///
+    /// # Panics
+    /// If there is no such coordinate.
+    pub fn set_damping(&mut self, coordinate: usize, damping: f64) -> Result<(), SimulationError> {
+        self.check_resistance("damping", coordinate, damping)?;
+        self.engine.set_damping(coordinate, damping);
+        Ok(())
+    }
+
+    /// Sets the dry friction of a joint, N m or N; at rest it holds up to this value.
+    ///
+    /// # Errors
+    /// As [`World::set_damping`].
+    ///
+    /// # Panics
+    /// If there is no such coordinate.
+    pub fn set_dry_friction(&mut self, coordinate: usize, friction: f64) -> Result<(), SimulationError> {
+        self.check_resistance("dry friction", coordinate, friction)?;
+        self.engine.set_dry_friction(coordinate, friction);
+        Ok(())
+    }
+
+    /// Sets the inertia of motor and gear as the joint feels it, kg m^2 or kg. Descriptions do not give one: it is
+    /// zero at first.
+    ///
+    /// # Errors
+    /// As [`World::set_damping`].
+    ///
+    /// # Panics
+    /// If there is no such coordinate.
+    pub fn set_armature(&mut self, coordinate: usize, armature: f64) -> Result<(), SimulationError> {
+        self.check_resistance("armature", coordinate, armature)?;
+        self.engine.set_armature(coordinate, armature);
+        Ok(())
+    }
+
+    /// Sets the share of the commanded effort, of torques and of servos, that the actuator of a joint delivers: 1 at
+    /// first, 0 for none.
+    ///
+    /// # Errors
+    /// As [`World::set_damping`].
+    ///
+    /// # Panics
+    /// If there is no such coordinate.
+    pub fn set_delivered_share(&mut self, coordinate: usize, share: f64) -> Result<(), SimulationError> {
+        self.check_resistance("share of the effort", coordinate, share)?;
+        self.state.delivered[coordinate] = share;
+        Ok(())
+    }
+
+    /// Sets everything that links carry beside their own masses: replaces what they have carried before. The motion
+    /// goes on with the same velocities.
+    ///
+    /// # Panics
+    /// If a link is not one of this robot.
+    pub fn set_carried(&mut self, carried: &[CarriedBody]) {
+        for (body, own) in self.own_inertias.iter().enumerate().skip(1) {
+            let on_body = carried.iter().filter_map(|carried| {
+                let place = self.links[carried.link.get()];
+                (place.body == body).then_some((place.body_from_link, carried.inertia))
+            });
+            let own = std::iter::once((nalgebra::Isometry3::identity(), *own));
+            let whole = Inertia::of_body(own.chain(on_body));
+            self.engine.set_inertia(body, &whole);
+        }
+        self.engine.update_jacobians();
+    }
+
+    fn check_resistance(
+        &self,
+        what: &'static str,
+        coordinate: usize,
+        value: f64,
+    ) -> Result<(), SimulationError> {
+        if value.is_finite() && value >= 0.0 {
+            return Ok(());
+        }
+        Err(SimulationError::Resistance { joint: self.joint_names[coordinate].clone(), what, value })
+    }
+}
