@@ -13,7 +13,7 @@ use congruent_dynamics_agreement::{
 use congruent_kinematics::Uniform;
 use nalgebra::Vector3;
 
-/// Rounding of a torque and of a bound, relative to the difference and to the torques themselves.
+/// Rounding of a torque and of a bound, relative to the difference, and a thousandth of it to the torques themselves.
 const ROUNDING: f64 = 1e-9;
 /// Random motions that must stay below each bound.
 const MOTIONS: usize = 20_000;
@@ -92,7 +92,7 @@ fn check_attained(what: &str, part: usize, [candidate, reference]: [&Side; 2], b
     let joint = candidate.frames().find_joint(&bracket.joint).expect("a joint");
     let [found, expected] = [candidate, reference].map(|side| parts(side, &motion)[part][joint]);
     let error = ((found - expected).abs() - bracket.attained_n_m).abs();
-    let size = ROUNDING * (bracket.attained_n_m + 1e-3 * (found.abs() + expected.abs()));
+    let size = ROUNDING * (bracket.attained_n_m + 1e-3 * (1.0 + found.abs() + expected.abs()));
     assert!(error <= size, "{what}: {} instead of {bracket:?}", found - expected);
 }
 
@@ -107,7 +107,7 @@ fn check_sampled(what: &str, [candidate, reference]: [&Side; 2], all: &TorqueCer
                 let (a, b) = (found[part][joint], expected[part][joint]);
                 let bracket = certificate.by_joint.iter().find(|bracket| bracket.joint == *joint_name);
                 let bound = bracket.map_or(0.0, |bracket| bracket.certified_n_m);
-                let slack = ROUNDING * (bound + a.abs() + b.abs());
+                let slack = ROUNDING * (bound + 1e-3 * (1.0 + a.abs() + b.abs()));
                 assert!(
                     (a - b).abs() <= bound + slack,
                     "{what}: {name} of {joint_name}: {} {bracket:?}",

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     side::{Frames, Side},
-    thresholds::{CLOSED, MAX_BOXES, MAX_CONTROL_VALUES, MAX_VARIABLES, SAME_FIGURE},
+    thresholds::{CLOSED, MAX_BOXES, MAX_CONTROL_VALUES, MAX_VARIABLES, NO_COEFFICIENT, SAME_FIGURE},
     torque::states::position,
 };
 
@@ -124,7 +124,9 @@ impl<'a> GravityTorques<'a> {
             certified = certified.min(bound.value);
             boxes += bound.boxes;
         }
-        Ok(Some(self.report(joint, [attained, certified.max(attained)], (q, boxes))))
+        // What is left of a sum that cancels is rounding.
+        let is_rounding = certified <= NO_COEFFICIENT * crude && crude.is_finite();
+        Ok((!is_rounding).then(|| self.report(joint, [attained, certified], (q, boxes))))
     }
 
     /// The largest difference at random positions: for a torque of too many joints.

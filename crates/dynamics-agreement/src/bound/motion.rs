@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     side::Side,
-    thresholds::{CLOSED_SUM, MAX_BOXES, MAX_COEFFICIENTS, MAX_MOTION_VALUES},
+    thresholds::{CLOSED_SUM, MAX_BOXES, MAX_COEFFICIENTS, MAX_MOTION_VALUES, NO_COEFFICIENT},
     torque::states::position,
 };
 
@@ -110,7 +110,10 @@ impl Motions<'_> {
             return Ok(Some(self.report(joint, [attained, crude], (at, 0))));
         }
         let bound = upper_bound(&function, stop);
-        Ok(Some(self.report(joint, [attained, bound.value.min(crude)], (at, bound.boxes))))
+        let certified = bound.value.min(crude);
+        // What is left of a sum that cancels is rounding.
+        let is_rounding = certified <= NO_COEFFICIENT * crude && crude.is_finite();
+        Ok((!is_rounding).then(|| self.report(joint, [attained, certified], (at, bound.boxes))))
     }
 
     fn report(&self, joint: usize, bracket: [f64; 2], at: (AttainedAt, usize)) -> TorqueBracket {
