@@ -21,7 +21,7 @@ mod side;
 mod thresholds;
 mod torque;
 
-pub use bound::{TorqueBracket, TorqueCertificate};
+pub use bound::{CoveredMotion, TorqueBracket, TorqueCertificate};
 pub use compare::{Compared, FigureDifference, Invariants, LimitCause, LimitDifference};
 pub use diagnosis::{DynamicsCause, EquivalenceReason, FaultySide};
 pub use report::{

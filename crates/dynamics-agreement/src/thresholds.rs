@@ -112,9 +112,14 @@ pub(crate) const MAX_BOXES: usize = 20_000;
 pub(crate) const MAX_CONTROL_VALUES: usize = 20_000_000;
 /// Joints of which one torque may depend; more have 3^10 coefficients. Kind: speed and memory.
 pub(crate) const MAX_VARIABLES: usize = 9;
-/// The same for entries of the mass matrix, which are quadratic: 5^6 coefficients. Kind: speed and memory.
-pub(crate) const MAX_SQUARED_VARIABLES: usize = 6;
+/// Coefficients of one torque of a motion, which is quadratic in each joint's waves: six joints take 5^6 for each of
+/// some 36 products. Kind: speed and memory.
+pub(crate) const MAX_COEFFICIENTS: usize = 2_500_000;
+/// Control values of the products for each joint before a bracket is reported as it stands. Kind: speed; some 0.5 s.
+pub(crate) const MAX_MOTION_VALUES: usize = 100_000_000;
 /// A bracket is closed within this share. No unit; kind: choice.
 pub(crate) const CLOSED: f64 = 0.005;
+/// A bracket of a motion is closed within this share. No unit; kind: choice, ten times that of gravity alone.
+pub(crate) const CLOSED_SUM: f64 = 0.05;
 /// Coefficients below this share of the largest are left out and added as slack. No unit; kind: rounding.
 pub(crate) const NO_COEFFICIENT: f64 = 1e-13;

@@ -9,7 +9,10 @@
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
-use super::trigonometric::{Trigonometric, Variable, along};
+use super::{
+    speeds::Interval,
+    trigonometric::{Trigonometric, Variable, along},
+};
 
 /// Widest arc with one control point between its ends, in rad. Kind: choice; at 1.6 rad the point is 1.44 times out.
 const WIDEST_ARC_RAD: f64 = 1.6;
@@ -36,9 +39,19 @@ pub(super) struct UpperBound {
 
 struct Region {
     ranges: Vec<(f64, f64)>,
+    /// Parts of their limits.
+    speeds: Vec<Interval>,
     upper: f64,
-    /// The variable to halve.
-    bends: usize,
+    halved: Halved,
+}
+
+/// What is to be halved.
+#[derive(Debug, Clone, Copy)]
+enum Halved {
+    /// The range of a variable.
+    Position(usize),
+    /// The interval of a speed.
+    Speed(usize),
 }
 
 impl PartialEq for Region {
@@ -65,26 +78,24 @@ impl Ord for Region {
 pub(super) fn upper_bound(function: &Trigonometric, stop: Stop) -> UpperBound {
     let ranges: Vec<(f64, f64)> =
         function.variables.iter().map(|variable| (variable.lower, variable.upper)).collect();
+    let speeds = vec![(-1.0, 1.0); function.measure.speeds()];
     let mut computed = 0;
-    let mut open = BinaryHeap::from([region(function, ranges, &mut computed)]);
+    let mut open = BinaryHeap::from([region(function, (ranges, speeds), &mut computed)]);
     let mut boxes = 0;
+    let divides = !function.variables.is_empty() || function.measure.speeds() > 0;
     while let Some(worst) = open.peek() {
         let done = worst.upper <= stop.below || boxes >= stop.boxes || computed >= stop.control_values;
-        if done || function.variables.is_empty() {
+        if done || !divides {
             break;
         }
         let Some(worst) = open.pop() else { break };
         boxes += 1;
-        let (lower, upper) = worst.ranges[worst.bends];
-        let middle = f64::midpoint(lower, upper);
-        if middle <= lower || middle >= upper {
+        let Some(halves) = worst.halves() else {
             open.push(worst);
             break;
-        }
-        for half in [(lower, middle), (middle, upper)] {
-            let mut ranges = worst.ranges.clone();
-            ranges[worst.bends] = half;
-            let mut part = region(function, ranges, &mut computed);
+        };
+        for half in halves {
+            let mut part = region(function, half, &mut computed);
             // A part is never worse than the whole.
             part.upper = part.upper.min(worst.upper);
             open.push(part);
@@ -94,22 +105,64 @@ pub(super) fn upper_bound(function: &Trigonometric, stop: Stop) -> UpperBound {
     UpperBound { value: value + function.slack, boxes }
 }
 
-fn region(function: &Trigonometric, ranges: Vec<(f64, f64)>, computed: &mut usize) -> Region {
+/// Ranges of the variables, intervals of the speeds.
+type Ranges = (Vec<(f64, f64)>, Vec<Interval>);
+
+impl Region {
+    /// `None` if the numbers between its ends are used up.
+    fn halves(&self) -> Option<Vec<Ranges>> {
+        let halved = |ranges: &[(f64, f64)], at: usize| {
+            let (lower, upper) = *ranges.get(at)?;
+            let middle = f64::midpoint(lower, upper);
+            (middle > lower && middle < upper).then(|| {
+                [(lower, middle), (middle, upper)].map(|half| {
+                    let mut ranges = ranges.to_vec();
+                    ranges[at] = half;
+                    ranges
+                })
+            })
+        };
+        match self.halved {
+            Halved::Position(at) => {
+                let [first, second] = halved(&self.ranges, at)?;
+                Some(vec![(first, self.speeds.clone()), (second, self.speeds.clone())])
+            }
+            Halved::Speed(at) => {
+                let [first, second] = halved(&self.speeds, at)?;
+                // All speeds reversed give the same products: of the first division one half is enough.
+                let is_even = self.speeds.iter().all(|(lower, upper)| (lower + upper).abs() <= 0.0);
+                let halves = if is_even { vec![second] } else { vec![first, second] };
+                Some(halves.into_iter().map(|speeds| (self.ranges.clone(), speeds)).collect())
+            }
+        }
+    }
+}
+
+fn region(function: &Trigonometric, (ranges, speeds): Ranges, computed: &mut usize) -> Region {
     let mut sizes = function.sizes();
     let mut array = function.coefficients.clone();
     for (at, (variable, range)) in function.variables.iter().zip(&ranges).enumerate() {
         array = along(&array, (&mut sizes, function.values), at, &control_points(variable, *range));
     }
     *computed += array.len();
-    let norms = array.chunks_exact(function.values).map(|values| function.measure.of(values));
-    let largest = norms.fold(0.0, f64::max);
+    let (mut largest, mut loose) = (0.0, None);
+    for values in array.chunks_exact(function.values) {
+        if let Some(above) = function.measure.above(values, &speeds, largest) {
+            (largest, loose) = (above.value, above.loose);
+        }
+    }
     let bend = |at: usize| largest_bend(&array, &sizes, function.values, at);
     let width = |at: usize| ranges[at].1 - ranges[at].0;
     let bends = (0..sizes.len())
         .map(|at| (at, bend(at)))
-        .max_by(|a, b| a.1.total_cmp(&b.1).then(width(a.0).total_cmp(&width(b.0))))
-        .map_or(0, |(at, _)| at);
-    Region { ranges, upper: largest * (1.0 + ROUNDING), bends }
+        .max_by(|a, b| a.1.total_cmp(&b.1).then(width(a.0).total_cmp(&width(b.0))));
+    let halved = match (bends, loose) {
+        (None, Some((speed, _))) => Halved::Speed(speed),
+        (Some((_, bend)), Some((speed, by))) if by > bend => Halved::Speed(speed),
+        (Some((at, _)), _) => Halved::Position(at),
+        (None, None) => Halved::Position(0),
+    };
+    Region { ranges, speeds, upper: largest * (1.0 + ROUNDING), halved }
 }
 
 /// Points whose hull contains the curve over a range, as rows of features.
@@ -198,7 +251,7 @@ fn largest_bend(array: &[f64], sizes: &[usize], values: usize, at: usize) -> f64
 
 #[cfg(test)]
 mod tests {
-    use super::{super::trigonometric::Measure, *};
+    use super::{super::measure::Measure, *};
 
     #[test]
     fn second_degree_closes_as_well() {

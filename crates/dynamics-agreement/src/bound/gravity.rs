@@ -6,91 +6,24 @@ use congruent_kinematics::Uniform;
 use nalgebra::Vector3;
 
 use super::{
+    bracket::{AttainedAt, TorqueBracket, TorqueCertificate},
     branch::{Stop, upper_bound},
     climb,
-    trigonometric::{Measure, Trigonometric, Variable},
+    measure::Measure,
+    trigonometric::{Trigonometric, Variable},
     ways::Ways,
 };
 use crate::{
     side::{Frames, Side},
-    thresholds::{CLOSED, MAX_BOXES, MAX_CONTROL_VALUES, MAX_VARIABLES, SAME_FIGURE},
+    thresholds::{CLOSED, MAX_BOXES, MAX_CONTROL_VALUES, MAX_VARIABLES, NO_COEFFICIENT, SAME_FIGURE},
     torque::states::position,
 };
-
-/// The bracket of one joint.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
-pub struct TorqueBracket {
-    /// The joint.
-    pub joint: String,
-    /// The largest difference that was found, N m or N.
-    pub attained_n_m: f64,
-    /// No difference within the joints' ranges is larger.
-    pub certified_n_m: f64,
-    /// Unit of both: `N m`, or `N` for a sliding joint.
-    pub unit: String,
-    /// Where it was found, in the order of the moving joints; rad and m.
-    pub q: Vec<f64>,
-    /// `certified_n_m` as a part of the joint's effort limit; `null` if there is none.
-    pub share_of_effort: Option<f64>,
-    /// Boxes of positions that were divided for the bound.
-    pub boxes: usize,
-}
-
-/// Brackets of all joints that have a difference.
-#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, schemars::JsonSchema)]
-pub struct TorqueCertificate {
-    /// The largest of them; `null` if no joint has a difference.
-    pub worst: Option<TorqueBracket>,
-    /// All joints that have a difference.
-    pub by_joint: Vec<TorqueBracket>,
-}
-
-impl TorqueBracket {
-    pub(super) fn new(
-        side: &Side,
-        joint: usize,
-        [attained, certified]: [f64; 2],
-        (q, boxes): (RobotQ, usize),
-    ) -> Self {
-        let effort = side.limits[joint].and_then(|limit| limit.effort).filter(|effort| *effort > 0.0);
-        let place = &side.frames.joints[joint];
-        Self {
-            joint: place.name.clone(),
-            attained_n_m: attained,
-            certified_n_m: certified,
-            unit: if place.is_angular { "N m" } else { "N" }.to_owned(),
-            q: q.to_vec(),
-            share_of_effort: effort.map(|effort| certified / effort),
-            boxes,
-        }
-    }
-}
-
-impl TorqueCertificate {
-    /// Of joints that have the same difference the one nearest to the base is the worst.
-    pub(super) fn of(by_joint: Vec<TorqueBracket>) -> Self {
-        let largest = by_joint.iter().map(|bracket| bracket.attained_n_m).fold(0.0, f64::max);
-        let is_worst = |bracket: &&TorqueBracket| bracket.attained_n_m >= largest * (1.0 - SAME_FIGURE);
-        Self { worst: by_joint.iter().find(is_worst).cloned(), by_joint }
-    }
-}
-
-/// Brackets the difference of gravity torque between a candidate and a reference in the candidate's geometry.
-pub(crate) fn certify(
-    candidate: &Side,
-    reference: &Side,
-    seed: u64,
-) -> Result<TorqueCertificate, DynamicsError> {
-    let problem = Problem::new(candidate, reference);
-    let brackets = (0..problem.frames.dof()).map(|joint| problem.bracket(joint, seed));
-    let by_joint: Vec<TorqueBracket> = brackets.filter_map(Result::transpose).collect::<Result<_, _>>()?;
-    Ok(TorqueCertificate::of(by_joint))
-}
 
 /// Random positions for a torque of too many joints. Kind: choice.
 const SAMPLES: usize = 5_000;
 
-struct Problem<'a> {
+/// The difference of gravity torque between a candidate and a reference in the candidate's geometry.
+pub(super) struct GravityTorques<'a> {
     frames: &'a Frames,
     candidate: &'a Side,
     trees: [BodyTree; 2],
@@ -102,16 +35,33 @@ struct Problem<'a> {
     ways: Ways<'a>,
 }
 
-impl<'a> Problem<'a> {
-    fn new(candidate: &'a Side, reference: &Side) -> Self {
+impl<'a> GravityTorques<'a> {
+    /// Brackets of all joints.
+    pub(super) fn certify(&self, seed: u64) -> Result<TorqueCertificate, DynamicsError> {
+        let brackets = (0..self.frames.dof()).map(|joint| self.bracket(joint, seed));
+        let by_joint: Vec<TorqueBracket> =
+            brackets.filter_map(Result::transpose).collect::<Result<_, _>>()?;
+        Ok(TorqueCertificate::of(by_joint))
+    }
+
+    /// The joints whose positions one joint's difference depends on; `None` if it has none.
+    pub(super) fn joints(&self, joint: usize) -> Result<Option<Vec<usize>>, DynamicsError> {
+        let all = self.ways.through(joint);
+        if self.ways.below(joint).is_empty() && !self.ways.differs[joint] {
+            return Ok(None);
+        }
+        if all.len() > MAX_VARIABLES {
+            return Ok(Some(all));
+        }
+        let torque = self.torque(joint, self.ways.variables(&all))?;
+        Ok(Some(torque.variables.iter().map(|variable| variable.joint).collect()))
+    }
+
+    pub(super) fn new(candidate: &'a Side, reference: &Side) -> Self {
         let same_gravity = candidate.gravity_m_s2 == reference.gravity_m_s2;
         let (found, expected) = (candidate.bodies(), reference.bodies());
-        let difference = |(a, b): (&SpatialInertia, &SpatialInertia)| SpatialInertia {
-            mass_kg: a.mass_kg - b.mass_kg,
-            first_moment_kg_m: a.first_moment_kg_m - b.first_moment_kg_m,
-            tensor_kg_m2: a.tensor_kg_m2 - b.tensor_kg_m2,
-        };
-        let differences: Vec<SpatialInertia> = found.iter().zip(&expected).map(difference).collect();
+        let differences: Vec<SpatialInertia> =
+            found.iter().zip(&expected).map(|(a, b)| difference(a, b)).collect();
         let rounding = |a: f64, b: f64| SAME_FIGURE * SAME_FIGURE.sqrt() * a.abs().max(b.abs());
         let differs = differences.iter().zip(found.iter().zip(&expected)).map(|(difference, (a, b))| {
             let [h, k] = [a, b].map(|body| body.first_moment_kg_m.norm());
@@ -174,7 +124,9 @@ impl<'a> Problem<'a> {
             certified = certified.min(bound.value);
             boxes += bound.boxes;
         }
-        Ok(Some(self.report(joint, [attained, certified.max(attained)], (q, boxes))))
+        // What is left of a sum that cancels is rounding.
+        let is_rounding = certified <= NO_COEFFICIENT * crude && crude.is_finite();
+        Ok((!is_rounding).then(|| self.report(joint, [attained, certified], (q, boxes))))
     }
 
     /// The largest difference at random positions: for a torque of too many joints.
@@ -197,7 +149,7 @@ impl<'a> Problem<'a> {
     }
 
     fn report(&self, joint: usize, bracket: [f64; 2], at: (RobotQ, usize)) -> TorqueBracket {
-        TorqueBracket::new(self.candidate, joint, bracket, at)
+        TorqueBracket::new(self.candidate, joint, bracket, (AttainedAt::rest(at.0), at.1))
     }
 
     /// The difference of a joint's gravity torque.
@@ -256,5 +208,14 @@ impl<'a> Problem<'a> {
             if turns { difference.first_moment_kg_m.norm() + mass_kg * self.frames.reach_m } else { mass_kg }
         };
         (0..self.frames.dof()).filter(below).map(lever).sum::<f64>() * self.gravity_m_s2
+    }
+}
+
+/// One body less another; its mass may be zero or negative.
+pub(super) fn difference(a: &SpatialInertia, b: &SpatialInertia) -> SpatialInertia {
+    SpatialInertia {
+        mass_kg: a.mass_kg - b.mass_kg,
+        first_moment_kg_m: a.first_moment_kg_m - b.first_moment_kg_m,
+        tensor_kg_m2: a.tensor_kg_m2 - b.tensor_kg_m2,
     }
 }

@@ -1,12 +1,18 @@
-//! How large the difference of torque can get over the whole range of the joints: by gravity, and by acceleration.
+//! How large the difference of torque can get over the whole range of the joints' motion: by gravity, by acceleration,
+//! by velocity products, and by all of them together.
 
+mod bracket;
 mod branch;
 mod climb;
 mod gravity;
-mod inertia;
+mod measure;
+mod motion;
+mod motion_range;
+mod rows;
+mod speeds;
 mod trigonometric;
 mod ways;
 
-pub(crate) use gravity::certify as certify_gravity;
-pub use gravity::{TorqueBracket, TorqueCertificate};
-pub(crate) use inertia::certify as certify_inertia;
+pub use bracket::{TorqueBracket, TorqueCertificate};
+pub(crate) use motion::certify;
+pub use motion_range::CoveredMotion;

@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use super::measure::Measure;
 use crate::thresholds::NO_COEFFICIENT;
 
 /// A joint that the function depends on, with its range.
@@ -80,24 +81,6 @@ impl Variable {
 
 fn small(number: usize) -> f64 {
     f64::from(u32::try_from(number).unwrap_or(u32::MAX))
-}
-
-/// What is bounded of several values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Measure {
-    /// The length of the vector.
-    Length,
-    /// The sum of absolute values.
-    Sum,
-}
-
-impl Measure {
-    pub(super) fn of(self, values: &[f64]) -> f64 {
-        match self {
-            Self::Length => values.iter().map(|value| value * value).sum::<f64>().sqrt(),
-            Self::Sum => values.iter().map(|value| value.abs()).sum(),
-        }
-    }
 }
 
 /// A function of several joints with several values.

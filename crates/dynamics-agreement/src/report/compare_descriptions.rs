@@ -9,7 +9,7 @@ use super::{
     told::{NamedSide, Told},
 };
 use crate::{
-    bound::{certify_gravity, certify_inertia},
+    bound,
     compare::{hidden, invariants::invariants, limits},
     diagnosis::{FaultySide, Setting},
     side::{Inertial, Side},
@@ -143,9 +143,13 @@ pub fn certify(
 ) -> Result<TorqueCertificates, CompareError> {
     let joints = comparable(candidate.side, reference.side)?;
     let reference = in_geometry_of(candidate.side, reference.side, &joints);
+    let certified = bound::certify(candidate.side, &reference, seed)?;
     Ok(TorqueCertificates {
-        gravity: certify_gravity(candidate.side, &reference, seed)?,
-        inertia: certify_inertia(candidate.side, &reference, seed)?,
+        gravity: certified.gravity,
+        inertia: certified.inertia,
+        velocity: certified.velocity,
+        together: certified.together,
+        covered: certified.covered,
     })
 }
 

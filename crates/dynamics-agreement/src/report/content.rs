@@ -1,7 +1,7 @@
 //! The report of a comparison of dynamics, as JSON. Units are SI.
 
 use crate::{
-    bound::TorqueCertificate,
+    bound::{CoveredMotion, TorqueCertificate},
     compare::{FigureDifference, Invariants, LimitDifference},
     diagnosis::{DynamicsCause, EquivalenceReason, FaultySide},
     torque::SeenNumbers,
@@ -39,13 +39,19 @@ pub struct DynamicsReport {
     pub certificates: Option<TorqueCertificates>,
 }
 
-/// How large the differences of torque can get over the range of the joints.
+/// How large the differences of torque can get over the range of the joints' motion.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, schemars::JsonSchema)]
 pub struct TorqueCertificates {
     /// Of gravity alone.
     pub gravity: TorqueCertificate,
-    /// Of accelerations up to 10 rad/s^2 and m/s^2 of every joint, without armature.
+    /// Of accelerations alone, armature included.
     pub inertia: TorqueCertificate,
+    /// Of velocity products alone: centrifugal and Coriolis torques.
+    pub velocity: TorqueCertificate,
+    /// Of any motion, with gravity, damping and dry friction.
+    pub together: TorqueCertificate,
+    /// Positions, speeds and accelerations that are covered, one for each moving joint.
+    pub covered: Vec<CoveredMotion>,
 }
 
 /// Names of the two sides.

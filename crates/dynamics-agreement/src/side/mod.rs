@@ -14,6 +14,8 @@ pub use frames::Frames;
 pub use inertial::{BodyLaw, Inertial};
 pub(crate) use joint_terms::JointTerm;
 
+use crate::thresholds::LARGEST_ACCELERATION;
+
 /// A description of a robot's dynamics, with every figure as it is written.
 ///
 /// Links and moving joints are numbered as in [`congruent_description::Robot`]; mimic joints are independent.
@@ -28,6 +30,8 @@ pub struct Side {
     pub gravity_m_s2: Vector3<f64>,
     /// One for each moving joint.
     pub limits: Vec<Option<JointLimit>>,
+    /// Largest accelerations that certificates cover, rad/s^2 or m/s^2: 10 if nobody declares others.
+    pub largest_accelerations: Vec<f64>,
 }
 
 impl Side {
@@ -50,6 +54,7 @@ impl Side {
             resistances: moving().map(resistance).collect(),
             gravity_m_s2: GRAVITY_M_S2.into(),
             limits: moving().map(|joint| joint.limit).collect(),
+            largest_accelerations: moving().map(|_| LARGEST_ACCELERATION).collect(),
         }
     }
 

@@ -1,0 +1,91 @@
+//! Brackets of the largest differences of torque, as they are reported.
+
+use congruent_description::RobotQ;
+
+use crate::{side::Side, thresholds::SAME_FIGURE};
+
+/// The bracket of one joint.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
+pub struct TorqueBracket {
+    /// The joint.
+    pub joint: String,
+    /// The largest difference that was found, N m or N.
+    pub attained_n_m: f64,
+    /// No difference within the range of motion is larger.
+    pub certified_n_m: f64,
+    /// Unit of both: `N m`, or `N` for a sliding joint.
+    pub unit: String,
+    /// Positions where it was found, in the order of the moving joints; rad and m.
+    pub q: Vec<f64>,
+    /// Speeds there, rad/s and m/s.
+    pub qd: Vec<f64>,
+    /// Accelerations there, rad/s^2 and m/s^2.
+    pub qdd: Vec<f64>,
+    /// `certified_n_m` as a part of the joint's effort limit; `null` if there is none.
+    pub share_of_effort: Option<f64>,
+    /// Boxes of positions and speeds that were divided for the bound.
+    pub boxes: usize,
+}
+
+/// Brackets of all joints that have a difference.
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, schemars::JsonSchema)]
+pub struct TorqueCertificate {
+    /// The largest of them; `null` if no joint has a difference.
+    pub worst: Option<TorqueBracket>,
+    /// All joints that have a difference.
+    pub by_joint: Vec<TorqueBracket>,
+}
+
+/// The motion at which a difference is attained.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct AttainedAt {
+    pub(super) q: RobotQ,
+    pub(super) qd: Vec<f64>,
+    pub(super) qdd: Vec<f64>,
+}
+
+impl AttainedAt {
+    /// Without motion.
+    pub(super) fn rest(q: RobotQ) -> Self {
+        let zeros = vec![0.0; q.len()];
+        Self { q, qd: zeros.clone(), qdd: zeros }
+    }
+}
+
+impl TorqueBracket {
+    pub(super) fn new(
+        side: &Side,
+        joint: usize,
+        [attained, certified]: [f64; 2],
+        (at, boxes): (AttainedAt, usize),
+    ) -> Self {
+        let effort = side.limits[joint].and_then(|limit| limit.effort).filter(|effort| *effort > 0.0);
+        let place = &side.frames.joints[joint];
+        Self {
+            joint: place.name.clone(),
+            attained_n_m: attained,
+            certified_n_m: certified.max(attained),
+            unit: if place.is_angular { "N m" } else { "N" }.to_owned(),
+            q: at.q.to_vec(),
+            qd: at.qd,
+            qdd: at.qdd,
+            share_of_effort: effort.map(|effort| certified / effort),
+            boxes,
+        }
+    }
+}
+
+impl TorqueCertificate {
+    /// Of joints that have the same difference the one nearest to the base is the worst.
+    pub(super) fn of(by_joint: Vec<TorqueBracket>) -> Self {
+        let largest = by_joint.iter().map(|bracket| bracket.attained_n_m).fold(0.0, f64::max);
+        let is_worst = |bracket: &&TorqueBracket| bracket.attained_n_m >= largest * (1.0 - SAME_FIGURE);
+        Self { worst: by_joint.iter().find(is_worst).cloned(), by_joint }
+    }
+
+    /// What is certified for a joint; zero if it has no difference.
+    pub(super) fn certified(&self, joint: &str) -> f64 {
+        let bracket = self.by_joint.iter().find(|bracket| bracket.joint == joint);
+        bracket.map_or(0.0, |bracket| bracket.certified_n_m)
+    }
+}

@@ -1,0 +1,118 @@
+//! What is bounded of a function with several values.
+
+use super::speeds::{Form, FormRange, Interval, entries, gap};
+
+/// A convex function of several values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Measure {
+    /// The length of the vector.
+    Length,
+    /// The sum of absolute values.
+    Sum,
+    /// The largest torque of a motion.
+    Motion(Motion),
+}
+
+/// The values are the torque of gravity, those of each joint's largest acceleration, and the coefficients of the
+/// products of speeds, which are parts of their limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Motion {
+    pub(super) gravity: bool,
+    pub(super) accelerations: usize,
+    pub(super) speeds: usize,
+    /// The largest torque of damping and dry friction.
+    pub(super) resistance: f64,
+}
+
+/// An upper bound over a box of speeds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Upper {
+    pub(super) value: f64,
+    /// The speed whose square the bound is loose by, and how much.
+    pub(super) loose: Option<(usize, f64)>,
+}
+
+/// The motion of the largest torque at some positions.
+#[derive(Debug, Clone)]
+pub(super) struct LargestMotion {
+    pub(super) value: f64,
+    /// Parts of their limits.
+    pub(super) speeds: Vec<f64>,
+    /// -1 or 1 each.
+    pub(super) accelerations: Vec<f64>,
+}
+
+impl Measure {
+    /// Of one vector of values.
+    pub(super) fn of(self, values: &[f64]) -> f64 {
+        match self {
+            Self::Length => values.iter().map(|value| value * value).sum::<f64>().sqrt(),
+            Self::Sum => values.iter().map(|value| value.abs()).sum(),
+            Self::Motion(motion) => motion.largest(values).value,
+        }
+    }
+
+    /// From above, over a box of speeds, if that is more than `least`.
+    pub(super) fn above(self, values: &[f64], speeds: &[Interval], least: f64) -> Option<Upper> {
+        let upper = match self {
+            Self::Motion(motion) => motion.above(values, speeds, least)?,
+            _ => Upper { value: self.of(values), loose: None },
+        };
+        (upper.value > least).then_some(upper)
+    }
+
+    /// How many speeds may be divided.
+    pub(super) fn speeds(self) -> usize {
+        if let Self::Motion(motion) = self { motion.speeds } else { 0 }
+    }
+}
+
+impl Motion {
+    /// How many values it is of.
+    pub(super) fn values(&self) -> usize {
+        usize::from(self.gravity) + self.accelerations + entries(self.speeds)
+    }
+
+    /// Gravity, accelerations, products of speeds.
+    fn parts<'a>(&self, values: &'a [f64]) -> (f64, &'a [f64], Form<'a>) {
+        let (gravity, rest) = values.split_at(usize::from(self.gravity));
+        let (accelerations, coefficients) = rest.split_at(self.accelerations);
+        let gravity = gravity.first().copied().unwrap_or(0.0);
+        (gravity, accelerations, Form { coefficients, speeds: self.speeds })
+    }
+
+    /// The motion with the largest torque.
+    pub(super) fn largest(&self, values: &[f64]) -> LargestMotion {
+        let (gravity, accelerations, form) = self.parts(values);
+        let pushed: f64 = accelerations.iter().map(|value| value.abs()).sum();
+        let [up, down] = [1.0, -1.0].map(|sign| {
+            let (products, speeds) = form.largest(sign);
+            (sign, sign * gravity + products, speeds)
+        });
+        let (sign, torque, speeds) = if up.1 >= down.1 { up } else { down };
+        LargestMotion {
+            value: torque + pushed + self.resistance,
+            speeds,
+            accelerations: accelerations.iter().map(|value| sign * value.signum()).collect(),
+        }
+    }
+
+    fn above(&self, values: &[f64], intervals: &[Interval], least: f64) -> Option<Upper> {
+        let (gravity, accelerations, form) = self.parts(values);
+        let pushed = accelerations.iter().map(|value| value.abs()).sum::<f64>() + self.resistance;
+        let crude: f64 = form.coefficients.iter().map(|value| value.abs()).sum();
+        // No speed is more than its limit; a square is bounded by the chord and what this is short of.
+        if gravity.abs() + pushed + 2.0 * crude <= least {
+            return None;
+        }
+        let FormRange { least, most, below, above } = form.range(intervals);
+        let (up, down) = (gravity + most + above, below - gravity - least);
+        let sign = if up >= down { 1.0 } else { -1.0 };
+        let looseness = |j: usize| (-sign * form.square(j)).max(0.0) * gap(&intervals[j]);
+        let loose = (0..self.speeds)
+            .map(|j| (j, looseness(j)))
+            .filter(|(_, by)| *by > 0.0)
+            .max_by(|a, b| a.1.total_cmp(&b.1));
+        Some(Upper { value: up.max(down) + pushed, loose })
+    }
+}

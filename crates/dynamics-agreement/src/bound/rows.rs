@@ -1,0 +1,148 @@
+//! What a motion adds to the difference of one joint's torque, at some positions: gravity, each joint's largest
+//! acceleration, each product of two speeds.
+
+use congruent_description::RobotQ;
+use congruent_dynamics::{
+    BodyTree, DynamicsBuffer, DynamicsError, JointMotion, JointResistance, SpatialInertia,
+};
+use nalgebra::{DMatrix, Vector3};
+
+use super::{
+    bracket::AttainedAt,
+    measure::Motion,
+    motion_range::{CoveredMotion, covered_motions},
+    ways::Ways,
+};
+use crate::{side::Side, thresholds::SAME_FIGURE};
+
+/// The difference between a candidate and a reference in the candidate's geometry.
+pub(super) struct Rows<'a> {
+    pub(super) candidate: &'a Side,
+    pub(super) ways: Ways<'a>,
+    pub(super) covered: Vec<CoveredMotion>,
+    /// Candidate and reference.
+    whole: [BodyTree; 2],
+    /// Bodies that are the difference of two, and the difference of armature, weightless: torques are linear in both.
+    difference: BodyTree,
+    /// A bound of what each body adds to any entry of the mass matrix.
+    pub(super) largest_entries: Vec<f64>,
+    /// Damping, friction, armature: candidate's less the reference's.
+    pub(super) resistances: Vec<JointResistance>,
+}
+
+/// What the torques are computed with, made once.
+pub(super) struct Memory {
+    buffer: DynamicsBuffer,
+    matrix: DMatrix<f64>,
+    tau: [Vec<f64>; 2],
+    qd: Vec<f64>,
+}
+
+impl<'a> Rows<'a> {
+    pub(super) fn new(candidate: &'a Side, reference: &Side) -> Result<Self, DynamicsError> {
+        let reach_m = candidate.frames.reach_m.max(1.0);
+        let size = |body: &SpatialInertia| {
+            let moment = body.first_moment_kg_m.norm();
+            body.tensor_kg_m2.norm() + 2.0 * moment * reach_m + body.mass_kg.abs() * reach_m * reach_m
+        };
+        let (found, expected) = (candidate.bodies(), reference.bodies());
+        let differences: Vec<SpatialInertia> =
+            found.iter().zip(&expected).map(|(a, b)| super::gravity::difference(a, b)).collect();
+        let rounding = SAME_FIGURE * SAME_FIGURE.sqrt();
+        let sizes = found.iter().zip(&expected).map(|(a, b)| size(a).max(size(b)));
+        let differs = differences.iter().zip(sizes).map(|(body, of_both)| size(body) > rounding * of_both);
+        let resistances: Vec<JointResistance> = candidate
+            .resistances
+            .iter()
+            .zip(&reference.resistances)
+            .map(|(a, b)| JointResistance {
+                damping: a.damping - b.damping,
+                friction: a.friction - b.friction,
+                armature: a.armature - b.armature,
+            })
+            .collect();
+        let armatures = resistances.iter().map(|of| JointResistance { damping: 0.0, friction: 0.0, ..*of });
+        let weightless = candidate.frames.tree.clone().with_gravity(Vector3::zeros());
+        Ok(Self {
+            candidate,
+            ways: Ways { frames: &candidate.frames, differs: differs.collect() },
+            covered: covered_motions(candidate, reference),
+            whole: [candidate.tree(), reference.tree()],
+            difference: weightless
+                .with_inertias_in_links(&differences)?
+                .with_resistances(armatures.collect())?,
+            largest_entries: differences.iter().map(size).collect(),
+            resistances,
+        })
+    }
+
+    pub(super) fn memory(&self) -> Memory {
+        let n = self.covered.len();
+        let (buffer, matrix) = (self.difference.buffer(), DMatrix::zeros(n, n));
+        Memory { buffer, matrix, tau: [vec![0.0; n], vec![0.0; n]], qd: vec![0.0; n] }
+    }
+
+    /// The values of `motion` at some positions, of the joints that move.
+    pub(super) fn values(
+        &self,
+        q: &RobotQ,
+        (joint, moving): (usize, &[usize]),
+        motion: &Motion,
+        memory: &mut Memory,
+    ) -> Result<Vec<f64>, DynamicsError> {
+        let mut values = Vec::with_capacity(motion.values());
+        if motion.gravity {
+            for (tree, tau) in self.whole.iter().zip(&mut memory.tau) {
+                tree.gravity_into(q, &mut memory.buffer, tau)?;
+            }
+            values.push(memory.tau[0][joint] - memory.tau[1][joint]);
+        }
+        if motion.accelerations > 0 {
+            self.difference.mass_matrix_into(q, &mut memory.buffer, &mut memory.matrix)?;
+            let entry = |&other: &usize| memory.matrix[(joint, other)] * self.covered[other].acceleration;
+            values.extend(moving.iter().map(entry));
+        }
+        if motion.speeds == 0 {
+            return Ok(values);
+        }
+        let mut of_speeds = |at: &[usize]| {
+            memory.qd.fill(0.0);
+            at.iter().for_each(|&at| memory.qd[at] = self.covered[at].speed);
+            let tau = &mut memory.tau[0];
+            self.difference.bias_into(q, &memory.qd, &mut memory.buffer, tau).map(|()| tau[joint])
+        };
+        let squares: Vec<f64> = moving.iter().map(|&at| of_speeds(&[at])).collect::<Result<_, _>>()?;
+        for (first, &square) in squares.iter().enumerate() {
+            values.push(square);
+            for second in first + 1..moving.len() {
+                let both = of_speeds(&[moving[first], moving[second]])?;
+                values.push(both - square - squares[second]);
+            }
+        }
+        Ok(values)
+    }
+
+    /// The torque of a part of a motion: of a joint's accelerations, or of its velocity products.
+    pub(super) fn part(&self, joint: usize, at: &AttainedAt) -> Result<f64, DynamicsError> {
+        let mut tau = vec![0.0; at.qd.len()];
+        let motion = JointMotion { q: &at.q, qd: &at.qd, qdd: &at.qdd };
+        self.difference.inverse_into(&motion, &mut self.difference.buffer(), &mut tau)?;
+        Ok(tau[joint])
+    }
+
+    /// The difference of the whole torque.
+    pub(super) fn together(&self, joint: usize, at: &AttainedAt) -> Result<f64, DynamicsError> {
+        let mut tau = [vec![0.0; at.qd.len()], vec![0.0; at.qd.len()]];
+        let motion = JointMotion { q: &at.q, qd: &at.qd, qdd: &at.qdd };
+        for (tree, tau) in self.whole.iter().zip(&mut tau) {
+            tree.inverse_into(&motion, &mut tree.buffer(), tau)?;
+        }
+        Ok(tau[0][joint] - tau[1][joint])
+    }
+
+    /// The largest torque of damping and dry friction, which acts at any speed but none.
+    pub(super) fn resistance(&self, joint: usize) -> f64 {
+        let of = &self.resistances[joint];
+        of.friction.abs().max((of.friction + of.damping * self.covered[joint].speed).abs())
+    }
+}

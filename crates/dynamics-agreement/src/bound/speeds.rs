@@ -1,0 +1,180 @@
+//! The largest value of a quadratic form of the joints' speeds over a box: exactly at one, and from above.
+//!
+//! A speed whose square has a positive coefficient is best at an end of its interval; of a negative square the chord
+//! over the interval is larger by at most the coefficient times the square of half its width.
+
+/// An interval of speeds, each as a part of its limit.
+pub(super) type Interval = (f64, f64);
+
+/// The number of entries of a symmetric matrix.
+pub(super) fn entries(speeds: usize) -> usize {
+    speeds * (speeds + 1) / 2
+}
+
+/// A symmetric form `sum a_jk x_j x_k` over `j <= k`, by rows.
+#[derive(Clone, Copy)]
+pub(super) struct Form<'a> {
+    pub(super) coefficients: &'a [f64],
+    pub(super) speeds: usize,
+}
+
+/// Bounds of a form over a box, or of a convex combination of such forms.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FormRange {
+    pub(super) least: f64,
+    pub(super) most: f64,
+    /// What negative and positive squares may add to these.
+    pub(super) below: f64,
+    pub(super) above: f64,
+}
+
+/// Speeds that one form fits; more are not divided.
+pub(super) const MAX_SPEEDS: usize = 16;
+
+impl Form<'_> {
+    /// Of `x_j x_k`; twice that of `x_k x_j` in the matrix, but for squares.
+    fn coefficient(&self, j: usize, k: usize) -> f64 {
+        let (j, k) = (j.min(k), j.max(k));
+        self.coefficients[j * self.speeds - j * (j + 1) / 2 + k]
+    }
+
+    /// Coefficient of a square.
+    pub(super) fn square(&self, j: usize) -> f64 {
+        self.coefficient(j, j)
+    }
+
+    /// The value at these speeds.
+    pub(super) fn at(&self, x: &[f64]) -> f64 {
+        let row = |j: usize| (j..self.speeds).map(|k| self.coefficient(j, k) * x[k]).sum::<f64>() * x[j];
+        (0..self.speeds).map(row).sum()
+    }
+
+    /// The derivative by one speed without its own square.
+    fn slope(&self, j: usize, x: &[f64]) -> f64 {
+        (0..self.speeds).filter(|k| *k != j).map(|k| self.coefficient(j, k) * x[k]).sum()
+    }
+
+    /// Visits the corners of a box with the form's value there, in Gray's order: one speed changes at a time. The form is
+    /// even, so of a symmetric box half of them.
+    fn each_corner(&self, intervals: &[Interval], mut visit: impl FnMut(f64, &[f64])) {
+        let mut x = [0.0; MAX_SPEEDS];
+        let mut slopes = [0.0; MAX_SPEEDS];
+        x.iter_mut().zip(intervals).for_each(|(x, interval)| *x = interval.0);
+        for (j, slope) in slopes.iter_mut().enumerate().take(self.speeds) {
+            *slope = self.slope(j, &x);
+        }
+        let mut value = self.at(&x);
+        visit(value, &x[..self.speeds]);
+        let free = self.speeds - usize::from(self.speeds > 0 && intervals.iter().all(is_symmetric));
+        for step in 1..1_usize << free {
+            let j = step.trailing_zeros() as usize;
+            let (lower, upper) = intervals[j];
+            let (before, after) = if x[j] > lower { (upper, lower) } else { (lower, upper) };
+            let by = after - before;
+            value += by * slopes[j] + self.square(j) * (after * after - before * before);
+            x[j] = after;
+            for (k, slope) in slopes.iter_mut().enumerate().take(self.speeds) {
+                if k != j {
+                    *slope += self.coefficient(j, k) * by;
+                }
+            }
+            visit(value, &x[..self.speeds]);
+        }
+    }
+
+    /// The form over a box: its corners, and what squares may add.
+    pub(super) fn range(&self, intervals: &[Interval]) -> FormRange {
+        let mut range = FormRange { least: f64::INFINITY, most: f64::NEG_INFINITY, below: 0.0, above: 0.0 };
+        self.each_corner(intervals, |value, _| {
+            range.least = range.least.min(value);
+            range.most = range.most.max(value);
+        });
+        for (j, interval) in intervals.iter().enumerate() {
+            let gap = gap(interval) * self.square(j);
+            range.above += (-gap).max(0.0);
+            range.below += gap.max(0.0);
+        }
+        range
+    }
+
+    /// The largest value of `sign` times the form that climbing from the best corner finds, with its speeds.
+    pub(super) fn largest(&self, sign: f64) -> (f64, Vec<f64>) {
+        let (mut best, mut x) = (0.0, vec![0.0; self.speeds]);
+        self.each_corner(&[(-1.0, 1.0); MAX_SPEEDS][..self.speeds], |value, corner| {
+            if sign * value > best {
+                best = sign * value;
+                x.copy_from_slice(corner);
+            }
+        });
+        for _ in 0..ROUNDS {
+            let before = best;
+            for j in 0..self.speeds {
+                let (slope, square) = (sign * self.slope(j, &x), sign * self.square(j));
+                let top = if square < 0.0 { (-slope / (2.0 * square)).clamp(-1.0, 1.0) } else { 1.0 };
+                let gain = |to: f64| (to - x[j]) * slope + square * (to * to - x[j] * x[j]);
+                let to = [-1.0, 1.0, top].into_iter().max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
+                if let Some(to) = to.filter(|to| gain(*to) > 0.0) {
+                    x[j] = to;
+                    best = sign * self.at(&x);
+                }
+            }
+            if best <= before {
+                break;
+            }
+        }
+        (best, x)
+    }
+}
+
+/// Most rounds over all speeds. Kind: loop bound; two or three suffice.
+const ROUNDS: usize = 20;
+
+fn is_symmetric((lower, upper): &Interval) -> bool {
+    (lower + upper).abs() <= 0.0
+}
+
+/// What the chord of a square over an interval is larger by, at most.
+pub(super) fn gap((lower, upper): &Interval) -> f64 {
+    let half = (upper - lower) / 2.0;
+    half * half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COEFFICIENTS: [f64; 6] = [-0.7, 1.1, -0.4, 0.3, 0.9, -0.2];
+
+    #[test]
+    fn a_box_contains_the_form_and_small_boxes_are_tight() {
+        let form = Form { coefficients: &COEFFICIENTS, speeds: 3 };
+        for (intervals, slack) in
+            [([(-1.0, 1.0); 3], 2.0), ([(0.2, 0.7), (-1.0, -0.4), (0.0, 0.1)], 0.2), ([(0.3, 0.31); 3], 1e-3)]
+        {
+            let range = form.range(&intervals);
+            let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+            for index in 0..1000_usize {
+                let share = [index % 10, index / 10 % 10, index / 100].map(|at| f64::from(at as u8) / 9.0);
+                let x: [f64; 3] =
+                    std::array::from_fn(|j| intervals[j].0 + share[j] * (intervals[j].1 - intervals[j].0));
+                least = least.min(form.at(&x));
+                most = most.max(form.at(&x));
+            }
+            assert!(range.most + range.above >= most && range.most + range.above < most + slack, "{range:?}");
+            assert!(range.least - range.below <= least && range.least - range.below > least - slack);
+        }
+    }
+
+    #[test]
+    fn the_largest_value_is_found() {
+        let form = Form { coefficients: &COEFFICIENTS, speeds: 3 };
+        for sign in [1.0, -1.0] {
+            let (best, x) = form.largest(sign);
+            assert!((sign * form.at(&x) - best).abs() < 1e-15);
+            for index in 0..9261_usize {
+                let x = [index % 21, index / 21 % 21, index / 441].map(|at| f64::from(at as u8) / 10.0 - 1.0);
+                assert!(sign * form.at(&x) <= best + 1e-12, "{x:?} {best}");
+            }
+        }
+    }
+}

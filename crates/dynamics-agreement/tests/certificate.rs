@@ -1,0 +1,159 @@
+//! Certificates of the difference of torque: attained by a motion, never exceeded by any.
+
+#![expect(clippy::print_stdout, reason = "measured values, for --nocapture")]
+
+#[path = "../../../tests/corpus.rs"]
+mod corpus;
+
+use congruent_description::{RobotQ, load_robot};
+use congruent_dynamics::{BodyTree, JointMotion, JointResistance};
+use congruent_dynamics_agreement::{
+    CoveredMotion, Inertial, NamedSide, Side, TorqueBracket, TorqueCertificate, TorqueCertificates, certify,
+};
+use congruent_kinematics::Uniform;
+use nalgebra::Vector3;
+
+/// Rounding of a torque and of a bound, relative to the difference, and a thousandth of it to the torques themselves.
+const ROUNDING: f64 = 1e-9;
+/// Random motions that must stay below each bound.
+const MOTIONS: usize = 20_000;
+
+fn load(name: &str) -> Side {
+    let path = corpus::workspace().join("robots").join(name);
+    Side::new(&load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot)
+}
+
+fn figures<'a>(side: &'a mut Side, link: &str) -> &'a mut Inertial {
+    let link = side.frames().find_link(link).expect("a link");
+    side.inertials[link].as_mut().expect("an inertial")
+}
+
+fn certified(candidate: &Side, reference: &Side) -> TorqueCertificates {
+    let description = |name, side| NamedSide { name, side, places: None };
+    certify(&description("changed", candidate), &description("original", reference), 1).expect("one chain")
+}
+
+/// A motion of all joints.
+struct Motion {
+    q: RobotQ,
+    qd: Vec<f64>,
+    qdd: Vec<f64>,
+}
+
+fn torque(tree: &BodyTree, motion: &Motion) -> Vec<f64> {
+    let mut tau = vec![0.0; tree.dof()];
+    let motion = JointMotion { q: &motion.q, qd: &motion.qd, qdd: &motion.qdd };
+    tree.inverse_into(&motion, &mut tree.buffer(), &mut tau).expect("the robot's own motion");
+    tau
+}
+
+/// The four parts of a torque.
+fn parts(side: &Side, motion: &Motion) -> [Vec<f64>; 4] {
+    let zeros = vec![0.0; motion.qd.len()];
+    let of = |tree: &BodyTree, qd: &[f64], qdd: &[f64]| {
+        torque(tree, &Motion { q: motion.q.clone(), qd: qd.to_vec(), qdd: qdd.to_vec() })
+    };
+    let armature = |of: &JointResistance| JointResistance { damping: 0.0, friction: 0.0, ..*of };
+    let armatures = side.resistances.iter().map(armature).collect();
+    let whole = side.tree();
+    let weightless = whole.clone().with_gravity(Vector3::zeros());
+    let bare = weightless.clone().with_resistances(armatures).expect("one for each joint");
+    [
+        of(&whole, &zeros, &zeros),
+        of(&bare, &zeros, &motion.qdd),
+        of(&bare, &motion.qd, &zeros),
+        of(&whole, &motion.qd, &motion.qdd),
+    ]
+}
+
+fn certificates(all: &TorqueCertificates) -> [(&'static str, &TorqueCertificate); 4] {
+    [
+        ("gravity", &all.gravity),
+        ("inertia", &all.inertia),
+        ("velocity", &all.velocity),
+        ("together", &all.together),
+    ]
+}
+
+/// Speeds and accelerations mostly at their limits, where torques are large.
+fn random_motion(random: &mut Uniform, covered: &[CoveredMotion]) -> Motion {
+    let mut part = |of: &dyn Fn(&CoveredMotion) -> f64| -> Vec<f64> {
+        let share = |random: &mut Uniform| (2.0 * random.between((-1.0, 1.0))).clamp(-1.0, 1.0);
+        covered.iter().map(|covered| share(random) * of(covered)).collect()
+    };
+    let (qd, qdd) = (part(&|covered| covered.speed), part(&|covered| covered.acceleration));
+    let q = covered.iter().map(|covered| random.between((covered.lower, covered.upper))).collect();
+    Motion { q, qd, qdd }
+}
+
+fn check_attained(what: &str, part: usize, [candidate, reference]: [&Side; 2], bracket: &TorqueBracket) {
+    assert!(bracket.certified_n_m >= bracket.attained_n_m, "{what}: {bracket:?}");
+    let motion = Motion { q: bracket.q.clone().into(), qd: bracket.qd.clone(), qdd: bracket.qdd.clone() };
+    let joint = candidate.frames().find_joint(&bracket.joint).expect("a joint");
+    let [found, expected] = [candidate, reference].map(|side| parts(side, &motion)[part][joint]);
+    let error = ((found - expected).abs() - bracket.attained_n_m).abs();
+    let size = ROUNDING * (bracket.attained_n_m + 1e-3 * (1.0 + found.abs() + expected.abs()));
+    assert!(error <= size, "{what}: {} instead of {bracket:?}", found - expected);
+}
+
+fn check_sampled(what: &str, [candidate, reference]: [&Side; 2], all: &TorqueCertificates) {
+    let mut random = Uniform::seeded(7);
+    let names: Vec<&str> = all.covered.iter().map(|covered| covered.joint.as_str()).collect();
+    for _ in 0..MOTIONS / names.len() {
+        let motion = random_motion(&mut random, &all.covered);
+        let [found, expected] = [candidate, reference].map(|side| parts(side, &motion));
+        for (part, (name, certificate)) in certificates(all).into_iter().enumerate() {
+            for (joint, joint_name) in names.iter().enumerate() {
+                let (a, b) = (found[part][joint], expected[part][joint]);
+                let bracket = certificate.by_joint.iter().find(|bracket| bracket.joint == *joint_name);
+                let bound = bracket.map_or(0.0, |bracket| bracket.certified_n_m);
+                let slack = ROUNDING * (bound + 1e-3 * (1.0 + a.abs() + b.abs()));
+                assert!(
+                    (a - b).abs() <= bound + slack,
+                    "{what}: {name} of {joint_name}: {} {bracket:?}",
+                    a - b
+                );
+            }
+        }
+    }
+}
+
+fn check(what: &str, candidate: &Side, reference: &Side) -> TorqueCertificates {
+    let start = std::time::Instant::now();
+    let all = certified(candidate, reference);
+    for (part, (name, certificate)) in certificates(&all).into_iter().enumerate() {
+        for bracket in &certificate.by_joint {
+            check_attained(&format!("{what} {name}"), part, [candidate, reference], bracket);
+            println!(
+                "{what} {name} {}: {:.4} to {:.4}, ratio {:.3}, {} boxes",
+                bracket.joint,
+                bracket.attained_n_m,
+                bracket.certified_n_m,
+                bracket.certified_n_m / bracket.attained_n_m,
+                bracket.boxes
+            );
+        }
+    }
+    println!("{what}: {:.2} s", start.elapsed().as_secs_f64());
+    check_sampled(what, [candidate, reference], &all);
+    all
+}
+
+#[test]
+fn no_motion_exceeds_what_is_certified() {
+    for (robot, link) in [
+        ("ur5e", "upper_arm_link"),
+        ("ur5e", "forearm_link"),
+        ("ur5e", "wrist_2_link"),
+        ("panda", "panda_link4"),
+    ] {
+        let reference = load(robot);
+        let mut candidate = reference.clone();
+        let changed = figures(&mut candidate, link);
+        changed.mass_kg *= 1.2;
+        changed.com_m.y += 0.02;
+        changed.tensor_kg_m2 *= 1.3;
+        let all = check(&format!("{robot} {link}"), &candidate, &reference);
+        assert!(all.velocity.worst.is_some() && all.together.worst.is_some());
+    }
+}
