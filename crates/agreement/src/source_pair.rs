@@ -16,6 +16,8 @@ pub enum SourcePair {
     ModelSimulation,
     /// The URDF chain and the physics.
     UrdfSimulation,
+    /// The URDF chain and that of another description of the robot.
+    UrdfOther,
 }
 
 impl SourcePair {
@@ -26,6 +28,7 @@ impl SourcePair {
             Self::PoeUrdf => "screws (POE) against URDF chain",
             Self::ModelSimulation => "DH table against physics",
             Self::UrdfSimulation => "URDF chain against physics",
+            Self::UrdfOther => "URDF chain against other URDF",
         }
     }
 }

@@ -11,12 +11,12 @@ fn main() -> Result<(), String> {
     let description = load_robot(&robot).map_err(|found| listed(&found))?;
     let report = check(&description, &CheckOptions { seed: 0, configurations: Vec::new() })
         .map_err(|e| e.to_string())?;
-    println!("{}: {}", report.robot, report.verdict);
-    for comparison in &report.comparisons {
+    println!("{}: {}", report.geometry.robot, report.geometry.verdict);
+    for comparison in &report.geometry.comparisons {
         let worst = comparison.worst.error.position_m;
         println!("  {}: {}, worst {worst:.1e} m", comparison.title, comparison.verdict);
     }
-    for cause in &report.diagnosis {
+    for cause in &report.geometry.diagnosis {
         println!("  {}", cause.fault.suggestion);
     }
     Ok(())

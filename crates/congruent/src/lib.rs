@@ -16,12 +16,12 @@ pub use congruent_simulation as simulation;
 pub use congruent_twin as twin;
 pub use nalgebra;
 
-mod check_suite;
+mod check;
 pub mod schema;
 mod with_physics;
 
-pub use check_suite::check_suite;
-pub use with_physics::{check, forward, joint_dynamics};
+pub use check::{OtherDescription, RobotCheck, check, check_against, check_suite};
+pub use with_physics::{forward, joint_dynamics};
 
 /// What is wrong with an input, one finding in each line, without the lines of the file.
 pub fn listed(found: &[description::Diagnostic]) -> String {
@@ -30,7 +30,7 @@ pub fn listed(found: &[description::Diagnostic]) -> String {
 
 /// What most programs need.
 pub mod prelude {
-    pub use congruent_agreement::compare::{Agreement, CheckOptions, CheckReport};
+    pub use congruent_agreement::compare::{Agreement, CheckOptions};
     pub use congruent_analysis::forward::Source;
     pub use congruent_description::{Diagnostic, Robot, RobotDescription, load_robot};
     pub use congruent_kinematics::{Arm, DhChain, LinkPoses, Pose, PoseError, SerialChain, UrdfTree};
@@ -43,5 +43,5 @@ pub mod prelude {
         verdict::Verdict,
     };
 
-    pub use crate::{check, forward, listed};
+    pub use crate::{RobotCheck, check, check_against, forward, listed};
 }

@@ -1,7 +1,6 @@
 //! JSON schemas of the files that are read and of the documents that are written: for editors that complete and
 //! check while one types, and for programs in other languages.
 
-use congruent_agreement::compare::CheckReport;
 use congruent_analysis::{
     conversion::ConversionReport, dynamics::DynamicsReport, forward::ForwardReport, inverse::InverseReport,
     jacobians::JacobianReport, manipulability::ManipulabilityReport, sensitivity::SensitivityReport,
@@ -20,6 +19,8 @@ use schemars::{
 };
 use serde_json::Value;
 
+use crate::check::RobotCheck;
+
 /// A kind of file or document that has a schema.
 #[derive(Debug, Clone, Copy)]
 pub struct Document {
@@ -37,7 +38,7 @@ impl Document {
         Self::new("scenario", "scenario file", || schema_for!(Scenario)),
         Self::new("configurations", "file of configurations, of --configurations", configurations_schema),
         Self::new("report", "report.json of a run, printed by `run`", written::<RunReport>),
-        Self::new("check", "report of one robot, printed by `check`", written::<CheckReport>),
+        Self::new("check", "report of one robot, printed by `check`", written::<RobotCheck>),
         Self::new("fk", "link poses, printed by `fk`", written::<ForwardReport>),
         Self::new("jacobian", "Jacobians, printed by `jacobian`", written::<JacobianReport>),
         Self::new("dynamics", "torques and accelerations, printed by `dynamics`", written::<DynamicsReport>),

@@ -1,23 +1,11 @@
 //! Questions about a robot that need the physics beside the analytical sources.
 
-use congruent_agreement::compare::{CheckError, CheckOptions, CheckReport};
 use congruent_analysis::dynamics::{DynamicsOptions, DynamicsReport, DynamicsSource, dynamics, robot_of};
 use congruent_analysis::forward::{ForwardError, ForwardReport, Source, forward_by_table};
 use congruent_description::{Diagnostic, JointState, RobotDescription, RobotQ, Use};
 use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_kinematics::{LinkPoses, ScrewTree, UrdfTree};
 use congruent_twin::source::{SimulatedDynamics, SimulatedPoses};
-
-/// Compares table, URDF chain, screws and the physics twin of a robot. A robot that cannot be simulated is
-/// compared without the physics, and the report says why.
-///
-/// # Errors
-/// [`CheckError`] if a source rejects the robot.
-pub fn check(description: &RobotDescription, options: &CheckOptions) -> Result<CheckReport, CheckError> {
-    let mut physics = physics(description);
-    let physics = physics.as_mut().map(|physics| physics as &mut dyn LinkPoses);
-    congruent_agreement::compare::check(description, physics.map_err(|found| found.clone()), options)
-}
 
 /// Poses of all links at each configuration, by a chosen source.
 ///
@@ -33,7 +21,7 @@ pub fn forward(
         Source::Dh => return forward_by_table(description, configurations).map_err(refused),
         Source::Urdf => Box::new(UrdfTree::new(robot)),
         Source::Poe => Box::new(ScrewTree::new(robot)),
-        Source::Simulation => Box::new(physics(description)?),
+        Source::Simulation => Box::new(simulated_poses(description)?),
     };
     congruent_analysis::forward::forward(description, (source, &mut *link_poses), configurations)
         .map_err(refused)
@@ -44,7 +32,7 @@ fn refused(error: ForwardError) -> Vec<Diagnostic> {
 }
 
 /// The physics of a robot, or the findings for which it cannot be built.
-fn physics(description: &RobotDescription) -> Result<SimulatedPoses, Vec<Diagnostic>> {
+pub(crate) fn simulated_poses(description: &RobotDescription) -> Result<SimulatedPoses, Vec<Diagnostic>> {
     description.for_use(Use::Physics)?;
     SimulatedPoses::new(&description.robot)
         .map_err(|error| vec![Diagnostic::error("simulation::robot", error.to_string())])

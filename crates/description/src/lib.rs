@@ -8,6 +8,7 @@ mod configuration_file;
 mod description;
 mod diagnostic;
 pub mod display;
+mod edits;
 mod file;
 mod load;
 mod mesh;
@@ -31,6 +32,7 @@ pub use diagnostic::{
     Diagnostic, Diagnostics, Finding, FindingPlace, Kind, Occurrence, Severity, SourceFile, Use, known_names,
     line_column, nearest,
 };
+pub use edits::{ChangedLines, TextEdit, changed_lines};
 pub use file::{is_standard_input, read_text};
 pub use load::{load_robot, load_robot_with, parse_robot};
 pub use model::{
@@ -39,8 +41,8 @@ pub use model::{
     Tolerance,
 };
 pub use robot_file::{
-    ChangedLines, ConstantKey, ConstantPart, RobotFilePlaces, RowKey, TextEdit, ValuePlace, dh_section,
-    robot_file_schema, robot_file_text,
+    ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace, dh_section, robot_file_schema,
+    robot_file_text,
 };
 pub use ros_packages::RosPackages;
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};

@@ -25,8 +25,8 @@ pub use bound::{CoveredMotion, TorqueBracket, TorqueCertificate};
 pub use compare::{Compared, FigureDifference, Invariants, LimitCause, LimitDifference};
 pub use diagnosis::{DynamicsCause, EquivalenceReason, FaultySide};
 pub use report::{
-    CompareError, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, NamedSide,
-    PlacedCause, Sides, TorqueCertificates, certify, compare, compare_with_source,
+    CompareError, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, FigurePlaces,
+    NamedSide, PlacedCause, Sides, TorqueCertificates, certify, compare, compare_with_source,
 };
 pub use side::{BodyLaw, Frames, Inertial, Side};
 pub use torque::{AccelerationSource, Probing, SeenNumbers};

@@ -143,7 +143,7 @@ fn running(description: &RobotDescription, sources: &LinkPoseSources<'_>) -> Vec
 }
 
 /// Screws are made from the URDF chain: alone they show that two computations agree, not two descriptions.
-fn verdict(comparisons: &[Comparison]) -> Agreement {
+pub(super) fn verdict(comparisons: &[Comparison]) -> Agreement {
     if comparisons.iter().any(|comparison| comparison.verdict != Agreement::Agree) {
         Agreement::Disagree
     } else if comparisons.iter().any(|comparison| comparison.name != SourcePair::PoeUrdf) {
@@ -154,7 +154,7 @@ fn verdict(comparisons: &[Comparison]) -> Agreement {
 }
 
 /// The largest difference of all comparisons, separately in position and in orientation.
-fn worst_of(comparisons: &[Comparison]) -> WorstDifference {
+pub(super) fn worst_of(comparisons: &[Comparison]) -> WorstDifference {
     let further = |a: WorstDifference, b: WorstDifference| {
         let orientation_rad = larger(a.error.orientation_rad, b.error.orientation_rad);
         let PoseError { position_m, .. } = a.error;

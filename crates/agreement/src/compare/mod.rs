@@ -1,6 +1,7 @@
 //! The comparison of sources of link poses: without motion, at given configurations, and as chains of
 //! screws over the whole joint range.
 
+mod against;
 pub(crate) mod basics;
 pub(crate) mod certificate;
 pub(crate) mod check;

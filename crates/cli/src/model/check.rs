@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use congruent::{
-    agreement::compare::{Agreement, CheckOptions, CheckReport},
+    RobotCheck,
+    agreement::compare::{Agreement, CheckOptions},
     check_suite,
     description::{Diagnostic, Robot, load_robot_with, read_configurations},
     twin::report::TestSuite,
@@ -22,16 +23,22 @@ use crate::{
     print::Printer,
 };
 
-/// Whether a robot's table, its URDF and its physics twin are the same robot.
+/// Whether a robot's table, its URDF and its physics twin are the same robot, in geometry and in dynamics.
 ///
-/// Compared at zero, one axis at a time, at 200 seeded random configurations within the limits,
-/// at the limits, and at the worst configurations of the certificates. Exit code 1 if they disagree, 4 if
+/// Poses are compared at zero, one axis at a time, at 200 seeded random configurations within the limits,
+/// at the limits, and at the worst configurations of the certificates. Dynamics, which is masses, centres of mass, inertias,
+/// damping, friction, gravity and limits, is compared with the physics, which is probed as a black box, and with the
+/// [[inertial]] entries of robot.toml, or with the URDF of --against. Exit code 1 if they disagree, 4 if
 /// there is neither a table nor a robot that can be simulated, so that nothing was compared.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
     #[arg(required = true)]
     robots: Vec<PathBuf>,
+    /// Compare the URDF with that of another description of the robot as well, in geometry and, if it is the same chain
+    /// within the tolerance, in dynamics: a folder with robot.toml, a robot file, or a bare .urdf.
+    #[arg(long, value_name = "ROBOT")]
+    against: Option<PathBuf>,
     #[command(flatten)]
     chain: ChainArguments,
     /// Seed of the random configurations.
@@ -58,7 +65,7 @@ pub(crate) struct Arguments {
 
 /// The report on one robot, and whether its first checks are shown too.
 struct Checked {
-    report: CheckReport,
+    report: RobotCheck,
     robot: Robot,
     with_basics: bool,
 }
@@ -71,7 +78,7 @@ impl Serialize for Checked {
 
 impl BatchReport for Checked {
     fn exit_code(&self) -> u8 {
-        match self.report.verdict {
+        match self.report.geometry.verdict {
             Agreement::Agree => 0,
             Agreement::Disagree => FAILED,
             Agreement::NothingCompared => NOTHING,
@@ -79,7 +86,7 @@ impl BatchReport for Checked {
     }
 
     fn text(&self) -> String {
-        let basics = if self.with_basics { basics(&self.report.basics) } else { String::new() };
+        let basics = if self.with_basics { basics(&self.report.geometry.basics) } else { String::new() };
         text(&self.report, &self.robot) + &basics
     }
 
@@ -108,8 +115,16 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         description.tolerance = tolerance.replace(declared);
     }
     let options = CheckOptions { seed: arguments.seed, configurations };
-    let mut report = congruent::check(&description, &options)
+    let compared = match &arguments.against {
+        Some(other) => {
+            let other = load_robot_with(other, &arguments.packages.ros())?;
+            batch.warn(&other.path, &other.warnings);
+            congruent::check_against(&description, &other, &options)
+        }
+        None => congruent::check(&description, &options),
+    };
+    let mut report = compared
         .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
-    report.replaced_tolerance = arguments.tolerance.map(|_| declared);
+    report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
     Ok(Checked { report, robot: description.robot, with_basics: arguments.basics })
 }

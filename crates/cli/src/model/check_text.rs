@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use congruent::{
+    RobotCheck,
     agreement::compare::{
         Agreement, Basics, Brackets, BySource, CheckReport, Comparison, CoordinateUnit, NotAsked, PoseSource,
         Premise, ReportedBracket, ReportedCertificate,
@@ -13,10 +14,11 @@ use congruent::{
     },
 };
 
-use super::diagnosis_text::diagnosed;
+use super::{diagnosis_text::diagnosed, dynamics_text::dynamics};
 use crate::table::{with_one_sign, wrapped};
 
-pub(super) fn text(report: &CheckReport, robot: &Robot) -> String {
+pub(super) fn text(check: &RobotCheck, robot: &Robot) -> String {
+    let report = &check.geometry;
     let mut text = String::new();
     headline(&mut text, report);
     let _ = writeln!(text, "  {}", report.chain);
@@ -28,13 +30,15 @@ pub(super) fn text(report: &CheckReport, robot: &Robot) -> String {
     for comparison in &report.comparisons {
         compared(&mut text, comparison);
     }
-    for NotAsked { findings, .. } in &report.not_asked {
+    for NotAsked { source, findings } in &report.not_asked {
+        let what = if *source == "simulation" { "not asked the physics:" } else { "not asked its forces:" };
         for (index, finding) in findings.iter().enumerate() {
-            let label = if index == 0 { "not asked the physics:" } else { "" };
+            let label = if index == 0 { what } else { "" };
             let _ = writeln!(text, "  {label:22} {}", finding.message);
         }
     }
-    if report.verdict == Agreement::Disagree {
+    let poses_disagree = poses_disagree(report);
+    if poses_disagree {
         let _ = writeln!(text, "  worst at link {}, at", report.worst.link);
         text += &wrapped(&report.worst.at.for_people(robot));
     }
@@ -46,7 +50,13 @@ pub(super) fn text(report: &CheckReport, robot: &Robot) -> String {
     if let Some(diagnosis) = report.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty()) {
         diagnosed(&mut text, diagnosis);
     }
+    dynamics(&mut text, check, robot);
     text
+}
+
+/// Whether the disagreement is one of poses, and not of dynamics alone.
+fn poses_disagree(report: &CheckReport) -> bool {
+    report.comparisons.iter().any(|comparison| comparison.verdict == Agreement::Disagree)
 }
 
 fn headline(text: &mut String, report: &CheckReport) {
@@ -122,7 +132,7 @@ fn to_mm(metres: f64) -> f64 {
 
 /// The certificate: a bound over the whole joint range, not a sample.
 fn certified(text: &mut String, report: &CheckReport, robot: &Robot) {
-    if report.verdict != Agreement::Disagree {
+    if !poses_disagree(report) {
         report.certificates.iter().for_each(|certificate| narrow(text, certificate));
         return;
     }

@@ -6,5 +6,6 @@ mod check_text;
 pub(crate) mod convert;
 pub(crate) mod derive;
 mod diagnosis_text;
+mod dynamics_text;
 mod tolerance;
 mod written_model;

@@ -4,36 +4,14 @@
 use std::ops::Range;
 
 use nalgebra::Isometry3;
-use schemars::JsonSchema;
-use serde::Serialize;
 use toml::Spanned;
 
 use super::places::{ConstantKey, RobotFilePlaces, RowKey};
 use crate::{
-    diagnostic::line_column,
+    edits::{ChangedLines, TextEdit, changed_lines, line_end},
     model::DhConvention,
     written::{number::Slack, transform::WrittenTransform},
 };
-
-/// A part of a text, and what it becomes.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TextEdit {
-    /// Byte range; empty if text is added.
-    pub span: Range<usize>,
-    /// The new text.
-    pub text: String,
-}
-
-/// Whole lines of a file, and the lines that take their place.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct ChangedLines {
-    /// The first line that is replaced, from 1.
-    pub from_line: usize,
-    /// The last one.
-    pub to_line: usize,
-    /// The new lines.
-    pub text: String,
-}
 
 impl RobotFilePlaces {
     /// Another convention.
@@ -75,7 +53,7 @@ impl RobotFilePlaces {
                 (Some((_, span)), _) => TextEdit { span, text: value.to_owned() },
                 (None, Some(sibling)) => self.beside(sibling, &assignment),
                 (None, None) if is_header => {
-                    let end = self.line_end(written.span().start);
+                    let end = line_end(text, written.span().start);
                     TextEdit { span: end..end, text: format!("\n{assignment}") }
                 }
                 (None, None) => continue,
@@ -96,55 +74,13 @@ impl RobotFilePlaces {
         // `dh.convention = ...` has a prefix that its siblings need as well, `  convention` an indentation.
         let key = text[line..sibling.start].trim_end().trim_end_matches('=').trim_end();
         let own = key.rfind(['.', ' ', '\t']).map_or(0, |at| at + 1);
-        let end = self.line_end(sibling.end);
+        let end = line_end(text, sibling.end);
         TextEdit { span: end..end, text: format!("\n{}{assignment}", &key[..own]) }
-    }
-
-    fn line_end(&self, from: usize) -> usize {
-        let rest = &self.source().text[from..];
-        let end = rest.find('\n').unwrap_or(rest.len());
-        from + rest[..end].trim_end_matches('\r').len()
     }
 
     /// The lines that edits change, each with all edits in it; in the order of the file.
     pub fn changed_lines(&self, edits: &[TextEdit]) -> Vec<ChangedLines> {
-        let text = &self.source().text;
-        let mut edits: Vec<&TextEdit> = edits.iter().collect();
-        edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
-        let mut changed: Vec<(Range<usize>, String)> = Vec::new();
-        let mut written_to = 0;
-        for TextEdit { span, text: new } in edits {
-            let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
-            match changed.last_mut() {
-                Some((lines, so_far)) if start < lines.end => {
-                    so_far.push_str(&text[written_to..span.start]);
-                    lines.end = lines.end.max(self.line_end(span.end) + 1);
-                }
-                _ => {
-                    if let Some((lines, so_far)) = changed.last_mut() {
-                        so_far.push_str(&text[written_to..lines.end - 1]);
-                    }
-                    let lines = start..self.line_end(span.end) + 1;
-                    changed.push((lines, text[start..span.start].to_owned()));
-                }
-            }
-            if let Some((_, so_far)) = changed.last_mut() {
-                so_far.push_str(new);
-            }
-            written_to = span.end;
-        }
-        if let Some((lines, so_far)) = changed.last_mut() {
-            so_far.push_str(&text[written_to..lines.end - 1]);
-        }
-        let line = |at: usize| line_column(text, at).0;
-        changed
-            .into_iter()
-            .map(|(lines, new)| ChangedLines {
-                from_line: line(lines.start),
-                to_line: line(lines.end - 1),
-                text: new,
-            })
-            .collect()
+        changed_lines(&self.source().text, edits)
     }
 }
 

@@ -8,7 +8,6 @@ mod write;
 mod written;
 
 pub(crate) use check::{Declared, check};
-pub use edits::{ChangedLines, TextEdit};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
 pub use write::{dh_section, robot_file_text};
 pub(crate) use written::WrittenRobot;

@@ -13,6 +13,7 @@
 //! of a quarter turn: it is taken from the XML.
 
 mod dialect;
+mod edits;
 mod grammar;
 mod inertial;
 mod joint;

@@ -2,7 +2,7 @@
 
 use std::{ops::Range, sync::Arc};
 
-use super::node::{element, last, place};
+use super::node::{element, last, place, tag};
 use crate::{
     diagnostic::{SourceFile, line_column},
     xml,
@@ -44,6 +44,20 @@ impl UrdfPlaces {
     pub fn joint_dynamics(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
         Some(place(last(document.root_element(), "joint", name)?, "dynamics"))
+    }
+
+    /// Place of a part of the `<inertial>` of a link: `mass`, `origin` or `inertia`; of the `<inertial>` if that is
+    /// missing, or of the link if it has none.
+    pub fn inertial_part(&self, link: &str, part: &str) -> Option<Range<usize>> {
+        let document = xml::parse(&self.source.text).ok()?;
+        let link = last(document.root_element(), "link", link)?;
+        Some(element(link, "inertial").map_or_else(|| tag(link), |inertial| place(inertial, part)))
+    }
+
+    /// Place of the `<limit>` of a joint, or of the joint if it has none.
+    pub fn joint_limit(&self, name: &str) -> Option<Range<usize>> {
+        let document = xml::parse(&self.source.text).ok()?;
+        Some(place(last(document.root_element(), "joint", name)?, "limit"))
     }
 
     /// Place of the `<inertial>` of a link, or of the link if it has none.
@@ -89,6 +103,9 @@ mod tests {
         assert_eq!(at("a"), Some("<inertial"));
         assert_eq!(at("b"), Some("<link"));
         assert_eq!(at("j"), None);
+        assert_eq!(places.inertial_part("a", "mass").map(|span| &text[span]), Some("<inertial"));
+        assert_eq!(places.inertial_part("b", "mass").map(|span| &text[span]), Some("<link"));
+        assert_eq!(places.joint_limit("j").map(|span| &text[span]), Some("<joint"));
         assert_eq!(places.joint_dynamics("j").map(|span| &text[span]), Some("<dynamics"));
     }
 }

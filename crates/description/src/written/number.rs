@@ -15,6 +15,11 @@ pub(crate) fn number(value: f64) -> String {
     format!("{:?}", value + 0.0)
 }
 
+/// A corrected value by the digits that a correction is worth: twelve, whatever its size.
+pub(crate) fn significant(value: f64) -> String {
+    number(format!("{value:.11e}").parse().unwrap_or(value))
+}
+
 /// How far a fitted value may be from the one that is written for it, in m or rad, relative above 1.
 /// Kind: rounding of a fit on some hundred numbers, two digits above eps.
 pub(super) const FITTED: f64 = 5e-14;

@@ -21,6 +21,10 @@ pub struct FigureDifference {
     pub expected: Option<f64>,
     /// Unit of both.
     pub unit: String,
+    /// Where the candidate's file says it; `null` if the place is not known.
+    pub line: Option<usize>,
+    /// Where the reference's file says it.
+    pub expected_line: Option<usize>,
 }
 
 const FIGURES: [(&str, &str); 10] = [
@@ -77,6 +81,8 @@ pub(crate) fn of_link(
         found: value(0, at),
         expected: value(1, at),
         unit: unit.to_owned(),
+        line: None,
+        expected_line: None,
     })
     .collect()
 }
@@ -98,6 +104,8 @@ pub(crate) fn of_joints(
                     found: Some(found),
                     expected: Some(expected),
                     unit: term.unit(joint).to_owned(),
+                    line: None,
+                    expected_line: None,
                 });
             }
         }
@@ -117,6 +125,8 @@ pub(crate) fn of_gravity(found: &Vector3<f64>, expected: &Vector3<f64>) -> Vec<F
             found: Some(found[at]),
             expected: Some(expected[at]),
             unit: "m/s^2".to_owned(),
+            line: None,
+            expected_line: None,
         })
         .collect()
 }

@@ -21,6 +21,12 @@ pub struct LimitDifference {
     pub expected: f64,
     /// Found over expected; `null` if nothing is expected.
     pub factor: Option<f64>,
+    /// Unit of both.
+    pub unit: String,
+    /// Where the candidate's file says it; `null` if the place is not known.
+    pub line: Option<usize>,
+    /// Where the reference's file says it.
+    pub expected_line: Option<usize>,
 }
 
 /// Which limit differs.
@@ -66,10 +72,24 @@ pub(crate) fn differences(candidate: &Side, reference: &Side, joints: &[usize]) 
                 found,
                 expected,
                 factor,
+                unit: unit(cause, candidate.frames.joints[joint].is_angular).to_owned(),
+                line: None,
+                expected_line: None,
             });
         }
     }
     differences
+}
+
+fn unit(cause: LimitCause, is_angular: bool) -> &'static str {
+    match (cause, is_angular) {
+        (LimitCause::VelocityLimit, true) => "rad/s",
+        (LimitCause::VelocityLimit, false) => "m/s",
+        (LimitCause::EffortLimit, true) => "N m",
+        (LimitCause::EffortLimit, false) => "N",
+        (LimitCause::PositionLimit, true) => "rad",
+        (LimitCause::PositionLimit, false) => "m",
+    }
 }
 
 type Limit = (LimitCause, &'static str, fn(&JointLimit) -> Option<f64>);

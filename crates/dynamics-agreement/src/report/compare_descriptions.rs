@@ -6,6 +6,7 @@ use nalgebra::Matrix3;
 use super::{
     content::{DynamicsPremise, DynamicsReport, DynamicsVerdict, Sides, TorqueCertificates},
     link_by_link::link_by_link,
+    places::Files,
     told::{NamedSide, Told},
 };
 use crate::{
@@ -91,18 +92,21 @@ pub fn compare(
         faulty: FaultySide::Candidate,
         precision: Precision::EXACT,
     };
-    let mut told = Told::new(&setting, candidate, &torque);
+    let files = Files { found: candidate.places, expected: reference.places };
+    let mut told = Told::new(&setting, files, &torque);
     if !told.same && told.explanations.is_empty() {
-        let sides = (candidate, reference.side);
-        told.explanations = link_by_link(&setting, sides, &seen_as_candidate, &states)?;
+        told.explanations = link_by_link(&setting, files, (reference.side, &seen_as_candidate), &states)?;
     }
-    let differences = hidden::differences(candidate.side, reference.side);
-    let hidden_differences = if told.same {
+    let mut differences = hidden::differences(candidate.side, reference.side);
+    files.place(&mut differences);
+    let mut hidden_differences = if told.same {
         differences.clone()
     } else {
         hidden::without_effect(candidate.side, reference.side, &torque)
     };
-    let limits = limits::differences(candidate.side, reference.side, &joints);
+    files.place(&mut hidden_differences);
+    let mut limits = limits::differences(candidate.side, reference.side, &joints);
+    files.place_limits(&mut limits);
     let verdict = if told.same && differences.is_empty() { DynamicsVerdict::Same } else { told.verdict() };
     let tree = seen_as_candidate.tree().without_resistances();
     Ok(DynamicsReport {
@@ -112,6 +116,7 @@ pub fn compare(
             faulty: setting.faulty,
         },
         verdict,
+        difference_relative: torque.relative_difference(),
         premise: DynamicsPremise {
             fit_relative: torque.outside / torque.torques,
             held_out_relative: None,

@@ -3,6 +3,7 @@
 use super::{
     compare_descriptions::{CompareError, has_usable_numbers},
     content::{DynamicsPremise, DynamicsReport, Sides},
+    places::Files,
     told::{NamedSide, Told},
 };
 use crate::{
@@ -45,7 +46,7 @@ pub fn compare_with_source(
         faulty: FaultySide::Reference,
         precision: Precision::ENGINE,
     };
-    let told = Told::new(&setting, candidate, &torque);
+    let told = Told::new(&setting, Files { found: candidate.places, expected: None }, &torque);
     Ok(DynamicsReport {
         sides: Sides {
             candidate: candidate.name.to_owned(),
@@ -53,6 +54,7 @@ pub fn compare_with_source(
             faulty: setting.faulty,
         },
         verdict: told.verdict(),
+        difference_relative: torque.relative_difference(),
         premise: DynamicsPremise { fit_relative, held_out_relative: Some(held_out), states: states.len() },
         seen: torque.seen,
         invariants: None,

@@ -1,5 +1,7 @@
 //! The report of a comparison of dynamics, as JSON. Units are SI.
 
+use congruent_description::ChangedLines;
+
 use crate::{
     bound::{CoveredMotion, TorqueCertificate},
     compare::{FigureDifference, Invariants, LimitDifference},
@@ -14,6 +16,8 @@ pub struct DynamicsReport {
     pub sides: Sides,
     /// The result.
     pub verdict: DynamicsVerdict,
+    /// The difference of torque at the states, as a share of both torques; every joint counts alike.
+    pub difference_relative: f64,
     /// How well the reference's torques are those of a rigid body chain at all.
     pub premise: DynamicsPremise,
     /// How many inertial numbers torques tell.
@@ -37,6 +41,18 @@ pub struct DynamicsReport {
     pub limits: Vec<LimitDifference>,
     /// How large the differences of torque can get; `null` if nobody has asked.
     pub certificates: Option<TorqueCertificates>,
+}
+
+impl DynamicsReport {
+    /// Whether all joint torques are the same.
+    pub fn has_same_torques(&self) -> bool {
+        matches!(self.verdict, DynamicsVerdict::Same | DynamicsVerdict::SameTorques)
+    }
+
+    /// Whether torques and limits are the same: a difference that no torque shows is none that decides.
+    pub fn agrees(&self) -> bool {
+        self.has_same_torques() && self.limits.is_empty()
+    }
 }
 
 /// How large the differences of torque can get over the range of the joints' motion.
@@ -123,6 +139,8 @@ pub struct DynamicsExplanation {
     pub line: Option<usize>,
     /// What to write instead.
     pub suggestion: Option<String>,
+    /// The lines of the file that change, with what they become; empty if the file is right or cannot say it.
+    pub changes: Vec<ChangedLines>,
 }
 
 /// A cause with its place.

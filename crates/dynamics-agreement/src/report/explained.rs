@@ -1,8 +1,11 @@
 //! Explanations in names, figures and places of the file.
 
-use congruent_description::{UrdfPlaces, line_column};
+use congruent_description::{ChangedLines, TextEdit};
 
-use super::content::{DynamicsExplanation, PlacedCause};
+use super::{
+    content::{DynamicsExplanation, PlacedCause},
+    places::{Files, without_rounding},
+};
 use crate::{
     compare::figures,
     diagnosis::{Corrected, DynamicsCause, Exact, FaultySide, Grouped, Place},
@@ -14,7 +17,7 @@ use crate::{
 pub(super) struct Teller<'a> {
     pub(super) candidate: &'a Side,
     pub(super) faulty: FaultySide,
-    pub(super) places: Option<&'a UrdfPlaces>,
+    pub(super) files: Files<'a>,
     /// Norm of the whole difference.
     pub(super) difference: f64,
 }
@@ -22,14 +25,18 @@ pub(super) struct Teller<'a> {
 impl Teller<'_> {
     pub(super) fn explanation(&self, grouped: &Grouped) -> DynamicsExplanation {
         let exact = &grouped.named;
-        let figures = self.figures(&exact.corrected);
-        let (file, line) = self.file_and_line(exact).unzip();
+        let mut figures = self.figures(&exact.corrected);
+        self.files.place(&mut figures);
+        let file = self.files.found.filter(|_| self.faulty == FaultySide::Candidate);
         let first = self.name(exact);
         DynamicsExplanation {
             cause: first.cause,
             detail: first.detail,
             place: first.place,
             suggestion: super::words::suggestion(self.faulty, &figures),
+            file: file.map(|file| file.source().path.display().to_string()),
+            line: file.and_then(|_| figures.iter().find_map(|figure| figure.line)),
+            changes: self.changes(&exact.corrected),
             figures,
             numbers: exact.price,
             left_relative: exact.left() / self.difference,
@@ -41,8 +48,6 @@ impl Teller<'_> {
             also_named: grouped.also.iter().map(|exact| self.name(exact)).collect(),
             reason: grouped.reason,
             parts: if exact.parts.len() > 1 { self.parts(exact) } else { Vec::new() },
-            file,
-            line,
         }
     }
 
@@ -106,21 +111,23 @@ impl Teller<'_> {
         differences
     }
 
-    fn file_and_line(&self, exact: &Exact) -> Option<(String, usize)> {
-        let places = self.places.filter(|_| self.faulty == FaultySide::Candidate)?;
-        let frames = &self.candidate.frames;
-        let place = &exact.parts.first()?.hypothesis.place;
-        let span = match place {
-            Place::Links(links) => places.link_inertial(frames.link_name(*links.first()?)),
-            Place::Joints(joints) => places.joint_dynamics(frames.joint_name(*joints.first()?)),
-            Place::AllLinks => {
-                let (link, _) = exact.corrected.links.first()?;
-                places.link_inertial(frames.link_name(*link))
+    /// The lines that say the corrected figures; empty if the file is right, or cannot say them.
+    fn changes(&self, corrected: &Corrected) -> Vec<ChangedLines> {
+        let Some(file) = self.files.found.filter(|_| self.faulty == FaultySide::Candidate) else {
+            return Vec::new();
+        };
+        let side = self.candidate;
+        let mut edits: Vec<TextEdit> = Vec::new();
+        for (link, figures) in &corrected.links {
+            let figures = without_rounding(side.inertials[*link].as_ref(), figures);
+            edits.extend(file.set_inertial(side.frames.link_name(*link), &figures));
+        }
+        for (joint, terms) in corrected.joints.iter().flatten().enumerate() {
+            if *terms != side.resistances[joint] {
+                edits.extend(file.set_terms(side.frames.joint_name(joint), terms));
             }
-            Place::AllJoints => places.joint_dynamics(&frames.joints.first()?.name),
-            Place::Gravity => None,
-        }?;
-        let source = places.source();
-        Some((source.path.display().to_string(), line_column(&source.text, span.start).0))
+        }
+        edits.extend(corrected.gravity.iter().flat_map(|gravity| file.set_gravity(gravity)));
+        file.lines(&edits)
     }
 }

@@ -2,10 +2,7 @@
 
 use congruent_dynamics::DynamicsError;
 
-use super::{
-    content::DynamicsExplanation,
-    told::{NamedSide, Told},
-};
+use super::{content::DynamicsExplanation, places::Files, told::Told};
 use crate::{
     diagnosis::Setting,
     side::Side,
@@ -19,11 +16,11 @@ use crate::{
 /// make up the whole difference.
 pub(super) fn link_by_link(
     setting: &Setting<'_>,
-    (candidate, reference): (&NamedSide<'_>, &Side),
-    seen_as_candidate: &Side,
+    files: Files<'_>,
+    (reference, seen_as_candidate): (&Side, &Side),
     states: &[State],
 ) -> Result<Vec<DynamicsExplanation>, DynamicsError> {
-    let side = candidate.side;
+    let side = setting.candidate;
     let mut whole = Side { gravity_m_s2: seen_as_candidate.gravity_m_s2, ..side.clone() };
     whole.resistances.clone_from(&seen_as_candidate.resistances);
     let mut corrected = vec![Side { gravity_m_s2: whole.gravity_m_s2, ..side.clone() }];
@@ -44,7 +41,7 @@ pub(super) fn link_by_link(
     for one in &corrected {
         let torque = Compressed::new(side, states, &torques(one, states)?)?;
         let setting = Setting { reference: Some(one), ..*setting };
-        let told = Told::new(&setting, candidate, &torque);
+        let told = Told::new(&setting, files, &torque);
         if told.explanations.is_empty() && !told.same {
             return Ok(Vec::new());
         }

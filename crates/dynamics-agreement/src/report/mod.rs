@@ -5,6 +5,7 @@ mod compare_with_source;
 mod content;
 mod explained;
 mod link_by_link;
+mod places;
 mod told;
 mod words;
 
@@ -14,4 +15,5 @@ pub use content::{
     DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, PlacedCause, Sides,
     TorqueCertificates,
 };
+pub use places::FigurePlaces;
 pub use told::NamedSide;

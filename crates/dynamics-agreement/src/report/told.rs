@@ -1,10 +1,9 @@
 //! A diagnosis in names.
 
-use congruent_description::UrdfPlaces;
-
 use super::{
     content::{DynamicsExplanation, DynamicsVerdict},
     explained::Teller,
+    places::{FigurePlaces, Files},
 };
 use crate::{
     diagnosis::{Setting, diagnose},
@@ -20,7 +19,7 @@ pub struct NamedSide<'a> {
     /// What it says.
     pub side: &'a Side,
     /// Where it says it, for messages with lines.
-    pub places: Option<&'a UrdfPlaces>,
+    pub places: Option<&'a dyn FigurePlaces>,
 }
 
 /// A diagnosis in names.
@@ -41,12 +40,12 @@ impl Told {
         }
     }
 
-    pub(super) fn new(setting: &Setting<'_>, candidate: &NamedSide<'_>, torque: &Compressed) -> Self {
+    pub(super) fn new(setting: &Setting<'_>, files: Files<'_>, torque: &Compressed) -> Self {
         let diagnosed = diagnose(setting, torque);
         let teller = Teller {
             candidate: setting.candidate,
             faulty: setting.faulty,
-            places: candidate.places,
+            files,
             difference: torque.difference.norm().hypot(torque.outside),
         };
         let mut explained = diagnosed.explanations.iter().map(|grouped| teller.explanation(grouped));

@@ -1,12 +1,13 @@
 //! The comparison in sentences.
 
-use congruent_description::display::{number, quantity};
+use congruent_description::display::{length, number, quantity};
 
-use super::content::{DynamicsExplanation, DynamicsReport};
+use super::content::{DynamicsExplanation, DynamicsReport, DynamicsVerdict};
 use crate::{
     bound::TorqueBracket,
-    compare::FigureDifference,
+    compare::{Compared, FigureDifference, Invariants, LimitDifference},
     diagnosis::{DynamicsCause, FaultySide},
+    thresholds::SAME_FIGURE,
 };
 
 /// Figures that a suggestion names one by one.
@@ -64,7 +65,86 @@ impl DynamicsCause {
     }
 }
 
+impl LimitDifference {
+    /// `elbow_joint: velocity limit is 10313 deg/s, expected 180 deg/s, 57.3 times as much: degrees?`.
+    pub fn sentence(&self) -> String {
+        let [found, expected] = [self.found, self.expected].map(|value| quantity(value, &self.unit));
+        let factor = self.factor.map_or_else(String::new, |factor| format!(", factor {}", number(factor)));
+        let unit = if self.detail.is_empty() { String::new() } else { format!(": in {}?", self.detail) };
+        format!("{}: {} limit is {found}, expected {expected}{factor}{unit}", self.joint, self.figure)
+    }
+}
+
+impl Invariants {
+    /// Masses, centre of mass, gravity torque and mass matrix, as far as they differ.
+    pub fn sentences(&self) -> Vec<String> {
+        let mass = |what: &str, Compared { found, expected }: Compared| {
+            let differs = (found - expected).abs() > SAME_FIGURE * expected.abs();
+            let values = [found, expected].map(|value| quantity(value, "kg"));
+            differs.then(|| format!("{what} {}, expected {}", values[0], values[1]))
+        };
+        let com = self.com_distance_m.filter(|distance| *distance > SAME_FIGURE);
+        let gravity = self.gravity_joint.as_ref().filter(|_| self.gravity_n_m > SAME_FIGURE);
+        let matrix = self.mass_matrix_relative.filter(|relative| *relative > SAME_FIGURE);
+        let sentences = [
+            mass("total mass", self.total_mass_kg),
+            mass("moving mass", self.moving_mass_kg),
+            com.map(|distance| format!("centre of mass of what moves, at zero, off by {}", length(distance))),
+            gravity.map(|joint| {
+                format!(
+                    "gravity torques seen to differ by up to {} at {joint}",
+                    quantity(self.gravity_n_m, "N m")
+                )
+            }),
+            matrix.map(|relative| {
+                format!("inertia seen to differ by up to {} % in some direction", number(relative * 100.0))
+            }),
+        ];
+        sentences.into_iter().flatten().collect()
+    }
+}
+
 impl DynamicsReport {
+    /// Everything that a person reads of it, the result first.
+    pub fn sentences(&self) -> Vec<String> {
+        let mut sentences = vec![self.headline()];
+        for explanation in &self.explanations {
+            sentences.push(explanation.sentence());
+            sentences.extend(explanation.figures.iter().map(FigureDifference::sentence));
+        }
+        sentences.extend(self.limits.iter().map(LimitDifference::sentence));
+        sentences.extend(self.hidden_sentences());
+        if !self.has_same_torques() {
+            sentences.extend(self.invariants.iter().flat_map(Invariants::sentences));
+        }
+        sentences.extend(self.worst_gravity().map(TorqueBracket::sentence));
+        sentences
+    }
+
+    /// The result with its numbers in one sentence.
+    pub fn headline(&self) -> String {
+        let states = number(count(self.premise.states));
+        let difference = number(self.difference_relative);
+        match self.verdict {
+            DynamicsVerdict::Same | DynamicsVerdict::SameTorques => {
+                format!("torques equal to {difference} of them at {states} states; {}", self.seen_sentence())
+            }
+            DynamicsVerdict::Explained => {
+                format!("torques differ by {difference} of them at {states} states, explained")
+            }
+            DynamicsVerdict::Unexplained => format!(
+                "torques differ by {difference} of them at {states} states, and no known cause explains it; no \
+                 inertial numbers at all explain {} of them",
+                number(self.premise.fit_relative)
+            ),
+        }
+    }
+
+    /// The largest difference of gravity torque, if it was asked for and there is one.
+    pub fn worst_gravity(&self) -> Option<&TorqueBracket> {
+        self.certificates.as_ref()?.gravity.worst.as_ref()
+    }
+
     /// What no torque shows, in words with the numbers that are meant.
     pub fn hidden_sentences(&self) -> Vec<String> {
         let hidden = self.hidden_differences.iter();

@@ -103,6 +103,12 @@ impl Compressed {
         &self.gravity
     }
 
+    /// The whole difference as a share of both torques.
+    pub(crate) fn relative_difference(&self) -> f64 {
+        let size = self.difference.norm().hypot(self.outside);
+        if size > 0.0 { size / self.torques } else { 0.0 }
+    }
+
     /// The same with what an orthonormal basis spans taken out of everything.
     pub(crate) fn without(&self, basis: &DMatrix<f64>) -> Self {
         let reduced = |columns: &DMatrix<f64>| {

@@ -1,17 +1,29 @@
-//! The report of a check as a test suite, which CI reads as JUnit: one case for each comparison.
+//! The report of a check as a test suite, which CI reads as JUnit: one case for each comparison of poses and of dynamics.
 
 use congruent_agreement::{
     compare::{Agreement, CheckReport, Comparison, ReportedCertificate},
     report::{ReportedDiagnosis, foremost},
 };
 use congruent_description::{display::length_and_angle, serde_name};
+use congruent_dynamics_agreement::DynamicsReport;
 use congruent_twin::report::{Clock, Reason, TestCase, TestResult, TestSuite};
+
+use super::RobotCheck;
 
 /// The comparisons of a report as test cases; what failed names its cause with the line.
 ///
 /// `name` tells this robot from the others of the file, as its path does.
-pub fn check_suite(name: &str, report: &CheckReport) -> TestSuite {
-    let cases = report.comparisons.iter().map(|comparison| case(comparison, report)).collect();
+pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
+    let geometry = &report.geometry;
+    let mut cases: Vec<TestCase> =
+        geometry.comparisons.iter().map(|comparison| case(comparison, geometry)).collect();
+    let not_compared = report.against.as_ref().and_then(|against| against.dynamics_not_compared.as_ref());
+    cases.extend(not_compared.map(|why| TestCase {
+        name: "dynamics against the other description".to_owned(),
+        result: TestResult::Failed(Reason { kind: "other_chain".to_owned(), message: why.clone() }),
+        output: why.clone(),
+    }));
+    cases.extend(report.all_dynamics().map(dynamics_case));
     // Nothing moves, so that no time passes but the machine's.
     TestSuite { name: name.to_owned(), cases, time_s: 0.0, clock: Clock::Wall }
 }
@@ -34,6 +46,17 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
         TestResult::Failed(Reason { kind, message: lines.join("\n") })
     };
     TestCase { name: comparison.title.to_owned(), result, output: lines.join("\n") }
+}
+
+fn dynamics_case(report: &DynamicsReport) -> TestCase {
+    let output = report.sentences().join("\n");
+    let result = if report.agrees() {
+        TestResult::Passed
+    } else {
+        let kind = report.explanations.first().map_or("dynamics", |first| first.cause.name()).to_owned();
+        TestResult::Failed(Reason { kind, message: output.clone() })
+    };
+    TestCase { name: format!("dynamics of URDF against {}", report.sides.reference), result, output }
 }
 
 /// The bound over the whole joint range, if the same two sources have one.

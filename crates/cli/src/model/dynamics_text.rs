@@ -1,0 +1,101 @@
+//! The dynamics of `congruent check` as text for people: one line if two sources agree; otherwise the cause with its lines
+//! of the file, what else would have the same torques, what no torque shows, and how large the differences get.
+
+use std::fmt::Write;
+
+use congruent::{
+    RobotCheck,
+    description::{JointValues, Robot, RobotQ},
+    dynamics_agreement::{
+        DynamicsExplanation, DynamicsReport, FigureDifference, LimitDifference, TorqueBracket,
+    },
+};
+
+use crate::table::wrapped;
+
+/// Figures, alternatives or hidden differences that are shown to people; JSON has all of them.
+const SHOWN: usize = 8;
+
+/// All comparisons of dynamics of a check.
+pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
+    let against = check.against.as_ref();
+    if let Some(why) = against.and_then(|against| against.dynamics_not_compared.as_ref()) {
+        let _ = writeln!(text, "  disagree  dynamics is not compared: {why}");
+    }
+    check.all_dynamics().for_each(|report| compared(text, report, robot));
+}
+
+fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
+    let verdict = if report.agrees() { "agree" } else { "disagree" };
+    let title = format!("dynamics against {}", report.sides.reference);
+    let _ = writeln!(text, "  {verdict:9} {title:32} {}", report.headline());
+    for explanation in &report.explanations {
+        explained(text, explanation);
+    }
+    let mut lines: Vec<String> = report.limits.iter().map(limit).collect();
+    if !report.has_same_torques() {
+        for other in report.indistinguishable.iter().take(SHOWN) {
+            let reason = other.reason.map_or_else(String::new, |reason| format!(" ({})", reason.text()));
+            lines.push(format!("indistinguishable: {}{reason}", other.sentence()));
+        }
+        lines.extend(more(report.indistinguishable.len(), "that cannot be distinguished"));
+        lines.extend(report.invariants.iter().flat_map(congruent::dynamics_agreement::Invariants::sentences));
+    }
+    lines.extend(report.hidden_sentences().into_iter().take(SHOWN));
+    lines.extend(more(report.hidden_differences.len(), "that no joint torque shows"));
+    for line in lines {
+        let _ = writeln!(text, "    {line}");
+    }
+    if let Some(worst) = report.worst_gravity() {
+        certified(text, worst, robot);
+    }
+}
+
+fn more(all: usize, what: &str) -> Option<String> {
+    all.checked_sub(SHOWN + 1).map(|more| format!("and {} more {what}", more + 1))
+}
+
+/// A cause, its figures with the lines that say them, and what to write.
+fn explained(text: &mut String, explanation: &DynamicsExplanation) {
+    let _ = writeln!(text, "    {}", explanation.sentence());
+    for figure in explanation.figures.iter().take(SHOWN) {
+        let _ = writeln!(text, "      {}", placed(figure.sentence(), figure, explanation.file.as_deref()));
+    }
+    if let Some(more) = more(explanation.figures.len(), "figures") {
+        let _ = writeln!(text, "      {more}");
+    }
+    if let Some(law) = &explanation.body_law {
+        let _ = writeln!(text, "      no body is so: {law}");
+    }
+    if explanation.changes.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "      to write in {}:", explanation.file.as_deref().unwrap_or("the file"));
+    for change in &explanation.changes {
+        let _ = writeln!(text, "      line {}:", change.from_line);
+        for line in change.text.lines() {
+            let _ = writeln!(text, "        {}", line.trim_start());
+        }
+    }
+}
+
+fn placed(sentence: String, figure: &FigureDifference, file: Option<&str>) -> String {
+    match (file, figure.line) {
+        (Some(file), Some(line)) => format!("{file}:{line}: {sentence}"),
+        _ => sentence,
+    }
+}
+
+fn limit(difference: &LimitDifference) -> String {
+    match difference.line {
+        Some(line) => format!("line {line}: {}", difference.sentence()),
+        None => difference.sentence(),
+    }
+}
+
+/// The largest difference of gravity torque, with the configuration that has it.
+fn certified(text: &mut String, worst: &TorqueBracket, robot: &Robot) {
+    let _ = writeln!(text, "    worst gravity torque difference {}, at", worst.sentence());
+    let at = JointValues::of_robot(robot, &RobotQ::from(worst.q.clone()));
+    text.push_str(&wrapped(&at.for_people(robot)));
+}

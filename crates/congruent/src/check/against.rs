@@ -1,0 +1,159 @@
+//! A robot against another description of it: first the geometry, then, if the two are the same chain, the dynamics.
+
+use congruent_agreement::{
+    SourcePair,
+    compare::{CheckError, CheckOptions, CheckReport},
+};
+use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ, display::length_and_angle};
+use congruent_dynamics_agreement::{DynamicsReport, NamedSide};
+use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, UrdfTree};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{two_descriptions, urdf_places, urdf_side};
+
+/// The other description of a robot.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct OtherDescription {
+    /// Its robot file, or its URDF if there is none.
+    pub file: String,
+    /// Name of the robot there.
+    pub robot: String,
+    /// Why the two dynamics are not compared, with the first joint that differs; `null` if they are.
+    pub dynamics_not_compared: Option<String>,
+}
+
+/// Adds the comparison of geometry to the report, and compares dynamics if the two are the same chain.
+pub(super) fn compared(
+    geometry: &mut CheckReport,
+    (description, other): (&RobotDescription, &RobotDescription),
+    options: &CheckOptions,
+) -> Result<(OtherDescription, Option<DynamicsReport>), CheckError> {
+    let mut against = OtherDescription {
+        file: other.path.display().to_string(),
+        robot: other.robot.name().to_owned(),
+        dynamics_not_compared: other_joint(&description.robot, &other.robot),
+    };
+    if against.dynamics_not_compared.is_some() {
+        return Ok((against, None));
+    }
+    geometry.add_other(description, &mut PosesOfOther::new(&description.robot, &other.robot), options)?;
+    against.dynamics_not_compared = misplaced_joint(description, geometry);
+    if against.dynamics_not_compared.is_some() {
+        return Ok((against, None));
+    }
+    let [found, expected] = [description, other].map(urdf_side);
+    let [name, other_name] = [description, other].map(|of| of.urdf_path.display().to_string());
+    let candidate = NamedSide { name: &name, side: &found, places: urdf_places(description) };
+    let reference = NamedSide { name: &other_name, side: &expected, places: urdf_places(other) };
+    match two_descriptions(&candidate, &reference, options.seed) {
+        Ok(report) => Ok((against, Some(report))),
+        Err(error) => {
+            against.dynamics_not_compared = Some(error.to_string());
+            Ok((against, None))
+        }
+    }
+}
+
+/// The first moving joint that one of the two does not have, or that moves in another way.
+fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
+    let missing = |joint: &str, file: &str| format!("joint \"{joint}\" does not move in {file}");
+    for &index in robot.movable_joints() {
+        let joint = robot.joint(index);
+        let Some(there) = moving(other, &joint.name) else {
+            return Some(missing(&joint.name, "the other description"));
+        };
+        if other.joint(there).kind.is_angular() != joint.kind.is_angular() {
+            return Some(format!(
+                "joint \"{}\" turns in one description and slides in the other",
+                joint.name
+            ));
+        }
+    }
+    let mut others = other.movable_joint_names();
+    others
+        .find(|name| moving(robot, name).is_none())
+        .map(|name| missing(name, "this description, only in the other"))
+}
+
+fn moving(robot: &Robot, name: &str) -> Option<JointIndex> {
+    robot.find_joint(name).filter(|&joint| robot.joint(joint).kind.is_movable())
+}
+
+/// The first joint, from the base on, whose link is elsewhere.
+fn misplaced_joint(description: &RobotDescription, geometry: &CheckReport) -> Option<String> {
+    let comparison = geometry.comparisons.iter().find(|of| of.name == SourcePair::UrdfOther)?;
+    let robot = &description.robot;
+    let first = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).find_map(|joint| {
+        let worst = &comparison.links[joint.child.get()];
+        (!worst.error.is_within(&description.tolerance)).then_some((joint, worst))
+    });
+    first.map(|(joint, worst)| {
+        format!(
+            "the two are not the same chain within the tolerance: link \"{}\" of joint \"{}\" is the first that is \
+             elsewhere, by up to {}",
+            worst.link,
+            joint.name,
+            length_and_angle(worst.error.position_m, worst.error.orientation_rad)
+        )
+    })
+}
+
+/// The poses of another description at the links of a robot.
+struct PosesOfOther<'a> {
+    robot: &'a Robot,
+    tree: UrdfTree,
+    /// For each link of the robot that of the other which moves as it does; `None` for one that the other lacks.
+    links: Vec<Option<usize>>,
+    /// For each coordinate of the other that of the robot.
+    coordinates: Vec<usize>,
+    q: RobotQ,
+    poses: Vec<Pose>,
+}
+
+impl<'a> PosesOfOther<'a> {
+    /// Both have the same moving joints by name.
+    fn new(robot: &'a Robot, other: &Robot) -> Self {
+        let link = |link| {
+            let joint = robot.parent_joint(link).map(|joint| robot.joint(joint));
+            match joint.filter(|joint| joint.kind.is_movable()) {
+                Some(joint) => Some(other.joint(other.find_joint(&joint.name)?).child.get()),
+                None => Some(other.find_link(&robot.link(link).name)?.get()),
+            }
+        };
+        let coordinate = |name: &str| robot.coordinate(robot.find_joint(name)?);
+        Self {
+            tree: UrdfTree::new(other),
+            links: robot.link_indices().map(link).collect(),
+            coordinates: other.movable_joint_names().filter_map(coordinate).collect(),
+            q: RobotQ::zeros(other.dof()),
+            poses: vec![Pose::identity(); other.links().len()],
+            robot,
+        }
+    }
+}
+
+impl LinkPoses for PosesOfOther<'_> {
+    fn root_from_links_into(
+        &mut self,
+        q: &RobotQ,
+        root_from_links: &mut [Pose],
+    ) -> Result<(), LinkPosesError> {
+        for (at, &coordinate) in self.coordinates.iter().enumerate() {
+            self.q[at] = q[coordinate];
+        }
+        self.tree.root_from_links_into(&self.q, &mut self.poses)?;
+        for link in self.robot.link_indices() {
+            let parent = self.robot.parent_joint(link).map(|joint| self.robot.joint(joint));
+            root_from_links[link.get()] = match (self.links[link.get()], parent) {
+                (Some(there), _) => self.poses[there],
+                // A frame that the other lacks moves with its body.
+                (None, Some(joint)) => {
+                    root_from_links[joint.parent.get()] * Pose::from(joint.parent_from_joint)
+                }
+                (None, None) => Pose::identity(),
+            };
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,75 @@
+//! Corrections of a file as changes of its text: everything else in the line stays.
+
+use std::ops::Range;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::diagnostic::line_column;
+
+/// A part of a text, and what it becomes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TextEdit {
+    /// Byte range; empty if text is added.
+    pub span: Range<usize>,
+    /// The new text.
+    pub text: String,
+}
+
+/// Whole lines of a file, and the lines that take their place.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct ChangedLines {
+    /// The first line that is replaced, from 1.
+    pub from_line: usize,
+    /// The last one.
+    pub to_line: usize,
+    /// The new lines.
+    pub text: String,
+}
+
+/// The lines that edits change, each with all edits in it; in the order of the file.
+pub fn changed_lines(text: &str, edits: &[TextEdit]) -> Vec<ChangedLines> {
+    let mut edits: Vec<&TextEdit> = edits.iter().collect();
+    edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
+    let mut changed: Vec<(Range<usize>, String)> = Vec::new();
+    let mut written_to = 0;
+    for TextEdit { span, text: new } in edits {
+        let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
+        match changed.last_mut() {
+            Some((lines, so_far)) if start < lines.end => {
+                so_far.push_str(&text[written_to..span.start]);
+                lines.end = lines.end.max(line_end(text, span.end) + 1);
+            }
+            _ => {
+                if let Some((lines, so_far)) = changed.last_mut() {
+                    so_far.push_str(&text[written_to..lines.end - 1]);
+                }
+                let lines = start..line_end(text, span.end) + 1;
+                changed.push((lines, text[start..span.start].to_owned()));
+            }
+        }
+        if let Some((_, so_far)) = changed.last_mut() {
+            so_far.push_str(new);
+        }
+        written_to = span.end;
+    }
+    if let Some((lines, so_far)) = changed.last_mut() {
+        so_far.push_str(&text[written_to..lines.end - 1]);
+    }
+    let line = |at: usize| line_column(text, at).0;
+    changed
+        .into_iter()
+        .map(|(lines, new)| ChangedLines {
+            from_line: line(lines.start),
+            to_line: line(lines.end - 1),
+            text: new,
+        })
+        .collect()
+}
+
+/// Where the line of a place ends.
+pub(crate) fn line_end(text: &str, from: usize) -> usize {
+    let rest = &text[from..];
+    let end = rest.find('\n').unwrap_or(rest.len());
+    from + rest[..end].trim_end_matches('\r').len()
+}

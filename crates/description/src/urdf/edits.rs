@@ -1,0 +1,211 @@
+//! Corrections of a URDF's `<inertial>` and `<dynamics>` as changes of its text: values that stay keep their form.
+
+use nalgebra::Isometry3;
+use roxmltree::Node;
+
+use super::{
+    UrdfPlaces,
+    node::{element, last, tag},
+};
+use crate::{
+    edits::TextEdit,
+    model::Inertia,
+    written::{
+        number::significant,
+        rpy::{rotation_from_rpy_fixed_xyz, rpy_fixed_xyz_rad},
+    },
+    xml,
+};
+
+/// A rotation that is written stays if it is nearer than this. Unit: rad; kind: rounding of angles.
+const SAME_ROTATION_RAD: f64 = 1e-12;
+
+/// The entries of a tensor, by row and column.
+const MOMENTS: [(&str, usize, usize); 6] =
+    [("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2)];
+
+impl UrdfPlaces {
+    /// The edits after which a link has this inertia; none if there is no such link.
+    pub fn set_inertia(&self, link: &str, inertia: &Inertia) -> Vec<TextEdit> {
+        let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };
+        let Some(link) = last(document.root_element(), "link", link) else { return Vec::new() };
+        let Some(inertial) = element(link, "inertial") else {
+            let origin = new_element("origin", &[("xyz", xyz(inertia)), ("rpy", rpy(inertia))]);
+            let mass = new_element("mass", &[("value", significant(inertia.mass_kg))]);
+            let tensor = new_element("inertia", &moments(inertia));
+            return vec![inserted(link, &format!("<inertial>{origin}{mass}{tensor}</inertial>"))];
+        };
+        let mut edits = Vec::new();
+        let mut origin = Vec::new();
+        let written = element(inertial, "origin");
+        let attribute = |name: &str| written.and_then(|origin| origin.attribute(name));
+        let com = inertia.link_from_inertial.translation.vector;
+        if nalgebra::Vector3::from(triple(attribute("xyz"))) != com {
+            origin.push(("xyz", xyz(inertia)));
+        }
+        let rotation = rotation_from_rpy_fixed_xyz(triple(attribute("rpy")));
+        if rotation.angle_to(&inertia.link_from_inertial.rotation) > SAME_ROTATION_RAD {
+            origin.push(("rpy", rpy(inertia)));
+        }
+        set(&mut edits, inertial, "origin", &origin);
+        set(&mut edits, inertial, "mass", &changed(inertial, "mass", &[("value", inertia.mass_kg)]));
+        let tensor = MOMENTS.map(|(name, row, column)| (name, inertia.tensor_kg_m2[(row, column)]));
+        set(&mut edits, inertial, "inertia", &changed(inertial, "inertia", &tensor));
+        edits
+    }
+
+    /// The edits after which a joint has these values of damping and friction; none if there is no such joint.
+    pub fn set_joint_dynamics(&self, joint: &str, damping: f64, friction: f64) -> Vec<TextEdit> {
+        let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };
+        let Some(joint) = last(document.root_element(), "joint", joint) else { return Vec::new() };
+        let mut edits = Vec::new();
+        let values = changed(joint, "dynamics", &[("damping", damping), ("friction", friction)]);
+        set(&mut edits, joint, "dynamics", &values);
+        edits
+    }
+}
+
+type Attribute = (&'static str, String);
+
+/// The attributes of a child element that have another value; what is not written is zero.
+fn changed(parent: Node<'_, '_>, child: &str, values: &[(&'static str, f64)]) -> Vec<Attribute> {
+    let written = element(parent, child);
+    let value = |name: &str| written?.attribute(name)?.trim().parse::<f64>().ok();
+    let other =
+        values.iter().filter(|(name, new)| value(name).unwrap_or(0.0).total_cmp(&(new + 0.0)).is_ne());
+    other.map(|(name, new)| (*name, significant(*new))).collect()
+}
+
+/// Sets attributes of a child element, which is added if it is missing.
+fn set(edits: &mut Vec<TextEdit>, parent: Node<'_, '_>, child: &str, attributes: &[Attribute]) {
+    if attributes.is_empty() {
+        return;
+    }
+    let Some(node) = element(parent, child) else {
+        edits.push(inserted(parent, &new_element(child, attributes)));
+        return;
+    };
+    for (name, value) in attributes {
+        let written = node.attributes().find(|attribute| attribute.name() == *name);
+        edits.push(match written {
+            Some(attribute) => TextEdit { span: attribute.range_value(), text: value.clone() },
+            None => {
+                let end = tag(node).end;
+                TextEdit { span: end..end, text: format!(" {name}=\"{value}\"") }
+            }
+        });
+    }
+}
+
+fn new_element(name: &str, attributes: &[Attribute]) -> String {
+    let attributes: Vec<String> =
+        attributes.iter().map(|(name, value)| format!(" {name}=\"{value}\"")).collect();
+    format!("<{name}{}/>", attributes.concat())
+}
+
+/// A text as the first child of an element.
+fn inserted(parent: Node<'_, '_>, text: &str) -> TextEdit {
+    let range = parent.range();
+    if let Some(child) = parent.first_child() {
+        let start = child.range().start;
+        return TextEdit { span: start..start, text: text.to_owned() };
+    }
+    let name = parent.tag_name().name();
+    let whole = &parent.document().input_text()[range.clone()];
+    match whole.strip_suffix("/>") {
+        Some(start) => TextEdit {
+            span: range.start + start.trim_end().len()..range.end,
+            text: format!(">{text}</{name}>"),
+        },
+        None => {
+            let start = range.start + whole.find('>').map_or(whole.len(), |at| at + 1);
+            TextEdit { span: start..start, text: text.to_owned() }
+        }
+    }
+}
+
+/// Three numbers of an attribute; zeros if they are not written, as URDF has it.
+fn triple(written: Option<&str>) -> [f64; 3] {
+    let mut numbers = written.unwrap_or_default().split_whitespace().map(|word| word.parse().unwrap_or(0.0));
+    std::array::from_fn(|_| numbers.next().unwrap_or(0.0))
+}
+
+fn xyz(inertia: &Inertia) -> String {
+    inertia
+        .link_from_inertial
+        .translation
+        .vector
+        .iter()
+        .map(|value| significant(*value))
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+fn rpy(inertia: &Inertia) -> String {
+    let turn = Isometry3::from_parts(nalgebra::Translation3::identity(), inertia.link_from_inertial.rotation);
+    rpy_fixed_xyz_rad(&turn).map(significant).join(" ")
+}
+
+fn moments(inertia: &Inertia) -> Vec<Attribute> {
+    MOMENTS.map(|(name, row, column)| (name, significant(inertia.tensor_kg_m2[(row, column)]))).to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use nalgebra::{Matrix3, Vector3};
+
+    use super::*;
+    use crate::{diagnostic::SourceFile, edits::changed_lines, urdf::parse_urdf};
+
+    const TEXT: &str = "<robot name='two'>\n<link name='a'/>\n<link name='b'>\n<inertial>\n<mass value='2'/>\n\
+        <inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1.0'/>\n</inertial>\n</link>\n<link name='c'/>\n\
+        <joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint>\n\
+        <joint name='k' type='continuous'><parent link='b'/><child link='c'/></joint>\n</robot>\n";
+
+    fn inertia() -> Inertia {
+        Inertia {
+            mass_kg: 3.0,
+            link_from_inertial: Isometry3::new(Vector3::new(0.1, 0.0, -0.25), Vector3::new(0.5, 0.0, 0.0)),
+            tensor_kg_m2: Matrix3::new(0.5, 0.1, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0, 1.0),
+        }
+    }
+
+    fn applied(edits: &[TextEdit]) -> String {
+        let mut lines: Vec<String> = TEXT.lines().map(str::to_owned).collect();
+        for change in changed_lines(TEXT, edits).into_iter().rev() {
+            lines.splice(change.from_line - 1..change.to_line, [change.text]);
+        }
+        lines.join("\n") + "\n"
+    }
+
+    #[test]
+    fn a_corrected_inertial_is_read_back() {
+        let source = SourceFile { path: "two.urdf".into(), text: TEXT.to_owned() };
+        let places = UrdfPlaces::new(Arc::new(source));
+        for link in ["b", "c"] {
+            let text = applied(&places.set_inertia(link, &inertia()));
+            let robot = parse_urdf(&text).unwrap_or_else(|found| panic!("{text}\n{found:#?}"));
+            let read = robot.link(robot.find_link(link).unwrap()).inertia.unwrap();
+            assert_eq!(read.tensor_kg_m2, inertia().tensor_kg_m2, "{text}");
+            assert_eq!(read.mass_kg, 3.0);
+            let apart = read.link_from_inertial.inverse() * inertia().link_from_inertial;
+            assert!(apart.translation.vector.norm() + apart.rotation.angle() < 1e-11, "{text}");
+        }
+        // What stays keeps its form.
+        assert!(applied(&places.set_inertia("b", &inertia())).contains("izz='1.0'"));
+        assert_eq!(places.set_inertia("nobody", &inertia()), []);
+    }
+
+    #[test]
+    fn a_corrected_joint_is_read_back() {
+        let source = SourceFile { path: "two.urdf".into(), text: TEXT.to_owned() };
+        let places = UrdfPlaces::new(Arc::new(source));
+        let text = applied(&places.set_joint_dynamics("k", 0.5, 0.25));
+        let robot = parse_urdf(&text).unwrap();
+        let joint = robot.joint(robot.find_joint("k").unwrap());
+        assert_eq!((joint.damping, joint.friction), (0.5, 0.25), "{text}");
+        assert_eq!(places.set_joint_dynamics("k", 0.0, 0.0), []);
+    }
+}

@@ -1,0 +1,136 @@
+//! Where a file says a figure, and how its text becomes another one.
+
+use std::{fmt::Debug, ops::Range};
+
+use congruent_description::{
+    ChangedLines, Inertia, SourceFile, TextEdit, UrdfPlaces, changed_lines, line_column,
+};
+use congruent_dynamics::JointResistance;
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
+
+use crate::{
+    compare::{FigureDifference, LimitDifference},
+    side::Inertial,
+    thresholds::{SAME_FIGURE, ZERO_FIGURE},
+};
+
+/// A file that says figures of links, joints or gravity.
+pub trait FigurePlaces: Debug {
+    /// The file.
+    fn source(&self) -> &SourceFile;
+
+    /// Place of a figure, such as `mass` or `com_x`, of a link, of a joint, or of gravity, which has no name.
+    fn figure(&self, of: &str, figure: &str) -> Option<Range<usize>>;
+
+    /// The edits after which a link has these figures; empty if the file cannot say them.
+    fn set_inertial(&self, link: &str, figures: &Inertial) -> Vec<TextEdit>;
+
+    /// The edits after which a joint has these terms; empty if the file cannot say them.
+    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Vec<TextEdit>;
+
+    /// The edits after which gravity is this; empty if the file cannot say it.
+    fn set_gravity(&self, gravity_m_s2: &Vector3<f64>) -> Vec<TextEdit>;
+}
+
+impl dyn FigurePlaces + '_ {
+    fn line(&self, of: &str, figure: &str) -> Option<usize> {
+        let at = self.figure(of, figure)?;
+        Some(line_column(&self.source().text, at.start).0)
+    }
+
+    pub(super) fn lines(&self, edits: &[TextEdit]) -> Vec<ChangedLines> {
+        changed_lines(&self.source().text, edits)
+    }
+}
+
+/// The files of the two sides; `None` if the places are not known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Files<'a> {
+    pub(super) found: Option<&'a dyn FigurePlaces>,
+    pub(super) expected: Option<&'a dyn FigurePlaces>,
+}
+
+impl Files<'_> {
+    pub(super) fn place(&self, differences: &mut [FigureDifference]) {
+        for difference in differences {
+            let line = |file: Option<&dyn FigurePlaces>| file?.line(&difference.of, &difference.figure);
+            (difference.line, difference.expected_line) = (line(self.found), line(self.expected));
+        }
+    }
+
+    pub(super) fn place_limits(&self, differences: &mut [LimitDifference]) {
+        for difference in differences {
+            let line = |file: Option<&dyn FigurePlaces>| file?.line(&difference.joint, &difference.figure);
+            (difference.line, difference.expected_line) = (line(self.found), line(self.expected));
+        }
+    }
+}
+
+impl FigurePlaces for UrdfPlaces {
+    fn source(&self) -> &SourceFile {
+        UrdfPlaces::source(self)
+    }
+
+    fn figure(&self, of: &str, figure: &str) -> Option<Range<usize>> {
+        match figure {
+            "mass" => self.inertial_part(of, "mass"),
+            "com_x" | "com_y" | "com_z" => self.inertial_part(of, "origin"),
+            "ixx" | "ixy" | "ixz" | "iyy" | "iyz" | "izz" => self.inertial_part(of, "inertia"),
+            "damping" | "friction" | "armature" => self.joint_dynamics(of),
+            "velocity" | "effort" | "lower" | "upper" => self.joint_limit(of),
+            _ => None,
+        }
+    }
+
+    fn set_inertial(&self, link: &str, figures: &Inertial) -> Vec<TextEdit> {
+        let rotation = Rotation3::from_matrix_unchecked(figures.link_from_axes);
+        let inertia = Inertia {
+            mass_kg: figures.mass_kg,
+            link_from_inertial: Isometry3::from_parts(
+                Translation3::from(figures.com_m),
+                UnitQuaternion::from_rotation_matrix(&rotation),
+            ),
+            tensor_kg_m2: figures.tensor_kg_m2,
+        };
+        self.set_inertia(link, &inertia)
+    }
+
+    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Vec<TextEdit> {
+        self.set_joint_dynamics(joint, terms.damping, terms.friction)
+    }
+
+    fn set_gravity(&self, _: &Vector3<f64>) -> Vec<TextEdit> {
+        Vec::new()
+    }
+}
+
+/// Corrected figures as they are worth writing: what is the same but for rounding stays as it is written, and what is
+/// zero but for rounding is zero.
+pub(super) fn without_rounding(written: Option<&Inertial>, corrected: &Inertial) -> Inertial {
+    let nothing = Inertial::nothing();
+    let written = written.unwrap_or(&nothing);
+    let kept = |old: f64, new: f64, size: f64| match new {
+        _ if (old - new).abs() <= SAME_FIGURE * size => old,
+        _ if new.abs() <= ZERO_FIGURE * size => 0.0,
+        _ => new,
+    };
+    let mass = written.mass_kg.abs().max(corrected.mass_kg.abs());
+    let length = corrected.com_m.amax();
+    let mut figures = Inertial {
+        mass_kg: kept(written.mass_kg, corrected.mass_kg, mass),
+        com_m: written.com_m.zip_map(&corrected.com_m, |old, new| kept(old, new, length)),
+        ..*corrected
+    };
+    let size = corrected.tensor_kg_m2.amax();
+    figures.tensor_kg_m2 = if written.link_from_axes == corrected.link_from_axes {
+        written.tensor_kg_m2.zip_map(&corrected.tensor_kg_m2, |old, new| kept(old, new, size))
+    } else {
+        corrected.tensor_kg_m2.map(|new| kept(0.0, new, size))
+    };
+    // Both halves of the tensor are rounded alike.
+    figures.tensor_kg_m2 = Matrix3::from_fn(|row, column| {
+        let at = if row <= column { (row, column) } else { (column, row) };
+        figures.tensor_kg_m2[at]
+    });
+    figures
+}
