@@ -17,9 +17,11 @@ pub struct Setpoint<'a> {
     pub q: &'a RobotQ,
     /// Velocities, rad/s or m/s.
     pub qd: &'a [f64],
+    /// Accelerations, rad/s^2 or m/s^2.
+    pub qdd: &'a [f64],
 }
 
-/// The state that the sensors of the joints give, shaped as [`Setpoint`].
+/// The state that the sensors of the joints give: one entry for each movable joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredState<'a> {
     /// Positions, rad or m.

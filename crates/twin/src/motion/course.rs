@@ -35,11 +35,13 @@ pub struct JointMove {
 }
 
 impl JointMove {
-    /// Writes positions and velocities at a progress of the move.
-    pub(super) fn at(&self, progress: Progress, q: &mut RobotQ, qd: &mut [f64]) {
-        for ((q, qd), (from, to)) in q.iter_mut().zip(qd).zip(self.from.iter().zip(&self.to)) {
-            *q = from + (to - from) * progress.share;
-            *qd = (to - from) * progress.share_per_s;
+    /// Writes positions, velocities and accelerations at a progress of the move.
+    pub(super) fn at(&self, progress: Progress, q: &mut RobotQ, qd: &mut [f64], qdd: &mut [f64]) {
+        for (joint, (from, to)) in self.from.iter().zip(&self.to).enumerate() {
+            let way = to - from;
+            q[joint] = from + way * progress.share;
+            qd[joint] = way * progress.share_per_s;
+            qdd[joint] = way * progress.share_per_s2;
         }
     }
 }

@@ -22,6 +22,7 @@ pub struct ReferenceGenerator<'a> {
     time_s: f64,
     q: RobotQ,
     qd: Vec<f64>,
+    qdd: Vec<f64>,
     servo_results: Vec<ServoResult>,
 }
 
@@ -41,8 +42,9 @@ impl<'a> ReferenceGenerator<'a> {
 
     pub(super) fn with(trajectory: &'a Trajectory, servo_controller: Option<ServoController<'a>>) -> Self {
         let q = trajectory.start.clone();
-        let qd = vec![0.0; q.len()];
-        Self { trajectory, servo_controller, current: None, time_s: 0.0, q, qd, servo_results: Vec::new() }
+        let [qd, qdd] = [vec![0.0; q.len()], vec![0.0; q.len()]];
+        let (current, servo_results) = (None, Vec::new());
+        Self { trajectory, servo_controller, current, time_s: 0.0, q, qd, qdd, servo_results }
     }
 
     /// The desired positions, rad or m, one entry for each movable joint.
@@ -53,6 +55,11 @@ impl<'a> ReferenceGenerator<'a> {
     /// The desired velocities, rad/s or m/s, likewise.
     pub fn qd(&self) -> &[f64] {
         &self.qd
+    }
+
+    /// The desired accelerations, rad/s^2 or m/s^2, likewise; zero in a servo.
+    pub fn qdd(&self) -> &[f64] {
+        &self.qdd
     }
 
     /// Computes the setpoint for `time_s`, which is later than the last; `measured_q` are the positions one step
@@ -71,12 +78,13 @@ impl<'a> ReferenceGenerator<'a> {
         match &motion.course {
             Course::Joints(joints) => {
                 let progress = joints.profile.at(time_s - starts_s, motion.duration_s);
-                joints.at(progress, &mut self.q, &mut self.qd);
+                joints.at(progress, &mut self.q, &mut self.qd, &mut self.qdd);
             }
             Course::Servo(servo) => {
                 // The part of this step that lies within the motion.
                 let [from_s, to_s] =
                     [before_s, time_s].map(|time_s| (time_s - starts_s).clamp(0.0, motion.duration_s));
+                self.qdd.fill(0.0);
                 let interval = StepInterval { step_s: time_s - before_s, moved_s: to_s - from_s };
                 needed(&mut self.servo_controller).advance(
                     servo,

@@ -3,13 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Position and rate of a motion at one instant, both as a share of the whole way.
+/// Position, rate and acceleration of a motion at one instant, each as a share of the whole way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// 0 at the start, 1 at the end.
     pub share: f64,
     /// Change of `share` per second.
     pub share_per_s: f64,
+    /// Change of `share_per_s` per second.
+    pub share_per_s2: f64,
 }
 
 /// The profile of a motion.
@@ -37,19 +39,25 @@ impl Profile {
     pub fn at(self, elapsed_s: f64, duration_s: f64) -> Progress {
         let s = elapsed_s / duration_s;
         if s <= 0.0 {
-            return Progress { share: 0.0, share_per_s: 0.0 };
+            return Progress { share: 0.0, share_per_s: 0.0, share_per_s2: 0.0 };
         }
         if s >= 1.0 {
-            return Progress { share: 1.0, share_per_s: 0.0 };
+            return Progress { share: 1.0, share_per_s: 0.0, share_per_s2: 0.0 };
         }
-        let (share, rate) = match self {
-            Self::Quintic => {
-                (s * s * s * (10.0 + s * (6.0 * s - 15.0)), 30.0 * s * s * (1.0 - s) * (1.0 - s))
-            }
-            Self::Cubic => (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s)),
-            Self::Linear => (s, 1.0),
+        let (share, rate, acceleration) = match self {
+            Self::Quintic => (
+                s * s * s * (10.0 + s * (6.0 * s - 15.0)),
+                30.0 * s * s * (1.0 - s) * (1.0 - s),
+                60.0 * s * (1.0 - s) * (1.0 - 2.0 * s),
+            ),
+            Self::Cubic => (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s), 6.0 - 12.0 * s),
+            Self::Linear => (s, 1.0, 0.0),
         };
-        Progress { share, share_per_s: rate / duration_s }
+        Progress {
+            share,
+            share_per_s: rate / duration_s,
+            share_per_s2: acceleration / (duration_s * duration_s),
+        }
     }
 }
 
@@ -73,6 +81,8 @@ mod tests {
                     [at_s - h_s, at_s, at_s + h_s].map(|at_s| profile.at(at_s, duration_s));
                 let difference = (after.share - before.share) / (2.0 * h_s);
                 assert!((now.share_per_s - difference).abs() < RATE_PER_S, "{profile:?} at {at_s}");
+                let difference = (after.share_per_s - before.share_per_s) / (2.0 * h_s);
+                assert!((now.share_per_s2 - difference).abs() < RATE_PER_S, "{profile:?} at {at_s}");
                 assert!(after.share > before.share, "{profile:?} turns back at {at_s}");
             }
         }
@@ -82,7 +92,11 @@ mod tests {
     fn before_and_after_it_rests() {
         for profile in ALL {
             for (at_s, share) in [(-1.0, 0.0), (0.0, 0.0), (2.5, 1.0), (9.0, 1.0)] {
-                assert_eq!(profile.at(at_s, 2.5), Progress { share, share_per_s: 0.0 }, "{profile:?}");
+                assert_eq!(
+                    profile.at(at_s, 2.5),
+                    Progress { share, share_per_s: 0.0, share_per_s2: 0.0 },
+                    "{profile:?}"
+                );
             }
         }
     }

@@ -3,13 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::{
-    Diagnostic, Diagnostics, JointKind, Robot, RobotDescription, RobotQ, RosPackages, Use, load_robot_with,
+    Diagnostic, Diagnostics, Joint, JointKind, Robot, RobotDescription, RobotQ, RosPackages, Use,
+    load_robot_with,
 };
+use congruent_dynamics::JointResistance;
 use congruent_kinematics::move_inside_limits;
 use congruent_simulation::{Gains, Obstacle, controller_names};
 
 use super::{
     clock::RunClock,
+    declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
     numbers,
     payload::Payload,
@@ -50,6 +53,8 @@ pub struct RunSetup {
     pub zones: Vec<Zone>,
     /// What links carry for a time, in addition to their own masses: known to controllers and checks.
     pub payloads: Vec<Payload>,
+    /// What resists each moving joint: known to controllers and checks.
+    pub resistances: Vec<JointResistance>,
     /// What is suspicious in the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
     check_lines: Vec<Option<usize>>,
@@ -155,6 +160,14 @@ impl RunSetup {
         let check_lines = (0..scenario.check.len()).map(line).collect();
         write_out_defaults(&mut scenario, &description, (&clock, &start));
         let path = None;
+        let robot = &description.robot;
+        let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+        let resistance = |joint: &Joint| JointResistance {
+            damping: joint.damping,
+            friction: joint.friction,
+            armature: 0.0,
+        };
+        let resistances = joints.map(resistance).collect();
         Ok(Self {
             scenario,
             path,
@@ -166,6 +179,7 @@ impl RunSetup {
             obstacles,
             zones,
             payloads: Vec::new(),
+            resistances,
             warnings,
             check_lines,
         })
@@ -184,6 +198,13 @@ impl RunSetup {
     pub fn checks(&self) -> Vec<RunningCheck> {
         let checks = self.scenario.check.iter().zip(&self.check_lines);
         checks.map(|(check, &line)| RunningCheck::new(check, line, &self.description)).collect()
+    }
+
+    /// The declared dynamics: resistances, gravity and payloads are those of the scenario, whatever a fault changes in
+    /// the physics.
+    pub fn declared_dynamics(&self) -> DeclaredDynamics<'_> {
+        let gravity = self.clock.gravity_in_world;
+        DeclaredDynamics::new(&self.description.robot, &self.payloads, &self.resistances, gravity)
     }
 
     /// The gains of the controller.

@@ -107,7 +107,7 @@ impl Stepped {
         let mut found = [const { Vec::new() }; 3];
         for ((world, found), share) in self.worlds.iter_mut().zip(&mut found).zip(SHARES) {
             world.set_state(state.q, state.qd)?;
-            world.step(&mut torques, &Setpoint { q: state.q, qd: state.qd })?;
+            world.step(&mut torques, &Setpoint { q: state.q, qd: state.qd, qdd: state.tau })?;
             let step_s = self.step_s * share;
             found.extend(world.qd().iter().zip(state.qd).map(|(after, before)| (after - before) / step_s));
         }
