@@ -1,6 +1,6 @@
 //! What is bounded of a function with several values.
 
-use super::speeds::{Form, FormRange, Interval, entries, gap};
+use super::speeds::{Form, FormRange, Interval, gap};
 
 /// A convex function of several values.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,11 +68,6 @@ impl Measure {
 }
 
 impl Motion {
-    /// How many values it is of.
-    pub(super) fn values(&self) -> usize {
-        usize::from(self.gravity) + self.accelerations + entries(self.speeds)
-    }
-
     /// Gravity, accelerations, products of speeds.
     fn parts<'a>(&self, values: &'a [f64]) -> (f64, &'a [f64], Form<'a>) {
         let (gravity, rest) = values.split_at(usize::from(self.gravity));

@@ -11,6 +11,11 @@ pub(super) fn entries(speeds: usize) -> usize {
     speeds * (speeds + 1) / 2
 }
 
+/// Where the row of a speed would begin if it had all entries: that of column `k >= j` is so many further.
+pub(super) fn row(speeds: usize, j: usize) -> usize {
+    j * speeds - j * (j + 1) / 2
+}
+
 /// A symmetric form `sum a_jk x_j x_k` over `j <= k`, by rows.
 #[derive(Clone, Copy)]
 pub(super) struct Form<'a> {
@@ -35,7 +40,7 @@ impl Form<'_> {
     /// Of `x_j x_k`; twice that of `x_k x_j` in the matrix, but for squares.
     fn coefficient(&self, j: usize, k: usize) -> f64 {
         let (j, k) = (j.min(k), j.max(k));
-        self.coefficients[j * self.speeds - j * (j + 1) / 2 + k]
+        self.coefficients[row(self.speeds, j) + k]
     }
 
     /// Coefficient of a square.

@@ -97,7 +97,7 @@ pub(super) struct Trigonometric {
 }
 
 impl Trigonometric {
-    /// Finds the coefficients from values at `(variable, position)` of each; joints without effect are left out.
+    /// Finds the coefficients from values at positions of all variables; joints without effect are left out.
     pub(super) fn sampled(
         variables: Vec<Variable>,
         (values, measure): (usize, Measure),
@@ -120,6 +120,16 @@ impl Trigonometric {
             coefficients = along(&coefficients, (&mut sizes, values), at, &variable.coefficient_rows());
         }
         let mut function = Self { variables, values, measure, coefficients, slack: 0.0 };
+        function.reduce();
+        function
+    }
+
+    /// The function of some of the values alone, which stand side by side.
+    pub(super) fn selected(&self, values: std::ops::Range<usize>, measure: Measure) -> Self {
+        let of_all = self.coefficients.chunks_exact(self.values);
+        let coefficients = of_all.flat_map(|all| all[values.clone()].iter().copied()).collect();
+        let (variables, values) = (self.variables.clone(), values.len());
+        let mut function = Self { variables, values, measure, coefficients, slack: self.slack };
         function.reduce();
         function
     }
