@@ -108,7 +108,9 @@ impl<'a> Rows<'a> {
         for first in 0..products {
             for second in (0..=first).rev() {
                 qd.fill(0.0);
-                [first, second].map(|at| qd[moving[at]] = self.covered[moving[at]].speed);
+                for at in [first, second] {
+                    qd[moving[at]] = self.covered[moving[at]].speed;
+                }
                 self.difference.bias_into(q, qd, buffer, &mut tau[0])?;
                 for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
                     let squares = if first == second {

@@ -187,21 +187,33 @@ pub(super) fn along(
     at: usize,
     rows: &[Vec<f64>],
 ) -> Vec<f64> {
+    let mut result = Vec::new();
+    along_into(array, (sizes, values), (at, rows), &mut result);
+    result
+}
+
+/// The same into memory that is used again.
+pub(super) fn along_into(
+    array: &[f64],
+    (sizes, values): (&mut [usize], usize),
+    (at, rows): (usize, &[Vec<f64>]),
+    result: &mut Vec<f64>,
+) {
     let before: usize = sizes[..at].iter().product();
     let after: usize = sizes[at + 1..].iter().product::<usize>() * values;
     let size = sizes[at];
-    let mut result = vec![0.0; before * rows.len() * after];
+    result.clear();
+    result.resize(before * rows.len() * after, 0.0);
     for outer in 0..before {
         for (row_at, row) in rows.iter().enumerate() {
             let target = &mut result[(outer * rows.len() + row_at) * after..][..after];
-            for (entry, factor) in row.iter().enumerate() {
+            for (entry, factor) in row.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
                 let source = &array[(outer * size + entry) * after..][..after];
                 target.iter_mut().zip(source).for_each(|(target, source)| *target += factor * source);
             }
         }
     }
     sizes[at] = rows.len();
-    result
 }
 
 #[cfg(test)]
