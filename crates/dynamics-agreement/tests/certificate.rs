@@ -145,7 +145,9 @@ fn no_motion_exceeds_what_is_certified() {
         ("ur5e", "upper_arm_link"),
         ("ur5e", "forearm_link"),
         ("ur5e", "wrist_2_link"),
+        ("ur5e", "wrist_3_link"),
         ("panda", "panda_link4"),
+        ("panda", "panda_hand"),
     ] {
         let reference = load(robot);
         let mut candidate = reference.clone();
@@ -156,4 +158,48 @@ fn no_motion_exceeds_what_is_certified() {
         let all = check(&format!("{robot} {link}"), &candidate, &reference);
         assert!(all.velocity.worst.is_some() && all.together.worst.is_some());
     }
+}
+
+#[test]
+fn damping_friction_armature_and_gravity_are_in_it() {
+    let reference = load("ur5e");
+    let mut candidate = reference.clone();
+    let elbow = candidate.frames().find_joint("elbow_joint").expect("a joint");
+    candidate.resistances[elbow] = JointResistance { damping: 0.5, friction: 2.0, armature: 0.3 };
+    let all = check("joint terms", &candidate, &reference);
+    let [together] = &all.together.by_joint[..] else { panic!("{:?}", all.together) };
+    let speed = all.covered[elbow].speed;
+    let expected = 0.5 * speed + 2.0 + 0.3 * 10.0;
+    assert!((together.attained_n_m - expected).abs() < 1e-9, "{together:?}, {expected} expected");
+    assert!((together.certified_n_m - expected).abs() < 1e-9, "{together:?}, {expected} expected");
+    // Friction against damping: the most is one of the two.
+    candidate.resistances[elbow].damping = -0.5;
+    candidate.largest_accelerations.fill(0.0);
+    let all = check("friction against damping", &candidate, &reference);
+    let [together] = &all.together.by_joint[..] else { panic!("{:?}", all.together) };
+    assert!((together.certified_n_m - 2.0).abs() < 1e-9, "{together:?}");
+    candidate = reference.clone();
+    candidate.gravity_m_s2 = [0.0, -9.81, 0.0].into();
+    let all = check("gravity", &candidate, &reference);
+    assert!(all.inertia.worst.is_none() && all.velocity.worst.is_none());
+    assert_eq!(all.together.by_joint.len(), all.gravity.by_joint.len());
+    // With a fault of a link beside it.
+    figures(&mut candidate, "forearm_link").mass_kg *= 1.1;
+    check("gravity and a link", &candidate, &reference);
+}
+
+#[test]
+fn speeds_and_accelerations_are_those_that_are_stated() {
+    let reference = load("ur5e");
+    let mut candidate = reference.clone();
+    candidate.limits[1].as_mut().expect("a limit").velocity = Some(180.0);
+    candidate.limits[2].as_mut().expect("a limit").velocity = Some(0.0);
+    candidate.largest_accelerations[3] = 25.0;
+    let mut other = reference.clone();
+    other.limits[2].as_mut().expect("a limit").velocity = None;
+    let all = certified(&candidate, &other);
+    assert!((all.covered[1].speed - std::f64::consts::PI).abs() < 1e-9 && all.covered[1].speed_is_stated);
+    assert!((all.covered[2].speed - 2.0).abs() < 1e-9 && !all.covered[2].speed_is_stated);
+    assert!((all.covered[3].acceleration - 25.0).abs() < 1e-9);
+    assert!(all.together.worst.is_none());
 }

@@ -82,10 +82,4 @@ impl TorqueCertificate {
         let is_worst = |bracket: &&TorqueBracket| bracket.attained_n_m >= largest * (1.0 - SAME_FIGURE);
         Self { worst: by_joint.iter().find(is_worst).cloned(), by_joint }
     }
-
-    /// What is certified for a joint; zero if it has no difference.
-    pub(super) fn certified(&self, joint: &str) -> f64 {
-        let bracket = self.by_joint.iter().find(|bracket| bracket.joint == joint);
-        bracket.map_or(0.0, |bracket| bracket.certified_n_m)
-    }
 }

@@ -1,6 +1,6 @@
 //! What is bounded of a function with several values.
 
-use super::speeds::{Form, FormRange, Interval, entries, gap};
+use super::speeds::{Form, FormRange, Interval, gap};
 
 /// A convex function of several values.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,13 +52,20 @@ impl Measure {
         }
     }
 
-    /// From above, over a box of speeds, if that is more than `least`.
-    pub(super) fn above(self, values: &[f64], speeds: &[Interval], least: f64) -> Option<Upper> {
-        let upper = match self {
-            Self::Motion(motion) => motion.above(values, speeds, least)?,
+    /// From above, over a box of speeds.
+    pub(super) fn above(self, values: &[f64], speeds: &[Interval]) -> Upper {
+        match self {
+            Self::Motion(motion) => motion.above(values, speeds),
             _ => Upper { value: self.of(values), loose: None },
-        };
-        (upper.value > least).then_some(upper)
+        }
+    }
+
+    /// The same or more, with little work.
+    pub(super) fn roughly_above(self, values: &[f64], speeds: &[Interval]) -> f64 {
+        match self {
+            Self::Motion(motion) => motion.roughly_above(values, speeds),
+            _ => self.of(values),
+        }
     }
 
     /// How many speeds may be divided.
@@ -68,11 +75,6 @@ impl Measure {
 }
 
 impl Motion {
-    /// How many values it is of.
-    pub(super) fn values(&self) -> usize {
-        usize::from(self.gravity) + self.accelerations + entries(self.speeds)
-    }
-
     /// Gravity, accelerations, products of speeds.
     fn parts<'a>(&self, values: &'a [f64]) -> (f64, &'a [f64], Form<'a>) {
         let (gravity, rest) = values.split_at(usize::from(self.gravity));
@@ -97,14 +99,9 @@ impl Motion {
         }
     }
 
-    fn above(&self, values: &[f64], intervals: &[Interval], least: f64) -> Option<Upper> {
+    fn above(&self, values: &[f64], intervals: &[Interval]) -> Upper {
         let (gravity, accelerations, form) = self.parts(values);
         let pushed = accelerations.iter().map(|value| value.abs()).sum::<f64>() + self.resistance;
-        let crude: f64 = form.coefficients.iter().map(|value| value.abs()).sum();
-        // No speed is more than its limit; a square is bounded by the chord and what this is short of.
-        if gravity.abs() + pushed + 2.0 * crude <= least {
-            return None;
-        }
         let FormRange { least, most, below, above } = form.range(intervals);
         let (up, down) = (gravity + most + above, below - gravity - least);
         let sign = if up >= down { 1.0 } else { -1.0 };
@@ -113,6 +110,13 @@ impl Motion {
             .map(|j| (j, looseness(j)))
             .filter(|(_, by)| *by > 0.0)
             .max_by(|a, b| a.1.total_cmp(&b.1));
-        Some(Upper { value: up.max(down) + pushed, loose })
+        Upper { value: up.max(down) + pushed, loose }
+    }
+
+    fn roughly_above(&self, values: &[f64], intervals: &[Interval]) -> f64 {
+        let (gravity, accelerations, form) = self.parts(values);
+        let pushed = accelerations.iter().map(|value| value.abs()).sum::<f64>() + self.resistance;
+        let [up, down] = form.rough_range(intervals);
+        (gravity + up).max(down - gravity) + pushed
     }
 }

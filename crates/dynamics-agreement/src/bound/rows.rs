@@ -9,8 +9,8 @@ use nalgebra::{DMatrix, Vector3};
 
 use super::{
     bracket::AttainedAt,
-    measure::Motion,
     motion_range::{CoveredMotion, covered_motions},
+    speeds::{entries, row},
     ways::Ways,
 };
 use crate::{side::Side, thresholds::SAME_FIGURE};
@@ -82,41 +82,44 @@ impl<'a> Rows<'a> {
         Memory { buffer, matrix, tau: [vec![0.0; n], vec![0.0; n]], qd: vec![0.0; n] }
     }
 
-    /// The values of `motion` at some positions, of the joints that move.
+    /// For each of some joints what [`Motion`](super::measure::Motion) is of, at some positions: gravity, and the
+    /// accelerations and products of speeds of the joints that move.
     pub(super) fn values(
         &self,
         q: &RobotQ,
-        (joint, moving): (usize, &[usize]),
-        motion: &Motion,
+        (joints, moving): (&[usize], &[usize]),
         memory: &mut Memory,
     ) -> Result<Vec<f64>, DynamicsError> {
-        let mut values = Vec::with_capacity(motion.values());
-        if motion.gravity {
-            for (tree, tau) in self.whole.iter().zip(&mut memory.tau) {
-                tree.gravity_into(q, &mut memory.buffer, tau)?;
+        let Memory { buffer, matrix, tau, qd } = memory;
+        let products = moving.len();
+        let count = 1 + products + entries(products);
+        let mut values = vec![0.0; joints.len() * count];
+        for (tree, tau) in self.whole.iter().zip(tau.iter_mut()) {
+            tree.gravity_into(q, buffer, tau)?;
+        }
+        self.difference.mass_matrix_into(q, buffer, matrix)?;
+        for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
+            values[0] = tau[0][joint] - tau[1][joint];
+            for (&other, value) in moving.iter().zip(&mut values[1..]) {
+                *value = matrix[(joint, other)] * self.covered[other].acceleration;
             }
-            values.push(memory.tau[0][joint] - memory.tau[1][joint]);
         }
-        if motion.accelerations > 0 {
-            self.difference.mass_matrix_into(q, &mut memory.buffer, &mut memory.matrix)?;
-            let entry = |&other: &usize| memory.matrix[(joint, other)] * self.covered[other].acceleration;
-            values.extend(moving.iter().map(entry));
-        }
-        if motion.speeds == 0 {
-            return Ok(values);
-        }
-        let mut of_speeds = |at: &[usize]| {
-            memory.qd.fill(0.0);
-            at.iter().for_each(|&at| memory.qd[at] = self.covered[at].speed);
-            let tau = &mut memory.tau[0];
-            self.difference.bias_into(q, &memory.qd, &mut memory.buffer, tau).map(|()| tau[joint])
-        };
-        let squares: Vec<f64> = moving.iter().map(|&at| of_speeds(&[at])).collect::<Result<_, _>>()?;
-        for (first, &square) in squares.iter().enumerate() {
-            values.push(square);
-            for second in first + 1..moving.len() {
-                let both = of_speeds(&[moving[first], moving[second]])?;
-                values.push(both - square - squares[second]);
+        let place = |first: usize, second: usize| 1 + products + row(products, first) + second;
+        for first in 0..products {
+            for second in (0..=first).rev() {
+                qd.fill(0.0);
+                for at in [first, second] {
+                    qd[moving[at]] = self.covered[moving[at]].speed;
+                }
+                self.difference.bias_into(q, qd, buffer, &mut tau[0])?;
+                for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
+                    let squares = if first == second {
+                        0.0
+                    } else {
+                        values[place(first, first)] + values[place(second, second)]
+                    };
+                    values[place(second, first)] = tau[0][joint] - squares;
+                }
             }
         }
         Ok(values)

@@ -11,6 +11,11 @@ pub(super) fn entries(speeds: usize) -> usize {
     speeds * (speeds + 1) / 2
 }
 
+/// Where the row of a speed would begin if it had all entries: that of column `k >= j` is so many further.
+pub(super) fn row(speeds: usize, j: usize) -> usize {
+    j * speeds - j * (j + 1) / 2
+}
+
 /// A symmetric form `sum a_jk x_j x_k` over `j <= k`, by rows.
 #[derive(Clone, Copy)]
 pub(super) struct Form<'a> {
@@ -29,13 +34,13 @@ pub(super) struct FormRange {
 }
 
 /// Speeds that one form fits; more are not divided.
-pub(super) const MAX_SPEEDS: usize = 16;
+pub(super) const MAX_SPEEDS: usize = 10;
 
 impl Form<'_> {
     /// Of `x_j x_k`; twice that of `x_k x_j` in the matrix, but for squares.
     fn coefficient(&self, j: usize, k: usize) -> f64 {
         let (j, k) = (j.min(k), j.max(k));
-        self.coefficients[j * self.speeds - j * (j + 1) / 2 + k]
+        self.coefficients[row(self.speeds, j) + k]
     }
 
     /// Coefficient of a square.
@@ -59,6 +64,13 @@ impl Form<'_> {
     fn each_corner(&self, intervals: &[Interval], mut visit: impl FnMut(f64, &[f64])) {
         let mut x = [0.0; MAX_SPEEDS];
         let mut slopes = [0.0; MAX_SPEEDS];
+        // Without squares, in full rows: of a fixed length the sums below are taken side by side.
+        let mut rows = [[0.0; MAX_SPEEDS]; MAX_SPEEDS];
+        for j in 0..self.speeds {
+            for k in j + 1..self.speeds {
+                (rows[j][k], rows[k][j]) = (self.coefficient(j, k), self.coefficient(j, k));
+            }
+        }
         x.iter_mut().zip(intervals).for_each(|(x, interval)| *x = interval.0);
         for (j, slope) in slopes.iter_mut().enumerate().take(self.speeds) {
             *slope = self.slope(j, &x);
@@ -73,11 +85,7 @@ impl Form<'_> {
             let by = after - before;
             value += by * slopes[j] + self.square(j) * (after * after - before * before);
             x[j] = after;
-            for (k, slope) in slopes.iter_mut().enumerate().take(self.speeds) {
-                if k != j {
-                    *slope += self.coefficient(j, k) * by;
-                }
-            }
+            slopes.iter_mut().zip(&rows[j]).for_each(|(slope, row)| *slope += row * by);
             visit(value, &x[..self.speeds]);
         }
     }
@@ -95,6 +103,20 @@ impl Form<'_> {
             range.below += gap.max(0.0);
         }
         range
+    }
+
+    /// The most and minus the least of the form over a box of parts of the limits, or more: every product for itself.
+    pub(super) fn rough_range(&self, intervals: &[Interval]) -> [f64; 2] {
+        let mut products = 0.0;
+        let (mut up, mut down) = (0.0, 0.0);
+        for (j, interval) in intervals.iter().enumerate() {
+            let row = &self.coefficients[row(self.speeds, j)..][j..self.speeds];
+            products += row[1..].iter().map(|value| value.abs()).sum::<f64>();
+            let rest = (gap(interval) - interval.0.abs().min(interval.1.abs()).powi(2)).max(0.0);
+            up += row[0].max(-row[0] * rest);
+            down += (-row[0]).max(row[0] * rest);
+        }
+        [up + products, down + products]
     }
 
     /// The largest value of `sign` times the form that climbing from the best corner finds, with its speeds.

@@ -97,7 +97,7 @@ pub(super) struct Trigonometric {
 }
 
 impl Trigonometric {
-    /// Finds the coefficients from values at `(variable, position)` of each; joints without effect are left out.
+    /// Finds the coefficients from values at positions of all variables; joints without effect are left out.
     pub(super) fn sampled(
         variables: Vec<Variable>,
         (values, measure): (usize, Measure),
@@ -120,6 +120,16 @@ impl Trigonometric {
             coefficients = along(&coefficients, (&mut sizes, values), at, &variable.coefficient_rows());
         }
         let mut function = Self { variables, values, measure, coefficients, slack: 0.0 };
+        function.reduce();
+        function
+    }
+
+    /// The function of some of the values alone, which stand side by side.
+    pub(super) fn selected(&self, values: std::ops::Range<usize>, measure: Measure) -> Self {
+        let of_all = self.coefficients.chunks_exact(self.values);
+        let coefficients = of_all.flat_map(|all| all[values.clone()].iter().copied()).collect();
+        let (variables, values) = (self.variables.clone(), values.len());
+        let mut function = Self { variables, values, measure, coefficients, slack: self.slack };
         function.reduce();
         function
     }
@@ -177,21 +187,33 @@ pub(super) fn along(
     at: usize,
     rows: &[Vec<f64>],
 ) -> Vec<f64> {
+    let mut result = Vec::new();
+    along_into(array, (sizes, values), (at, rows), &mut result);
+    result
+}
+
+/// The same into memory that is used again.
+pub(super) fn along_into(
+    array: &[f64],
+    (sizes, values): (&mut [usize], usize),
+    (at, rows): (usize, &[Vec<f64>]),
+    result: &mut Vec<f64>,
+) {
     let before: usize = sizes[..at].iter().product();
     let after: usize = sizes[at + 1..].iter().product::<usize>() * values;
     let size = sizes[at];
-    let mut result = vec![0.0; before * rows.len() * after];
+    result.clear();
+    result.resize(before * rows.len() * after, 0.0);
     for outer in 0..before {
         for (row_at, row) in rows.iter().enumerate() {
             let target = &mut result[(outer * rows.len() + row_at) * after..][..after];
-            for (entry, factor) in row.iter().enumerate() {
+            for (entry, factor) in row.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
                 let source = &array[(outer * size + entry) * after..][..after];
                 target.iter_mut().zip(source).for_each(|(target, source)| *target += factor * source);
             }
         }
     }
     sizes[at] = rows.len();
-    result
 }
 
 #[cfg(test)]
