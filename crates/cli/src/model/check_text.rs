@@ -34,7 +34,11 @@ pub(super) fn text(check: &RobotCheck, robot: &Robot) -> String {
         compared(&mut text, comparison);
     }
     for NotAsked { source, findings } in &report.not_asked {
-        let what = if *source == "simulation" { "not asked the physics:" } else { "not asked its forces:" };
+        let what = match *source {
+            "simulation" => "not asked the physics:",
+            "simulated_dynamics" => "not asked its forces:",
+            _ => "not compared, [[inertial]]:",
+        };
         for (index, finding) in findings.iter().enumerate() {
             let label = if index == 0 { what } else { "" };
             let _ = writeln!(text, "  {label:22} {}", finding.message);
