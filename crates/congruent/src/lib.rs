@@ -20,7 +20,7 @@ mod check;
 pub mod schema;
 mod with_physics;
 
-pub use check::{OtherDescription, RobotCheck, check, check_against, check_suite};
+pub use check::{DeclaredSource, OtherDescription, RobotCheck, check, check_against, check_suite};
 pub use with_physics::{forward, joint_dynamics};
 
 /// What is wrong with an input, one finding in each line, without the lines of the file.

@@ -12,7 +12,7 @@ use crate::{
     chain::{ChainEnd, ChainEnds, ReportedChain, choose_tip},
     diagnostic::{Diagnostic, Use, known_names},
     model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance},
-    robot_file::RobotFilePlaces,
+    robot_file::{DeclaredDynamics, InertialPlaces, RobotFilePlaces},
     urdf::UrdfPlaces,
 };
 
@@ -22,6 +22,8 @@ use crate::{
 pub struct Places {
     /// The robot file with its table; `None` if there is no table, or none of this chain.
     pub robot_file: Option<Arc<RobotFilePlaces>>,
+    /// The robot file with its `[[inertial]]` entries; `None` if there are none.
+    pub inertials: Option<Arc<InertialPlaces>>,
     /// The URDF; `None` if the robot was made without one.
     pub urdf: Option<UrdfPlaces>,
 }
@@ -57,6 +59,8 @@ pub struct RobotDescription {
     pub chain_ends: ChainEnds,
     /// The Denavit-Hartenberg table; `None` for a bare URDF.
     pub dh: Option<DhTable>,
+    /// The dynamics that the robot file declares beside the URDF; `None` if it declares none.
+    pub dynamics: Option<DeclaredDynamics>,
     /// Pose of the tool centre point in link `tip`; `None` if no tool is declared.
     pub tip_from_tcp: Option<Isometry3<f64>>,
     /// How far model and twin may be apart and still count as the same.
@@ -127,6 +131,8 @@ impl RobotDescription {
             );
             self.warnings.push(Diagnostic::warning(TABLE_DROPPED, message));
         }
+        // Their frames are those of the table, or of its base.
+        (self.dynamics, self.places.inertials) = (None, None);
         self.tip_from_tcp = None;
         self.places.robot_file = None;
     }

@@ -41,8 +41,8 @@ pub use model::{
     Tolerance,
 };
 pub use robot_file::{
-    ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace, dh_section, robot_file_schema,
-    robot_file_text,
+    ConstantKey, ConstantPart, DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces,
+    InertialPoint, RobotFilePlaces, RowKey, ValuePlace, dh_section, robot_file_schema, robot_file_text,
 };
 pub use ros_packages::RosPackages;
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};

@@ -17,7 +17,9 @@ use crate::{
     mesh::MeshStore,
     model::{LinkIndex, Robot, Tolerance},
     packages::Packages,
-    robot_file::{self, Declared, ROBOT_FILE, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot},
+    robot_file::{
+        self, Declared, InertialPlaces, ROBOT_FILE, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot,
+    },
     ros_packages::RosPackages,
     srdf::{self, SRDF_BYTES},
     urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
@@ -126,12 +128,13 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
         chain_ends: ChainEnds::default(),
         robot,
         dh: None,
+        dynamics: None,
         tip_from_tcp: None,
         tolerance: Tolerance::default(),
         named_files: NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings,
-        places: Places { robot_file: None, urdf: Some(UrdfPlaces::new(Arc::clone(urdf))) },
+        places: Places { urdf: Some(UrdfPlaces::new(Arc::clone(urdf))), ..Places::default() },
     }
     .with_doubts()
 }
@@ -236,7 +239,10 @@ fn declared(
     diagnostics: &mut Diagnostics,
 ) -> Option<RobotDescription> {
     let declared = robot_file::check(&written, &robot_file.text, &robot, diagnostics);
-    let Declared { base, tip, chain_ends, dh, tip_from_tcp, tolerance } = declared?;
+    let Declared { base, tip, chain_ends, dh, dynamics, tip_from_tcp, tolerance } = declared?;
+    let inertials = dynamics
+        .is_some()
+        .then(|| Arc::new(InertialPlaces::new(Arc::clone(robot_file), written.dynamics, written.inertial)));
     let table = written.dh.map(|dh| Arc::new(RobotFilePlaces::new(Arc::clone(robot_file), dh)));
     Some(RobotDescription {
         path: robot_file.path.clone(),
@@ -247,12 +253,13 @@ fn declared(
         tip,
         chain_ends,
         dh,
+        dynamics,
         tip_from_tcp,
         tolerance,
         named_files: NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings: Vec::new(),
-        places: Places { robot_file: table, urdf: Some(UrdfPlaces::new(Arc::clone(urdf))) },
+        places: Places { robot_file: table, inertials, urdf: Some(UrdfPlaces::new(Arc::clone(urdf))) },
     })
 }
 

@@ -4,9 +4,12 @@ use std::fmt::Write;
 
 use congruent::{
     RobotCheck,
-    agreement::compare::{
-        Agreement, Basics, Brackets, BySource, CheckReport, Comparison, CoordinateUnit, NotAsked, PoseSource,
-        Premise, ReportedBracket, ReportedCertificate,
+    agreement::{
+        SourcePair,
+        compare::{
+            Agreement, Basics, Brackets, BySource, CheckReport, Comparison, CoordinateUnit, NotAsked,
+            PoseSource, Premise, ReportedBracket, ReportedCertificate,
+        },
     },
     description::{
         Robot, Tolerance,
@@ -31,7 +34,11 @@ pub(super) fn text(check: &RobotCheck, robot: &Robot) -> String {
         compared(&mut text, comparison);
     }
     for NotAsked { source, findings } in &report.not_asked {
-        let what = if *source == "simulation" { "not asked the physics:" } else { "not asked its forces:" };
+        let what = match *source {
+            "simulation" => "not asked the physics:",
+            "simulated_dynamics" => "not asked its forces:",
+            _ => "not compared, [[inertial]]:",
+        };
         for (index, finding) in findings.iter().enumerate() {
             let label = if index == 0 { what } else { "" };
             let _ = writeln!(text, "  {label:22} {}", finding.message);
@@ -70,11 +77,14 @@ fn headline(text: &mut String, report: &CheckReport) {
         Some(declared) => format!(" by --tolerance, the robot file's is {}", tolerance(declared)),
         None => String::new(),
     };
+    let is_dynamics_alone = report.verdict == Agreement::Disagree && !poses_disagree(report);
+    let dynamics_alone = if is_dynamics_alone { " in dynamics, and agree in poses" } else { "" };
     let _ = writeln!(
         text,
-        "{}: {}, worst {} of the links that decide, over {} configurations (tolerance {}{replaced})",
+        "{}: {}{}, worst {} of the links that decide, over {} configurations (tolerance {}{replaced})",
         report.file,
         report.verdict,
+        dynamics_alone,
         length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad),
         report.configurations,
         tolerance(&report.tolerance),
@@ -153,17 +163,18 @@ fn certified(text: &mut String, report: &CheckReport, robot: &Robot) {
 
 /// The certificate of models that agree, with its premise.
 fn narrow(text: &mut String, certificate: &ReportedCertificate) {
-    let ReportedCertificate { title, brackets, premise, .. } = certificate;
+    let ReportedCertificate { name, title, brackets, premise } = certificate;
     if let Some(Brackets { position_m, orientation_rad }) = brackets {
         let bound = length_and_angle(position_m.certified, orientation_rad.certified);
         let _ = writeln!(text, "  certified  {title:32} at most {bound} over the whole joint range");
     }
     if let Some(Premise { configurations, residual_m, residual_rad, holds }) = premise {
         let verified = if *holds { "verified as" } else { "are not" };
+        let whose = if *name == SourcePair::UrdfOther { "the other URDF's" } else { "simulated" };
         let residual = length_and_angle(*residual_m, *residual_rad);
         let _ = writeln!(
             text,
-            "    simulated joints {verified} pure screw motions: residual {residual} at {configurations} configurations"
+            "    {whose} joints {verified} pure screw motions: residual {residual} at {configurations} configurations"
         );
     }
 }

@@ -23,12 +23,20 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
         let _ = writeln!(text, "  disagree  dynamics is not compared: {why}");
     }
     check.all_dynamics().for_each(|report| compared(text, report, robot));
+    let declared = check.declared_dynamics.as_ref();
+    for what in declared.iter().flat_map(|declared| &declared.not_declared) {
+        let _ = writeln!(text, "    not compared, as the robot file does not declare it: {what}");
+    }
 }
 
 fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
     let verdict = if report.agrees() { "agree" } else { "disagree" };
-    let title = format!("dynamics against {}", report.sides.reference);
-    let _ = writeln!(text, "  {verdict:9} {title:32} {}", report.headline());
+    let (candidate, reference) = (&report.sides.candidate, &report.sides.reference);
+    let _ = writeln!(
+        text,
+        "  {verdict:9} dynamics of {candidate} against {reference}:\n    {}",
+        report.headline()
+    );
     for explanation in &report.explanations {
         explained(text, explanation);
     }

@@ -1,6 +1,7 @@
 //! `check`: the geometry of a robot's sources, then its dynamics.
 
 mod against;
+mod declared;
 mod physics;
 mod suite;
 
@@ -14,6 +15,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use against::OtherDescription;
+pub use declared::DeclaredSource;
 pub use suite::check_suite;
 
 use crate::with_physics::simulated_poses;
@@ -28,6 +30,9 @@ pub struct RobotCheck {
     /// The other description, of --against.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub against: Option<OtherDescription>,
+    /// The dynamics that the robot file declares.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub declared_dynamics: Option<DeclaredSource>,
     /// The comparison of masses, inertias, joint terms, gravity and limits that matters most: the first that disagrees;
     /// if all agree that of two descriptions, and without a second one that of the URDF and the physics. `null` if none
     /// could be made.
@@ -85,6 +90,19 @@ fn checked(
         }
         None => None,
     };
+    let mut declared_dynamics = None;
+    if let Some(declared) = &description.dynamics {
+        match declared::compared(description, declared, options.seed) {
+            Ok((source, report)) => {
+                declared_dynamics = Some(source);
+                compared.push(report);
+            }
+            Err(error) => {
+                let finding = Diagnostic::error("check::declared_dynamics", error.to_string());
+                geometry.not_asked.push(not_asked("declared_dynamics", &finding));
+            }
+        }
+    }
     if is_simulated {
         match physics::compared(description, options.seed) {
             Ok(report) => compared.push(report),
@@ -100,7 +118,8 @@ fn checked(
         geometry.verdict = Agreement::Agree;
     }
     let mut compared = compared.into_iter();
-    Ok(RobotCheck { geometry, against, dynamics: compared.next(), other_dynamics: compared.collect() })
+    let (dynamics, other_dynamics) = (compared.next(), compared.collect());
+    Ok(RobotCheck { geometry, against, declared_dynamics, dynamics, other_dynamics })
 }
 
 fn not_asked(source: &'static str, finding: &Diagnostic) -> NotAsked {

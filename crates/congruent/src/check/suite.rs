@@ -56,7 +56,11 @@ fn dynamics_case(report: &DynamicsReport) -> TestCase {
         let kind = report.explanations.first().map_or("dynamics", |first| first.cause.name()).to_owned();
         TestResult::Failed(Reason { kind, message: output.clone() })
     };
-    TestCase { name: format!("dynamics of URDF against {}", report.sides.reference), result, output }
+    TestCase {
+        name: format!("dynamics of {} against {}", report.sides.candidate, report.sides.reference),
+        result,
+        output,
+    }
 }
 
 /// The bound over the whole joint range, if the same two sources have one.

@@ -4,6 +4,7 @@ use nalgebra::Isometry3;
 use toml::Spanned;
 
 use super::{
+    inertials::{self, DeclaredDynamics, InertialContext},
     rows::{self, ChainContext, first_line},
     written::{WrittenDh, WrittenRobot, WrittenTolerance},
 };
@@ -22,6 +23,7 @@ pub(crate) struct Declared {
     pub(crate) tip: LinkIndex,
     pub(crate) chain_ends: ChainEnds,
     pub(crate) dh: Option<DhTable>,
+    pub(crate) dynamics: Option<DeclaredDynamics>,
     pub(crate) tip_from_tcp: Option<Isometry3<f64>>,
     pub(crate) tolerance: Tolerance,
 }
@@ -42,9 +44,11 @@ pub(crate) fn check(
         Some(dh) => Some(table(dh, &context, diagnostics)?),
         None => None,
     };
+    let context = InertialContext { robot, dh: dh.as_ref(), text };
+    let dynamics = inertials::check(written.dynamics.as_ref(), &written.inertial, &context, diagnostics);
     let end = |written: &Option<_>| if written.is_some() { ChainEnd::Declared } else { ChainEnd::Chosen };
     let chain_ends = ChainEnds { base: end(&written.base), tip: end(&written.tip) };
-    Some(Declared { base, tip, chain_ends, dh, tip_from_tcp, tolerance })
+    Some(Declared { base, tip, chain_ends, dh, dynamics, tip_from_tcp, tolerance })
 }
 
 fn chain(

@@ -2,12 +2,14 @@
 
 mod check;
 mod edits;
+mod inertials;
 mod places;
 mod rows;
 mod write;
 mod written;
 
 pub(crate) use check::{Declared, check};
+pub use inertials::{DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces, InertialPoint};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
 pub use write::{dh_section, robot_file_text};
 pub(crate) use written::WrittenRobot;

@@ -7,6 +7,7 @@ use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::inertials::{WrittenDynamics, WrittenInertial};
 use crate::{
     diagnostic::SourceFile,
     model::{DhConvention, DhRowKind},
@@ -55,6 +56,14 @@ pub(crate) struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "WrittenDh")]
     pub(crate) dh: Option<Spanned<WrittenDh>>,
+    /// A second description of the dynamics, such as a vendor's: what holds for all bodies.
+    #[serde(default)]
+    #[schemars(with = "WrittenDynamics")]
+    pub(crate) dynamics: Option<WrittenDynamics>,
+    /// A second description of the dynamics: one entry for each body, which is compared with the URDF.
+    #[serde(default)]
+    #[schemars(with = "Vec<WrittenInertial>")]
+    pub(crate) inertial: Vec<Spanned<WrittenInertial>>,
     /// The tool centre point in the frame of the tip.
     #[serde(default)]
     #[schemars(with = "WrittenTransform")]

@@ -10,22 +10,29 @@ use crate::{
     compare::figures,
     diagnosis::{Corrected, DynamicsCause, Exact, FaultySide, Grouped, Place},
     side::{Inertial, Side},
+    torque::compressed::Compressed,
 };
 
 /// What explanations are told with.
 #[derive(Clone, Copy)]
 pub(super) struct Teller<'a> {
     pub(super) candidate: &'a Side,
+    /// The other description, if there is one.
+    pub(super) reference: Option<&'a Side>,
     pub(super) faulty: FaultySide,
     pub(super) files: Files<'a>,
+    pub(super) torque: &'a Compressed,
     /// Norm of the whole difference.
     pub(super) difference: f64,
+    /// The largest norm that counts as nothing left.
+    pub(super) exact: f64,
 }
 
 impl Teller<'_> {
     pub(super) fn explanation(&self, grouped: &Grouped) -> DynamicsExplanation {
         let exact = &grouped.named;
-        let mut figures = self.figures(&exact.corrected);
+        let corrected = self.worth_writing(exact);
+        let mut figures = self.figures(&corrected);
         self.files.place(&mut figures);
         let file = self.files.found.filter(|_| self.faulty == FaultySide::Candidate);
         let first = self.name(exact);
@@ -36,7 +43,7 @@ impl Teller<'_> {
             suggestion: super::words::suggestion(self.faulty, &figures),
             file: file.map(|file| file.source().path.display().to_string()),
             line: file.and_then(|_| figures.iter().find_map(|figure| figure.line)),
-            changes: self.changes(&exact.corrected),
+            changes: self.changes(&corrected),
             figures,
             numbers: exact.price,
             left_relative: exact.left() / self.difference,
@@ -88,6 +95,26 @@ impl Teller<'_> {
         }
     }
 
+    /// The corrected figures without the rounding of a fit; those of the other description where they have the same
+    /// effect, since torque does not show every number that is free.
+    fn worth_writing(&self, exact: &Exact) -> Corrected {
+        let mut corrected = exact.corrected.clone();
+        for (link, figures) in &mut corrected.links {
+            let written = self.candidate.inertials[*link].as_ref();
+            let there = (exact.price > 0.0).then(|| self.of_reference(*link, figures)).flatten();
+            *figures = there.unwrap_or_else(|| without_rounding(written, figures));
+        }
+        corrected
+    }
+
+    fn of_reference(&self, link: usize, figures: &Inertial) -> Option<Inertial> {
+        let reference = self.reference?;
+        let there = reference.frames.find_link(self.candidate.frames.link_name(link))?;
+        let there = reference.inertials[there]?;
+        let apart = self.torque.link(link)? * (there.ten_numbers() - figures.ten_numbers());
+        (apart.norm() <= self.exact).then_some(there)
+    }
+
     /// The figures that a correction changes: found is what the faulty says.
     fn figures(&self, corrected: &Corrected) -> Vec<figures::FigureDifference> {
         let side = self.candidate;
@@ -119,8 +146,7 @@ impl Teller<'_> {
         let side = self.candidate;
         let mut edits: Vec<TextEdit> = Vec::new();
         for (link, figures) in &corrected.links {
-            let figures = without_rounding(side.inertials[*link].as_ref(), figures);
-            edits.extend(file.set_inertial(side.frames.link_name(*link), &figures));
+            edits.extend(file.set_inertial(side.frames.link_name(*link), figures));
         }
         for (joint, terms) in corrected.joints.iter().flatten().enumerate() {
             if *terms != side.resistances[joint] {

@@ -42,11 +42,15 @@ impl Told {
 
     pub(super) fn new(setting: &Setting<'_>, files: Files<'_>, torque: &Compressed) -> Self {
         let diagnosed = diagnose(setting, torque);
+        let difference = torque.difference.norm().hypot(torque.outside);
         let teller = Teller {
             candidate: setting.candidate,
+            reference: setting.reference,
             faulty: setting.faulty,
+            torque,
+            exact: setting.precision.exact(difference, torque.torques),
             files,
-            difference: torque.difference.norm().hypot(torque.outside),
+            difference,
         };
         let mut explained = diagnosed.explanations.iter().map(|grouped| teller.explanation(grouped));
         let explanations = explained.by_ref().take(1).collect();

@@ -124,18 +124,18 @@ impl DynamicsReport {
     /// The result with its numbers in one sentence.
     pub fn headline(&self) -> String {
         let states = number(count(self.premise.states));
-        let difference = number(self.difference_relative);
+        let [equal, percent] = [1.0, 100.0].map(|unit| number(self.difference_relative * unit));
         match self.verdict {
             DynamicsVerdict::Same | DynamicsVerdict::SameTorques => {
-                format!("torques equal to {difference} of them at {states} states; {}", self.seen_sentence())
+                format!("torques equal but for {equal} of them at {states} states; {}", self.seen_sentence())
             }
             DynamicsVerdict::Explained => {
-                format!("torques differ by {difference} of them at {states} states, explained")
+                format!("torques differ by {percent} % at {states} states, explained")
             }
             DynamicsVerdict::Unexplained => format!(
-                "torques differ by {difference} of them at {states} states, and no known cause explains it; no \
-                 inertial numbers at all explain {} of them",
-                number(self.premise.fit_relative)
+                "torques differ by {percent} % at {states} states, and no known cause explains it; no inertial \
+                 numbers at all explain {} % of them",
+                number(self.premise.fit_relative * 100.0)
             ),
         }
     }

@@ -53,7 +53,7 @@ impl Inertial {
     }
 
     /// What the tensor about the link's origin has more than the one about the centre of mass, in the link's axes.
-    pub(crate) fn shift(&self) -> Matrix3<f64> {
+    pub fn shift(&self) -> Matrix3<f64> {
         let c = self.com_m;
         (Matrix3::from_diagonal_element(c.norm_squared()) - c * c.transpose()) * self.mass_kg
     }

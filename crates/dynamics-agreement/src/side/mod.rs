@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use congruent_description::{JointLimit, Robot};
 use congruent_dynamics::{BodyTree, GRAVITY_M_S2, JointResistance, SpatialInertia};
-use nalgebra::{DVector, Vector3};
+use nalgebra::{DVector, Matrix3, Vector3};
 
 pub use frames::Frames;
 pub use inertial::{BodyLaw, Inertial};
@@ -72,6 +72,25 @@ impl Side {
             }
         }
         bodies
+    }
+
+    /// The same torques with one inertial for each body, at the link that its joint carries: what can be compared with a
+    /// description that knows no other links. A body whose other links say nothing keeps its figures as they are written.
+    #[must_use]
+    pub fn by_bodies(&self) -> Self {
+        let bodies = self.bodies();
+        let mut lumped = self.clone();
+        lumped.inertials.fill(None);
+        for (body, joint) in self.frames.joints.iter().enumerate() {
+            let with_figures: Vec<usize> =
+                self.frames.links_of(body).filter(|&link| self.inertials[link].is_some()).collect();
+            lumped.inertials[joint.link] = match with_figures[..] {
+                [] => None,
+                [only] if only == joint.link => self.inertials[only],
+                _ => Some(Inertial::from_origin(&bodies[body], Matrix3::identity())),
+            };
+        }
+        lumped
     }
 
     /// The numbers of all bodies, one body after another.

@@ -60,6 +60,7 @@ fn description() -> RobotDescription {
         chain_ends: congruent_description::ChainEnds::default(),
         robot,
         dh: None,
+        dynamics: None,
         tip_from_tcp: None,
         tolerance: congruent_description::Tolerance::default(),
         named_files: congruent_description::NamedFiles::default(),

@@ -1,0 +1,261 @@
+//! The URDF against the `[[inertial]]` entries of the robot file: a vendor's masses, in link frames or DH frames.
+
+use std::ops::Range;
+
+use congruent_description::{
+    DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces, InertialPoint, Robot,
+    RobotDescription, RobotQ, SourceFile, TextEdit,
+};
+use congruent_dynamics::JointResistance;
+use congruent_dynamics_agreement::{CompareError, DynamicsReport, FigurePlaces, Inertial, NamedSide, Side};
+use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree};
+use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{two_descriptions, urdf_places, urdf_side};
+
+/// The dynamics that the robot file declares beside the URDF.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct DeclaredSource {
+    /// Where the values come from, as the file says.
+    pub source: Option<String>,
+    /// What the file does not declare, so that it is not compared.
+    pub not_declared: Vec<String>,
+}
+
+/// Compares the URDF with what the robot file declares. One of the two is taken to be wrong: the one whose correction
+/// costs less, and the URDF if both cost the same.
+pub(super) fn compared(
+    description: &RobotDescription,
+    declared: &DeclaredDynamics,
+    seed: u64,
+) -> Result<(DeclaredSource, DynamicsReport), CompareError> {
+    let urdf = urdf_side(description).by_bodies();
+    let zero =
+        AtZero::new(description).map_err(|error| CompareError::Source { message: error.to_string() })?;
+    let bodies: Vec<Body> =
+        declared.inertials.iter().map(|of| Body::new(of, &zero, &description.robot)).collect();
+    let side = declared_side(declared, (&bodies, &zero), &urdf);
+    let places = description.places.inertials.as_deref();
+    let places = places.map(|places| DeclaredPlaces { places, bodies: &bodies, robot: &description.robot });
+    let names = [&description.urdf_path, &description.path].map(|path| path.display().to_string());
+    let by_urdf = NamedSide { name: &names[0], side: &urdf, places: urdf_places(description) };
+    let by_file = places.as_ref().map(|places| places as &dyn FigurePlaces);
+    let by_file = NamedSide { name: &names[1], side: &side, places: by_file };
+    let mut report = two_descriptions(&by_urdf, &by_file, seed)?;
+    if !report.has_same_torques() {
+        let other = two_descriptions(&by_file, &by_urdf, seed)?;
+        if cost(&other) < cost(&report) {
+            report = other;
+        }
+    }
+    let source = declared.source.clone();
+    Ok((DeclaredSource { source, not_declared: not_declared(declared, &description.robot) }, report))
+}
+
+/// Free numbers of the explanations, and before that whether there are any and whether they leave bodies.
+fn cost(report: &DynamicsReport) -> (bool, bool, u32) {
+    let explanations = &report.explanations;
+    let numbers: f64 = explanations.iter().map(|explanation| explanation.numbers).sum();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few free numbers, in halves"
+    )]
+    let halves = (2.0 * numbers).round() as u32;
+    (explanations.is_empty(), explanations.iter().any(|explanation| !explanation.is_a_body), halves)
+}
+
+/// What is left out of the entries.
+fn not_declared(declared: &DeclaredDynamics, robot: &Robot) -> Vec<String> {
+    let mut left_out = Vec::new();
+    let joints = |lacks: &dyn Fn(&str, &DeclaredInertial) -> bool| -> Vec<String> {
+        let declared = declared.inertials.iter().map(|of| (&robot.joint(of.joint).name, of));
+        declared.filter(|(name, of)| lacks(name, of)).map(|(name, _)| name.clone()).collect()
+    };
+    let mut say = |what: &str, joints: Vec<String>| {
+        if !joints.is_empty() {
+            left_out.push(format!("{what} at {}", joints.join(", ")));
+        }
+    };
+    let has_entry = |name: &str| declared.inertials.iter().any(|of| robot.joint(of.joint).name == name);
+    let without = robot.movable_joint_names().filter(|name| !has_entry(name)).map(str::to_owned).collect();
+    say("mass, centre of mass and inertia", without);
+    say("inertia", joints(&|_, of| of.tensor_kg_m2.is_none()));
+    say("damping", joints(&|_, of| of.damping.is_none()));
+    say("friction", joints(&|_, of| of.friction.is_none()));
+    if declared.gravity_in_base_m_s2.is_none() {
+        left_out.push("gravity".to_owned());
+    }
+    left_out
+}
+
+/// Links and frames of the table, joints at zero.
+struct AtZero {
+    root_from_links: Vec<Pose>,
+    root_from_base: Pose,
+    /// Empty without a table.
+    base_from_dh: Vec<Pose>,
+}
+
+impl AtZero {
+    fn new(description: &RobotDescription) -> Result<Self, KinematicsError> {
+        let robot = &description.robot;
+        let zero = RobotQ::zeros(robot.dof());
+        let mut root_from_links = vec![Pose::identity(); robot.links().len()];
+        UrdfTree::new(robot).root_from_links_into(&zero, &mut root_from_links)?;
+        let mut base_from_dh = Vec::new();
+        if let Some(table) = &description.dh {
+            let chain = DhChain::new(table, robot);
+            base_from_dh.resize(chain.joint_count() + 1, Pose::identity());
+            chain.dh_frames_into(&zero, &mut base_from_dh)?;
+        }
+        let root_from_base = root_from_links[description.base.get()];
+        Ok(Self { root_from_links, root_from_base, base_from_dh })
+    }
+}
+
+/// A declared body in the frame of the link that its joint carries.
+#[derive(Debug, Clone)]
+struct Body {
+    joint: usize,
+    link: usize,
+    link_from_frame: Pose,
+    about: InertialPoint,
+    /// Of a body without a declared tensor the tensor is zero here.
+    figures: Inertial,
+    has_tensor: bool,
+}
+
+impl Body {
+    fn new(declared: &DeclaredInertial, zero: &AtZero, robot: &Robot) -> Self {
+        let link = robot.joint(declared.joint).child.get();
+        let link_from_frame = match declared.frame {
+            InertialFrame::Link => Pose::identity(),
+            InertialFrame::Dh(frame) => {
+                zero.root_from_links[link].inverse() * zero.root_from_base * zero.base_from_dh[frame]
+            }
+        };
+        let mut in_frame = Inertial {
+            mass_kg: declared.mass_kg,
+            com_m: declared.com_m,
+            link_from_axes: Matrix3::identity(),
+            tensor_kg_m2: declared.tensor_kg_m2.unwrap_or_else(Matrix3::zeros),
+        };
+        if declared.about == InertialPoint::Frame && declared.tensor_kg_m2.is_some() {
+            in_frame.tensor_kg_m2 -= in_frame.shift();
+        }
+        Self {
+            joint: robot.coordinate(declared.joint).expect("checked to move"),
+            link,
+            link_from_frame,
+            about: declared.about,
+            figures: Inertial {
+                com_m: link_from_frame.rotation * in_frame.com_m + link_from_frame.translation,
+                link_from_axes: link_from_frame.rotation,
+                ..in_frame
+            },
+            has_tensor: declared.tensor_kg_m2.is_some(),
+        }
+    }
+
+    /// Figures of the link in the frame of the entry, the tensor about the point of the entry.
+    fn in_frame(&self, figures: &Inertial) -> Inertial {
+        let frame_from_link = self.link_from_frame.inverse();
+        let mut in_frame = Inertial {
+            mass_kg: figures.mass_kg,
+            com_m: frame_from_link.rotation * figures.com_m + frame_from_link.translation,
+            link_from_axes: Matrix3::identity(),
+            tensor_kg_m2: frame_from_link.rotation
+                * figures.tensor_in_link()
+                * frame_from_link.rotation.transpose(),
+        };
+        if self.about == InertialPoint::Frame {
+            in_frame.tensor_kg_m2 += in_frame.shift();
+        }
+        in_frame
+    }
+}
+
+/// What the file declares; what it leaves out is as in the URDF.
+fn declared_side(declared: &DeclaredDynamics, (bodies, zero): (&[Body], &AtZero), urdf: &Side) -> Side {
+    let mut side = urdf.clone();
+    for (body, declared) in bodies.iter().zip(&declared.inertials) {
+        let mut figures = body.figures;
+        if let Some(written) = side.inertials[body.link].filter(|_| !body.has_tensor) {
+            (figures.link_from_axes, figures.tensor_kg_m2) = (written.link_from_axes, written.tensor_kg_m2);
+        }
+        side.inertials[body.link] = Some(figures);
+        let terms = &mut side.resistances[body.joint];
+        terms.armature = declared.armature.unwrap_or(terms.armature);
+        terms.damping = declared.damping.unwrap_or(terms.damping);
+        terms.friction = declared.friction.unwrap_or(terms.friction);
+    }
+    if let Some(gravity) = declared.gravity_in_base_m_s2 {
+        side.gravity_m_s2 = zero.root_from_base.rotation * gravity;
+    }
+    side
+}
+
+/// The entries of the file as figures of links and joints.
+#[derive(Debug)]
+struct DeclaredPlaces<'a> {
+    places: &'a InertialPlaces,
+    bodies: &'a [Body],
+    robot: &'a Robot,
+}
+
+impl DeclaredPlaces<'_> {
+    /// The entry of a link or of a joint.
+    fn entry(&self, of: &str) -> Option<usize> {
+        let link = self.robot.find_link(of).map(congruent_description::LinkIndex::get);
+        let joint = self.robot.find_joint(of).and_then(|joint| self.robot.coordinate(joint));
+        self.bodies.iter().position(|body| Some(body.link) == link || Some(body.joint) == joint)
+    }
+}
+
+impl FigurePlaces for DeclaredPlaces<'_> {
+    fn source(&self) -> &SourceFile {
+        self.places.source()
+    }
+
+    fn figure(&self, of: &str, figure: &str) -> Option<Range<usize>> {
+        if of.is_empty() { self.places.gravity() } else { self.places.figure(self.entry(of)?, figure) }
+    }
+
+    fn set_inertial(&self, link: &str, figures: &Inertial) -> Vec<TextEdit> {
+        let Some(entry) = self.entry(link) else { return Vec::new() };
+        let body = &self.bodies[entry];
+        let [written, new] = [&body.figures, figures].map(|figures| body.in_frame(figures));
+        let mut edits = self.places.set_mass(entry, figures.mass_kg);
+        let length = written.com_m.amax().max(new.com_m.amax());
+        if (new.com_m - written.com_m).amax() > ROUNDING * length {
+            let com = new.com_m.map(|value| cleaned(value, length));
+            edits.extend(self.places.set_com(entry, &com));
+        }
+        let size = written.tensor_kg_m2.amax().max(new.tensor_kg_m2.amax());
+        if body.has_tensor && (new.tensor_kg_m2 - written.tensor_kg_m2).amax() > ROUNDING * size {
+            let tensor = new.tensor_kg_m2.map(|value| cleaned(value, size));
+            edits.extend(self.places.set_tensor(entry, &tensor));
+        }
+        edits
+    }
+
+    fn set_terms(&self, joint: &str, terms: &JointResistance) -> Vec<TextEdit> {
+        let Some(entry) = self.entry(joint) else { return Vec::new() };
+        self.places.set_terms(entry, [terms.armature, terms.damping, terms.friction])
+    }
+
+    fn set_gravity(&self, gravity_m_s2: &Vector3<f64>) -> Vec<TextEdit> {
+        self.places.set_gravity(gravity_m_s2)
+    }
+}
+
+/// A figure that changes by a smaller share of its body's is the same, and a smaller one is zero. No unit; kind:
+/// rounding of the rotation into another frame.
+const ROUNDING: f64 = 1e-12;
+
+fn cleaned(value: f64, size: f64) -> f64 {
+    if value.abs() <= ROUNDING * size { 0.0 } else { value }
+}

@@ -1,0 +1,194 @@
+//! `[dynamics]` and `[[inertial]]` against the robot: names, frames, units.
+
+use nalgebra::{Matrix3, Vector3};
+use toml::Spanned;
+
+use super::{
+    declared::{DeclaredDynamics, DeclaredInertial, InertialFrame},
+    written::{WrittenDynamics, WrittenInertial, WrittenTensor, WrittenTerm},
+};
+use crate::{
+    diagnostic::{Diagnostic, Diagnostics, known_names, line_column},
+    model::{DhTable, Joint, JointIndex, Robot},
+    robot_file::rows::first_line,
+    units::{Unit, check_finite},
+};
+
+/// What entries are checked against.
+pub(in crate::robot_file) struct InertialContext<'a> {
+    pub(in crate::robot_file) robot: &'a Robot,
+    pub(in crate::robot_file) dh: Option<&'a DhTable>,
+    pub(in crate::robot_file) text: &'a str,
+}
+
+/// The declared dynamics; `None` if there is none.
+pub(in crate::robot_file) fn check(
+    dynamics: Option<&WrittenDynamics>,
+    written: &[Spanned<WrittenInertial>],
+    context: &InertialContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<DeclaredDynamics> {
+    let gravity = dynamics.and_then(|dynamics| dynamics.gravity_m_s2.as_ref());
+    for value in gravity.iter().flat_map(|gravity| gravity.get_ref().map(|value| (value, gravity.span()))) {
+        diagnostics.keep(check_finite("gravity_m_s2", value.0, value.1));
+    }
+    let mut inertials: Vec<DeclaredInertial> = Vec::with_capacity(written.len());
+    for entry in written {
+        let Some(inertial) = inertial(entry, context, diagnostics) else { continue };
+        if let Some(first) = inertials.iter().position(|known| known.joint == inertial.joint) {
+            let name = &entry.get_ref().joint;
+            let line = line_column(context.text, written[first].span().start).0;
+            let message = format!("joint \"{}\" has an [[inertial]] already, at line {line}", name.get_ref());
+            diagnostics.push(Diagnostic::error("robot_file::joint_twice", message).at(name.span()));
+        }
+        inertials.push(inertial);
+    }
+    if dynamics.is_none() && written.is_empty() {
+        return None;
+    }
+    Some(DeclaredDynamics {
+        source: dynamics.and_then(|dynamics| dynamics.source.clone()),
+        gravity_in_base_m_s2: gravity.map(|gravity| Vector3::from(*gravity.get_ref())),
+        inertials,
+    })
+}
+
+fn inertial(
+    written: &Spanned<WrittenInertial>,
+    context: &InertialContext<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<DeclaredInertial> {
+    let entry = written.get_ref();
+    let at = || first_line(written.span(), context.text);
+    let joint = diagnostics.keep(joint(entry, context.robot));
+    let about = diagnostics.keep(entry.about.as_ref().map(|about| *about.get_ref()).ok_or_else(|| {
+        missing("about", entry).at(at()).with_help(
+            "about = \"com\" is the centre of mass, \"frame\" the origin of the frame; neither is a default",
+        )
+    }));
+    let mass_kg = diagnostics.keep(positive("mass_kg", &entry.mass_kg));
+    let com = Unit::Length.vector("com", entry.com_m.as_ref(), entry.com_mm.as_ref());
+    let com =
+        diagnostics.keep(com.and_then(|com| com.ok_or_else(|| missing("com_m or com_mm", entry).at(at()))));
+    let tensor = entry.inertia_kg_m2.as_ref().map(|tensor| diagnostics.keep(self::tensor(tensor.get_ref())));
+    let frame = match &entry.frame {
+        Some(frame) => joint.and_then(|joint| diagnostics.keep(self::frame(frame, joint, context))),
+        None => {
+            let help = "frame = \"link\" is the frame of the joint's link in the URDF, \"dhN\" that of its row in the \
+                        table; neither is a default";
+            diagnostics.push(missing("frame", entry).at(at()).with_help(help));
+            None
+        }
+    };
+    let mut term = |term| {
+        let joint = context.robot.joint(joint?);
+        diagnostics.keep(self::term(entry, term, joint)).flatten()
+    };
+    let [armature, damping, friction] =
+        [WrittenTerm::Armature, WrittenTerm::Damping, WrittenTerm::Friction].map(&mut term);
+    Some(DeclaredInertial {
+        joint: joint?,
+        frame: frame?,
+        about: about?,
+        mass_kg: mass_kg?,
+        com_m: Vector3::from(com?),
+        tensor_kg_m2: match tensor {
+            Some(tensor) => Some(tensor?),
+            None => None,
+        },
+        armature,
+        damping,
+        friction,
+    })
+}
+
+fn missing(key: &str, entry: &WrittenInertial) -> Diagnostic {
+    let message = format!("[[inertial]] of joint \"{}\" has no {key}", entry.joint.get_ref());
+    Diagnostic::error("robot_file::inertial", message)
+}
+
+fn joint(entry: &WrittenInertial, robot: &Robot) -> Result<JointIndex, Diagnostic> {
+    let name = entry.joint.get_ref();
+    let found = robot.find_joint(name);
+    found.filter(|&joint| robot.joint(joint).kind.is_movable()).ok_or_else(|| {
+        let what =
+            if found.is_some() { "is fixed and carries no body of its own" } else { "is not in the robot" };
+        Diagnostic::error("robot_file::unknown_joint", format!("joint \"{name}\" {what}"))
+            .at(entry.joint.span())
+            .with_help(known_names(name, "moving joints", robot.movable_joint_names()))
+    })
+}
+
+fn positive(key: &str, value: &Spanned<f64>) -> Result<f64, Diagnostic> {
+    check_finite(key, *value.get_ref(), value.span())?;
+    if *value.get_ref() > 0.0 {
+        return Ok(*value.get_ref());
+    }
+    let message = format!("{key} must be greater than 0, it is {}", value.get_ref());
+    Err(Diagnostic::error("robot_file::inertial", message).at(value.span()))
+}
+
+/// The frame by its name; a frame of the table must be the one that moves with the joint.
+fn frame(
+    written: &Spanned<String>,
+    joint: JointIndex,
+    context: &InertialContext<'_>,
+) -> Result<InertialFrame, Diagnostic> {
+    let name = written.get_ref().as_str();
+    let refused = |message: String, help: String| {
+        Err(Diagnostic::error("robot_file::inertial", message).at(written.span()).with_help(help))
+    };
+    let joint_name = &context.robot.joint(joint).name;
+    let row = context.dh.and_then(|dh| dh.rows.iter().position(|row| row.joint == joint));
+    let own = row.map(|row| format!("dh{}", row + 1));
+    match (name, row) {
+        ("link", _) => Ok(InertialFrame::Link),
+        (name, Some(row)) if own.as_deref() == Some(name) => Ok(InertialFrame::Dh(row + 1)),
+        (name, _) if name.strip_prefix("dh").is_some_and(|number| number.parse::<usize>().is_ok()) => {
+            match &own {
+                Some(own) => refused(
+                    format!("frame \"{name}\" does not move with joint \"{joint_name}\""),
+                    format!("its frame in the table is \"{own}\""),
+                ),
+                None => refused(
+                    format!("frame \"{name}\": the table has no row for joint \"{joint_name}\""),
+                    "use frame = \"link\"".to_owned(),
+                ),
+            }
+        }
+        (name, _) => {
+            let known = std::iter::once("link").chain(own.as_deref());
+            refused(format!("unknown frame \"{name}\""), known_names(name, "frames", known))
+        }
+    }
+}
+
+fn tensor(written: &WrittenTensor) -> Result<Matrix3<f64>, Diagnostic> {
+    let mut tensor = Matrix3::zeros();
+    for (name, (row, column), value) in written.entries() {
+        check_finite(name, *value.get_ref(), value.span())?;
+        tensor[(row, column)] = *value.get_ref();
+        tensor[(column, row)] = *value.get_ref();
+    }
+    Ok(tensor)
+}
+
+/// A term of a joint, under the key of its kind.
+fn term(entry: &WrittenInertial, term: WrittenTerm, joint: &Joint) -> Result<Option<f64>, Diagnostic> {
+    let [turning, sliding] = entry.term(term);
+    let [own, other] = if joint.kind.is_angular() { [turning, sliding] } else { [sliding, turning] };
+    if let (key, Some(value)) = other {
+        let moves = if joint.kind.is_angular() { "turns" } else { "slides" };
+        let message = format!("{key}: joint \"{}\" {moves}", joint.name);
+        return Err(Diagnostic::error("robot_file::inertial", message)
+            .at(value.span())
+            .with_help(format!("the key is {}", own.0)));
+    }
+    let (key, Some(value)) = own else { return Ok(None) };
+    check_finite(key, *value.get_ref(), value.span())?;
+    if *value.get_ref() < 0.0 {
+        let message = format!("{key} must not be negative, it is {}", value.get_ref());
+        return Err(Diagnostic::error("robot_file::inertial", message).at(value.span()));
+    }
+    Ok(Some(*value.get_ref()))
+}

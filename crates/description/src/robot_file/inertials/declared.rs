@@ -1,0 +1,60 @@
+//! The dynamics that a robot file declares beside the URDF, such as a vendor's table of masses: values only.
+
+use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::model::JointIndex;
+
+/// The frame of the figures of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InertialFrame {
+    /// The frame of the link that the joint carries.
+    Link,
+    /// A frame of the Denavit-Hartenberg table, from 1: that of the joint's row.
+    Dh(usize),
+}
+
+/// The point that a tensor is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum InertialPoint {
+    /// The centre of mass.
+    Com,
+    /// The origin of the frame of the figures.
+    Frame,
+}
+
+/// What is declared of the body that a joint carries: its link and all links that fixed joints hold to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeclaredInertial {
+    /// The joint.
+    pub joint: JointIndex,
+    /// The frame of centre of mass and tensor.
+    pub frame: InertialFrame,
+    /// The point of the tensor; its axes are those of the frame.
+    pub about: InertialPoint,
+    /// Mass.
+    pub mass_kg: f64,
+    /// Centre of mass.
+    pub com_m: Vector3<f64>,
+    /// Rotational inertia; `None` if it is not declared.
+    pub tensor_kg_m2: Option<Matrix3<f64>>,
+    /// Inertia of the motor behind its gear, kg m^2 or kg; `None` if it is not declared.
+    pub armature: Option<f64>,
+    /// Damping, N m s/rad or N s/m; `None` if it is not declared.
+    pub damping: Option<f64>,
+    /// Dry friction, N m or N; `None` if it is not declared.
+    pub friction: Option<f64>,
+}
+
+/// The dynamics that a robot file declares.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeclaredDynamics {
+    /// Where the values come from.
+    pub source: Option<String>,
+    /// Gravity in link `base`; `None` if it is not declared.
+    pub gravity_in_base_m_s2: Option<Vector3<f64>>,
+    /// The bodies, in the order of the file.
+    pub inertials: Vec<DeclaredInertial>,
+}

@@ -1,0 +1,14 @@
+//! `[dynamics]` and `[[inertial]]`: masses, centres of mass and inertias beside those of the URDF.
+
+mod check;
+mod declared;
+mod places;
+mod written;
+
+pub(super) use check::{InertialContext, check};
+pub use declared::{DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPoint};
+pub use places::InertialPlaces;
+pub(crate) use written::{WrittenDynamics, WrittenInertial};
+
+#[cfg(test)]
+mod tests;
