@@ -9,7 +9,7 @@ mod spaces;
 mod zones;
 
 pub use clock::RunClock;
-pub(crate) use joint_targets::JointTargets;
+pub(crate) use joint_targets::{JointTargets, moving_joint};
 pub use payload::Payload;
 pub use run_setup::RunSetup;
 pub use zones::Zone;
