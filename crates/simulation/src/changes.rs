@@ -2,7 +2,7 @@
 
 use congruent_description::{Inertia, LinkIndex};
 
-use crate::{error::SimulationError, world::World};
+use crate::{actuation::DriveConnection, engine::UnknownLoad, error::SimulationError, world::World};
 
 /// A body that a link carries from now on, in addition to its own mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,14 +69,54 @@ impl World {
         Ok(())
     }
 
+    /// The viscous damping of a joint now, N m s/rad or N s/m.
+    pub fn damping(&self, coordinate: usize) -> f64 {
+        self.engine.damping(coordinate)
+    }
+
+    /// The dry friction of a joint now, N m or N.
+    pub fn dry_friction(&self, coordinate: usize) -> f64 {
+        self.engine.dry_friction(coordinate)
+    }
+
+    /// Connects the drive of a joint to the controller in another way. The drives of a robot without fault get the
+    /// commands of their own joints.
+    ///
+    /// # Panics
+    /// If there is no such coordinate.
+    pub fn set_connection(&mut self, coordinate: usize, connection: DriveConnection) {
+        self.state.connections.set(coordinate, connection);
+    }
+
     /// Sets everything that links carry beside their own masses: replaces what they have carried before. The motion
     /// goes on with the same velocities.
     ///
     /// # Panics
     /// If a link is not one of this robot.
     pub fn set_carried(&mut self, carried: &[CarriedBody]) {
+        carried.clone_into(&mut self.state.carried[0]);
+        self.load_links();
+    }
+
+    /// Sets everything that links carry of which controllers do not know: they compensate for the gravity of the rest.
+    ///
+    /// # Panics
+    /// If a link is not one of this robot.
+    pub fn set_carried_unknown(&mut self, carried: &[CarriedBody]) {
+        carried.clone_into(&mut self.state.carried[1]);
+        let unknown = carried.iter().map(|carried| {
+            let place = self.links[carried.link.get()];
+            let com_in_body = (place.body_from_link * carried.inertia.link_from_inertial).translation.vector;
+            UnknownLoad { body: place.body, mass_kg: carried.inertia.mass_kg, com_in_body }
+        });
+        self.engine.unknown_loads = unknown.collect();
+        self.load_links();
+    }
+
+    fn load_links(&mut self) {
+        let carried = self.state.carried.iter().flatten();
         for (body, own) in self.own_inertias.iter().enumerate().skip(1) {
-            let on_body = carried.iter().filter_map(|carried| {
+            let on_body = carried.clone().filter_map(|carried| {
                 let place = self.links[carried.link.get()];
                 (place.body == body).then_some((place.body_from_link, carried.inertia))
             });

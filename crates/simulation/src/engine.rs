@@ -30,6 +30,14 @@ const SWEEPS_PER_MIMIC: usize = 25;
 /// rapier by itself returns within one step: a robot placed 1 rad outside would get 1000 rad/s.
 const RETURN_SPEED: f64 = 1.0;
 
+/// What a body carries of which controllers do not know.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct UnknownLoad {
+    pub body: usize,
+    pub mass_kg: f64,
+    pub com_in_body: Vector3<f64>,
+}
+
 /// The robot in rapier, and how it is stepped.
 pub(crate) struct Engine {
     sets: EngineSets,
@@ -39,6 +47,7 @@ pub(crate) struct Engine {
     pipeline: PhysicsPipeline,
     parameters: IntegrationParameters,
     gravity: Vector,
+    pub unknown_loads: Vec<UnknownLoad>,
     /// Whether some body carries a force of the step before: rapier's forces persist.
     is_forced: bool,
 }
@@ -57,7 +66,17 @@ impl Engine {
         let Built { sets, handles, slots, multibody } = built;
         let gravity = adapter::vector(&settings.gravity_in_world);
         let pipeline = new_pipeline();
-        Self { sets, handles, slots, multibody, pipeline, parameters, gravity, is_forced: false }
+        Self {
+            sets,
+            handles,
+            slots,
+            multibody,
+            pipeline,
+            parameters,
+            gravity,
+            unknown_loads: Vec::new(),
+            is_forced: false,
+        }
     }
 
     pub(crate) fn step_s(&self) -> f64 {
@@ -156,6 +175,14 @@ impl Engine {
         if let Some(multibody) = self.multibody_mut() {
             multibody.frictions_mut()[coordinate] = friction;
         }
+    }
+
+    pub(crate) fn damping(&self, coordinate: usize) -> f64 {
+        self.multibody().map_or(0.0, |multibody| multibody.damping()[coordinate])
+    }
+
+    pub(crate) fn dry_friction(&self, coordinate: usize) -> f64 {
+        self.multibody().map_or(0.0, |multibody| multibody.frictions()[coordinate])
     }
 
     pub(crate) fn set_armature(&mut self, coordinate: usize, armature: f64) {
@@ -281,6 +308,27 @@ impl Engine {
             let jacobian = multibody.body_jacobian(link.link_id());
             for (torque, column) in torque.iter_mut().zip(jacobian.column_iter()) {
                 *torque -= column[0] * weight.x + column[1] * weight.y + column[2] * weight.z;
+            }
+        }
+    }
+
+    /// The same for what a controller knows: without the weight of unknown loads.
+    pub(crate) fn add_known_gravity_torque(&self, torque: &mut [f64]) {
+        self.add_gravity_torque(torque);
+        let Some(multibody) = self.multibody() else { return };
+        for load in &self.unknown_loads {
+            let Some(link) = multibody.link(load.body) else { continue };
+            let body = self.sets.bodies.get(link.rigid_body_handle()).expect("the body exists");
+            let weight = adapter::vector3(self.gravity) * load.mass_kg;
+            let world_from_body = adapter::isometry(link.local_to_world());
+            let com_in_world = world_from_body * nalgebra::Point3::from(load.com_in_body);
+            // The Jacobian is that of the body's centre of mass.
+            let arm = com_in_world.coords - adapter::vector3(body.center_of_mass());
+            let moment = arm.cross(&weight);
+            let jacobian = multibody.body_jacobian(link.link_id());
+            for (torque, column) in torque.iter_mut().zip(jacobian.column_iter()) {
+                *torque += column[0] * weight.x + column[1] * weight.y + column[2] * weight.z;
+                *torque += column[3] * moment.x + column[4] * moment.y + column[5] * moment.z;
             }
         }
     }

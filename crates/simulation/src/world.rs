@@ -4,9 +4,10 @@ use congruent_description::{Inertia, LinkIndex, Robot, RobotQ};
 use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::{
-    actuation::{Commands, Controller, JointsView, MeasuredState, Motor, Setpoint},
+    actuation::{Commands, Controller, JointsView, MeasuredState, Motor, Setpoint, connection::Connections},
     build,
-    engine::Engine,
+    changes::CarriedBody,
+    engine::{Engine, UnknownLoad},
     error::SimulationError,
     lumping::{Bodies, LinkOnBody},
     sets::EngineSets,
@@ -71,6 +72,8 @@ pub struct World {
     /// The first link without inertia, which cannot be moved by dynamics.
     massless: Option<String>,
     commands: Commands,
+    /// The commands of the last step as they were before actuators delivered a share of them.
+    asked: Commands,
     pub(crate) state: WorldState,
 }
 
@@ -82,6 +85,11 @@ pub(crate) struct WorldState {
     torque: Vec<f64>,
     /// The share of its commanded effort that each actuator delivers.
     pub(crate) delivered: Vec<f64>,
+    /// The effort that each actuator would have exerted if it delivered all of it.
+    asked: Vec<f64>,
+    pub(crate) connections: Connections,
+    /// What links carry that controllers know of, and what they do not.
+    pub(crate) carried: [Vec<CarriedBody>; 2],
     step_count: u64,
 }
 
@@ -90,6 +98,7 @@ pub(crate) struct WorldState {
 pub struct WorldSnapshot {
     state: WorldState,
     sets: EngineSets,
+    unknown_loads: Vec<UnknownLoad>,
 }
 
 impl World {
@@ -115,11 +124,15 @@ impl World {
             links: bodies.links,
             own_inertias: bodies.inertias,
             commands: Commands::new(dof),
+            asked: Commands::new(dof),
             state: WorldState {
                 q: RobotQ::zeros(dof),
                 qd: vec![0.0; dof],
                 torque: vec![0.0; dof],
                 delivered: vec![1.0; dof],
+                asked: vec![0.0; dof],
+                connections: Connections::new(dof),
+                carried: [Vec::new(), Vec::new()],
                 step_count: 0,
             },
         })
@@ -135,6 +148,7 @@ impl World {
         self.check_vector("velocity", qd)?;
         self.engine.place(q, qd);
         self.state.torque.fill(0.0);
+        self.state.asked.fill(0.0);
         self.engine.read(&mut self.state.q, &mut self.state.qd);
         Ok(())
     }
@@ -152,6 +166,12 @@ impl World {
     /// Effort of each actuator in the last step; zero after a step that placed the robot.
     pub fn torque(&self) -> &[f64] {
         &self.state.torque
+    }
+
+    /// Effort that each actuator would have exerted in the last step if it delivered all that it is asked for: what a
+    /// drive reports that knows its current, not its torque.
+    pub fn asked_torque(&self) -> &[f64] {
+        &self.state.asked
     }
 
     /// Simulated time, s: the number of steps times their length.
@@ -231,12 +251,8 @@ impl World {
         self.commands.clear();
         let joints = JointsView { q: measured.q, qd: measured.qd, engine: &self.engine };
         controller.command(&joints, setpoint, &mut self.commands);
-        for (coordinate, motor) in self.commands.motors.iter_mut().enumerate() {
-            if let Some(motor) = motor {
-                motor.q += self.state.q[coordinate] - measured.q[coordinate];
-                motor.qd += self.state.qd[coordinate] - measured.qd[coordinate];
-            }
-        }
+        let WorldState { q, qd, connections, .. } = &self.state;
+        connections.connect(&mut self.commands, &mut self.asked, (q, qd), measured);
         self.apply(setpoint)
     }
 
@@ -249,6 +265,7 @@ impl World {
             return Err(SimulationError::Massless { link: link.clone() });
         }
         self.check_commands()?;
+        self.asked.copy_from(&self.commands);
         self.commands.deliver(&self.state.delivered);
         self.engine.step(&mut self.commands);
         self.state.step_count += 1;
@@ -270,7 +287,11 @@ impl World {
 
     /// The whole state: after [`World::restore`], steps repeat bit by bit.
     pub fn snapshot(&self) -> WorldSnapshot {
-        WorldSnapshot { state: self.state.clone(), sets: self.engine.sets().clone() }
+        WorldSnapshot {
+            state: self.state.clone(),
+            sets: self.engine.sets().clone(),
+            unknown_loads: self.engine.unknown_loads.clone(),
+        }
     }
 
     /// Returns to a snapshot of this world.
@@ -280,13 +301,18 @@ impl World {
     pub fn restore(&mut self, snapshot: &WorldSnapshot) {
         assert_eq!(snapshot.state.q.len(), self.state.q.len(), "the snapshot is of another robot");
         self.engine.restore(&snapshot.sets);
+        self.engine.unknown_loads.clone_from(&snapshot.unknown_loads);
         self.state.clone_from(&snapshot.state);
     }
 
     fn finish_step(&mut self) -> Result<(), SimulationError> {
-        let WorldState { q, qd, torque, .. } = &mut self.state;
+        let WorldState { q, qd, torque, asked, delivered, .. } = &mut self.state;
         self.engine.read(q, qd);
         self.engine.exerted(&self.commands, q, qd, torque);
+        asked.copy_from_slice(torque);
+        if delivered.iter().any(|&share| share < 1.0 || share > 1.0) {
+            self.engine.exerted(&self.asked, q, qd, asked);
+        }
         self.check_finite("position", &self.state.q)?;
         self.check_finite("velocity", &self.state.qd)?;
         match self.engine.first_unsolved() {

@@ -5,7 +5,8 @@ mod support;
 
 use congruent_description::Inertia;
 use congruent_simulation::{
-    CarriedBody, Gains, MeasuredState, Setpoint, SimulationError, World, WorldSettings, controller,
+    CarriedBody, DriveConnection, Gains, MeasuredState, Setpoint, SimulationError, World, WorldSettings,
+    controller,
 };
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
@@ -105,4 +106,55 @@ fn a_resistance_below_zero_is_refused() {
     ] {
         assert!(matches!(refused, Err(SimulationError::Resistance { .. })), "{refused:?}");
     }
+}
+
+#[test]
+fn an_unknown_load_weighs_on_the_robot_and_not_in_the_controller() {
+    let robot = support::arm();
+    let link = robot.find_link("tool").unwrap();
+    let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
+    world.set_state(&support::arm_q0(), &[0.0; 6]).unwrap();
+    let known = world.gravity_torque();
+    world.set_carried_unknown(&[CarriedBody { link, inertia: load() }]);
+    assert!((world.gravity_torque() - &known).norm() > 1.0, "it weighs");
+    let mut compensation = controller("gravity_compensation", Gains::default()).unwrap();
+    world
+        .step(compensation.as_mut(), &Setpoint { q: &support::arm_q0(), qd: &[0.0; 6], qdd: &[0.0; 6] })
+        .unwrap();
+    let commanded = nalgebra::DVector::from_row_slice(world.torque());
+    assert!((commanded - &known).norm() < ROUNDING * known.norm());
+    world.set_carried_unknown(&[]);
+    world.set_state(&support::arm_q0(), &[0.0; 6]).unwrap();
+    assert!((world.gravity_torque() - &known).norm() < ROUNDING * known.norm());
+}
+
+#[test]
+fn a_drive_that_is_connected_elsewhere_gets_the_commands_of_there() {
+    let mut world = World::new(&support::arm(), &WorldSettings::default()).unwrap();
+    world.set_state(&support::arm_q0(), &[0.0; 6]).unwrap();
+    world.set_connection(1, DriveConnection { commanded_as: 2, is_reversed: true });
+    world.set_connection(2, DriveConnection { commanded_as: 1, is_reversed: false });
+    let mut pd = controller("pd", Gains { stiffness: 100.0, damping: 5.0 }).unwrap();
+    let q = support::arm_q0();
+    let mut target = q.clone();
+    target[2] += 0.01;
+    let measured = MeasuredState { q: &q, qd: &[0.0; 6] };
+    world
+        .step_measured(pd.as_mut(), &Setpoint { q: &target, qd: &[0.0; 6], qdd: &[0.0; 6] }, &measured)
+        .unwrap();
+    let expected = 100.0 * (q[1] - 0.01 - world.q()[1]) - 5.0 * world.qd()[1];
+    assert!((world.torque()[1] - expected).abs() < 1e-12, "{} for {expected}", world.torque()[1]);
+}
+
+#[test]
+fn a_drive_reports_what_it_is_asked_for() {
+    let mut world = World::new(&support::arm(), &WorldSettings::default()).unwrap();
+    world.set_state(&support::arm_q0(), &[0.0; 6]).unwrap();
+    world.set_delivered_share(1, 0.25).unwrap();
+    let mut pd = controller("pd", Gains { stiffness: 100.0, damping: 5.0 }).unwrap();
+    let mut target = support::arm_q0();
+    target.iter_mut().for_each(|q| *q += 0.01);
+    world.step(pd.as_mut(), &Setpoint { q: &target, qd: &[0.0; 6], qdd: &[0.0; 6] }).unwrap();
+    assert!((world.torque()[1] - 0.25 * world.asked_torque()[1]).abs() < 1e-12);
+    assert_eq!(world.torque()[2].to_bits(), world.asked_torque()[2].to_bits());
 }

@@ -5,6 +5,7 @@
 //! [`source`] of joint states, [`monitor`] holds the checks, and [`execute`] does all of it for one scenario.
 
 mod execute;
+pub mod fault;
 pub mod monitor;
 pub mod motion;
 pub mod proximity;

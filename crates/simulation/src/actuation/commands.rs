@@ -45,6 +45,13 @@ impl Commands {
         }
     }
 
+    /// Takes over other commands without an allocation.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.torque.copy_from_slice(&other.torque);
+        self.motors.copy_from_slice(&other.motors);
+        self.placed = other.placed;
+    }
+
     /// Torques to exert, N m or N, constant over the step; one entry for each movable joint.
     pub fn torque_mut(&mut self) -> &mut [f64] {
         &mut self.torque

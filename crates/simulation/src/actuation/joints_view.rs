@@ -63,12 +63,12 @@ impl JointsView<'_> {
         self.engine.is_mimic(coordinate)
     }
 
-    /// Adds to `torque` the efforts that hold the robot against gravity, N m or N.
+    /// Adds to `torque` the efforts that hold the robot against gravity, N m or N, without loads that it does not know of.
     ///
     /// # Panics
     /// If `torque` does not hold one entry for each movable joint.
     pub fn add_gravity_torque(&self, torque: &mut [f64]) {
-        self.engine.add_gravity_torque(torque);
+        self.engine.add_known_gravity_torque(torque);
     }
 }
 

@@ -2,6 +2,7 @@
 //! line in the list of `known.rs`.
 
 pub(crate) mod commands;
+pub(crate) mod connection;
 mod controller;
 mod gains;
 mod gravity_compensation;
@@ -12,6 +13,7 @@ mod passive;
 mod pd;
 
 pub use commands::{Commands, Motor};
+pub use connection::DriveConnection;
 pub use controller::Controller;
 pub use gains::Gains;
 pub use joints_view::{JointsView, MeasuredState, Setpoint};

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     checks::{Check, CheckKind},
+    faults::FaultSettings,
     joints::StartSettings,
     motions::MotionSettings,
     number::{finite_array, non_negative, optional_positive, positive},
@@ -58,6 +59,9 @@ pub struct Scenario {
     /// Space that links may not enter.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub zone: Vec<ZoneSettings>,
+    /// Faults of the twin.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fault: Vec<FaultSettings>,
     /// Checks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub check: Vec<Check>,
@@ -79,6 +83,7 @@ impl Default for Scenario {
             motion: Vec::new(),
             obstacle: Vec::new(),
             zone: Vec::new(),
+            fault: Vec::new(),
             check: Vec::new(),
             expect: Expectation::default(),
         }

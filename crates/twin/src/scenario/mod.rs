@@ -3,6 +3,7 @@
 
 mod checks;
 mod data;
+mod faults;
 mod joints;
 mod motions;
 mod number;
@@ -16,6 +17,11 @@ mod text;
 
 pub use checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck};
 pub use data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
+pub(crate) use faults::FaultTime;
+pub use faults::{
+    AddedFrictionFault, DroppedSamplesFault, EncoderDriftFault, EncoderOffsetFault, FaultKind, FaultSettings,
+    JointFault, LatencyFault, ScaledTorqueFault, ShiftedToolFault, SwappedJointsFault, WrongPayloadFault,
+};
 pub use joints::StartSettings;
 pub use motions::{JointMotion, MotionSettings, ServoMethod, ServoMotion, TcpMotion};
 pub(crate) use number::Range;

@@ -113,6 +113,16 @@ fn repeated(name: &str) -> Diagnostic {
 }
 
 fn joint_named(robot: &Robot, name: &str, unit: Unit) -> Result<JointIndex, Diagnostic> {
+    let index = moving_joint(robot, name)?;
+    let joint = robot.joint(index);
+    if joint.kind.is_angular() != matches!(unit, Unit::Angle) {
+        return Err(wrong_unit(joint));
+    }
+    Ok(index)
+}
+
+/// The joint of this name if it moves and follows no other.
+pub(crate) fn moving_joint(robot: &Robot, name: &str) -> Result<JointIndex, Diagnostic> {
     let Some(index) = robot.find_joint(name).filter(|&joint| robot.coordinate(joint).is_some()) else {
         let message = format!("robot \"{}\" has no moving joint \"{name}\"", robot.name());
         return Err(Diagnostic::error("scenario::unknown_joint", message).with_help(known_names(
@@ -124,11 +134,9 @@ fn joint_named(robot: &Robot, name: &str, unit: Unit) -> Result<JointIndex, Diag
     let joint = robot.joint(index);
     if let Some(mimic) = joint.mimic {
         let message = format!("joint \"{name}\" mimics \"{}\"", robot.joint(mimic.master).name);
-        return Err(Diagnostic::error("scenario::mimic_joint", message)
-            .with_help("give the position of the joint that it mimics"));
-    }
-    if joint.kind.is_angular() != matches!(unit, Unit::Angle) {
-        return Err(wrong_unit(joint));
+        return Err(
+            Diagnostic::error("scenario::mimic_joint", message).with_help("name the joint that it mimics")
+        );
     }
     Ok(index)
 }

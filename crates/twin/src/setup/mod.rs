@@ -11,7 +11,7 @@ mod zones;
 
 pub use clock::RunClock;
 pub use declared_dynamics::DeclaredDynamics;
-pub(crate) use joint_targets::JointTargets;
+pub(crate) use joint_targets::{JointTargets, moving_joint};
 pub use payload::Payload;
 pub use run_setup::RunSetup;
 pub use zones::Zone;

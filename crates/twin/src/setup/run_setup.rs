@@ -20,6 +20,7 @@ use super::{
     zones::{self, Zone},
 };
 use crate::{
+    fault::{PlannedFault, resolve},
     monitor::{AT_THE_LIMIT, RunningCheck},
     motion::Trajectory,
     scenario::{
@@ -55,6 +56,8 @@ pub struct RunSetup {
     pub payloads: Vec<Payload>,
     /// What resists each moving joint: known to controllers and checks.
     pub resistances: Vec<JointResistance>,
+    /// Faults of the twin, which nobody knows of.
+    pub faults: Vec<PlannedFault>,
     /// What is suspicious in the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
     check_lines: Vec<Option<usize>>,
@@ -144,12 +147,16 @@ impl RunSetup {
             let around = (&description, scenario.obstacle.as_slice());
             found.keep(RunningCheck::examine(check, place.key("check").item(index), around));
         }
+        let faults = clock.as_ref().and_then(|clock| {
+            let written = (scenario.fault.as_slice(), place.key("fault"));
+            keep_all(&mut found, resolve(written, &description, clock, &scenario.controller.kind))
+        });
         found.extend(unexpected(&scenario, place.key("expect")));
         if needs_shapes(&scenario) {
             keep_all(&mut found, description.for_use(Use::Clearance));
         }
-        let (Some(trajectory), Some(clock), Some(obstacles), Some(zones)) =
-            (trajectory, clock, obstacles, zones)
+        let (Some(trajectory), Some(clock), Some(obstacles), Some(zones), Some(faults)) =
+            (trajectory, clock, obstacles, zones, faults)
         else {
             return Err(found.into_vec());
         };
@@ -180,6 +187,7 @@ impl RunSetup {
             zones,
             payloads: Vec::new(),
             resistances,
+            faults,
             warnings,
             check_lines,
         })

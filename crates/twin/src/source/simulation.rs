@@ -10,6 +10,7 @@ use super::{
     sensors::JointSensors,
 };
 use crate::{
+    fault::InjectedFaults,
     motion::{ReferenceGenerator, ServoResult},
     setup::RunSetup,
 };
@@ -19,6 +20,9 @@ pub struct SimulationSource<'a> {
     world: World,
     controller: Box<dyn Controller>,
     reference: ReferenceGenerator<'a>,
+    faults: InjectedFaults<'a>,
+    /// Whether the controller places the robot at its setpoints.
+    is_placed: bool,
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
 }
@@ -48,12 +52,15 @@ impl<'a> SimulationSource<'a> {
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
         let kind = &setup.scenario.controller.kind;
+        let mut faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
         let mut sensors = JointSensors::new(robot.dof());
-        sensors.read(world.q(), world.qd());
+        sensors.read(faults.measured().q, faults.measured().qd);
         let mut payloads = CarriedPayloads::new(&setup.payloads);
         payloads.update(0.0, &mut world);
         Ok(Self {
             sensors,
+            faults,
+            is_placed: kind == "kinematic",
             payloads,
             world,
             controller: controller(kind, setup.gains()).map_err(SourceError::new)?,
@@ -68,7 +75,11 @@ impl JointStateSource for SimulationSource<'_> {
         let measured = self.sensors.measured();
         JointSample {
             truth: JointStateView { q: self.world.q(), qd, effort },
-            measured: JointStateView { q: measured.q, qd: measured.qd, effort },
+            measured: JointStateView {
+                q: measured.q,
+                qd: measured.qd,
+                effort: self.faults.reported_effort(),
+            },
             setpoint: Some(SetpointView {
                 q: self.reference.q(),
                 qd: self.reference.qd(),
@@ -83,18 +94,26 @@ impl JointStateSource for SimulationSource<'_> {
 
     fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool {
         self.world.root_from_links_into(root_from_links);
+        self.faults.move_tool(root_from_links);
         true
     }
 
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
         let measured = self.sensors.measured();
         self.reference.advance(time_s, measured.q).map_err(SourceError::new)?;
-        let setpoint = Setpoint { q: self.reference.q(), qd: self.reference.qd(), qdd: self.reference.qdd() };
+        let mut setpoint =
+            Setpoint { q: self.reference.q(), qd: self.reference.qd(), qdd: self.reference.qdd() };
+        if self.is_placed {
+            setpoint = self.faults.placed(setpoint);
+        }
         // A payload that comes at the start of the step acts in the whole of it.
         self.payloads.update(self.world.time_s(), &mut self.world);
         let stepped = self.world.step_measured(&mut *self.controller, &setpoint, &measured);
-        self.sensors.read(self.world.q(), self.world.qd());
-        stepped.map_err(SourceError::new)
+        stepped.map_err(SourceError::new)?;
+        self.faults.advance(self.world.step_count(), &mut self.world).map_err(SourceError::new)?;
+        let arrived = self.faults.measured();
+        self.sensors.read(arrived.q, arrived.qd);
+        Ok(())
     }
 
     fn finish(&mut self) -> Result<Vec<ServoResult>, SourceError> {

@@ -13,7 +13,7 @@ use congruent_simulation::controller_names;
 use serde::Deserialize;
 use toml::{Spanned, de::DeTable};
 
-use super::{overrides::Override, section::Section};
+use super::{faults::read_fault, overrides::Override, section::Section};
 use crate::scenario::{
     checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck},
     data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario},
@@ -46,8 +46,8 @@ struct Top {
 }
 
 /// The sections of a file besides its top.
-const SECTIONS: [&str; 8] =
-    ["simulation", "start", "controller", "motion", "obstacle", "zone", "check", "expect"];
+const SECTIONS: [&str; 9] =
+    ["simulation", "start", "controller", "motion", "obstacle", "zone", "fault", "check", "expect"];
 
 impl ScenarioFile {
     /// Reads a file; `overrides` replace its values.
@@ -155,6 +155,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         keep_all(findings, section.require_table("cylinder").map_err(Into::into));
         section.read_into(findings)
     });
+    let fault = all(&mut document, "fault", findings, read_fault);
     let check = all(&mut document, "check", findings, read_check);
     let expect = take(&mut document, "expect", findings).ok().flatten();
     let expect = keep_all(findings, expect.map_or(Ok(Expectation::default()), read_expect));
@@ -174,6 +175,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         motion: motion?,
         obstacle: obstacle?,
         zone: zone?,
+        fault: fault?,
         check: check?,
         expect: expect?,
     })

@@ -1,5 +1,6 @@
 //! Scenario files: text to data, with the places of all values, and overrides of single keys.
 
+mod faults;
 mod file;
 mod overrides;
 mod section;

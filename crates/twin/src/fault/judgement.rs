@@ -1,0 +1,55 @@
+//! Whether a diagnosis has found the faults that a scenario has injected.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::run_fault::{FaultQuantity, RunFault};
+
+/// How far a found value may be from the true one, as a part of the largest value of the fault in the same unit.
+const OFF_BY_PART: f64 = 0.05;
+
+/// How near a diagnosis is to the truth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Judgement {
+    /// Every fault is found with kind, joint or link, and values within 5 %, and nothing else.
+    Right,
+    /// Kind and joint or link are found; a value is farther away.
+    OtherValue,
+    /// Another fault is found, or one too many or too few.
+    Wrong,
+    /// Nothing is found.
+    Nothing,
+}
+
+/// Compares what was found with what was injected.
+pub fn judge(injected: &[RunFault], found: &[RunFault]) -> Judgement {
+    if found.is_empty() {
+        return if injected.is_empty() { Judgement::Right } else { Judgement::Nothing };
+    }
+    let partner = |fault: &RunFault| found.iter().find(|found| is_about_the_same(fault, found));
+    let pairs: Option<Vec<_>> =
+        injected.iter().map(|fault| partner(fault).map(|found| (fault, found))).collect();
+    match pairs.filter(|pairs| pairs.len() == found.len()) {
+        None => Judgement::Wrong,
+        Some(pairs) if pairs.iter().all(|(fault, found)| values_are_near(fault, found)) => Judgement::Right,
+        Some(_) => Judgement::OtherValue,
+    }
+}
+
+fn is_about_the_same(a: &RunFault, b: &RunFault) -> bool {
+    let joints = a.joints.len() == b.joints.len() && a.joints.iter().all(|joint| b.joints.contains(joint));
+    a.kind == b.kind && joints && a.link == b.link
+}
+
+fn values_are_near(injected: &RunFault, found: &RunFault) -> bool {
+    let value = |fault: &RunFault, quantity: &str| {
+        fault.values.iter().find(|value| value.quantity == quantity).map_or(0.0, |value| value.value)
+    };
+    let near = |known: &FaultQuantity| {
+        let of_unit = injected.values.iter().filter(|value| value.unit == known.unit);
+        let scale = of_unit.map(|value| value.value.abs()).fold(known.value.abs(), f64::max);
+        (value(injected, known.quantity) - value(found, known.quantity)).abs() <= OFF_BY_PART * scale
+    };
+    injected.values.iter().chain(&found.values).all(near)
+}

@@ -1,0 +1,310 @@
+//! The faults of a scenario against its robot: names, units, ranges and times, each error at its place.
+
+use congruent_description::{
+    Diagnostic, Inertia, JointKind, LinkIndex, Robot, RobotDescription, units::Unit,
+};
+use congruent_simulation::CarriedBody;
+use nalgebra::{Isometry3, Matrix3, Translation3};
+
+use super::planned::{FaultAction, PlannedFault, describe};
+use crate::{
+    scenario::{
+        AddedFrictionFault, FaultKind, FaultSettings, FaultTime, FilePlace, PoseSettings, ShiftedToolFault,
+        WrongPayloadFault,
+    },
+    setup::{RunClock, moving_joint},
+};
+
+/// Largest share of the effort that an actuator may exert.
+const LARGEST_SHARE: f64 = 10.0;
+
+/// All faults of a scenario, or every finding.
+pub(crate) fn resolve(
+    (settings, place): (&[FaultSettings], FilePlace<'_>),
+    description: &RobotDescription,
+    clock: &RunClock,
+    controller: &str,
+) -> Result<Vec<PlannedFault>, Vec<Diagnostic>> {
+    let (mut planned, mut errors) = (Vec::<PlannedFault>::new(), Vec::new());
+    for (index, fault) in settings.iter().enumerate() {
+        let place = place.item(index);
+        let resolver = Resolver { description, clock, place };
+        match resolver.planned(fault, controller) {
+            Ok(fault) => match excluded(&fault, &planned, description) {
+                Some(error) => errors.push(place.mark(error)),
+                None => planned.push(fault),
+            },
+            Err(error) => errors.push(error),
+        }
+    }
+    if errors.is_empty() { Ok(planned) } else { Err(errors) }
+}
+
+/// Two faults that set the same thing at the same time.
+fn excluded(
+    fault: &PlannedFault,
+    before: &[PlannedFault],
+    description: &RobotDescription,
+) -> Option<Diagnostic> {
+    let slots = fault.action.slots();
+    let other = before.iter().find(|other| {
+        other.overlaps(fault) && other.action.slots().iter().any(|slot| slots.contains(slot))
+    })?;
+    let line = other.line.map_or(String::new(), |line| format!(" of line {line}"));
+    let (kind, known) = (fault.described.kind, other.described.kind);
+    let message = format!("{kind} excludes {known}{line} at the same time on robot \"{}\"", description.name);
+    let help = "let one end (`until_s`) before the other begins (`at_s`), or leave one out";
+    Some(Diagnostic::error("scenario::faults_exclude", message).with_help(help))
+}
+
+struct Resolver<'a> {
+    description: &'a RobotDescription,
+    clock: &'a RunClock,
+    place: FilePlace<'a>,
+}
+
+impl Resolver<'_> {
+    fn planned(&self, fault: &FaultSettings, controller: &str) -> Result<PlannedFault, Diagnostic> {
+        let kind = fault.kind();
+        let (from_step, until_step) = self.steps(fault.time())?;
+        let action = self.action(fault)?;
+        self.has_effect(kind, controller)?;
+        let robot = &self.description.robot;
+        let described = describe(kind, &action, robot, (self.clock, (from_step, until_step)));
+        Ok(PlannedFault { action, from_step, until_step, line: self.place.line(), described })
+    }
+
+    /// Times as samples: a fault is there from the nearest one on.
+    fn steps(&self, time: FaultTime) -> Result<(u64, u64), Diagnostic> {
+        let FaultTime { at_s, until_s } = time;
+        let duration_s = self.clock.duration_s();
+        let refused = |key: &str, message: String| {
+            let help = format!("the run takes {duration_s} s; a fault begins before its end");
+            Err(self.place.key(key).mark(Diagnostic::error("scenario::fault_time", message).with_help(help)))
+        };
+        if !(at_s.is_finite() && at_s >= 0.0 && at_s < duration_s) {
+            return refused("at_s", format!("at_s = {at_s} is outside [0, {duration_s})"));
+        }
+        if let Some(until_s) = until_s.filter(|until_s| !(*until_s > at_s && *until_s <= duration_s)) {
+            return refused("until_s", format!("until_s = {until_s} is outside ({at_s}, {duration_s}]"));
+        }
+        let step = |time_s: f64| nearest_step(time_s, self.clock.step_s);
+        let (from, until) = (step(at_s), until_s.map_or(u64::MAX, step));
+        if from >= until {
+            return refused("until_s", "the fault is shorter than a step".to_owned());
+        }
+        Ok((from, until))
+    }
+
+    fn action(&self, fault: &FaultSettings) -> Result<FaultAction, Diagnostic> {
+        Ok(match fault {
+            FaultSettings::EncoderOffset(fault) => {
+                let joint = self.joint(&fault.joint)?;
+                let written = [fault.value_rad, fault.value_deg, fault.value_m, fault.value_mm];
+                let offset = self.value(joint, ["value_rad", "value_deg", "value_m", "value_mm"], written)?;
+                FaultAction::EncoderOffset { joint, offset }
+            }
+            FaultSettings::EncoderDrift(fault) => {
+                let joint = self.joint(&fault.joint)?;
+                let keys = ["rate_rad_per_s", "rate_deg_per_s", "rate_m_per_s", "rate_mm_per_s"];
+                let written =
+                    [fault.rate_rad_per_s, fault.rate_deg_per_s, fault.rate_m_per_s, fault.rate_mm_per_s];
+                FaultAction::EncoderDrift { joint, rate: self.value(joint, keys, written)? }
+            }
+            FaultSettings::FlippedAxis(fault) => {
+                FaultAction::FlippedAxis { joint: self.joint(&fault.joint)? }
+            }
+            FaultSettings::StuckJoint(fault) => FaultAction::StuckJoint { joint: self.joint(&fault.joint)? },
+            FaultSettings::LostTorque(fault) => {
+                FaultAction::ScaledTorque { joint: self.joint(&fault.joint)?, share: 0.0 }
+            }
+            FaultSettings::ScaledTorque(fault) => {
+                let joint = self.joint(&fault.joint)?;
+                let is_sound =
+                    fault.share > 0.0 && fault.share <= LARGEST_SHARE && (fault.share - 1.0).abs() > 0.0;
+                let range = "a share above 0 and at most 10 that is not 1 (`lost_torque` is 0)";
+                self.within("share", fault.share, is_sound, range)?;
+                FaultAction::ScaledTorque { joint, share: fault.share }
+            }
+            FaultSettings::AddedFriction(fault) => self.friction(fault)?,
+            FaultSettings::WrongPayload(fault) => self.payload(fault)?,
+            FaultSettings::ShiftedTool(fault) => self.tool(fault)?,
+            FaultSettings::SwappedJoints(fault) => self.swapped(&fault.joints)?,
+            FaultSettings::Latency(fault) => {
+                let step_s = self.clock.step_s;
+                let is_sound = fault.time_s >= step_s / 2.0 && fault.time_s < self.clock.duration_s();
+                self.within("time_s", fault.time_s, is_sound, "at least half a step, and less than the run")?;
+                let steps = usize::try_from(nearest_step(fault.time_s, step_s)).unwrap_or(usize::MAX);
+                FaultAction::Latency { steps: steps.max(1) }
+            }
+            FaultSettings::DroppedSamples(fault) => {
+                let is_sound = fault.share > 0.0 && fault.share < 1.0;
+                self.within("share", fault.share, is_sound, "a share above 0 and below 1")?;
+                FaultAction::DroppedSamples { share: fault.share }
+            }
+        })
+    }
+
+    fn joint(&self, name: &str) -> Result<usize, Diagnostic> {
+        let robot = &self.description.robot;
+        let joint = moving_joint(robot, name).map_err(|error| self.place.key("joint").mark(error))?;
+        Ok(robot.coordinate(joint).expect("a moving joint has a coordinate"))
+    }
+
+    fn is_prismatic(&self, coordinate: usize) -> bool {
+        let robot = &self.description.robot;
+        robot.joint(robot.movable_joints()[coordinate]).kind == JointKind::Prismatic
+    }
+
+    /// The one value that is given, of keys in rad, deg, m and mm; not zero.
+    fn value(&self, joint: usize, keys: [&str; 4], written: [Option<f64>; 4]) -> Result<f64, Diagnostic> {
+        let given = keys.into_iter().zip(written).enumerate();
+        let given: Vec<(usize, (&str, f64))> =
+            given.filter_map(|(index, (key, value))| Some((index, (key, value?)))).collect();
+        let fitting = if self.is_prismatic(joint) { [keys[2], keys[3]] } else { [keys[0], keys[1]] };
+        let [(index, (key, value))] = given[..] else {
+            let message = format!("{} values are given, one is needed", given.len());
+            let help = format!("give `{}` or `{}`", fitting[0], fitting[1]);
+            let error = Diagnostic::error("scenario::fault_value", message).with_help(help);
+            return Err(self.place.mark(error));
+        };
+        if (index >= 2) != self.is_prismatic(joint) {
+            let help = format!("give `{}` or `{}`", fitting[0], fitting[1]);
+            let message = format!("`{key}` does not fit the kind of the joint");
+            let error = Diagnostic::error("scenario::joint_unit", message).with_help(help);
+            return Err(self.place.key(key).mark(error));
+        }
+        self.within(key, value, value.is_finite() && value.abs() > 0.0, "a finite number that is not 0")?;
+        Ok(match index {
+            1 => Unit::Angle.convert(value),
+            3 => Unit::Length.convert(value),
+            _ => value,
+        })
+    }
+
+    fn within(&self, key: &str, value: f64, is_sound: bool, range: &str) -> Result<(), Diagnostic> {
+        if is_sound {
+            return Ok(());
+        }
+        let message = format!("{key} = {value}: expected {range}");
+        Err(self.place.key(key).mark(Diagnostic::error("scenario::fault_value", message)))
+    }
+
+    fn friction(&self, fault: &AddedFrictionFault) -> Result<FaultAction, Diagnostic> {
+        let joint = self.joint(&fault.joint)?;
+        let angular = [("dry_n_m", fault.dry_n_m), ("viscous_n_m_s_per_rad", fault.viscous_n_m_s_per_rad)];
+        let linear = [("dry_n", fault.dry_n), ("viscous_n_s_per_m", fault.viscous_n_s_per_m)];
+        let (fitting, others) = if self.is_prismatic(joint) { (linear, angular) } else { (angular, linear) };
+        let help = format!("give `{}`, `{}` or both", fitting[0].0, fitting[1].0);
+        if let Some((key, _)) = others.into_iter().find(|(_, value)| value.is_some()) {
+            let message = format!("`{key}` does not fit the kind of the joint");
+            let error = Diagnostic::error("scenario::joint_unit", message).with_help(help);
+            return Err(self.place.key(key).mark(error));
+        }
+        for (key, value) in fitting {
+            let value = value.unwrap_or(0.0);
+            self.within(key, value, value.is_finite() && value >= 0.0, "a finite number, 0 or above")?;
+        }
+        let [dry, viscous] = fitting.map(|(_, value)| value.unwrap_or(0.0));
+        if dry + viscous <= 0.0 {
+            let error = Diagnostic::error("scenario::fault_value", "no friction is added").with_help(help);
+            return Err(self.place.mark(error));
+        }
+        Ok(FaultAction::AddedFriction { joint, dry, viscous })
+    }
+
+    fn payload(&self, fault: &WrongPayloadFault) -> Result<FaultAction, Diagnostic> {
+        let RobotDescription { tip, tip_from_tcp, robot, .. } = self.description;
+        let is_sound = fault.mass_kg.is_finite() && fault.mass_kg > 0.0;
+        self.within("mass_kg", fault.mass_kg, is_sound, "a finite number above 0")?;
+        let com_in_tcp = fault.com_m.unwrap_or_default();
+        for value in com_in_tcp {
+            self.within("com_m", value, value.is_finite(), "three finite numbers")?;
+        }
+        if robot.body(*tip) == robot.root() {
+            let error = Diagnostic::error("scenario::fault_no_effect", "the tool does not move");
+            return Err(self.place.mark(error.with_help("name another `tip` in the robot file")));
+        }
+        let tip_from_tcp = tip_from_tcp.unwrap_or_else(Isometry3::identity);
+        let com_in_tip = tip_from_tcp * nalgebra::Point3::from(com_in_tcp);
+        let inertia = Inertia {
+            mass_kg: fault.mass_kg,
+            link_from_inertial: Translation3::from(com_in_tip.coords).into(),
+            tensor_kg_m2: Matrix3::zeros(),
+        };
+        Ok(FaultAction::WrongPayload { load: CarriedBody { link: *tip, inertia } })
+    }
+
+    fn tool(&self, fault: &ShiftedToolFault) -> Result<FaultAction, Diagnostic> {
+        let ShiftedToolFault { xyz_m, xyz_mm, rpy_deg, rpy_rad, .. } = *fault;
+        let pose = PoseSettings { xyz_m, xyz_mm, rpy_rad, rpy_deg, ..PoseSettings::default() };
+        let tip_from_shifted = pose.isometry(self.place)?;
+        if tip_from_shifted.translation.vector.norm() + tip_from_shifted.rotation.angle() <= 0.0 {
+            let error = Diagnostic::error("scenario::fault_value", "the tool is not shifted");
+            let help = "give `xyz_m` or `xyz_mm`, `rpy_deg` or `rpy_rad`, not all of them 0";
+            return Err(self.place.mark(error.with_help(help)));
+        }
+        let (robot, tip) = (&self.description.robot, self.description.tip);
+        let links = robot.link_indices().filter(|&link| hangs_below(robot, link, tip));
+        Ok(FaultAction::ShiftedTool {
+            tip: tip.get(),
+            tip_from_shifted,
+            links: links.map(LinkIndex::get).collect(),
+        })
+    }
+
+    fn swapped(&self, names: &[String; 2]) -> Result<FaultAction, Diagnostic> {
+        let robot = &self.description.robot;
+        let place = self.place.key("joints");
+        let mut joints = [0; 2];
+        for (index, (name, joint)) in names.iter().zip(&mut joints).enumerate() {
+            let found = moving_joint(robot, name).map_err(|error| place.item(index).mark(error))?;
+            *joint = robot.coordinate(found).expect("a moving joint has a coordinate");
+        }
+        let message = if joints[0] == joints[1] {
+            format!("joint \"{}\" is exchanged with itself", names[0])
+        } else if self.is_prismatic(joints[0]) != self.is_prismatic(joints[1]) {
+            "a joint that turns cannot be exchanged with one that slides".to_owned()
+        } else {
+            return Ok(FaultAction::SwappedJoints { joints });
+        };
+        Err(place.mark(Diagnostic::error("scenario::fault_value", message).with_help("name another joint")))
+    }
+
+    /// A fault that can have no effect is an error: the run would say nothing about it.
+    fn has_effect(&self, kind: FaultKind, controller: &str) -> Result<(), Diagnostic> {
+        let needs_forces = matches!(
+            kind,
+            FaultKind::LostTorque
+                | FaultKind::ScaledTorque
+                | FaultKind::AddedFriction
+                | FaultKind::WrongPayload
+        );
+        let needs_commands = matches!(kind, FaultKind::LostTorque | FaultKind::ScaledTorque);
+        let why = match controller {
+            "kinematic" if needs_forces => "controller \"kinematic\" places the robot without forces",
+            "passive" if needs_commands => "controller \"passive\" asks the actuators for nothing",
+            _ => return Ok(()),
+        };
+        let message = format!("{kind} has no effect: {why}");
+        let error = Diagnostic::error("scenario::fault_no_effect", message)
+            .with_help("choose another controller, for example kind = \"pd\" with stiffness and damping");
+        Err(self.place.key("kind").mark(error))
+    }
+}
+
+/// Whether a link is `tip` or hangs below it.
+fn hangs_below(robot: &Robot, mut link: LinkIndex, tip: LinkIndex) -> bool {
+    while link != tip {
+        match robot.parent_joint(link) {
+            Some(joint) => link = robot.joint(joint).parent,
+            None => return false,
+        }
+    }
+    true
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 <= time < 1e8 steps")]
+fn nearest_step(time_s: f64, step_s: f64) -> u64 {
+    (time_s / step_s).round() as u64
+}

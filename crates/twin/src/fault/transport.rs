@@ -1,0 +1,57 @@
+//! Faults between encoders and controller: readings that arrive late or not at all.
+
+use rand_chacha::{
+    ChaCha8Rng,
+    rand_core::{RngCore, SeedableRng},
+};
+
+use super::encoders::Reading;
+
+/// Readings of the last steps, the oldest first to leave; allocated once.
+#[derive(Debug, Clone)]
+pub(super) struct Delay {
+    last: Vec<Reading>,
+    next: usize,
+}
+
+impl Delay {
+    /// A delay by a number of steps, in which the readings so far are all `reading`.
+    pub(super) fn new(steps: usize, reading: &Reading) -> Self {
+        Self { last: vec![reading.clone(); steps + 1], next: 0 }
+    }
+
+    /// Takes a reading. This goes on without a fault too: what arrives late has been on its way before.
+    pub(super) fn take(&mut self, reading: &Reading) {
+        self.last[self.next].copy_from(reading);
+        self.next = (self.next + 1) % self.last.len();
+    }
+
+    /// The reading that arrives now.
+    pub(super) fn late(&self) -> &Reading {
+        &self.last[self.next]
+    }
+}
+
+/// Decides which readings get lost.
+#[derive(Debug, Clone)]
+pub(super) struct Loss {
+    share: f64,
+    generator: ChaCha8Rng,
+}
+
+impl Loss {
+    /// `stream` tells the faults of one scenario apart.
+    pub(super) fn new(share: f64, seed: u64, stream: u64) -> Self {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        generator.set_stream(stream);
+        Self { share, generator }
+    }
+
+    /// Whether the reading of this instant gets lost.
+    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
+    pub(super) fn is_lost(&mut self) -> bool {
+        const BITS: u32 = f64::MANTISSA_DIGITS;
+        let uniform = (self.generator.next_u64() >> (u64::BITS - BITS)) as f64 / (1_u64 << BITS) as f64;
+        uniform < self.share
+    }
+}
