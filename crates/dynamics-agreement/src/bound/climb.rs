@@ -1,6 +1,9 @@
 //! The largest absolute value of a function of joint positions, from below: one joint at a time, each exactly.
 
-use super::trigonometric::{Trigonometric, Variable};
+use super::{
+    measure::Measure,
+    trigonometric::{Trigonometric, Variable},
+};
 use congruent_kinematics::Uniform;
 
 /// Random positions of which the best are climbed from. Kind: choice.
@@ -31,18 +34,31 @@ pub(super) fn largest(function: &Trigonometric, seed: u64) -> (f64, Vec<f64>) {
     climbed.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, Vec::new()))
 }
 
+/// A function of several values of which only its course along one variable is asked.
+pub(super) struct Course<'a, F> {
+    pub(super) variables: &'a [Variable],
+    pub(super) measure: Measure,
+    /// The coefficients along one variable with the others at these positions: the values, for each feature of it.
+    pub(super) of_one: F,
+}
+
 /// The same for the measure of a function of several values, or of second degree: the best of many positions of each
 /// joint, refined.
-pub(super) fn largest_sampled(function: &Trigonometric, seed: u64) -> (f64, Vec<f64>) {
+pub(super) fn largest_sampled<F: FnMut(usize, &[f64]) -> Vec<f64>>(
+    mut course: Course<'_, F>,
+    seed: u64,
+) -> (f64, Vec<f64>) {
     let mut random = Uniform::seeded(seed);
     let climbed = (0..STARTS).map(|_| {
         let draw = |variable: &Variable| random.between((variable.lower, variable.upper));
-        let mut q: Vec<f64> = function.variables.iter().map(draw).collect();
-        let mut best = function.measure.of(&function.at(&q));
+        let mut q: Vec<f64> = course.variables.iter().map(draw).collect();
+        let mut best = 0.0;
         for _ in 0..ROUNDS {
             let before = best;
             for at in 0..q.len() {
-                (best, q[at]) = best_of_one(function, at, &q);
+                let coefficients = (course.of_one)(at, &q);
+                let along = (&course.variables[at], &coefficients[..]);
+                (best, q[at]) = best_of_one(along, course.measure, q[at]);
             }
             if best - before <= LEAST_GAIN_SAMPLED * best {
                 break;
@@ -62,18 +78,19 @@ const HALVINGS: usize = 28;
 const LEAST_GAIN_SAMPLED: f64 = 1e-6;
 
 /// The largest measure along one joint, at least that of where it is.
-fn best_of_one(function: &Trigonometric, at: usize, q: &[f64]) -> (f64, f64) {
-    let (variable, coefficients) = (function.variables[at], function.of_one(at, q));
-    let value = |q: f64| {
-        let mut values = vec![0.0; function.values];
-        for (feature, row) in variable.features(q).iter().zip(coefficients.chunks_exact(function.values)) {
+fn best_of_one((variable, coefficients): (&Variable, &[f64]), measure: Measure, q: f64) -> (f64, f64) {
+    let count = coefficients.len() / variable.size();
+    let mut values = vec![0.0; count];
+    let mut value = |q: f64| {
+        values.fill(0.0);
+        for (feature, row) in variable.features(q).iter().zip(coefficients.chunks_exact(count)) {
             values.iter_mut().zip(row).for_each(|(value, coefficient)| *value += feature * coefficient);
         }
-        function.measure.of(&values)
+        measure.of(&values)
     };
     let step = (variable.upper - variable.lower) / f64::from(POSITIONS);
     let grid = (0..=POSITIONS).map(|index| variable.lower + step * f64::from(index));
-    let (mut best, mut place) = (value(q[at]), q[at]);
+    let (mut best, mut place) = (value(q), q);
     let mut width = step;
     for candidate in grid {
         let found = value(candidate);

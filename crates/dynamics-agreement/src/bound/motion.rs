@@ -8,13 +8,13 @@ use congruent_kinematics::Uniform;
 use super::{
     bracket::{AttainedAt, TorqueBracket, TorqueCertificate},
     branch::{Stop, upper_bound},
-    climb,
+    climb::{self, Course},
     dependence::{Dependence, Part},
     gravity::GravityTorques,
     measure::{LargestMotion, Measure, Motion},
     motion_range::CoveredMotion,
     rows::Rows,
-    trigonometric::Trigonometric,
+    trigonometric::{Trigonometric, along},
 };
 use crate::{
     side::Side,
@@ -166,7 +166,7 @@ impl OneJoint<'_> {
         let motion = self.dependence.motion(part, motions.rows.resistance(joint));
         let values = self.dependence.values_of(part, self.at);
         let function = function.selected(values, Measure::Motion(motion));
-        let (_, positions) = climb::largest_sampled(&function, motions.seed);
+        let positions = self.climbed(part, &function)?;
         let largest = motion.largest(&function.at(&positions));
         let candidates = self.candidates(&motion, (&function, &positions), &largest);
         let attained = motions.best((part, joint), candidates)?;
@@ -175,11 +175,43 @@ impl OneJoint<'_> {
             boxes: MAX_BOXES,
             control_values: MAX_MOTION_VALUES,
         };
-        if crude <= stop.below {
+        let crude = crude.min(function.sum_of_amplitudes() + motion.resistance);
+        if crude <= stop.below || function.control_values() > MAX_MOTION_VALUES / FEWEST_BOXES {
             return report(attained, crude, 0);
         }
         let bound = upper_bound(&function, stop);
         report(attained, bound.value.min(crude), bound.boxes)
+    }
+
+    /// Positions with a torque that is as large as climbing finds.
+    fn climbed(&self, part: Part, function: &Trigonometric) -> Result<Vec<f64>, DynamicsError> {
+        let (motions, dependence) = (self.motions, self.dependence);
+        let mut memory = motions.rows.memory();
+        let mut at_q = motions.somewhere().q;
+        let mut error = Ok(());
+        let values = dependence.values_of(part, 0);
+        let of_one = |at: usize, q: &[f64]| {
+            for (variable, position) in function.variables.iter().zip(q) {
+                at_q[variable.joint] = *position;
+            }
+            let variable = &function.variables[at];
+            let mut sampled = Vec::with_capacity(variable.size() * function.values);
+            for position in variable.samples() {
+                at_q[variable.joint] = position;
+                let moving = (&dependence.joints[self.at..=self.at], &dependence.moving[..]);
+                match motions.rows.values(&at_q, moving, &mut memory) {
+                    Ok(all) => sampled.extend_from_slice(&all[values.clone()]),
+                    Err(found) => {
+                        error = Err(found);
+                        sampled.resize(sampled.len() + values.len(), 0.0);
+                    }
+                }
+            }
+            along(&sampled, (&mut [variable.size()], function.values), 0, &variable.coefficient_rows())
+        };
+        let course = Course { variables: &function.variables, measure: function.measure, of_one };
+        let (_, positions) = climb::largest_sampled(course, motions.seed);
+        error.map(|()| positions)
     }
 
     /// Motions that may attain the largest torque: speeds either way, and the joint's own as dry friction wants it.
@@ -238,6 +270,8 @@ impl OneJoint<'_> {
     }
 }
 
+/// Where fewer boxes can be divided the sum of amplitudes is the better bound. Kind: choice.
+const FEWEST_BOXES: usize = 10;
 /// Random motions for a torque of too many joints. Kind: choice.
 const SAMPLES: usize = 2_000;
 /// A speed at which damping is nothing beside dry friction, as a part of the limit. No unit; kind: choice.

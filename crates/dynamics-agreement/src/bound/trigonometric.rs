@@ -28,12 +28,12 @@ impl Variable {
     }
 
     /// How many coefficients it multiplies the others by.
-    fn size(&self) -> usize {
+    pub(super) fn size(&self) -> usize {
         if self.turns { 1 + 2 * self.degree } else { 1 + self.degree }
     }
 
     /// Positions that determine the coefficients.
-    fn samples(&self) -> Vec<f64> {
+    pub(super) fn samples(&self) -> Vec<f64> {
         let size = small(self.size());
         let share = |at: u32| f64::from(at) / if self.turns { size } else { size - 1.0 };
         let shares = (0..).map(share).take(self.size());
@@ -60,7 +60,7 @@ impl Variable {
     }
 
     /// Rows that give the coefficients by the values at the samples.
-    fn coefficient_rows(&self) -> Vec<Vec<f64>> {
+    pub(super) fn coefficient_rows(&self) -> Vec<Vec<f64>> {
         if self.turns {
             let scale = |row: usize| if row == 0 { 1.0 } else { 2.0 } / small(self.size());
             let features: Vec<Vec<f64>> = self.samples().iter().map(|q| self.features(*q)).collect();
@@ -156,6 +156,31 @@ impl Trigonometric {
         }
     }
 
+    /// How many control values a whole range has, at most.
+    pub(super) fn control_values(&self) -> usize {
+        let points = |variable: &Variable| if variable.turns { 9 } else { variable.size() };
+        self.variables.iter().map(points).fold(self.values, usize::saturating_mul)
+    }
+
+    /// The sum of the amplitudes of all waves, each value for itself: no search, but far above for many joints.
+    pub(super) fn sum_of_amplitudes(&self) -> f64 {
+        let harmonic =
+            |variable: &Variable, entry: usize| if variable.turns { entry.div_ceil(2) } else { entry };
+        let count = |variable: &Variable| harmonic(variable, variable.size() - 1) + 1;
+        let mut squares = vec![0.0; self.variables.iter().map(count).product::<usize>() * self.values];
+        for (index, values) in self.coefficients.chunks_exact(self.values).enumerate() {
+            let (mut rest, mut wave, mut stride) = (index, 0, 1);
+            for variable in self.variables.iter().rev() {
+                wave += harmonic(variable, rest % variable.size()) * stride;
+                stride *= count(variable);
+                rest /= variable.size();
+            }
+            let squares = &mut squares[wave * self.values..][..self.values];
+            squares.iter_mut().zip(values).for_each(|(square, value)| *square += value * value);
+        }
+        squares.into_iter().map(f64::sqrt).sum::<f64>() + self.slack
+    }
+
     /// The function of one variable with the others at these positions: its coefficients, one row a value.
     pub(super) fn of_one(&self, at: usize, q: &[f64]) -> Vec<f64> {
         let mut sizes = self.sizes();
@@ -230,6 +255,18 @@ mod tests {
         let found = Trigonometric::sampled(variables, (1, Measure::Sum), function);
         let q = [0.4, 0.6];
         assert!((found.at(&q)[0] - function(&q)[0]).abs() < 1e-15);
+    }
+
+    #[test]
+    fn amplitudes_are_above_all_values() {
+        let function = |q: &[f64]| vec![q[0].cos() * q[0].sin() * (1.0 + q[1] * q[1]) - q[0].sin() * q[1]];
+        let mut variables = vec![Variable::turning(0, (-3.0, 3.0)), Variable::sliding(1, (-1.0, 1.0))];
+        for variable in &mut variables {
+            variable.degree = 2;
+        }
+        let found = Trigonometric::sampled(variables, (1, Measure::Sum), function);
+        // sin(2 a) / 2 and b^2 sin(2 a) / 2 and b sin(a).
+        assert!((found.sum_of_amplitudes() - 2.0).abs() < 1e-12);
     }
 
     #[test]

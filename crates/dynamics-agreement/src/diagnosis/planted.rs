@@ -238,7 +238,7 @@ fn every_cause_is_found_on_a_small_robot() {
 #[test]
 #[ignore = "a benchmark of thousands of faults: run it after a change of thresholds or causes"]
 fn every_cause_is_found_on_many_robots() {
-    for name in ["ur5e", "iiwa14", "panda", "so100"] {
+    for name in ["ur5e", "iiwa14", "panda", "so100", "rrr_arm"] {
         for counts in bench(name, &[FaultySide::Candidate, FaultySide::Reference]) {
             assert_eq!(counts.missed, 0, "{name}: {counts:?}");
         }
@@ -263,7 +263,7 @@ const PAIRS: usize = 150;
 #[ignore = "a benchmark of hundreds of pairs of faults: run it after a change of thresholds or causes"]
 fn two_faults_at_once_are_found() {
     let Some(corpus) = corpus::corpus() else { return };
-    for name in ["ur5e", "iiwa14", "panda", "so100"] {
+    for name in ["ur5e", "iiwa14", "panda", "so100", "rrr_arm"] {
         let path = corpus.join("robots").join(name).join("robot.urdf");
         let robot = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot;
         let original = Side::new(&robot);

@@ -1,8 +1,8 @@
 //! Where the links of a robot are at zero: what a figure in a wrong frame is measured against. Both sides share it.
 
-use congruent_description::{JointIndex, Robot};
+use congruent_description::{DhTable, JointIndex, LinkIndex, Robot, RobotQ};
 use congruent_dynamics::BodyTree;
-use congruent_kinematics::Pose;
+use congruent_kinematics::{DhChain, KinematicsError, Pose};
 
 /// The geometry that both sides have in common.
 #[derive(Debug, Clone)]
@@ -44,9 +44,19 @@ pub(crate) struct JointPlace {
 /// A frame beside the link's own in which figures of a link could have been given.
 #[derive(Debug, Clone)]
 pub(crate) struct OtherFrame {
+    /// At all links.
     pub(crate) name: String,
+    /// At one link, if it has a name of its own there.
+    pub(crate) names_at_links: Vec<Option<String>>,
     /// One for each link that has it, joints at zero.
     pub(crate) link_from_frame: Vec<Option<Pose>>,
+}
+
+impl OtherFrame {
+    fn new(name: &str, link_from_frame: Vec<Option<Pose>>) -> Self {
+        let names_at_links = vec![None; link_from_frame.len()];
+        Self { name: name.to_owned(), names_at_links, link_from_frame }
+    }
 }
 
 impl Frames {
@@ -92,8 +102,41 @@ impl Frames {
     #[must_use]
     pub fn with_other_frame(mut self, name: &str, link_from_frame: Vec<Option<Pose>>) -> Self {
         assert_eq!(link_from_frame.len(), self.links.len(), "one for each link");
-        self.others.push(OtherFrame { name: name.to_owned(), link_from_frame });
+        self.others.push(OtherFrame::new(name, link_from_frame));
         self
+    }
+
+    /// With the frames of a table of the same robot, in which vendors publish figures: frame `dhk` at each link that the
+    /// joint of row `k` carries.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if the table is another robot's.
+    pub fn with_dh_frames(
+        mut self,
+        table: &DhTable,
+        robot: &Robot,
+        base: LinkIndex,
+    ) -> Result<Self, KinematicsError> {
+        let chain = DhChain::new(table, robot);
+        let mut base_from_dh = vec![Pose::identity(); chain.joint_count() + 1];
+        chain.dh_frames_into(&RobotQ::zeros(robot.dof()), &mut base_from_dh)?;
+        let root_from_base = *self.root_from_link(base.get());
+        let row_of = |place: &LinkPlace| {
+            let body = place.body?;
+            chain.coordinates().iter().position(|coordinate| *coordinate == body)
+        };
+        let link_from = |place: &LinkPlace| {
+            let root_from_dh = root_from_base * base_from_dh[row_of(place)? + 1];
+            Some(place.root_from_link.inverse() * root_from_dh)
+        };
+        let name = |place: &LinkPlace| row_of(place).map(|row| format!("dh{}", row + 1));
+        let frame = OtherFrame {
+            name: "dh".to_owned(),
+            names_at_links: self.links.iter().map(name).collect(),
+            link_from_frame: self.links.iter().map(link_from).collect(),
+        };
+        self.others.push(frame);
+        Ok(self)
     }
 
     /// Number of moving joints.
@@ -158,9 +201,8 @@ fn joint_place(robot: &Robot, index: JointIndex, links: &[LinkPlace]) -> JointPl
 fn others(robot: &Robot, links: &[LinkPlace]) -> Vec<OtherFrame> {
     let link_from =
         |link: usize, root_from_frame: &Pose| links[link].root_from_link.inverse() * *root_from_frame;
-    let frame = |name: &str, each: &dyn Fn(usize) -> Option<Pose>| OtherFrame {
-        name: name.to_owned(),
-        link_from_frame: (0..links.len()).map(each).collect(),
+    let frame = |name: &str, each: &dyn Fn(usize) -> Option<Pose>| {
+        OtherFrame::new(name, (0..links.len()).map(each).collect())
     };
     let parent = |link: usize| robot.joints().iter().find(|joint| joint.child.get() == link);
     let child = |link: usize, which: usize| {

@@ -6,8 +6,9 @@ mod joint_terms;
 
 use std::sync::Arc;
 
-use congruent_description::{JointLimit, Robot};
+use congruent_description::{JointLimit, Robot, RobotDescription};
 use congruent_dynamics::{BodyTree, GRAVITY_M_S2, JointResistance, SpatialInertia};
+use congruent_kinematics::KinematicsError;
 use nalgebra::{DVector, Matrix3, Vector3};
 
 pub use frames::Frames;
@@ -38,6 +39,20 @@ impl Side {
     /// What a robot's description says.
     pub fn new(robot: &Robot) -> Self {
         Self::with_frames(robot, Arc::new(Frames::new(robot)))
+    }
+
+    /// What a description says, with the frames of its Denavit-Hartenberg table if it has one: figures may have been
+    /// given in these.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if the table is another robot's.
+    pub fn of_description(description: &RobotDescription) -> Result<Self, KinematicsError> {
+        let robot = &description.robot;
+        let mut frames = Frames::new(robot);
+        if let Some(table) = &description.dh {
+            frames = frames.with_dh_frames(table, robot, description.base)?;
+        }
+        Ok(Self::with_frames(robot, Arc::new(frames)))
     }
 
     /// The same with frames that were made before, of the same robot.

@@ -8,6 +8,7 @@ use crate::{
         hypothesis::{Change, FaultySide, Hypothesis, Place},
     },
     side::{JointTerm, Side},
+    thresholds::SAME_FIGURE,
 };
 
 /// What physics engines give joints without damping, in N m s/rad.
@@ -69,6 +70,7 @@ fn slips(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
                     ..of
                 });
             }
+            all.extend(left_out(side));
         }
         FaultySide::Reference => {
             everywhere(DynamicsCause::JointTermsMissing, "", &|_, _| JointResistance::default());
@@ -96,6 +98,28 @@ fn slips(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
         }
     }
     all
+}
+
+/// Terms that the file has nowhere, or only by default: each joint has a free number. Zeros are a name, no discount.
+fn left_out(side: &Side) -> Vec<Hypothesis> {
+    let n = side.frames.dof();
+    let all = |is: &dyn Fn(&JointResistance) -> bool| side.resistances.iter().all(is);
+    let is_default = |damping: f64| (damping - DEFAULT_DAMPING).abs() <= SAME_FIGURE * DEFAULT_DAMPING;
+    let mut names = Vec::new();
+    if all(&|of| of.damping == 0.0) {
+        names.push((DynamicsCause::DampingMissing, "", JointTerm::Damping));
+    } else if all(&|of| is_default(of.damping)) {
+        names.push((DynamicsCause::DampingDefault, "0.1", JointTerm::Damping));
+    }
+    if all(&|of| of.friction == 0.0) {
+        names.push((DynamicsCause::FrictionMissing, "", JointTerm::Friction));
+    }
+    let groups: Vec<Vec<usize>> = (0..n).map(|joint| vec![joint]).collect();
+    let hypothesis = |(cause, detail, term)| {
+        let change = Change::FreeJoints { term, groups: groups.clone() };
+        Hypothesis::new(cause, detail, Place::AllJoints, change)
+    };
+    names.into_iter().map(hypothesis).collect()
 }
 
 /// Written values are so many times the right ones.

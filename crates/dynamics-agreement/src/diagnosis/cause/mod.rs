@@ -34,7 +34,7 @@ pub(super) fn of_link(side: &Side, faulty: FaultySide, slips: &[Slip<'_>], link:
         for slip in slips {
             if let Some(changed) = (slip.change)(link, figures).filter(|changed| changed != figures) {
                 let (place, change) = (Place::Links(vec![link]), Change::Links(vec![(link, changed)]));
-                hypotheses.push(Hypothesis::new(slip.cause, slip.detail.clone(), place, change));
+                hypotheses.push(Hypothesis::new(slip.cause, slip.detail_at(link), place, change));
             }
         }
     }

@@ -38,10 +38,11 @@ pub(super) fn slips(frames: &Frames, faulty: FaultySide) -> Vec<Slip<'_>> {
     let mut slips = Vec::new();
     for other in &frames.others {
         for kind in KINDS {
-            slips.push(Slip::at_link(kind.cause, other.name.clone(), move |link, figures| {
+            let slip = Slip::at_link(kind.cause, other.name.clone(), move |link, figures| {
                 let link_from_frame = other.link_from_frame[link].as_ref()?;
                 Some(kind.apply(faulty, link_from_frame, figures))
-            }));
+            });
+            slips.push(slip.with_details_at_links(&other.names_at_links));
         }
     }
     slips.extend(rotations(faulty));

@@ -12,6 +12,8 @@ pub(in crate::diagnosis) type Change<'a> = Box<dyn Fn(usize, &Inertial) -> Optio
 pub(in crate::diagnosis) struct Slip<'a> {
     pub(in crate::diagnosis) cause: DynamicsCause,
     pub(in crate::diagnosis) detail: String,
+    /// At one link, if it has another one there.
+    details_at_links: &'a [Option<String>],
     pub(in crate::diagnosis) change: Change<'a>,
 }
 
@@ -22,7 +24,7 @@ impl<'a> Slip<'a> {
         detail: impl Into<String>,
         change: impl Fn(&Inertial) -> Inertial + 'a,
     ) -> Self {
-        Self { cause, detail: detail.into(), change: Box::new(move |_, figures| Some(change(figures))) }
+        Self::at_link(cause, detail, move |_, figures| Some(change(figures)))
     }
 
     /// A slip that depends on the link.
@@ -31,7 +33,17 @@ impl<'a> Slip<'a> {
         detail: impl Into<String>,
         change: impl Fn(usize, &Inertial) -> Option<Inertial> + 'a,
     ) -> Self {
-        Self { cause, detail: detail.into(), change: Box::new(change) }
+        Self { cause, detail: detail.into(), details_at_links: &[], change: Box::new(change) }
+    }
+
+    /// With another detail at some links.
+    pub(super) fn with_details_at_links(self, details_at_links: &'a [Option<String>]) -> Self {
+        Self { details_at_links, ..self }
+    }
+
+    /// The detail at one link.
+    pub(super) fn detail_at(&self, link: usize) -> &str {
+        self.details_at_links.get(link).and_then(Option::as_deref).unwrap_or(&self.detail)
     }
 }
 
