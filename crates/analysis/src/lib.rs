@@ -3,6 +3,7 @@
 //! and plots.
 
 mod arm_joints;
+pub mod base_parameters;
 pub mod conversion;
 pub mod dynamics;
 pub mod forward;

@@ -2,9 +2,9 @@
 //! check while one types, and for programs in other languages.
 
 use congruent_analysis::{
-    conversion::ConversionReport, dynamics::DynamicsReport, forward::ForwardReport, inverse::InverseReport,
-    jacobians::JacobianReport, manipulability::ManipulabilityReport, sensitivity::SensitivityReport,
-    workspace::WorkspaceReport,
+    base_parameters::BaseParameterReport, conversion::ConversionReport, dynamics::DynamicsReport,
+    forward::ForwardReport, inverse::InverseReport, jacobians::JacobianReport,
+    manipulability::ManipulabilityReport, sensitivity::SensitivityReport, workspace::WorkspaceReport,
 };
 use congruent_calibration::report::CalibrationReport;
 use congruent_description::{configurations_schema, robot_file_schema};
@@ -56,6 +56,11 @@ impl Document {
             "convert",
             "model and proof, printed by `convert` and `derive`",
             written::<ConversionReport>,
+        ),
+        Self::new(
+            "base_parameters",
+            "what joint torques tell, printed by `derive --base-parameters`",
+            written::<BaseParameterReport>,
         ),
         #[cfg(feature = "recording")]
         Self::new("inspect", "summary of a recording, printed by `inspect`", written::<RecordingSummary>),

@@ -1,7 +1,20 @@
-//! `congruent derive`: a Denavit-Hartenberg table from a URDF.
+//! `congruent derive`: a Denavit-Hartenberg table from a URDF, or what of its inertias joint torques can tell.
+
+use std::fmt::Write;
 
 use clap::ValueEnum;
-use congruent::analysis::conversion::{ConversionSource, ConversionTarget};
+use congruent::{
+    analysis::{
+        base_parameters::{
+            BaseParameterReport, NamedParameter, ReportedBaseParameter, base_parameters as derived,
+        },
+        conversion::{ConversionSource, ConversionTarget},
+    },
+    description::{
+        Diagnostic, RobotDescription,
+        display::{number, quantity},
+    },
+};
 
 use crate::{
     failure::Failure,
@@ -9,19 +22,24 @@ use crate::{
     model::{convert::AccuracyArguments, written_model::answer},
     output_file::OutputArgument,
     print::Printer,
+    table::wrapped,
 };
 
 /// A Denavit-Hartenberg table from the axes of a URDF, proved by comparing back.
 ///
 /// Prints the section `[dh]` of a robot file, with the free choices beside it, or writes a whole robot file with
-/// --output. Axes that are parallel or meet but for rounded values of the URDF are taken as such, and told.
+/// --output. With --base-parameters prints which sums of inertial parameters joint torques tell instead. Axes that are parallel or meet but for rounded values of the URDF are taken as such, and told.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,
     /// Which equation the rows stand for; the same values are another robot in the other one.
-    #[arg(long, value_enum)]
-    convention: ConventionArgument,
+    #[arg(long, value_enum, required_unless_present = "base_parameters")]
+    convention: Option<ConventionArgument>,
+    /// Print the base parameters instead: the sums of masses, first moments and inertias that joint torques tell, with
+    /// what is grouped in each, and the parameters that change no torque.
+    #[arg(long, conflicts_with_all = ["convention", "exact", "output"])]
+    base_parameters: bool,
     #[command(flatten)]
     accuracy: AccuracyArguments,
     #[command(flatten)]
@@ -39,9 +57,56 @@ enum ConventionArgument {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load_urdf(printer)?;
     let to = match arguments.convention {
-        ConventionArgument::Standard => ConversionTarget::Standard,
-        ConventionArgument::Modified => ConversionTarget::Modified,
+        None => return base_parameters(&description, printer),
+        Some(ConventionArgument::Standard) => ConversionTarget::Standard,
+        Some(ConventionArgument::Modified) => ConversionTarget::Modified,
     };
     let conversion = arguments.accuracy.conversion(Some(ConversionSource::Urdf), to);
     answer(&description, &conversion, &arguments.output, printer)
+}
+
+/// Motions at which torques are looked at: the result does not depend on them.
+const SEED: u64 = 0;
+
+fn base_parameters(description: &RobotDescription, printer: &Printer) -> Result<u8, Failure> {
+    if description.robot.dof() == 0 {
+        let message =
+            format!("{}: no joint moves, so there are no joint torques", description.urdf_path.display());
+        return Err(Diagnostic::error("derive::no_joint", message).into());
+    }
+    let report = derived(description, SEED)
+        .map_err(|error| Diagnostic::error("derive::base_parameters", error.to_string()))?;
+    printer.result(&report, text)?;
+    Ok(0)
+}
+
+fn text(report: &BaseParameterReport) -> String {
+    let (seen, all) = (report.base_parameters.len(), report.of);
+    let mut text = format!("{}: joint torques tell {seen} of {all} inertial parameters\n", report.file);
+    text += "  about the origin and in the axes of each link: ixx to izz inertia, mx to mz mass times centre of mass, m mass\n";
+    for group in &report.base_parameters {
+        let _ = writeln!(text, "  {}", sum(group));
+    }
+    if !report.not_seen.is_empty() {
+        let _ = writeln!(text, "  no joint torque shows");
+        let names: Vec<String> = report.not_seen.iter().map(name).collect();
+        text += &wrapped(&names.join(", "));
+    }
+    text
+}
+
+fn name(of: &NamedParameter) -> String {
+    format!("{} {}", of.link, of.parameter)
+}
+
+/// `upper_arm_link ixx - forearm_link mz + 0.18 forearm_link m = 1.2 kg m^2`.
+fn sum(group: &ReportedBaseParameter) -> String {
+    let mut sum = name(&group.of);
+    for part in &group.grouped {
+        let sign = if part.coefficient < 0.0 { '-' } else { '+' };
+        let factor = number(part.coefficient.abs());
+        let factor = if factor == "1" { String::new() } else { format!("{factor} ") };
+        let _ = write!(sum, " {sign} {factor}{}", name(&part.of));
+    }
+    format!("{sum} = {}", quantity(group.value, group.unit))
 }

@@ -23,9 +23,13 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
         let _ = writeln!(text, "  disagree  dynamics is not compared: {why}");
     }
     check.all_dynamics().for_each(|report| compared(text, report, robot));
-    let declared = check.declared_dynamics.as_ref();
-    for what in declared.iter().flat_map(|declared| &declared.not_declared) {
-        let _ = writeln!(text, "    not compared, as the robot file does not declare it: {what}");
+    let declared = check.declared_dynamics.as_ref().map(|declared| &declared.not_declared);
+    if let Some(left_out) = declared.filter(|left_out| !left_out.is_empty()) {
+        let _ = writeln!(
+            text,
+            "  [[inertial]] does not declare, so that it is not compared: {}",
+            left_out.join("; ")
+        );
     }
 }
 

@@ -69,26 +69,25 @@ fn cost(report: &DynamicsReport) -> (bool, bool, u32) {
 
 /// What is left out of the entries.
 fn not_declared(declared: &DeclaredDynamics, robot: &Robot) -> Vec<String> {
-    let mut left_out = Vec::new();
-    let joints = |lacks: &dyn Fn(&str, &DeclaredInertial) -> bool| -> Vec<String> {
-        let declared = declared.inertials.iter().map(|of| (&robot.joint(of.joint).name, of));
-        declared.filter(|(name, of)| lacks(name, of)).map(|(name, _)| name.clone()).collect()
-    };
-    let mut say = |what: &str, joints: Vec<String>| {
-        if !joints.is_empty() {
-            left_out.push(format!("{what} at {}", joints.join(", ")));
+    let names: Vec<&str> = robot.movable_joint_names().collect();
+    let entry = |name: &str| declared.inertials.iter().find(|of| robot.joint(of.joint).name == name);
+    let lacking = |what: &str, is_there: fn(&DeclaredInertial) -> bool| {
+        let lacks = |name: &&str| !entry(name).is_some_and(is_there);
+        let lacking: Vec<&str> = names.iter().copied().filter(lacks).collect();
+        match lacking.len() {
+            0 => None,
+            all if all == names.len() => Some(format!("{what} of all joints")),
+            _ => Some(format!("{what} of {}", lacking.join(", "))),
         }
     };
-    let has_entry = |name: &str| declared.inertials.iter().any(|of| robot.joint(of.joint).name == name);
-    let without = robot.movable_joint_names().filter(|name| !has_entry(name)).map(str::to_owned).collect();
-    say("mass, centre of mass and inertia", without);
-    say("inertia", joints(&|_, of| of.tensor_kg_m2.is_none()));
-    say("damping", joints(&|_, of| of.damping.is_none()));
-    say("friction", joints(&|_, of| of.friction.is_none()));
-    if declared.gravity_in_base_m_s2.is_none() {
-        left_out.push("gravity".to_owned());
-    }
-    left_out
+    let left_out = [
+        lacking("mass and centre of mass", |_| true),
+        lacking("inertia", |of| of.tensor_kg_m2.is_some()),
+        lacking("damping", |of| of.damping.is_some()),
+        lacking("friction", |of| of.friction.is_some()),
+        declared.gravity_in_base_m_s2.is_none().then(|| "gravity".to_owned()),
+    ];
+    left_out.into_iter().flatten().collect()
 }
 
 /// Links and frames of the table, joints at zero.
