@@ -20,6 +20,8 @@ use schemars::{
 };
 use serde_json::Value;
 
+use crate::run_comparison::RunComparison;
+
 /// A kind of file or document that has a schema.
 #[derive(Debug, Clone, Copy)]
 pub struct Document {
@@ -56,6 +58,7 @@ impl Document {
             "model and proof, printed by `convert` and `derive`",
             written::<ConversionReport>,
         ),
+        Self::new("compare", "two runs, printed by `compare`", written::<RunComparison>),
         #[cfg(feature = "recording")]
         Self::new("inspect", "summary of a recording, printed by `inspect`", written::<RecordingSummary>),
     ];

@@ -14,7 +14,9 @@ mod sets;
 mod settings;
 mod world;
 
-pub use actuation::{Commands, Controller, Gains, JointsView, Motor, Setpoint, controller, controller_names};
+pub use actuation::{
+    CloneController, Commands, Controller, Gains, JointsView, Motor, Setpoint, controller, controller_names,
+};
 pub use error::SimulationError;
 pub use settings::{Obstacle, WorldSettings};
 pub use world::{World, WorldSnapshot};

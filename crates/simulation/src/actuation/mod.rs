@@ -12,7 +12,7 @@ mod passive;
 mod pd;
 
 pub use commands::{Commands, Motor};
-pub use controller::Controller;
+pub use controller::{CloneController, Controller};
 pub use gains::Gains;
 pub use joints_view::{JointsView, Setpoint};
 pub use known::{controller, controller_names};

@@ -8,6 +8,7 @@ use super::{
     joints::StartSettings,
     motions::MotionSettings,
     number::{finite_array, non_negative, optional_positive, positive},
+    output::OutputSettings,
     spaces::{ObstacleSettings, ZoneSettings},
 };
 
@@ -61,6 +62,9 @@ pub struct Scenario {
     /// Checks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub check: Vec<Check>,
+    /// What is written besides the report and the recording.
+    #[serde(default, skip_serializing_if = "OutputSettings::is_default")]
+    pub output: OutputSettings,
     /// The expected verdict.
     #[serde(default)]
     pub expect: Expectation,
@@ -80,6 +84,7 @@ impl Default for Scenario {
             obstacle: Vec::new(),
             zone: Vec::new(),
             check: Vec::new(),
+            output: OutputSettings::default(),
             expect: Expectation::default(),
         }
     }

@@ -3,6 +3,7 @@
 mod clock;
 mod joint_targets;
 mod numbers;
+mod output;
 mod run_setup;
 mod spaces;
 mod zones;

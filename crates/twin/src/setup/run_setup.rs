@@ -11,7 +11,7 @@ use congruent_simulation::{Gains, Obstacle, controller_names};
 use super::{
     clock::RunClock,
     joint_targets::JointTargets,
-    numbers, spaces,
+    numbers, output, spaces,
     zones::{self, Zone},
 };
 use crate::{
@@ -127,6 +127,7 @@ impl RunSetup {
         let motions_s = scenario.motion.iter().map(MotionSettings::duration_s).sum();
         let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
         let clock = found.keep(clock);
+        found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
         let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);
         let obstacles = keep_all(&mut found, obstacles);
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));

@@ -1,7 +1,7 @@
 //! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
 use congruent_description::{Diagnostic, RobotQ, Use};
-use congruent_simulation::{Controller, Setpoint, World, WorldSettings, controller};
+use congruent_simulation::{Controller, Setpoint, World, WorldSettings, WorldSnapshot, controller};
 use nalgebra::Isometry3;
 
 use super::joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError};
@@ -17,6 +17,20 @@ pub struct SimulationSource<'a> {
     reference: ReferenceGenerator<'a>,
     /// Positions that the encoders give. They are exact; faults, noise and quantisation belong here.
     measured_q: RobotQ,
+}
+
+/// The whole state of a [`SimulationSource`] at one moment.
+pub struct SimulationSnapshot<'a> {
+    world: WorldSnapshot,
+    controller: Box<dyn Controller>,
+    reference: ReferenceGenerator<'a>,
+    measured_q: RobotQ,
+}
+
+impl std::fmt::Debug for SimulationSnapshot<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SimulationSnapshot").finish_non_exhaustive()
+    }
 }
 
 impl std::fmt::Debug for SimulationSource<'_> {
@@ -50,6 +64,28 @@ impl<'a> SimulationSource<'a> {
             controller: controller(kind, setup.gains()).map_err(SourceError::new)?,
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
         })
+    }
+
+    /// The whole state: after [`SimulationSource::restore`], in this source or in another of the same setup, steps
+    /// repeat bit by bit.
+    pub fn snapshot(&self) -> SimulationSnapshot<'a> {
+        SimulationSnapshot {
+            world: self.world.snapshot(),
+            controller: self.controller.boxed_clone(),
+            reference: self.reference.clone(),
+            measured_q: self.measured_q.clone(),
+        }
+    }
+
+    /// Returns to a snapshot of the same setup.
+    ///
+    /// # Panics
+    /// When the snapshot is of a robot with another number of joints.
+    pub fn restore(&mut self, snapshot: &SimulationSnapshot<'a>) {
+        self.world.restore(&snapshot.world);
+        self.controller = snapshot.controller.boxed_clone();
+        self.reference.clone_from(&snapshot.reference);
+        self.measured_q.clone_from(&snapshot.measured_q);
     }
 }
 

@@ -46,8 +46,8 @@ struct Top {
 }
 
 /// The sections of a file besides its top.
-const SECTIONS: [&str; 8] =
-    ["simulation", "start", "controller", "motion", "obstacle", "zone", "check", "expect"];
+const SECTIONS: [&str; 9] =
+    ["simulation", "start", "controller", "motion", "obstacle", "zone", "check", "output", "expect"];
 
 impl ScenarioFile {
     /// Reads a file; `overrides` replace its values.
@@ -156,6 +156,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         section.read_into(findings)
     });
     let check = all(&mut document, "check", findings, read_check);
+    let output = one(&mut document, "output", findings);
     let expect = take(&mut document, "expect", findings).ok().flatten();
     let expect = keep_all(findings, expect.map_or(Ok(Expectation::default()), read_expect));
     let mut at_top = Diagnostics::default();
@@ -175,6 +176,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         obstacle: obstacle?,
         zone: zone?,
         check: check?,
+        output: output?,
         expect: expect?,
     })
 }
