@@ -3,6 +3,7 @@
 
 mod arm;
 mod batch;
+mod compare;
 mod failure;
 mod input;
 #[cfg(feature = "recording")]
@@ -52,6 +53,7 @@ enum Command {
     Convert(model::convert::Arguments),
     #[cfg(feature = "recording")]
     Inspect(inspect::Arguments),
+    Compare(compare::Arguments),
     Schema(schema::Arguments),
 }
 
@@ -74,6 +76,7 @@ fn main() -> ExitCode {
         Command::Convert(arguments) => model::convert::run(&arguments, &printer),
         #[cfg(feature = "recording")]
         Command::Inspect(arguments) => inspect::run(&arguments, &printer),
+        Command::Compare(arguments) => compare::run(&arguments, &printer),
         Command::Schema(arguments) => schema::run(&arguments, &printer),
     };
     match result {

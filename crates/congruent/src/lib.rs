@@ -17,10 +17,12 @@ pub use congruent_twin as twin;
 pub use nalgebra;
 
 mod check;
+mod run_comparison;
 pub mod schema;
 mod with_physics;
 
 pub use check::{DeclaredSource, OtherDescription, RobotCheck, check, check_against, check_suite};
+pub use run_comparison::{NotComparable, RunComparison, compare_runs};
 pub use with_physics::{forward, joint_dynamics};
 
 /// What is wrong with an input, one finding in each line, without the lines of the file.

@@ -19,7 +19,7 @@ use schemars::{
 };
 use serde_json::Value;
 
-use crate::check::RobotCheck;
+use crate::{check::RobotCheck, run_comparison::RunComparison};
 
 /// A kind of file or document that has a schema.
 #[derive(Debug, Clone, Copy)]
@@ -62,6 +62,7 @@ impl Document {
             "what joint torques tell, printed by `derive --base-parameters`",
             written::<BaseParameterReport>,
         ),
+        Self::new("compare", "two runs, printed by `compare`", written::<RunComparison>),
         #[cfg(feature = "recording")]
         Self::new("inspect", "summary of a recording, printed by `inspect`", written::<RecordingSummary>),
     ];

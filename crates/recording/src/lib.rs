@@ -12,5 +12,7 @@ mod rrd;
 mod scene;
 mod series;
 
-pub use read::{EntitySummary, InspectError, RecordingSummary, ScalarSummary, TimelineSummary, inspect};
+pub use read::{
+    EntitySummary, InspectError, RecordingSummary, ScalarSummary, TimelineSummary, inspect, scalars,
+};
 pub use recorder::{RerunFormat, RerunRecorder};

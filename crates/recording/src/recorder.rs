@@ -118,15 +118,17 @@ impl Recorder for RerunRecorder {
             self.write_batch()?;
         }
         let time = SampleTime::new(sample.time_s, sample.step);
-        let world_from_tip = &sample.twin[self.description.tip.get()];
-        let tool_in_world = world_from_tip * self.tip_from_tcp * Point3::origin();
+        let tip = self.description.tip.get();
+        let by_twin = sample.twin[tip] * self.tip_from_tcp;
+        let by_model = sample.model[tip].to_isometry() * self.tip_from_tcp;
+        let tool_in_world = Point3::from(by_twin.translation.vector);
         for (twin, model) in sample.twin.iter().zip(sample.model) {
             self.robot_box.include(&Point3::from(twin.translation.vector));
             self.robot_box.include(&Point3::from(model.translation));
         }
         self.robot_box.include(&tool_in_world);
         self.tool_path.push(tool_in_world);
-        self.batch.push(time, sample, &tool_in_world);
+        self.batch.push(time, sample, [&by_twin, &by_model]);
         self.disagreement.push(time, sample);
         self.clearance.push(time, sample.clearance, sample.twin.len());
         Ok(())

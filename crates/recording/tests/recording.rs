@@ -144,6 +144,9 @@ struct RecorderProbe {
     tip: usize,
     errors_m: Vec<f64>,
     q: Vec<f64>,
+    tip_from_tcp: nalgebra::Isometry3<f64>,
+    /// Values of one joint and of the TCP, by path.
+    others: Vec<(&'static str, f64)>,
 }
 
 impl Recorder for RecorderProbe {
@@ -151,6 +154,16 @@ impl Recorder for RecorderProbe {
         if sample.step.is_multiple_of(10) || sample.step == 255 {
             self.errors_m.push(sample.errors[self.tip].position_m);
             self.q = sample.joints.truth.q.to_vec();
+            let (joints, elbow) = (&sample.joints, 2);
+            let setpoint = joints.setpoint.unwrap();
+            self.others = vec![
+                ("/joint/velocity/elbow_joint", joints.truth.qd[elbow]),
+                ("/joint/effort/elbow_joint", joints.truth.effort[elbow]),
+                ("/joint/reference_position/elbow_joint", setpoint.q[elbow]),
+                ("/joint/reference_velocity/elbow_joint", setpoint.qd[elbow]),
+                ("/joint/measured_position/elbow_joint", joints.measured.q[elbow]),
+                ("/tcp/twin/x_m", (sample.twin[self.tip] * self.tip_from_tcp).translation.x),
+            ];
         }
         self.recorder.record(sample)
     }
@@ -167,7 +180,14 @@ fn scalars_are_exact() {
     let names = run.names().clone();
     let recorder = RerunRecorder::create(&path, &scenario, &names, &sources).unwrap();
     let tip = scenario.description.tip.get();
-    let mut probe = RecorderProbe { recorder, tip, errors_m: Vec::new(), q: Vec::new() };
+    let mut probe = RecorderProbe {
+        recorder,
+        tip,
+        tip_from_tcp: scenario.description.tip_from_tcp.unwrap(),
+        errors_m: Vec::new(),
+        q: Vec::new(),
+        others: Vec::new(),
+    };
     let (outcome, result) = run.finish(&mut checks, &mut probe, |_| ());
     result.unwrap();
     Box::new(probe.recorder).finish(&RunReport::new(&scenario, &sources, outcome, None)).unwrap();
@@ -182,6 +202,10 @@ fn scalars_are_exact() {
         let recorded = scalar(&summary, &format!("/joint/position/{joint}"));
         assert_eq!(recorded.last.map(f64::to_bits), bits(*q), "{joint}");
     }
+    for (path, value) in &probe.others {
+        assert_eq!(scalar(&summary, path).last.map(f64::to_bits), bits(*value), "{path}");
+    }
+    assert_eq!(probe.others.len(), 6);
 }
 
 #[test]

@@ -108,6 +108,7 @@ fn a_robot_without_a_joint_stands() {
 }
 
 /// Commands the same torque at every joint.
+#[derive(Clone)]
 struct Push(f64);
 
 impl Controller for Push {

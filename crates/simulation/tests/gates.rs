@@ -217,6 +217,7 @@ fn one_step_error(golden: &Golden, config: &Value, world: &mut World) -> f64 {
 }
 
 /// Torques that stay as they are.
+#[derive(Clone)]
 struct Torques(Vec<f64>);
 
 impl Controller for Torques {

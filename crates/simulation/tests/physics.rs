@@ -327,6 +327,7 @@ fn a01_poses_are_those_of_the_coordinates() {
 }
 
 /// A controller from outside the crate: a servo on one joint only.
+#[derive(Clone)]
 struct OneServo;
 
 impl Controller for OneServo {

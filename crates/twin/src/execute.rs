@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use crate::{
-    recorder::{NoRecorder, Recorder, RecordingError},
+    recorder::{Recorder, Recorders, RecordingError},
     report::{OutputError, OutputFolder, RunReport, explain, write_junit},
     run::{Run, RunError},
+    scenario::TrajectoryFormat,
     setup::RunSetup,
+    trajectory_file::TrajectoryRecorder,
 };
 
 /// Which results are written, and to which folder.
@@ -92,31 +94,34 @@ pub fn execute(
     let run = Run::new(setup).map_err(cannot_run)?;
     let sources = run.model().sources().to_vec();
     let mut recording = match options.recording {
-        Some(format) => Some(format.begin(&folder.file(PARTIAL), &run)?),
+        Some(format) => Some(format.begin(&folder.file(RECORDING.partial), &run)?),
         None => None,
     };
-    let mut nothing = NoRecorder;
-    let recorder: &mut dyn Recorder = match &mut recording {
-        Some(recording) => &mut **recording,
-        None => &mut nothing,
-    };
-    let (mut outcome, result) = run.finish(&mut checks, recorder, progress);
+    let mut trajectory = Trajectory::begin(&folder, &run)?;
+    let mut recorders = Recorders::default();
+    recorders.0.extend(recording.as_mut().map(|recording| &mut **recording as &mut dyn Recorder));
+    recorders.0.extend(trajectory.as_mut().map(|trajectory| &mut trajectory.recorder as &mut dyn Recorder));
+    let (mut outcome, mut result) = run.finish(&mut checks, &mut recorders, progress);
     explain(setup, &mut outcome);
+    let mut settled = Vec::new();
+    if let Some(Trajectory { file, recorder }) = trajectory {
+        let closed = recorder.finish();
+        settled.push(file.settle(&folder, &closed));
+        result = result.and(closed.map_err(RunError::from));
+    }
     let mut report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
-    let mut published = Ok(());
-    let is_recorded = recording.is_some();
-    if let Err(error) = recording.map_or(Ok(()), |recording| recording.finish(&report)) {
-        // The error of the run is reported before an error of the recording that follows from it.
-        let first = result.err().unwrap_or(error.into());
-        report = RunReport::new(setup, &sources, outcome, Some(&first));
-        // On a full disk it takes the space of the report, which matters more.
-        published = folder.remove(PARTIAL);
-    } else if is_recorded {
-        published = folder.publish(PARTIAL, "recording.rrd");
+    if let Some(recording) = recording {
+        let closed = recording.finish(&report);
+        settled.push(RECORDING.settle(&folder, &closed));
+        if let Err(error) = closed {
+            // The error of the run is reported before an error of the recording that follows from it.
+            let first = result.err().unwrap_or(error.into());
+            report = RunReport::new(setup, &sources, outcome, Some(&first));
+        }
     }
     // Each is tried, even if another has failed.
     let written = [
-        published,
+        settled.into_iter().collect(),
         folder.write_json("report.json", &report),
         write_junit(&folder.file("junit.xml"), &[report.test_suite()]),
     ];
@@ -126,5 +131,37 @@ pub fn execute(
     }
 }
 
-/// A recording under its temporary name.
-const PARTIAL: &str = "recording.rrd.partial";
+/// A file that is written during the run, under a temporary name.
+#[derive(Debug, Clone, Copy)]
+struct StreamedFile {
+    partial: &'static str,
+    name: &'static str,
+}
+
+const RECORDING: StreamedFile = StreamedFile { partial: "recording.rrd.partial", name: "recording.rrd" };
+
+impl StreamedFile {
+    /// Gives the file its name if it is complete. Otherwise it is removed: on a full disk it takes the space of the
+    /// report, which matters more.
+    fn settle(self, folder: &OutputFolder, closed: &Result<(), RecordingError>) -> Result<(), OutputError> {
+        if closed.is_ok() { folder.publish(self.partial, self.name) } else { folder.remove(self.partial) }
+    }
+}
+
+/// The trajectory in progress, if the scenario asks for one.
+struct Trajectory {
+    file: StreamedFile,
+    recorder: TrajectoryRecorder,
+}
+
+impl Trajectory {
+    fn begin(folder: &OutputFolder, run: &Run<'_>) -> Result<Option<Self>, RecordingError> {
+        let Some(format) = run.setup().scenario.output.trajectory else { return Ok(None) };
+        let (partial, name) = match format {
+            TrajectoryFormat::Csv => ("trajectory.csv.partial", "trajectory.csv"),
+            TrajectoryFormat::Parquet => ("trajectory.parquet.partial", "trajectory.parquet"),
+        };
+        let recorder = TrajectoryRecorder::create(&folder.file(partial), format, run)?;
+        Ok(Some(Self { file: StreamedFile { partial, name }, recorder }))
+    }
+}

@@ -4,6 +4,7 @@
 //! [`scenario`] is a scenario as plain data, [`setup`] checks it against its robot, [`Run`] is the loop over a
 //! [`source`] of joint states, [`monitor`] holds the checks, and [`execute`] does all of it for one scenario.
 
+pub mod comparison;
 mod execute;
 pub mod fault;
 pub mod monitor;
@@ -16,6 +17,7 @@ mod sample;
 pub mod scenario;
 pub mod setup;
 pub mod source;
+pub mod trajectory_file;
 pub mod verdict;
 
 pub use execute::{ExecuteError, Options, Recording, RecordingFormat, execute};

@@ -20,6 +20,22 @@ pub trait Recorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError>;
 }
 
+/// Several recorders of one run, one after another; one that has failed ends the run.
+#[derive(Default)]
+pub struct Recorders<'a>(pub Vec<&'a mut dyn Recorder>);
+
+impl std::fmt::Debug for Recorders<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Recorders").field(&self.0.len()).finish()
+    }
+}
+
+impl Recorder for Recorders<'_> {
+    fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
+        self.0.iter_mut().try_for_each(|recorder| recorder.record(sample))
+    }
+}
+
 /// Keeps nothing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoRecorder;

@@ -63,6 +63,8 @@ pub(super) struct RecordingContent {
     scalars: BTreeMap<String, ScalarStatistics>,
     properties: BTreeMap<String, Value>,
     problems: Vec<String>,
+    /// All values of each scalar with their times, if they are asked for.
+    pub(super) series: Option<BTreeMap<String, Vec<(i64, f64)>>>,
 }
 
 impl RecordingContent {
@@ -134,6 +136,10 @@ impl RecordingContent {
             let time = times.get(row).copied().unwrap_or(i64::MIN);
             if let Some(values) = rows.value(row).as_primitive_opt::<Float64Type>() {
                 values.iter().flatten().for_each(|value| scalar.add(time, value));
+                if let Some(series) = &mut self.series {
+                    let series = series.entry(path.to_owned()).or_default();
+                    series.extend(values.iter().flatten().map(|value| (time, value)));
+                }
             }
         }
     }
@@ -150,7 +156,7 @@ impl RecordingContent {
     }
 
     /// The summary, except for the file's size and completeness; `None` without a recording.
-    pub(super) fn summary(mut self) -> Option<RecordingSummary> {
+    pub(super) fn summary(&mut self) -> Option<RecordingSummary> {
         let recording = self.recording.as_ref()?;
         let (application_id, recording_id) =
             (recording.application_id().as_str().to_owned(), recording.recording_id().to_string());
@@ -178,15 +184,15 @@ impl RecordingContent {
             recording_id,
             bytes: 0,
             complete: false,
-            problems: self.problems,
+            problems: std::mem::take(&mut self.problems),
             verdict,
             exit_code: 0,
             reason: String::new(),
             has_layout: self.has_layout,
-            timelines: self.timelines.into_values().collect(),
-            entities: self.entities.into_iter().map(entity).collect(),
-            scalars: self.scalars.into_iter().map(scalar).collect(),
-            properties: self.properties,
+            timelines: std::mem::take(&mut self.timelines).into_values().collect(),
+            entities: std::mem::take(&mut self.entities).into_iter().map(entity).collect(),
+            scalars: std::mem::take(&mut self.scalars).into_iter().map(scalar).collect(),
+            properties: std::mem::take(&mut self.properties),
             report,
         })
     }

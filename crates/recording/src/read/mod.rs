@@ -9,6 +9,7 @@ mod panics;
 mod summary;
 
 use std::{
+    collections::BTreeMap,
     fs::File,
     io::{self, BufReader, Read, Seek, SeekFrom},
     path::{Path, PathBuf},
@@ -17,6 +18,7 @@ use std::{
 use re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHeader, ToApplication};
 use re_log_types::LogMsg;
 
+use congruent_twin::comparison::Scalars;
 pub use summary::{EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary};
 
 use self::{content::RecordingContent, frames::Extent, panics::catch_panic};
@@ -72,6 +74,28 @@ const MAX_PROBLEMS: usize = 20;
 /// # Errors
 /// [`InspectError`] if there is no recording to read.
 pub fn inspect(path: &Path) -> Result<RecordingSummary, InspectError> {
+    read(path, &mut RecordingContent::default())
+}
+
+/// The summary of a recording, and all values of each scalar by the path of its entity, with times in seconds that
+/// rise.
+///
+/// # Errors
+/// [`InspectError`] if there is no recording to read.
+pub fn scalars(path: &Path) -> Result<(RecordingSummary, Scalars), InspectError> {
+    #[expect(clippy::cast_precision_loss, reason = "2^53 nanoseconds are 104 days")]
+    let in_seconds = |(nanoseconds, value): (i64, f64)| (nanoseconds as f64 / 1e9, value);
+    let mut content = RecordingContent::default();
+    content.series = Some(BTreeMap::new());
+    let summary = read(path, &mut content)?;
+    let sorted = |(path, mut series): (String, Vec<(i64, f64)>)| {
+        series.sort_by_key(|&(nanoseconds, _)| nanoseconds);
+        (path, series.into_iter().map(in_seconds).collect())
+    };
+    Ok((summary, content.series.unwrap_or_default().into_iter().map(sorted).collect()))
+}
+
+fn read(path: &Path, content: &mut RecordingContent) -> Result<RecordingSummary, InspectError> {
     let refused = |source| InspectError::Read { path: path.to_owned(), source };
     let metadata = std::fs::metadata(path).map_err(refused)?;
     if !metadata.is_file() {
@@ -85,8 +109,7 @@ pub fn inspect(path: &Path) -> Result<RecordingSummary, InspectError> {
         .map_err(refused)?
         .map_err(|reason| InspectError::NotARecording { path: path.to_owned(), reason })?;
     file.seek(SeekFrom::Start(0)).map_err(refused)?;
-    let mut content = RecordingContent::default();
-    read_messages(file.take(extent.readable), &mut content);
+    read_messages(file.take(extent.readable), content);
     let mut summary = content.summary().ok_or_else(|| InspectError::NoRecording { path: path.to_owned() })?;
     summary.bytes = metadata.len();
     summary.complete = extent.is_complete();

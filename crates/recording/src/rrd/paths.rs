@@ -65,7 +65,17 @@ pub(crate) fn worst_of_links(quantity: &str) -> EntityPath {
 
 /// Position of a joint, rad or m.
 pub(crate) fn joint_position(joint: &str) -> EntityPath {
-    path(&["joint", "position", joint])
+    joint_value("position", joint)
+}
+
+/// A value of a joint: `velocity`, `effort`, or what is commanded or measured.
+pub(crate) fn joint_value(quantity: &str, joint: &str) -> EntityPath {
+    path(&["joint", quantity, joint])
+}
+
+/// A coordinate of the TCP by `twin` or by `model`: `x_m`, ..., `quaternion_w`, ...
+pub(crate) fn tcp(source: &str, coordinate: &str) -> EntityPath {
+    path(&["tcp", source, coordinate])
 }
 
 /// A distance, m: `minimum`, `limit`, or the distance of a named pair.

@@ -2,5 +2,6 @@
 
 pub(crate) mod clearance;
 pub(crate) mod disagreement;
+mod joints;
 pub(crate) mod samples;
 pub(crate) mod scalars;

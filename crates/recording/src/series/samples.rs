@@ -2,14 +2,17 @@
 
 use congruent_kinematics::{Pose, PoseError};
 use congruent_twin::{Sample, monitor::Names, recorder::RecordingError};
-use nalgebra::{Isometry3, Point3};
+use nalgebra::Isometry3;
 use re_chunk::TimeColumn;
 use re_sdk_types::{
     archetypes::{LineStrips3D, Transform3D},
     datatypes::Quaternion,
 };
 
-use super::scalars::{log10, write_scalars};
+use super::{
+    joints::{JointSeries, TcpSeries},
+    scalars::{log10, write_scalars},
+};
 use crate::rrd::{
     convert::{quaternion, vector},
     paths,
@@ -41,6 +44,8 @@ pub(crate) struct SampleBatch {
     model: Vec<RerunPose>,
     errors: Vec<PoseError>,
     q: Vec<f64>,
+    joints: JointSeries,
+    tcp: TcpSeries,
     tool: Vec<[f32; 3]>,
     /// The tool's position at the end of the previous batch, from which the trail continues.
     previous_tool: Option<[f32; 3]>,
@@ -56,6 +61,8 @@ impl SampleBatch {
             model: Vec::with_capacity(poses),
             errors: Vec::with_capacity(poses),
             q: Vec::with_capacity(MAX_ROWS * names.joints.len()),
+            joints: JointSeries::default(),
+            tcp: TcpSeries::default(),
             tool: Vec::with_capacity(MAX_ROWS),
             previous_tool: None,
         }
@@ -66,14 +73,17 @@ impl SampleBatch {
         self.times.len() >= MAX_ROWS
     }
 
-    /// Adds a row.
-    pub(crate) fn push(&mut self, time: SampleTime, sample: &Sample<'_>, tool_in_world: &Point3<f64>) {
+    /// Adds a row; the poses of the TCP are by twin and by model.
+    pub(crate) fn push(&mut self, time: SampleTime, sample: &Sample<'_>, tcp: [&Isometry3<f64>; 2]) {
         self.times.push(time);
         self.twin.extend(sample.twin.iter().map(RerunPose::from));
         self.model.extend(sample.model.iter().map(|pose: &Pose| RerunPose::from(&pose.to_isometry())));
         self.errors.extend_from_slice(sample.errors);
         self.q.extend_from_slice(sample.joints.truth.q);
-        self.tool.push(vector(&tool_in_world.coords));
+        self.joints.push(sample);
+        let [twin, model] = tcp;
+        self.tcp.push(twin, model);
+        self.tool.push(vector(&twin.translation.vector));
     }
 
     /// Writes all rows and removes them.
@@ -99,6 +109,8 @@ impl SampleBatch {
             let q = self.q.iter().skip(index).step_by(names.joints.len()).copied();
             write_scalars(writer, &paths::joint_position(joint), &times, q)?;
         }
+        self.joints.write(writer, &times, (self.times.len(), &names.joints))?;
+        self.tcp.write(writer, &times)?;
         self.write_trail(writer, &times)?;
         self.clear();
         Ok(())

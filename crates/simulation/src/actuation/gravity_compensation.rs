@@ -11,6 +11,7 @@ use super::{
 pub(super) const NAME: &str = "gravity_compensation";
 
 /// Gravity torque of the present configuration, and servos if the gains are not zero.
+#[derive(Clone)]
 pub(super) struct GravityCompensation {
     pub(super) gains: Gains,
 }

@@ -9,6 +9,7 @@ use super::{
 pub(super) const NAME: &str = "kinematic";
 
 /// Places positions and velocities; no dynamics, no limits, no contacts.
+#[derive(Clone)]
 pub(super) struct Kinematic;
 
 impl Controller for Kinematic {

@@ -14,7 +14,7 @@ mod pd;
 
 pub use commands::{Commands, Motor};
 pub use connection::DriveConnection;
-pub use controller::Controller;
+pub use controller::{CloneController, Controller};
 pub use gains::Gains;
 pub use joints_view::{JointsView, MeasuredState, Setpoint};
 pub use known::{controller, controller_names};

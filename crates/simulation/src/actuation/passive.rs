@@ -9,6 +9,7 @@ use super::{
 pub(super) const NAME: &str = "passive";
 
 /// Exerts nothing.
+#[derive(Clone)]
 pub(super) struct Passive;
 
 impl Controller for Passive {

@@ -11,6 +11,7 @@ use super::{
 pub(super) const NAME: &str = "pd";
 
 /// Servos; mimic joints follow their masters through the coupling.
+#[derive(Clone)]
 pub(super) struct Pd {
     pub(super) gains: Gains,
 }

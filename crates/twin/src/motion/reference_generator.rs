@@ -11,7 +11,7 @@ use super::{
 
 /// The setpoints of a run. Planned moves are evaluated at the time; servos are computed from the measured
 /// positions at every step.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ReferenceGenerator<'a> {
     trajectory: &'a Trajectory,
     /// The controller of the servos; `None` if there are none.

@@ -49,7 +49,7 @@ pub(super) fn plan(settings: &ServoMotion, planning: &Planning<'_>) -> Result<Mo
 }
 
 /// Computes the steps of a servo without allocation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct ServoController<'a> {
     robot: &'a Robot,
     solver: IkSolver,

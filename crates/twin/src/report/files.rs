@@ -32,8 +32,17 @@ pub struct OutputFolder {
 }
 
 /// All files that a run may write.
-const RESULTS: [&str; 5] =
-    ["report.json", "junit.xml", "recording.rrd", "recording.rrd.partial", "scenario.resolved.toml"];
+const RESULTS: [&str; 9] = [
+    "report.json",
+    "junit.xml",
+    "recording.rrd",
+    "recording.rrd.partial",
+    "trajectory.csv",
+    "trajectory.csv.partial",
+    "trajectory.parquet",
+    "trajectory.parquet.partial",
+    "scenario.resolved.toml",
+];
 
 impl OutputFolder {
     /// Where the results of a scenario of this name go.

@@ -9,6 +9,7 @@ use super::{
     joints::StartSettings,
     motions::MotionSettings,
     number::{finite_array, non_negative, optional_positive, positive},
+    output::OutputSettings,
     spaces::{ObstacleSettings, ZoneSettings},
 };
 
@@ -65,6 +66,9 @@ pub struct Scenario {
     /// Checks.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub check: Vec<Check>,
+    /// What is written besides the report and the recording.
+    #[serde(default, skip_serializing_if = "OutputSettings::is_default")]
+    pub output: OutputSettings,
     /// The expected verdict.
     #[serde(default)]
     pub expect: Expectation,
@@ -85,6 +89,7 @@ impl Default for Scenario {
             zone: Vec::new(),
             fault: Vec::new(),
             check: Vec::new(),
+            output: OutputSettings::default(),
             expect: Expectation::default(),
         }
     }

@@ -4,6 +4,7 @@ mod clock;
 mod declared_dynamics;
 mod joint_targets;
 mod numbers;
+mod output;
 mod payload;
 mod run_setup;
 mod spaces;

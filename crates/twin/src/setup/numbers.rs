@@ -16,6 +16,7 @@ pub(super) fn check(scenario: &Scenario) -> Vec<Diagnostic> {
         .for_each(|&value| numbers.one("simulation.gravity_m_s2", value, Range::Finite));
     numbers.one("controller.stiffness", scenario.controller.stiffness, Range::NonNegative);
     numbers.one("controller.damping", scenario.controller.damping, Range::NonNegative);
+    numbers.maybe("output.trajectory_period_s", scenario.output.trajectory_period_s, Range::Positive);
     for motion in &scenario.motion {
         let duration_s = match motion {
             MotionSettings::Joints(motion) => motion.duration_s,

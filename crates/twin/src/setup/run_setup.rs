@@ -15,6 +15,7 @@ use super::{
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
     numbers,
+    output,
     payload::Payload,
     spaces,
     zones::{self, Zone},
@@ -139,6 +140,7 @@ impl RunSetup {
         let motions_s = scenario.motion.iter().map(MotionSettings::duration_s).sum();
         let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
         let clock = found.keep(clock);
+        found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
         let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);
         let obstacles = keep_all(&mut found, obstacles);
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));

@@ -5,7 +5,7 @@ use congruent_simulation::{CarriedBody, World};
 use crate::setup::Payload;
 
 /// The payloads of a run, and which of them the physics has now.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct CarriedPayloads<'a> {
     payloads: &'a [Payload],
     is_carried: Vec<bool>,

@@ -10,4 +10,4 @@ mod simulation;
 pub use joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError};
 pub use simulated_dynamics::SimulatedDynamics;
 pub use simulated_poses::SimulatedPoses;
-pub use simulation::SimulationSource;
+pub use simulation::{SimulationSnapshot, SimulationSource};

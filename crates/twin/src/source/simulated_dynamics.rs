@@ -130,6 +130,7 @@ fn worlds(robot: &Robot, longest_s: f64) -> Result<Vec<World>, SimulationError> 
 }
 
 /// Exerts given torques.
+#[derive(Clone)]
 struct Torques(Vec<f64>);
 
 impl Controller for Torques {

@@ -1,7 +1,7 @@
 //! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
 use congruent_description::{Diagnostic, Use};
-use congruent_simulation::{Controller, Setpoint, World, WorldSettings, controller};
+use congruent_simulation::{Controller, Setpoint, World, WorldSettings, WorldSnapshot, controller};
 use nalgebra::Isometry3;
 
 use super::{
@@ -25,6 +25,22 @@ pub struct SimulationSource<'a> {
     is_placed: bool,
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
+}
+
+/// The whole state of a [`SimulationSource`] at one moment.
+pub struct SimulationSnapshot<'a> {
+    world: WorldSnapshot,
+    controller: Box<dyn Controller>,
+    reference: ReferenceGenerator<'a>,
+    faults: InjectedFaults<'a>,
+    sensors: JointSensors,
+    payloads: CarriedPayloads<'a>,
+}
+
+impl std::fmt::Debug for SimulationSnapshot<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SimulationSnapshot").finish_non_exhaustive()
+    }
 }
 
 impl std::fmt::Debug for SimulationSource<'_> {
@@ -52,7 +68,7 @@ impl<'a> SimulationSource<'a> {
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
         let kind = &setup.scenario.controller.kind;
-        let mut faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
+        let faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
         let mut sensors = JointSensors::new(robot.dof());
         sensors.read(faults.measured().q, faults.measured().qd);
         let mut payloads = CarriedPayloads::new(&setup.payloads);
@@ -66,6 +82,32 @@ impl<'a> SimulationSource<'a> {
             controller: controller(kind, setup.gains()).map_err(SourceError::new)?,
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
         })
+    }
+
+    /// The whole state: after [`SimulationSource::restore`], in this source or in another of the same setup, steps
+    /// repeat bit by bit.
+    pub fn snapshot(&self) -> SimulationSnapshot<'a> {
+        SimulationSnapshot {
+            world: self.world.snapshot(),
+            controller: self.controller.boxed_clone(),
+            reference: self.reference.clone(),
+            faults: self.faults.clone(),
+            sensors: self.sensors.clone(),
+            payloads: self.payloads.clone(),
+        }
+    }
+
+    /// Returns to a snapshot of the same setup.
+    ///
+    /// # Panics
+    /// When the snapshot is of a robot with another number of joints.
+    pub fn restore(&mut self, snapshot: &SimulationSnapshot<'a>) {
+        self.world.restore(&snapshot.world);
+        self.controller = snapshot.controller.boxed_clone();
+        self.reference.clone_from(&snapshot.reference);
+        self.faults.clone_from(&snapshot.faults);
+        self.sensors.clone_from(&snapshot.sensors);
+        self.payloads.clone_from(&snapshot.payloads);
     }
 }
 

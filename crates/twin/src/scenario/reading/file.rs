@@ -46,8 +46,8 @@ struct Top {
 }
 
 /// The sections of a file besides its top.
-const SECTIONS: [&str; 9] =
-    ["simulation", "start", "controller", "motion", "obstacle", "zone", "fault", "check", "expect"];
+const SECTIONS: [&str; 10] =
+    ["simulation", "start", "controller", "motion", "obstacle", "zone", "fault", "check", "output", "expect"];
 
 impl ScenarioFile {
     /// Reads a file; `overrides` replace its values.
@@ -157,6 +157,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
     });
     let fault = all(&mut document, "fault", findings, read_fault);
     let check = all(&mut document, "check", findings, read_check);
+    let output = one(&mut document, "output", findings);
     let expect = take(&mut document, "expect", findings).ok().flatten();
     let expect = keep_all(findings, expect.map_or(Ok(Expectation::default()), read_expect));
     let mut at_top = Diagnostics::default();
@@ -177,6 +178,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         zone: zone?,
         fault: fault?,
         check: check?,
+        output: output?,
         expect: expect?,
     })
 }

@@ -1,0 +1,132 @@
+//! `congruent compare`: the first difference between two runs.
+
+use std::{fmt::Write, path::PathBuf};
+
+use congruent::{
+    RunComparison, compare_runs,
+    description::{Diagnostic, display::quantity},
+    twin::comparison::{Difference, FileComparison, SeriesDifference},
+};
+use serde_json::Value;
+
+use crate::{failure::Failure, print::Printer, table::Table, table::wrapped};
+
+/// The first difference between two runs in time, joint and value, and the worst one of each series.
+///
+/// A and B are two reports (.json), two trajectories (.csv, .parquet), two recordings (.rrd), or two folders of
+/// results. Rows are compared at the times that both have. Exit code 0 if nothing differs, 1 if something does, 2 if
+/// they cannot be compared.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// A report, trajectory, recording, or a folder of results.
+    a: PathBuf,
+    /// The same of the other run.
+    b: PathBuf,
+    /// Largest difference of two numbers that counts as none, in the unit of each series. Above 0, the links and
+    /// pairs of worst values are not compared.
+    #[arg(long, default_value_t = 0.0, value_name = "NUMBER")]
+    tolerance: f64,
+}
+
+/// Most series, names and statements that are shown to people.
+const MOST_SHOWN: usize = 20;
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let comparison = compare_runs(&arguments.a, &arguments.b, arguments.tolerance).map_err(|error| {
+        Diagnostic::error("compare::not_comparable", error.to_string())
+            .with_help("compare two reports, two trajectories, two recordings, or two folders of results")
+    })?;
+    printer.result(&comparison, text)?;
+    Ok(comparison.exit_code)
+}
+
+fn text(comparison: &RunComparison) -> String {
+    let mut text = String::new();
+    let RunComparison { a, b, tolerance, same, files, not_compared, .. } = comparison;
+    let within = if *tolerance > 0.0 { format!(" within {tolerance:?}") } else { String::new() };
+    let _ = writeln!(
+        text,
+        "A {a}\nB {b}\n{}",
+        if *same { format!("the same{within}") } else { "different".into() }
+    );
+    for file in files {
+        described(&mut text, file);
+    }
+    for statement in not_compared {
+        let _ = writeln!(text, "{statement}: not compared");
+    }
+    text
+}
+
+fn described(text: &mut String, file: &FileComparison) {
+    let FileComparison { kind, same, compared, statements, first, series, only_in_a, only_in_b } = file;
+    let what = if *kind == congruent::twin::comparison::ComparedFile::Report { "values" } else { "series" };
+    if *same {
+        let _ = writeln!(text, "{kind}: {compared} {what} are the same");
+        return;
+    }
+    let _ = writeln!(text, "{kind}: {} of {compared} {what} differ", series.len());
+    for statement in statements.iter().take(MOST_SHOWN) {
+        let _ = writeln!(text, "  {statement}");
+    }
+    if let Some(Difference { series: name, time_s, a, b, difference, .. }) = first {
+        let time = time_s.map_or_else(String::new, |time_s| format!(" at {time_s:?} s"));
+        let unit = series.iter().find(|series| series.series == *name).map_or("", |series| series.unit);
+        let apart =
+            difference.map_or_else(String::new, |apart| format!(", {} apart", quantity(apart.abs(), unit)));
+        let _ = writeln!(text, "  first{time}: {name} is {} in A and {} in B{apart}", shown(a), shown(b));
+    }
+    let worst = rows(series);
+    if !worst.is_empty() {
+        let mut table = Table::headed(["differs", "first at", "values", "worst at", "difference"]);
+        for row in worst {
+            table.row(row);
+        }
+        table.write(text);
+    }
+    if series.len() > MOST_SHOWN {
+        let _ = writeln!(text, "  and {} more", series.len() - MOST_SHOWN);
+    }
+    for (side, only) in [("A", only_in_a), ("B", only_in_b)] {
+        if !only.is_empty() {
+            let names: Vec<&str> = only.iter().take(MOST_SHOWN).map(String::as_str).collect();
+            let more = only.len() - names.len();
+            let more = if more > 0 { format!(", and {more} more") } else { String::new() };
+            let _ = write!(text, "  only in {side}:\n{}", wrapped(&format!("{}{more}", names.join(", "))));
+        }
+    }
+}
+
+/// The worst difference of each series, joints first.
+fn rows(series: &[SeriesDifference]) -> Vec<[String; 5]> {
+    let time = |difference: &Option<Difference>| {
+        let time_s = difference.as_ref().and_then(|difference| difference.time_s);
+        time_s.map_or_else(|| "-".to_owned(), |time_s| format!("{time_s:?} s"))
+    };
+    let row = |series: &SeriesDifference| {
+        let SeriesDifference { series: name, unit, compared, differing, only_in_a, only_in_b, first, worst } =
+            series;
+        let apart = worst.as_ref().map_or_else(
+            || format!("{only_in_a} only in A, {only_in_b} only in B"),
+            |worst| match worst.difference {
+                Some(apart) => quantity(apart.abs(), unit),
+                None => format!("{} and {}", shown(&worst.a), shown(&worst.b)),
+            },
+        );
+        [name.clone(), time(first), format!("{differing} of {compared}"), time(worst), apart]
+    };
+    // Poses and errors follow from the joints.
+    let has_joint =
+        |series: &&SeriesDifference| series.first.as_ref().is_some_and(|first| first.joint.is_some());
+    let joints = series.iter().filter(has_joint);
+    joints.chain(series.iter().filter(|series| !has_joint(series))).take(MOST_SHOWN).map(row).collect()
+}
+
+/// A value with all its digits.
+fn shown(value: &Value) -> String {
+    match value {
+        Value::Null => "missing".to_owned(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,89 @@
+//! Values of the joints and poses of the TCP over time, with all their digits.
+
+use congruent_kinematics::Pose;
+use congruent_twin::{Sample, recorder::RecordingError};
+use nalgebra::Isometry3;
+use re_chunk::TimeColumn;
+
+use super::scalars::write_scalars;
+use crate::rrd::{paths, writer::RrdWriter};
+
+/// What is recorded of each joint besides its position.
+const QUANTITIES: [&str; 5] =
+    ["velocity", "effort", "reference_position", "reference_velocity", "measured_position"];
+const COORDINATES: [&str; 7] =
+    ["x_m", "y_m", "z_m", "quaternion_w", "quaternion_x", "quaternion_y", "quaternion_z"];
+
+/// Values of all joints for each row, or none if the source does not know them.
+#[derive(Debug, Default)]
+pub(super) struct JointSeries {
+    /// For each quantity, the joints of one row after those of the row before.
+    values: [Vec<f64>; 5],
+}
+
+impl JointSeries {
+    /// Adds a row.
+    pub(super) fn push(&mut self, sample: &Sample<'_>) {
+        let joints = &sample.joints;
+        let (reference_q, reference_qd) =
+            joints.setpoint.map_or((&[][..], &[][..]), |setpoint| (&setpoint.q[..], setpoint.qd));
+        let row = [joints.truth.qd, joints.truth.effort, reference_q, reference_qd, joints.measured.q];
+        self.values.iter_mut().zip(row).for_each(|(values, row)| values.extend_from_slice(row));
+    }
+
+    /// Writes the quantities that every row has.
+    pub(super) fn write(
+        &mut self,
+        writer: &mut RrdWriter,
+        times: &[TimeColumn],
+        (rows, joints): (usize, &[String]),
+    ) -> Result<(), RecordingError> {
+        for (quantity, values) in QUANTITIES.into_iter().zip(&mut self.values) {
+            if values.len() == rows * joints.len() {
+                for (index, joint) in joints.iter().enumerate() {
+                    let of_joint = values.iter().skip(index).step_by(joints.len()).copied();
+                    write_scalars(writer, &paths::joint_value(quantity, joint), times, of_joint)?;
+                }
+            }
+            values.clear();
+        }
+        Ok(())
+    }
+}
+
+/// Poses of the TCP, in the root link's frame.
+#[derive(Debug, Default)]
+pub(super) struct TcpSeries {
+    twin: Vec<[f64; 7]>,
+    model: Vec<[f64; 7]>,
+}
+
+impl TcpSeries {
+    /// Adds a row.
+    pub(super) fn push(&mut self, twin: &Isometry3<f64>, model: &Isometry3<f64>) {
+        self.twin.push(coordinates(twin));
+        self.model.push(coordinates(model));
+    }
+
+    /// Writes all rows and removes them.
+    pub(super) fn write(
+        &mut self,
+        writer: &mut RrdWriter,
+        times: &[TimeColumn],
+    ) -> Result<(), RecordingError> {
+        for (source, rows) in [("twin", &mut self.twin), ("model", &mut self.model)] {
+            for (index, coordinate) in COORDINATES.into_iter().enumerate() {
+                let values = rows.iter().map(|row| row[index]);
+                write_scalars(writer, &paths::tcp(source, coordinate), times, values)?;
+            }
+            rows.clear();
+        }
+        Ok(())
+    }
+}
+
+fn coordinates(pose: &Isometry3<f64>) -> [f64; 7] {
+    let pose = Pose::from(*pose);
+    let [w, i, j, k] = pose.quaternion_wxyz();
+    [pose.translation.x, pose.translation.y, pose.translation.z, w, i, j, k]
+}
