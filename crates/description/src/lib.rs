@@ -31,7 +31,7 @@ pub use diagnostic::{
     Diagnostic, Diagnostics, Finding, FindingPlace, Kind, Occurrence, Severity, SourceFile, Use, known_names,
     line_column, nearest,
 };
-pub use file::{is_standard_input, read_text};
+pub use file::{is_standard_input, read_regular_text, read_text};
 pub use load::{load_robot, load_robot_with, parse_robot};
 pub use model::{
     ArmQ, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,

@@ -21,7 +21,7 @@ fn step(bencher: Bencher<'_, '_>, kind: &str) {
     let mut world = World::new(&arm(), &WorldSettings::default()).expect("the arm is a robot");
     let mut controller = make(kind, 400.0, 40.0);
     let q0 = arm_q0();
-    let setpoint = Setpoint { q: &q0, qd: &[0.0; 6] };
+    let setpoint = Setpoint { q: &q0, qd: &[0.0; 6], qdd: &[0.0; 6] };
     world.set_state(&q0, &[0.0; 6]).expect("the state fits");
     let start = world.snapshot();
     bencher.counter(ItemsCount::new(STEPS)).bench_local(|| {

@@ -57,7 +57,7 @@ const LARGEST: f64 = 1e75;
 /// let mut world = World::new(&robot, &WorldSettings::default())?;
 /// let mut passive = controller("passive", Gains::default())?;
 /// let level = RobotQ::zeros(1);
-/// world.step(passive.as_mut(), &Setpoint { q: &level, qd: &[0.0] })?;
+/// world.step(passive.as_mut(), &Setpoint { q: &level, qd: &[0.0], qdd: &[0.0] })?;
 /// // Acceleration m g l / (I + m l^2) = 4.905 / 0.27 rad/s^2, for 1 ms.
 /// assert!((world.qd()[0] - 4.905 / 0.27 * 1e-3).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -297,7 +297,8 @@ impl World {
 
     fn check_setpoint(&self, setpoint: &Setpoint<'_>) -> Result<(), SimulationError> {
         self.check_vector("setpoint position", setpoint.q)?;
-        self.check_vector("setpoint velocity", setpoint.qd)
+        self.check_vector("setpoint velocity", setpoint.qd)?;
+        self.check_vector("setpoint acceleration", setpoint.qdd)
     }
 
     fn check_commands(&self) -> Result<(), SimulationError> {

@@ -46,7 +46,9 @@ fn a_joint_of_very_large_damping_stands_still() {
     world.set_damping(2, 1e9).unwrap();
     let mut passive = controller("passive", Gains::default()).unwrap();
     for _ in 0..500 {
-        world.step(passive.as_mut(), &Setpoint { q: &support::arm_q0(), qd: &[0.0; 6] }).unwrap();
+        world
+            .step(passive.as_mut(), &Setpoint { q: &support::arm_q0(), qd: &[0.0; 6], qdd: &[0.0; 6] })
+            .unwrap();
     }
     // Gravity and the other joints push with less than 100 N m: 1e-7 rad/s for 0.5 s.
     assert!((world.q()[2] - support::arm_q0()[2]).abs() < 5e-8, "{}", world.q()[2] - support::arm_q0()[2]);
@@ -62,7 +64,7 @@ fn an_actuator_delivers_a_share_of_its_command() {
     world.set_delivered_share(2, 0.5).unwrap();
     let mut target = support::arm_q0();
     target.iter_mut().for_each(|q| *q += 0.01);
-    world.step(pd.as_mut(), &Setpoint { q: &target, qd: &[0.0; 6] }).unwrap();
+    world.step(pd.as_mut(), &Setpoint { q: &target, qd: &[0.0; 6], qdd: &[0.0; 6] }).unwrap();
     assert_eq!(world.torque()[1].to_bits(), 0.0_f64.to_bits());
     let expected = 0.5 * (100.0 * (target[2] - world.q()[2]) - 5.0 * world.qd()[2]);
     assert!((world.torque()[2] - expected).abs() < 1e-12, "{} for {expected}", world.torque()[2]);
@@ -80,7 +82,11 @@ fn a_servo_acts_on_what_the_encoder_gives() {
         let qd = world.qd().to_vec();
         let measured = MeasuredState { q: &measured, qd: &qd };
         world
-            .step_measured(pd.as_mut(), &Setpoint { q: &support::arm_q0(), qd: &[0.0; 6] }, &measured)
+            .step_measured(
+                pd.as_mut(),
+                &Setpoint { q: &support::arm_q0(), qd: &[0.0; 6], qdd: &[0.0; 6] },
+                &measured,
+            )
             .unwrap();
     }
     let sag_rad = -world.gravity_torque()[4] / 2000.0;

@@ -58,7 +58,7 @@ fn vectors_of_another_length() {
     let mut world = World::new(&arm(), &WorldSettings::default()).unwrap();
     let error = world.set_state(&RobotQ::zeros(5), &[0.0; 6]).unwrap_err();
     assert_eq!(error.to_string(), "position: 5 entries, but the robot has 6 movable joints");
-    let setpoint = Setpoint { q: &RobotQ::zeros(6), qd: &[] };
+    let setpoint = Setpoint { q: &RobotQ::zeros(6), qd: &[], qdd: &[] };
     let error = world.step(make("passive", 0.0, 0.0).as_mut(), &setpoint).unwrap_err();
     assert_eq!(error, SimulationError::Length { what: "setpoint velocity", found: 0, expected: 6 });
     assert_eq!(world.step_count(), 0);
@@ -88,7 +88,7 @@ fn a_robot_without_mass_is_placed_but_not_stepped() {
         support::joint(congruent_description::JointKind::Continuous, ("base", "arm"), [0.0; 3], [0.0; 3]);
     let robot = Robot::new("ghost", vec![massless("base"), massless("arm")], vec![parts]).unwrap();
     let mut world = World::new(&robot, &WorldSettings::default()).unwrap();
-    let setpoint = Setpoint { q: &RobotQ::from([0.5]), qd: &[0.0] };
+    let setpoint = Setpoint { q: &RobotQ::from([0.5]), qd: &[0.0], qdd: &[0.0] };
     let error = world.step(make("passive", 0.0, 0.0).as_mut(), &setpoint).unwrap_err();
     assert_eq!(
         error.to_string(),
@@ -125,7 +125,7 @@ fn numbers_that_are_none() {
     let mut world = World::new(&arm(), &WorldSettings::default()).unwrap();
     let error = world.set_state(&RobotQ::from([0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0]), &[0.0; 6]).unwrap_err();
     assert_eq!(error.to_string(), "joint \"forearm_joint\": position is not finite at 0 s");
-    let setpoint = Setpoint { q: &RobotQ::zeros(6), qd: &[0.0; 6] };
+    let setpoint = Setpoint { q: &RobotQ::zeros(6), qd: &[0.0; 6], qdd: &[0.0; 6] };
     for torque in [f64::NAN, f64::NEG_INFINITY, 1e200] {
         let error = world.step(&mut Push(torque), &setpoint).unwrap_err();
         assert_eq!(error.to_string(), "joint \"shoulder_joint\": commanded torque is not finite at 0 s");
@@ -145,7 +145,7 @@ fn physics_that_runs_away_is_an_error_and_can_be_left() {
     let mut passive = make("passive", 0.0, 0.0);
     run(&mut world, passive.as_mut(), &RobotQ::zeros(6), 100);
     let expected = world.q().clone();
-    let setpoint = Setpoint { q: &RobotQ::zeros(6), qd: &[0.0; 6] };
+    let setpoint = Setpoint { q: &RobotQ::zeros(6), qd: &[0.0; 6], qdd: &[0.0; 6] };
     for torque in [1e60, 1e74, 1e200, f64::MAX] {
         for leave in
             [World::restore, |world: &mut World, _: &_| world.set_state(&arm_q0(), &[0.0; 6]).unwrap()]

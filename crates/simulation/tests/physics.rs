@@ -293,7 +293,7 @@ fn kinematic_is_exactly_at_the_setpoint() {
     for step in 1..=100_u32 {
         let q: RobotQ = arm_q0().iter().map(|q| q * f64::from(step) * 0.1).collect();
         let qd: Vec<f64> = arm_q0().iter().map(|q| -q).collect();
-        world.step(kinematic.as_mut(), &Setpoint { q: &q, qd: &qd }).unwrap();
+        world.step(kinematic.as_mut(), &Setpoint { q: &q, qd: &qd, qdd: &vec![0.0; qd.len()] }).unwrap();
         assert_eq!((world.q(), world.qd()), (&q, &qd[..]));
         assert_eq!(world.step_count(), u64::from(step));
         assert_eq!(world.time_s().to_bits(), (f64::from(step) * 1e-3).to_bits());

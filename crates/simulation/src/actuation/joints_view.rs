@@ -17,6 +17,8 @@ pub struct Setpoint<'a> {
     pub q: &'a RobotQ,
     /// Velocities, rad/s or m/s.
     pub qd: &'a [f64],
+    /// Accelerations, rad/s^2 or m/s^2.
+    pub qdd: &'a [f64],
 }
 
 /// The state that the sensors of the joints give, shaped as [`Setpoint`].

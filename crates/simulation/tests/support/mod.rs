@@ -170,7 +170,7 @@ pub fn steps(duration_s: f64, step_s: f64) -> usize {
 pub fn run(world: &mut World, controller: &mut dyn Controller, q: &RobotQ, steps: usize) {
     let qd = vec![0.0; q.len()];
     for _ in 0..steps {
-        world.step(controller, &Setpoint { q, qd: &qd }).unwrap();
+        world.step(controller, &Setpoint { q, qd: &qd, qdd: &vec![0.0; qd.len()] }).unwrap();
     }
 }
 

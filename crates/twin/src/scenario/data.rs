@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     checks::{Check, CheckKind},
     joints::StartSettings,
-    motions::MotionSettings,
+    motions::{LimitSettings, MotionSettings},
     number::{finite_array, non_negative, optional_positive, positive},
     spaces::{ObstacleSettings, ZoneSettings},
 };
@@ -49,6 +49,9 @@ pub struct Scenario {
     pub start: StartSettings,
     /// The controller of the twin.
     pub controller: ControllerSettings,
+    /// What planned moves keep.
+    #[serde(default)]
+    pub limits: LimitSettings,
     /// Motions, one after another.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<MotionSettings>,
@@ -76,6 +79,7 @@ impl Default for Scenario {
             simulation: SimulationSettings::default(),
             start: StartSettings::default(),
             controller: ControllerSettings::default(),
+            limits: LimitSettings::default(),
             motion: Vec::new(),
             obstacle: Vec::new(),
             zone: Vec::new(),

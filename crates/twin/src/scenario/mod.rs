@@ -9,7 +9,6 @@ mod number;
 mod on_violation;
 mod place;
 mod pose;
-mod profile;
 mod reading;
 mod spaces;
 mod text;
@@ -17,12 +16,14 @@ mod text;
 pub use checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck};
 pub use data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
 pub use joints::StartSettings;
-pub use motions::{JointMotion, MotionSettings, ServoMethod, ServoMotion, TcpMotion};
+pub use motions::{
+    ArcMotion, ArcSettings, Between, JointMotion, JointPathMotion, LimitSettings, LineMotion, MotionSettings,
+    OverLimit, PlaybackMotion, Profile, Progress, ServoMethod, ServoMotion, TcpMotion, TcpPathMotion,
+};
 pub(crate) use number::Range;
 pub use on_violation::OnViolation;
 pub use place::FilePlace;
 pub(crate) use place::mark;
 pub use pose::PoseSettings;
-pub use profile::{Profile, Progress};
 pub use reading::{Override, ScenarioFile};
 pub use spaces::{CylinderSettings, ObstacleSettings, ZoneSettings};

@@ -2,6 +2,7 @@
 
 mod clock;
 mod joint_targets;
+mod motion_limits;
 mod numbers;
 mod payload;
 mod run_setup;

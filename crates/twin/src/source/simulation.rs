@@ -69,7 +69,11 @@ impl JointStateSource for SimulationSource<'_> {
         JointSample {
             truth: JointStateView { q: self.world.q(), qd, effort },
             measured: JointStateView { q: measured.q, qd: measured.qd, effort },
-            setpoint: Some(SetpointView { q: self.reference.q(), qd: self.reference.qd() }),
+            setpoint: Some(SetpointView {
+                q: self.reference.q(),
+                qd: self.reference.qd(),
+                qdd: self.reference.qdd(),
+            }),
         }
     }
 
@@ -85,7 +89,8 @@ impl JointStateSource for SimulationSource<'_> {
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
         let measured = self.sensors.measured();
         self.reference.advance(time_s, measured.q).map_err(SourceError::new)?;
-        let setpoint = Setpoint { q: self.reference.q(), qd: self.reference.qd() };
+        let (q, qd, qdd) = (self.reference.q(), self.reference.qd(), self.reference.qdd());
+        let setpoint = Setpoint { q, qd, qdd };
         // A payload that comes at the start of the step acts in the whole of it.
         self.payloads.update(self.world.time_s(), &mut self.world);
         let stepped = self.world.step_measured(&mut *self.controller, &setpoint, &measured);
