@@ -35,7 +35,7 @@ fn main() -> Result<(), String> {
 fn lift(stiffness: f64) -> Scenario {
     let lift = JointMotion {
         move_joints_deg: BTreeMap::from([("shoulder_lift_joint".to_owned(), -60.0)]),
-        duration_s: 1.0,
+        duration_s: Some(1.0),
         ..JointMotion::default()
     };
     Scenario {

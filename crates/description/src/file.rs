@@ -145,7 +145,10 @@ fn similar(path: &Path) -> Option<PathBuf> {
 }
 
 /// The text of a regular file of at most `most_bytes`, which another file names.
-pub(crate) fn read_regular_text(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
+///
+/// # Errors
+/// As [`read_text`].
+pub fn read_regular_text(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
     text_of(path, &read_bytes(path, most_bytes)?)
 }
 

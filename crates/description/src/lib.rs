@@ -33,7 +33,7 @@ pub use diagnostic::{
     line_column, nearest,
 };
 pub use edits::{ChangedLines, TextEdit, changed_lines};
-pub use file::{is_standard_input, read_text};
+pub use file::{is_standard_input, read_regular_text, read_text};
 pub use load::{load_robot, load_robot_with, parse_robot};
 pub use model::{
     ArmQ, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,

@@ -1,19 +1,48 @@
 //! The setpoints of a trajectory, step after step.
 
-use congruent_description::{RobotDescription, RobotQ};
+use std::path::Path;
+
+use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 use congruent_kinematics::KinematicsError;
 
 use super::{
-    course::Course,
-    tcp_servo::{ServoController, ServoResult, StepInterval},
-    trajectory::Trajectory,
+    course::{Course, PlannedMove, SetpointMut},
+    pace::MotionLimits,
+    planning::Planning,
+    tcp::tcp_servo::{ServoController, ServoResult, StepInterval},
+    trajectory::{Trajectory, plan},
 };
+use crate::scenario::{FilePlace, MotionSettings, OverLimit};
+
+/// Why there is no setpoint.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MotionError {
+    /// The positions are no configuration of the robot.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// A motion after a servo cannot be planned from where the servo has brought the arm.
+    #[error("motion {motion} cannot start where the servo_tcp before it has ended: {}{}", .finding.message, help(.finding))]
+    Planning {
+        /// Its number in the scenario, from 1.
+        motion: usize,
+        /// What is wrong.
+        finding: Box<Diagnostic>,
+    },
+}
+
+fn help(finding: &Diagnostic) -> String {
+    finding.help.as_ref().map_or_else(String::new, |help| format!("; {help}"))
+}
 
 /// The setpoints of a run. Planned moves are evaluated at the time; servos are computed from the measured
 /// positions at every step.
 #[derive(Debug, Clone)]
 pub struct ReferenceGenerator<'a> {
     trajectory: &'a Trajectory,
+    description: &'a RobotDescription,
+    /// The move that was planned in the run last.
+    planned: Option<PlannedMove>,
     /// The controller of the servos; `None` if there are none.
     servo_controller: Option<ServoController<'a>>,
     /// The motion of the last step.
@@ -37,14 +66,27 @@ impl<'a> ReferenceGenerator<'a> {
     ) -> Result<Self, KinematicsError> {
         let servo_controller =
             trajectory.has_servo().then(|| ServoController::new(description)).transpose()?;
-        Ok(Self::with(trajectory, servo_controller))
+        Ok(Self::with(trajectory, description, servo_controller))
     }
 
-    pub(super) fn with(trajectory: &'a Trajectory, servo_controller: Option<ServoController<'a>>) -> Self {
+    pub(super) fn with(
+        trajectory: &'a Trajectory,
+        description: &'a RobotDescription,
+        servo_controller: Option<ServoController<'a>>,
+    ) -> Self {
         let q = trajectory.start.clone();
-        let [qd, qdd] = [vec![0.0; q.len()], vec![0.0; q.len()]];
-        let (current, servo_results) = (None, Vec::new());
-        Self { trajectory, servo_controller, current, time_s: 0.0, q, qd, qdd, servo_results }
+        Self {
+            trajectory,
+            description,
+            planned: None,
+            servo_controller,
+            current: None,
+            time_s: 0.0,
+            qd: vec![0.0; q.len()],
+            qdd: vec![0.0; q.len()],
+            q,
+            servo_results: Vec::new(),
+        }
     }
 
     /// The desired positions, rad or m, one entry for each movable joint.
@@ -57,7 +99,7 @@ impl<'a> ReferenceGenerator<'a> {
         &self.qd
     }
 
-    /// The desired accelerations, rad/s^2 or m/s^2, likewise; zero in a servo.
+    /// The desired accelerations, rad/s^2 or m/s^2, likewise; 0 during a servo, which gives none.
     pub fn qdd(&self) -> &[f64] {
         &self.qdd
     }
@@ -66,21 +108,28 @@ impl<'a> ReferenceGenerator<'a> {
     /// before.
     ///
     /// # Errors
-    /// [`KinematicsError::JointCount`] if `measured_q` is not a configuration of the robot.
-    pub fn advance(&mut self, time_s: f64, measured_q: &RobotQ) -> Result<(), KinematicsError> {
+    /// [`MotionError`] if `measured_q` is not a configuration of the robot, or a motion after a servo cannot be planned.
+    pub fn advance(&mut self, time_s: f64, measured_q: &RobotQ) -> Result<(), MotionError> {
         let before_s = std::mem::replace(&mut self.time_s, time_s);
         let Some((index, starts_s)) = self.trajectory.under_way(time_s) else { return Ok(()) };
         if self.current != Some(index) {
             self.leave(measured_q)?;
             self.current = Some(index);
+            if let Course::Open(settings) = &self.trajectory.motions[index].course {
+                self.planned = Some(self.plan(settings, index)?);
+            }
         }
         let motion = &self.trajectory.motions[index];
         match &motion.course {
-            Course::Joints(joints) => {
-                let progress = joints.profile.at(time_s - starts_s, motion.duration_s);
-                joints.at(progress, &mut self.q, &mut self.qd, &mut self.qdd);
+            Course::Planned(planned) => {
+                planned.at(time_s - starts_s, setpoint(&mut self.q, &mut self.qd, &mut self.qdd));
+            }
+            Course::Open(_) => {
+                let planned = self.planned.as_ref().expect("it was planned when the motion began");
+                planned.at(time_s - starts_s, setpoint(&mut self.q, &mut self.qd, &mut self.qdd));
             }
             Course::Servo(servo) => {
+                self.qdd.fill(0.0);
                 // The part of this step that lies within the motion.
                 let [from_s, to_s] =
                     [before_s, time_s].map(|time_s| (time_s - starts_s).clamp(0.0, motion.duration_s));
@@ -108,12 +157,39 @@ impl<'a> ReferenceGenerator<'a> {
         Ok(std::mem::take(&mut self.servo_results))
     }
 
+    /// Plans a motion from the setpoint at which the arm is held now, so that the setpoint does not jump.
+    fn plan(&self, settings: &MotionSettings, index: usize) -> Result<PlannedMove, MotionError> {
+        let limits = MotionLimits { over_limit: OverLimit::Refuse, ..self.trajectory.limits.clone() };
+        let mut planning = Planning {
+            description: self.description,
+            limits: &limits,
+            folder: Path::new(""),
+            from: &self.q,
+            place: FilePlace::nowhere(),
+            warnings: &mut Vec::new(),
+        };
+        let refused = |mut found: Vec<Diagnostic>| MotionError::Planning {
+            motion: index + 1,
+            finding: Box::new(found.swap_remove(0)),
+        };
+        let mut planned = plan(std::slice::from_ref(settings), 0, &mut planning).map_err(refused)?;
+        match planned.swap_remove(0).course {
+            Course::Planned(planned) => Ok(planned),
+            Course::Open(_) | Course::Servo(_) => unreachable!("an open motion is planned"),
+        }
+    }
+
     /// Closes the motion that ends: the next begins at the end of a move, or at the positions that a servo has
     /// reached.
     fn leave(&mut self, measured_q: &RobotQ) -> Result<(), KinematicsError> {
         let Some(index) = self.current else { return Ok(()) };
         match &self.trajectory.motions[index].course {
-            Course::Joints(joints) => self.q.copy_from_slice(&joints.to),
+            Course::Planned(planned) => self.q.copy_from_slice(&planned.to),
+            Course::Open(_) => {
+                if let Some(planned) = &self.planned {
+                    self.q.copy_from_slice(&planned.to);
+                }
+            }
             Course::Servo(servo) => {
                 self.servo_results.push(needed(&mut self.servo_controller).result(
                     servo,
@@ -129,4 +205,8 @@ impl<'a> ReferenceGenerator<'a> {
 
 fn needed<'d, 'a>(servo_controller: &'d mut Option<ServoController<'a>>) -> &'d mut ServoController<'a> {
     servo_controller.as_mut().expect("a trajectory with a servo has a servo controller")
+}
+
+fn setpoint<'s>(q: &'s mut RobotQ, qd: &'s mut [f64], qdd: &'s mut [f64]) -> SetpointMut<'s> {
+    SetpointMut { q, qd, qdd }
 }

@@ -1,28 +1,46 @@
 //! One motion after another, looked up at instants.
 
+use std::path::Path;
+
+use congruent_description::load_robot;
+
 use super::{
-    course::{Course, JointMove, Motion},
+    course::{Course, Motion, PlannedMove, Way},
+    pace::{MotionLimits, Pace},
     reference_generator::ReferenceGenerator,
     trajectory::Trajectory,
 };
-use crate::scenario::Profile;
+use crate::scenario::{OverLimit, Profile};
+
+fn no_limits() -> MotionLimits {
+    let none = || vec![f64::INFINITY];
+    MotionLimits { velocity: none(), acceleration: none(), jerk: none(), over_limit: OverLimit::Refuse }
+}
 
 /// From 1 to 3 in 2 s, then to -1 in 1 s.
 fn trajectory() -> Trajectory {
     let motion = |from, to, duration_s| Motion {
         duration_s,
-        course: Course::Joints(JointMove { from: [from].into(), to: [to].into(), profile: Profile::Linear }),
+        course: Course::Planned(PlannedMove {
+            way: Way::Straight([from].into()),
+            to: [to].into(),
+            pace: Pace::Shape { profile: Profile::Linear, duration_s },
+            begins_s: 0.0,
+        }),
     };
     Trajectory {
         start: [1.0].into(),
         motions: vec![motion(1.0, 3.0, 2.0), motion(3.0, -1.0, 1.0)],
         starts_s: vec![0.0, 2.0],
+        limits: no_limits(),
     }
 }
 
 #[track_caller]
 fn at(trajectory: &Trajectory, time_s: f64, q: f64, qd: f64) {
-    let mut reference_generator = ReferenceGenerator::with(trajectory, None);
+    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/planar_2r");
+    let description = load_robot(&robot).unwrap();
+    let mut reference_generator = ReferenceGenerator::with(trajectory, &description, None);
     reference_generator.advance(time_s, &[f64::NAN].into()).unwrap();
     assert_eq!(
         (&reference_generator.q()[..], reference_generator.qd()),
@@ -46,7 +64,8 @@ fn one_motion_after_another() {
 
 #[test]
 fn without_motions_it_holds_the_start() {
-    let still = Trajectory { start: [1.0].into(), motions: Vec::new(), starts_s: Vec::new() };
+    let still =
+        Trajectory { start: [1.0].into(), motions: Vec::new(), starts_s: Vec::new(), limits: no_limits() };
     at(&still, 7.0, 1.0, 0.0);
     assert_eq!((still.duration_s(), &still.end()[..]), (0.0, [1.0].as_slice()));
 }

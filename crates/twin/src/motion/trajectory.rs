@@ -1,15 +1,28 @@
 //! The motions of a scenario, one after another. Moves are planned when the scenario is checked, servos are
 //! computed in the run (`reference_generator.rs`).
 
+use std::path::Path;
+
 use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 
 use super::{
     course::{Course, Motion},
-    joint_move,
+    joints::{joint_move, joint_path, playback},
+    pace::MotionLimits,
     planning::Planning,
-    tcp_move, tcp_servo,
+    tcp::{path, tcp_move, tcp_servo},
 };
 use crate::scenario::{FilePlace, MotionSettings};
+
+/// The motions of a scenario with what planning needs besides the robot.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MotionInput<'a> {
+    pub(crate) motions: &'a [MotionSettings],
+    pub(crate) places: FilePlace<'a>,
+    pub(crate) limits: &'a MotionLimits,
+    /// The folder in which files that a motion names are found.
+    pub(crate) folder: &'a Path,
+}
 
 /// All motions of a scenario; the arm holds before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +31,8 @@ pub struct Trajectory {
     pub(super) motions: Vec<Motion>,
     /// Start time of each motion.
     pub(super) starts_s: Vec<f64>,
+    /// What moves keep that are planned in the run.
+    pub(super) limits: MotionLimits,
 }
 
 impl Trajectory {
@@ -25,30 +40,34 @@ impl Trajectory {
     ///
     /// # Errors
     /// Every finding of the first motion that is wrong.
-    pub fn new(
-        (motions, places): (&[MotionSettings], FilePlace<'_>),
+    pub(crate) fn new(
+        input: MotionInput<'_>,
         description: &RobotDescription,
         start: &RobotQ,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let mut trajectory = Self { start: start.clone(), motions: Vec::new(), starts_s: Vec::new() };
-        for (index, settings) in motions.iter().enumerate() {
-            let place = places.item(index);
-            let starts_s = trajectory.duration_s();
-            let is_planned = !matches!(settings, MotionSettings::Servo(_));
-            if is_planned && trajectory.ends_open() {
-                return Err(vec![place.mark(after_servo())]);
+        let MotionInput { motions, places, limits, folder } = input;
+        let mut trajectory =
+            Self { start: start.clone(), motions: Vec::new(), starts_s: Vec::new(), limits: limits.clone() };
+        while trajectory.motions.len() < motions.len() {
+            let index = trajectory.motions.len();
+            let (settings, place) = (&motions[index], places.item(index));
+            if trajectory.ends_open() && !matches!(settings, MotionSettings::Servo(_)) {
+                trajectory.push(open(settings, place)?);
+                continue;
             }
-            let mut planning = Planning { description, from: trajectory.end(), place, warnings };
-            let motion = match settings {
-                MotionSettings::Joints(settings) => joint_move::plan(settings, &mut planning)?,
-                MotionSettings::Tcp(settings) => tcp_move::plan(settings, &planning)?,
-                MotionSettings::Servo(settings) => tcp_servo::plan(settings, &planning)?,
-            };
-            trajectory.motions.push(motion);
-            trajectory.starts_s.push(starts_s);
+            let from = trajectory.end().clone();
+            let mut planning = Planning { description, limits, folder, from: &from, place: places, warnings };
+            for motion in plan(&motions[index..], index, &mut planning)? {
+                trajectory.push(motion);
+            }
         }
         Ok(trajectory)
+    }
+
+    fn push(&mut self, motion: Motion) {
+        self.starts_s.push(self.duration_s());
+        self.motions.push(motion);
     }
 
     /// The motions, one after another.
@@ -70,15 +89,15 @@ impl Trajectory {
     }
 
     /// Whether the end of the last motion is known only in the run.
-    fn ends_open(&self) -> bool {
-        matches!(self.motions.last(), Some(Motion { course: Course::Servo(_), .. }))
+    pub(crate) fn ends_open(&self) -> bool {
+        matches!(self.motions.last(), Some(Motion { course: Course::Servo(_) | Course::Open(_), .. }))
     }
 
     /// The last end of a motion that is known.
     pub(super) fn end(&self) -> &RobotQ {
         let known = self.motions.iter().rev().find_map(|motion| match &motion.course {
-            Course::Joints(joints) => Some(&joints.to),
-            Course::Servo(_) => None,
+            Course::Planned(planned) => Some(&planned.to),
+            Course::Servo(_) | Course::Open(_) => None,
         });
         known.unwrap_or(&self.start)
     }
@@ -90,10 +109,55 @@ impl Trajectory {
     }
 }
 
-fn after_servo() -> Diagnostic {
-    Diagnostic::error(
-        "scenario::after_servo",
-        "the motion starts where a servo_tcp ends, which only the run tells",
-    )
-    .with_help("put it before the servo_tcp, or let another servo_tcp follow")
+/// Plans the first of these motions, with those that it leads into; `planning.place` is the list of all motions, in which
+/// the first has this index.
+pub(super) fn plan(
+    motions: &[MotionSettings],
+    first: usize,
+    planning: &mut Planning<'_>,
+) -> Result<Vec<Motion>, Vec<Diagnostic>> {
+    let count = path::group_length(motions);
+    if count > 0 {
+        return Ok(path::plan(&motions[..count], first, planning)?);
+    }
+    planning.place = planning.place.item(first);
+    let motion = match &motions[0] {
+        MotionSettings::Joints(settings) => joint_move::plan(settings, planning)?,
+        MotionSettings::Tcp(settings) => tcp_move::plan(settings, planning)?,
+        MotionSettings::JointPath(settings) => joint_path::plan(settings, planning)?,
+        MotionSettings::Playback(settings) => playback::plan(settings, planning)?,
+        MotionSettings::Servo(settings) => tcp_servo::plan(settings, planning)?,
+        MotionSettings::Line(_) | MotionSettings::Arc(_) | MotionSettings::TcpPath(_) => {
+            unreachable!("a line or arc is a path")
+        }
+    };
+    Ok(vec![motion])
+}
+
+/// A motion that is planned in the run: it starts where a servo has brought the arm.
+fn open(settings: &MotionSettings, place: FilePlace<'_>) -> Result<Motion, Diagnostic> {
+    let refused = |message: &str, help: &str| {
+        place.mark(Diagnostic::error("scenario::after_servo", message).with_help(help.to_owned()))
+    };
+    let blends = match settings {
+        MotionSettings::Line(line) => line.blend_m > 0.0,
+        MotionSettings::Arc(arc) => arc.blend_m > 0.0,
+        _ => false,
+    };
+    if blends {
+        let message =
+            "the motion starts where a servo_tcp ends and is planned alone, so it cannot blend into the next";
+        return Err(refused(message, "leave `blend_m` out, or put the motions before the servo_tcp"));
+    }
+    let duration_s = settings.duration_s().ok_or_else(|| match settings {
+        MotionSettings::Playback(_) | MotionSettings::TcpPath(_) => refused(
+            "the motion starts where a servo_tcp ends, which only the run tells",
+            "put it before the servo_tcp, or move the joints after the servo_tcp instead",
+        ),
+        _ => refused(
+            "the motion starts where a servo_tcp ends, which only the run tells: its duration is not known",
+            "give `duration_s`",
+        ),
+    })?;
+    Ok(Motion { duration_s, course: Course::Open(Box::new(settings.clone())) })
 }

@@ -7,7 +7,7 @@ use super::{
     checks::{Check, CheckKind},
     faults::FaultSettings,
     joints::StartSettings,
-    motions::MotionSettings,
+    motions::{LimitSettings, MotionSettings},
     number::{finite_array, non_negative, optional_positive, positive},
     output::OutputSettings,
     spaces::{ObstacleSettings, ZoneSettings},
@@ -51,6 +51,9 @@ pub struct Scenario {
     pub start: StartSettings,
     /// The controller of the twin.
     pub controller: ControllerSettings,
+    /// What planned moves keep.
+    #[serde(default)]
+    pub limits: LimitSettings,
     /// Motions, one after another.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<MotionSettings>,
@@ -84,6 +87,7 @@ impl Default for Scenario {
             simulation: SimulationSettings::default(),
             start: StartSettings::default(),
             controller: ControllerSettings::default(),
+            limits: LimitSettings::default(),
             motion: Vec::new(),
             obstacle: Vec::new(),
             zone: Vec::new(),

@@ -11,7 +11,6 @@ mod on_violation;
 mod output;
 mod place;
 mod pose;
-mod profile;
 mod reading;
 mod spaces;
 mod text;
@@ -24,13 +23,15 @@ pub use faults::{
     JointFault, LatencyFault, ScaledTorqueFault, ShiftedToolFault, SwappedJointsFault, WrongPayloadFault,
 };
 pub use joints::StartSettings;
-pub use motions::{JointMotion, MotionSettings, ServoMethod, ServoMotion, TcpMotion};
+pub use motions::{
+    ArcMotion, ArcSettings, Between, JointMotion, JointPathMotion, LimitSettings, LineMotion, MotionSettings,
+    OverLimit, PlaybackMotion, Profile, Progress, ServoMethod, ServoMotion, TcpMotion, TcpPathMotion,
+};
 pub(crate) use number::Range;
 pub use on_violation::OnViolation;
 pub use output::{OutputSettings, TrajectoryFormat};
 pub use place::FilePlace;
 pub(crate) use place::mark;
 pub use pose::PoseSettings;
-pub use profile::{Profile, Progress};
 pub use reading::{Override, ScenarioFile};
 pub use spaces::{CylinderSettings, ObstacleSettings, ZoneSettings};

@@ -6,7 +6,7 @@ use congruent_description::{
     Diagnostic, Joint, JointIndex, JointKind, Robot, RobotQ, known_names, units::Unit,
 };
 
-use crate::scenario::{FilePlace, JointMotion, StartSettings};
+use crate::scenario::{FilePlace, JointMotion, JointPathMotion, StartSettings};
 
 /// Positions under one key, as written.
 type ByName = BTreeMap<String, f64>;
@@ -19,6 +19,8 @@ type ToSi = fn(Unit, f64) -> f64;
 pub(crate) struct JointTargets<'a> {
     /// Beginning of the keys, before their units.
     prefix: &'static str,
+    /// Of a list of points under each key, the number of one, from 0.
+    point: Option<usize>,
     deg: &'a ByName,
     rad: &'a ByName,
     m: &'a ByName,
@@ -28,7 +30,7 @@ pub(crate) struct JointTargets<'a> {
 impl<'a> From<&'a StartSettings> for JointTargets<'a> {
     fn from(start: &'a StartSettings) -> Self {
         let StartSettings { joints_deg: deg, joints_rad: rad, joints_m: m, joints_mm: mm } = start;
-        Self { prefix: "joints", deg, rad, m, mm }
+        Self { prefix: "joints", point: None, deg, rad, m, mm }
     }
 }
 
@@ -36,7 +38,22 @@ impl<'a> From<&'a JointMotion> for JointTargets<'a> {
     fn from(motion: &'a JointMotion) -> Self {
         let JointMotion { move_joints_deg: deg, move_joints_rad: rad, .. } = motion;
         let JointMotion { move_joints_m: m, move_joints_mm: mm, .. } = motion;
-        Self { prefix: "move_joints", deg, rad, m, mm }
+        Self { prefix: "move_joints", point: None, deg, rad, m, mm }
+    }
+}
+
+impl<'a> JointTargets<'a> {
+    /// One point of a path, from 0; `none` stands for a key that is not given.
+    pub(crate) fn of_point(motion: &'a JointPathMotion, point: usize, none: &'a ByName) -> Self {
+        let of = |points: &'a [ByName]| points.get(point).unwrap_or(none);
+        Self {
+            prefix: "path_joints",
+            point: Some(point),
+            deg: of(&motion.path_joints_deg),
+            rad: of(&motion.path_joints_rad),
+            m: of(&motion.path_joints_m),
+            mm: of(&motion.path_joints_mm),
+        }
     }
 }
 
@@ -86,6 +103,7 @@ impl JointTargets<'_> {
         ];
         for (written, suffix, unit, to_si) in groups {
             let place = place.key(&format!("{}_{suffix}", self.prefix));
+            let place = self.point.map_or(place, |point| place.item(point));
             for (name, &value) in written {
                 let at_name = |error: Diagnostic| crate::scenario::mark(error, place.key_span(name));
                 match joint_named(robot, name, unit) {

@@ -3,6 +3,7 @@
 mod clock;
 mod declared_dynamics;
 mod joint_targets;
+mod motion_limits;
 mod numbers;
 mod output;
 mod payload;

@@ -2,7 +2,9 @@
 
 use congruent_description::Diagnostic;
 
-use crate::scenario::{Check, MotionSettings, ObstacleSettings, Range, Scenario, ZoneSettings};
+use crate::scenario::{
+    ArcMotion, Check, LineMotion, MotionSettings, ObstacleSettings, Range, Scenario, ZoneSettings,
+};
 
 /// All numbers that are out of range.
 pub(super) fn check(scenario: &Scenario) -> Vec<Diagnostic> {
@@ -18,15 +20,8 @@ pub(super) fn check(scenario: &Scenario) -> Vec<Diagnostic> {
     numbers.one("controller.damping", scenario.controller.damping, Range::NonNegative);
     numbers.maybe("output.trajectory_period_s", scenario.output.trajectory_period_s, Range::Positive);
     for motion in &scenario.motion {
-        let duration_s = match motion {
-            MotionSettings::Joints(motion) => motion.duration_s,
-            MotionSettings::Tcp(motion) => motion.duration_s,
-            MotionSettings::Servo(motion) => {
-                numbers.maybe("motion.gain_per_s", motion.gain_per_s, Range::Positive);
-                motion.duration_s
-            }
-        };
-        numbers.one("motion.duration_s", duration_s, Range::Positive);
+        numbers.maybe("motion.duration_s", motion.duration_s(), Range::Positive);
+        numbers.motion(motion);
     }
     for obstacle in &scenario.obstacle {
         numbers.shape("obstacle", obstacle);
@@ -54,6 +49,30 @@ impl Numbers {
         if let Some(value) = value {
             self.one(key, value, range);
         }
+    }
+
+    fn motion(&mut self, motion: &MotionSettings) {
+        let (speed, blend_m) = match motion {
+            MotionSettings::Servo(motion) => {
+                return self.maybe("motion.gain_per_s", motion.gain_per_s, Range::Positive);
+            }
+            MotionSettings::Line(LineMotion { speed_m_s, acceleration_m_s2, jerk_m_s3, blend_m, .. })
+            | MotionSettings::Arc(ArcMotion { speed_m_s, acceleration_m_s2, jerk_m_s3, blend_m, .. }) => {
+                ([*speed_m_s, *acceleration_m_s2, *jerk_m_s3], *blend_m)
+            }
+            MotionSettings::TcpPath(path) => {
+                ([Some(path.speed_m_s), path.acceleration_m_s2, path.jerk_m_s3], path.blend_m)
+            }
+            // Times of a path are checked with its points.
+            MotionSettings::Joints(_)
+            | MotionSettings::Tcp(_)
+            | MotionSettings::JointPath(_)
+            | MotionSettings::Playback(_) => return,
+        };
+        for (key, value) in ["speed_m_s", "acceleration_m_s2", "jerk_m_s3"].into_iter().zip(speed) {
+            self.maybe(&format!("motion.{key}"), value, Range::Positive);
+        }
+        self.one("motion.blend_m", blend_m, Range::NonNegative);
     }
 
     fn shape(&mut self, what: &str, shape: &ObstacleSettings) {

@@ -14,8 +14,7 @@ use super::{
     clock::RunClock,
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
-    numbers,
-    output,
+    motion_limits, numbers, output,
     payload::Payload,
     spaces,
     zones::{self, Zone},
@@ -23,7 +22,7 @@ use super::{
 use crate::{
     fault::{PlannedFault, resolve},
     monitor::{AT_THE_LIMIT, RunningCheck},
-    motion::Trajectory,
+    motion::{MotionInput, Trajectory},
     scenario::{
         Check, CheckKind, Expectation, FilePlace, MotionSettings, Override, SCHEMA_VERSION, Scenario,
         ScenarioFile, StartSettings,
@@ -92,7 +91,7 @@ impl RunSetup {
                 return Err(findings);
             }
         };
-        let built = Self::build(file.scenario.clone(), description, file.place());
+        let built = Self::build(file.scenario.clone(), description, (file.place(), file.folder()));
         let mut setup = match built {
             Ok(setup) if file.findings().is_empty() => setup,
             Ok(_) => return Err(file.findings().to_vec()),
@@ -119,13 +118,13 @@ impl RunSetup {
         if !wrong.is_empty() {
             return Err(wrong);
         }
-        Self::build(scenario, description, FilePlace::nowhere())
+        Self::build(scenario, description, (FilePlace::nowhere(), Path::new("")))
     }
 
     fn build(
         mut scenario: Scenario,
         description: RobotDescription,
-        place: FilePlace<'_>,
+        (place, folder): (FilePlace<'_>, &Path),
     ) -> Result<Self, Vec<Diagnostic>> {
         let (mut found, mut warnings) = (Diagnostics::default(), Vec::new());
         let robot = &description.robot;
@@ -134,10 +133,14 @@ impl RunSetup {
         let mut start = start.unwrap_or_else(|| RobotQ::zeros(robot.dof()));
         warnings.extend(start_warnings(&start, robot));
         move_inside_limits(&mut start, robot);
-        let motions = (scenario.motion.as_slice(), place.key("motion"));
-        let trajectory = keep_all(&mut found, Trajectory::new(motions, &description, &start, &mut warnings));
-        // Also of motions that cannot be planned, which is no fault of the clock.
-        let motions_s = scenario.motion.iter().map(MotionSettings::duration_s).sum();
+        let limits = motion_limits::build(&scenario.limits, place.key("limits"), robot);
+        let trajectory = keep_all(&mut found, limits).and_then(|limits| {
+            let (motions, places) = (scenario.motion.as_slice(), place.key("motion"));
+            let input = MotionInput { motions, places, limits: &limits, folder };
+            keep_all(&mut found, Trajectory::new(input, &description, &start, &mut warnings))
+        });
+        // Motions that cannot be planned are no fault of the clock.
+        let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
         let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
         let clock = found.keep(clock);
         found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
@@ -168,6 +171,7 @@ impl RunSetup {
         let line = |index| place.key("check").item(index).line();
         let check_lines = (0..scenario.check.len()).map(line).collect();
         write_out_defaults(&mut scenario, &description, (&clock, &start));
+        write_out_paths(&mut scenario, folder);
         let path = None;
         let robot = &description.robot;
         let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
@@ -222,6 +226,11 @@ impl RunSetup {
         let controller = &self.scenario.controller;
         Gains { stiffness: controller.stiffness, damping: controller.damping }
     }
+}
+
+/// The time of the motions as far as the scenario says it; a second for each that does not.
+fn written_s(scenario: &Scenario) -> f64 {
+    scenario.motion.iter().map(|motion| motion.duration_s().unwrap_or(1.0)).sum()
 }
 
 /// Whether distances or contacts decide something: without obstacles nothing can be touched.
@@ -346,6 +355,16 @@ fn write_out_defaults(
                     check.tolerance_m.or(check.tolerance_mm.is_none().then_some(AT_THE_LIMIT));
             }
             Check::Clearance(_) | Check::Goal(_) | Check::Zone(_) => {}
+        }
+    }
+}
+
+/// Makes the paths of other files absolute.
+fn write_out_paths(scenario: &mut Scenario, folder: &Path) {
+    for motion in &mut scenario.motion {
+        if let MotionSettings::Playback(playback) = motion {
+            let path = folder.join(&playback.play_csv);
+            playback.play_csv = path.canonicalize().unwrap_or(path).display().to_string();
         }
     }
 }

@@ -23,7 +23,7 @@ pub struct SetpointView<'a> {
     pub q: &'a RobotQ,
     /// Velocities, rad/s or m/s.
     pub qd: &'a [f64],
-    /// Accelerations, rad/s^2 or m/s^2.
+    /// Accelerations, rad/s^2 or m/s^2; 0 during a servo, which commands none.
     pub qdd: &'a [f64],
 }
 

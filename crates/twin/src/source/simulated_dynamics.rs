@@ -103,11 +103,11 @@ impl Stepped {
         state: &DrivenState<'_>,
         qdd: &mut [f64],
     ) -> Result<(), SimulationError> {
-        let mut torques = Torques(state.tau.to_vec());
+        let (mut torques, still) = (Torques(state.tau.to_vec()), vec![0.0; state.qd.len()]);
         let mut found = [const { Vec::new() }; 3];
         for ((world, found), share) in self.worlds.iter_mut().zip(&mut found).zip(SHARES) {
             world.set_state(state.q, state.qd)?;
-            world.step(&mut torques, &Setpoint { q: state.q, qd: state.qd, qdd: state.tau })?;
+            world.step(&mut torques, &Setpoint { q: state.q, qd: state.qd, qdd: &still })?;
             let step_s = self.step_s * share;
             found.extend(world.qd().iter().zip(state.qd).map(|(after, before)| (after - before) / step_s));
         }

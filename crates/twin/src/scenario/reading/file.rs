@@ -17,7 +17,11 @@ use super::{faults::read_fault, overrides::Override, section::Section};
 use crate::scenario::{
     checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck},
     data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario},
-    motions::{JOINT_KEYS, JointMotion, MotionSettings, SERVO_KEY, ServoMotion, TCP_KEY, TcpMotion},
+    motions::{
+        ARC_KEY, ArcMotion, JOINT_KEYS, JOINT_PATH_KEYS, JointMotion, JointPathMotion, LINE_KEY, LineMotion,
+        MotionSettings, PLAYBACK_KEY, PlaybackMotion, SERVO_KEY, ServoMotion, TCP_KEY, TCP_PATH_KEY,
+        TcpMotion, TcpPathMotion,
+    },
     place::{FilePlace, PlaceNode},
 };
 
@@ -46,8 +50,19 @@ struct Top {
 }
 
 /// The sections of a file besides its top.
-const SECTIONS: [&str; 10] =
-    ["simulation", "start", "controller", "motion", "obstacle", "zone", "fault", "check", "output", "expect"];
+const SECTIONS: [&str; 11] = [
+    "simulation",
+    "start",
+    "controller",
+    "limits",
+    "motion",
+    "obstacle",
+    "zone",
+    "fault",
+    "check",
+    "output",
+    "expect",
+];
 
 impl ScenarioFile {
     /// Reads a file; `overrides` replace its values.
@@ -84,8 +99,13 @@ impl ScenarioFile {
 
     /// The robot's path, relative to the folder of the file.
     pub fn robot_path(&self) -> PathBuf {
+        self.folder().join(&self.scenario.robot)
+    }
+
+    /// The folder of the file, to which paths in it are relative.
+    pub fn folder(&self) -> &Path {
         let folder = self.path().parent().filter(|_| !is_standard_input(self.path()));
-        folder.unwrap_or(Path::new("")).join(&self.scenario.robot)
+        folder.unwrap_or(Path::new(""))
     }
 
     /// The places of its values.
@@ -146,6 +166,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
     let start = one(&mut document, "start", findings);
     let controller = take(&mut document, "controller", findings);
     let controller = keep_all(findings, controller.and_then(read_controller));
+    let limits = one(&mut document, "limits", findings);
     let motion = all(&mut document, "motion", findings, read_motion);
     let obstacle = all(&mut document, "obstacle", findings, |section, findings| {
         keep_all(findings, section.require_table("cylinder").map_err(Into::into));
@@ -173,6 +194,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         simulation: simulation?,
         start: start?,
         controller: controller?,
+        limits: limits?,
         motion: motion?,
         obstacle: obstacle?,
         zone: zone?,
@@ -232,8 +254,19 @@ fn read_motion(section: Section<'_>, findings: &mut Diagnostics) -> Option<Motio
         section.read_into::<TcpMotion>(findings).map(MotionSettings::Tcp)
     } else if section.has(SERVO_KEY) {
         section.read_into::<ServoMotion>(findings).map(MotionSettings::Servo)
+    } else if section.has(LINE_KEY) {
+        section.read_into::<LineMotion>(findings).map(MotionSettings::Line)
+    } else if section.has(ARC_KEY) {
+        section.read_into::<ArcMotion>(findings).map(MotionSettings::Arc)
+    } else if section.has(TCP_PATH_KEY) {
+        section.read_into::<TcpPathMotion>(findings).map(MotionSettings::TcpPath)
+    } else if JOINT_PATH_KEYS.iter().any(|key| section.has(key)) {
+        section.read_into::<JointPathMotion>(findings).map(MotionSettings::JointPath)
+    } else if section.has(PLAYBACK_KEY) {
+        section.read_into::<PlaybackMotion>(findings).map(MotionSettings::Playback)
     } else {
-        let known: Vec<&str> = JOINT_KEYS.into_iter().chain([TCP_KEY, SERVO_KEY]).collect();
+        let one_key = [TCP_KEY, LINE_KEY, ARC_KEY, TCP_PATH_KEY, PLAYBACK_KEY, SERVO_KEY];
+        let known: Vec<&str> = JOINT_KEYS.into_iter().chain(JOINT_PATH_KEYS).chain(one_key).collect();
         findings.push(
             Diagnostic::error("scenario::unknown_motion", "the motion has no target")
                 .with_help(format!("give one of {}", known.join(", ")))

@@ -4,19 +4,20 @@
 use congruent_description::{Diagnostic, RobotQ, display::length_and_angle};
 use congruent_kinematics::{Arm, IkOptions, IkSolver, IkTarget, KinematicsError, Pose, TargetPart, UrdfTree};
 
-use super::{
-    course::{Course, JointMove, Motion},
-    planning::Planning,
+use crate::{
+    motion::{course::Motion, joints::joint_move::straight, planning::Planning},
+    scenario::{FilePlace, PoseSettings, TcpMotion},
 };
-use crate::scenario::{FilePlace, PoseSettings, TcpMotion};
 
 /// Random configurations from which other solutions are looked for: arms of six joints have up to 16.
 const ATTEMPTS: usize = 64;
 
-pub(super) fn plan(settings: &TcpMotion, planning: &Planning<'_>) -> Result<Motion, Diagnostic> {
+pub(in crate::motion) fn plan(
+    settings: &TcpMotion,
+    planning: &mut Planning<'_>,
+) -> Result<Motion, Diagnostic> {
     let to = reach(&settings.move_tcp, planning)?;
-    let course = JointMove { from: planning.from.clone(), to, profile: settings.profile };
-    Ok(Motion { duration_s: settings.duration_s, course: Course::Joints(course) })
+    straight(to, (settings.profile, settings.duration_s), planning)
 }
 
 /// The arm that a tool's pose is asked of, and the pose in its base: all of it, or its position if no

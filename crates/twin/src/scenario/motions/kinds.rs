@@ -7,9 +7,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    paths::{ArcMotion, JointPathMotion, LineMotion, PlaybackMotion, TcpPathMotion},
+    profile::Profile,
+};
+use crate::scenario::{
     number::{optional_positive, positive},
     pose::PoseSettings,
-    profile::Profile,
 };
 
 /// One motion.
@@ -20,17 +23,31 @@ pub enum MotionSettings {
     Joints(JointMotion),
     /// The joints move together to a configuration that has the TCP at a pose.
     Tcp(TcpMotion),
+    /// The TCP goes along a straight line.
+    Line(LineMotion),
+    /// The TCP goes along an arc of a circle.
+    Arc(ArcMotion),
+    /// The TCP goes along straight lines from point to point.
+    TcpPath(TcpPathMotion),
+    /// The joints go through many points.
+    JointPath(JointPathMotion),
+    /// The joints follow a table.
+    Playback(PlaybackMotion),
     /// The TCP is driven to a pose in a closed loop.
     Servo(ServoMotion),
 }
 
 impl MotionSettings {
-    /// How long it takes.
-    pub fn duration_s(&self) -> f64 {
+    /// How long it takes, if the scenario says so.
+    pub fn duration_s(&self) -> Option<f64> {
         match self {
             Self::Joints(motion) => motion.duration_s,
             Self::Tcp(motion) => motion.duration_s,
-            Self::Servo(motion) => motion.duration_s,
+            Self::Line(motion) => motion.duration_s,
+            Self::Arc(motion) => motion.duration_s,
+            Self::JointPath(motion) => motion.at_s.last().copied().or(motion.duration_s),
+            Self::TcpPath(_) | Self::Playback(_) => None,
+            Self::Servo(motion) => Some(motion.duration_s),
         }
     }
 }
@@ -51,9 +68,9 @@ pub struct JointMotion {
     /// Shifts in millimetres by joint.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub move_joints_mm: BTreeMap<String, f64>,
-    /// How long it takes.
-    #[serde(deserialize_with = "positive")]
-    pub duration_s: f64,
+    /// How long it takes; the least time within the limits if it is left out.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub duration_s: Option<f64>,
     /// The profile over its duration.
     #[serde(default)]
     pub profile: Profile,
@@ -66,9 +83,9 @@ pub struct JointMotion {
 pub struct TcpMotion {
     /// The pose, or the position if no rotation is given.
     pub move_tcp: PoseSettings,
-    /// How long it takes.
-    #[serde(deserialize_with = "positive")]
-    pub duration_s: f64,
+    /// How long it takes; the least time within the limits if it is left out.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub duration_s: Option<f64>,
     /// The profile over its duration.
     #[serde(default)]
     pub profile: Profile,
@@ -110,9 +127,20 @@ impl ServoMethod {
 }
 
 /// The keys that tell the kind of a motion.
-pub(crate) const JOINT_KEYS: [&str; 4] =
+pub(in crate::scenario) const JOINT_KEYS: [&str; 4] =
     ["move_joints_deg", "move_joints_rad", "move_joints_m", "move_joints_mm"];
 /// Likewise.
-pub(crate) const TCP_KEY: &str = "move_tcp";
+pub(in crate::scenario) const TCP_KEY: &str = "move_tcp";
 /// Likewise.
-pub(crate) const SERVO_KEY: &str = "servo_tcp";
+pub(in crate::scenario) const SERVO_KEY: &str = "servo_tcp";
+/// Likewise.
+pub(in crate::scenario) const LINE_KEY: &str = "line_tcp";
+/// Likewise.
+pub(in crate::scenario) const ARC_KEY: &str = "arc_tcp";
+/// Likewise.
+pub(in crate::scenario) const TCP_PATH_KEY: &str = "path_tcp";
+/// Likewise.
+pub(in crate::scenario) const JOINT_PATH_KEYS: [&str; 4] =
+    ["path_joints_deg", "path_joints_rad", "path_joints_m", "path_joints_mm"];
+/// Likewise.
+pub(in crate::scenario) const PLAYBACK_KEY: &str = "play_csv";

@@ -12,12 +12,14 @@ use congruent_kinematics::{Arm, ArmJoint, DifferentialMethod, IkSolver, Kinemati
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{
-    course::{Course, Motion, TcpServo},
-    planning::Planning,
-    tcp_move,
+use super::tcp_move;
+use crate::{
+    motion::{
+        course::{Course, Motion, TcpServo},
+        planning::Planning,
+    },
+    scenario::{ServoMethod, ServoMotion},
 };
-use crate::scenario::{ServoMethod, ServoMotion};
 
 /// Without a gain, an error falls to 1/e in 0.2 s.
 pub(crate) const DEFAULT_GAIN_PER_S: f64 = 5.0;
@@ -37,7 +39,7 @@ pub struct ServoResult {
     pub limits_held: Vec<String>,
 }
 
-pub(super) fn plan(settings: &ServoMotion, planning: &Planning<'_>) -> Result<Motion, Diagnostic> {
+pub(in crate::motion) fn plan(settings: &ServoMotion, planning: &Planning<'_>) -> Result<Motion, Diagnostic> {
     let place = planning.place.key("servo_tcp");
     let (_, target) = tcp_move::target((&settings.servo_tcp, place), planning)?;
     let servo = TcpServo {
@@ -50,7 +52,7 @@ pub(super) fn plan(settings: &ServoMotion, planning: &Planning<'_>) -> Result<Mo
 
 /// Computes the steps of a servo without allocation.
 #[derive(Debug, Clone)]
-pub(super) struct ServoController<'a> {
+pub(in crate::motion) struct ServoController<'a> {
     robot: &'a Robot,
     solver: IkSolver,
     measured: ArmQ,
@@ -61,13 +63,13 @@ pub(super) struct ServoController<'a> {
 }
 
 /// A step, and the part of it that lies within the motion.
-pub(super) struct StepInterval {
-    pub(super) step_s: f64,
-    pub(super) moved_s: f64,
+pub(in crate::motion) struct StepInterval {
+    pub(in crate::motion) step_s: f64,
+    pub(in crate::motion) moved_s: f64,
 }
 
 impl<'a> ServoController<'a> {
-    pub(super) fn new(description: &'a RobotDescription) -> Result<Self, KinematicsError> {
+    pub(in crate::motion) fn new(description: &'a RobotDescription) -> Result<Self, KinematicsError> {
         let arm = Arm::of(description)?;
         let joints = arm.joints().len();
         Ok(Self {
@@ -82,7 +84,7 @@ impl<'a> ServoController<'a> {
 
     /// Moves the setpoint `q` by one step towards the target, within the position limits of the joints; if a
     /// velocity limit is exceeded, all joints are scaled down alike. `qd` is the mean over the step.
-    pub(super) fn advance(
+    pub(in crate::motion) fn advance(
         &mut self,
         servo: &TcpServo,
         measured_q: &RobotQ,
@@ -117,7 +119,7 @@ impl<'a> ServoController<'a> {
     }
 
     /// The result of a servo at the present positions.
-    pub(super) fn result(
+    pub(in crate::motion) fn result(
         &mut self,
         servo: &TcpServo,
         motion: usize,

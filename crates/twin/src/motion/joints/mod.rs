@@ -1,0 +1,11 @@
+//! Motions of the joints: a move, a path of many points, the playback of a file.
+
+pub(super) mod joint_move;
+pub(super) mod joint_path;
+pub(super) mod playback;
+mod spline;
+mod table;
+
+pub(super) use spline::SplineValues;
+pub use spline::{JointSpline, SplineEnds};
+pub use table::JointTable;

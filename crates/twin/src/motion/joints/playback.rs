@@ -1,0 +1,59 @@
+//! `play_csv`: the joints follow a table.
+
+use std::sync::Arc;
+
+use congruent_description::{Diagnostic, display::quantity};
+
+use super::{
+    spline::{JointSpline, SplineEnds},
+    table::JointTable,
+};
+use crate::{
+    motion::{
+        course::{Course, Motion, PlannedMove, Way},
+        pace::Pace,
+        planning::Planning,
+    },
+    scenario::{Between, PlaybackMotion, Profile},
+};
+
+/// How far the first row may be from where the joints stand, rad or m. Kind: digits of a table.
+const SAME_PLACE: f64 = 1e-4;
+
+pub(in crate::motion) fn plan(
+    settings: &PlaybackMotion,
+    planning: &mut Planning<'_>,
+) -> Result<Motion, Diagnostic> {
+    let place = planning.place.key("play_csv");
+    let robot = &planning.description.robot;
+    let path = planning.folder.join(&settings.play_csv);
+    let JointTable { times_s, mut points } = JointTable::read(&path, (robot, planning.limits), planning.from)
+        .map_err(|fault| if fault.source.is_none() { place.mark(fault) } else { fault })?;
+    for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
+        let (stands, begins) = (planning.from[coordinate], points[0][coordinate]);
+        if (stands - begins).abs() > SAME_PLACE {
+            let joint = robot.joint(joint);
+            let [stands, begins] = [stands, begins].map(|value| quantity(value, joint.kind.unit()));
+            let message = format!(
+                "the table begins with joint \"{}\" at {begins}, where it stands at {stands}",
+                joint.name
+            );
+            let error = Diagnostic::error("scenario::playback_start", message);
+            let help = "let the robot start there, or move the joints there before";
+            return Err(place.mark(error.with_help(help)));
+        }
+    }
+    points[0].clone_from(planning.from);
+    let duration_s = times_s[times_s.len() - 1];
+    let shares: Vec<f64> = times_s.iter().map(|time_s| time_s / duration_s).collect();
+    let ends = match settings.between {
+        Between::Spline => SplineEnds::Parabola,
+        Between::Linear => SplineEnds::Straight,
+    };
+    let spline = Arc::new(JointSpline::new(&shares, &points, ends));
+    let pace = Pace::Shape { profile: Profile::Linear, duration_s };
+    let to = points.swap_remove(points.len() - 1);
+    // Rows are held against the limits as they are read: a file is played as it is.
+    let planned = PlannedMove { way: Way::Spline(spline), to, pace, begins_s: 0.0 };
+    Ok(Motion { duration_s, course: Course::Planned(planned) })
+}

@@ -1,0 +1,210 @@
+//! A table of joint positions over time, read from CSV: a header that names time and joints with their units, one instant
+//! in each row.
+
+use std::{ops::Range, path::Path};
+
+use congruent_description::{
+    Diagnostic, Robot, RobotQ, SourceFile, display::quantity, known_names, read_regular_text, units::Unit,
+};
+
+use crate::motion::pace::MotionLimits;
+
+/// Largest table that is read.
+const MOST_BYTES: u64 = 256 << 20;
+/// The column of times.
+const TIME: &str = "time_s";
+/// Between the name of a joint and the position among other quantities, in the tables that runs write.
+const POSITION: &str = ".q";
+
+/// Joint positions over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointTable {
+    /// Times from the first row on, each later than the one before; at least two.
+    pub times_s: Vec<f64>,
+    /// Positions at these times.
+    pub points: Vec<RobotQ>,
+}
+
+/// A column that is used, and how its values become SI.
+struct Column {
+    cell: usize,
+    coordinate: usize,
+    handy: Option<Unit>,
+}
+
+/// A line of the file that is no comment.
+struct Row<'a> {
+    number: usize,
+    span: Range<usize>,
+    cells: Vec<&'a str>,
+}
+
+impl JointTable {
+    /// Reads a file; joints without a column stay where `from` has them.
+    ///
+    /// # Errors
+    /// The file cannot be read, a column or a number is wrong, times do not increase, or a joint would have to move
+    /// faster than its limit from one row to the next.
+    pub(super) fn read(
+        path: &Path,
+        (robot, limits): (&Robot, &MotionLimits),
+        from: &RobotQ,
+    ) -> Result<Self, Diagnostic> {
+        let source = read_regular_text(path, MOST_BYTES)?;
+        Self::parse(&source, (robot, limits), from).map_err(|fault| fault.in_file(&source))
+    }
+
+    fn parse(
+        source: &SourceFile,
+        (robot, limits): (&Robot, &MotionLimits),
+        from: &RobotQ,
+    ) -> Result<Self, Diagnostic> {
+        let mut rows = rows(&source.text);
+        let header = rows.next().ok_or_else(|| fault("the table has no header", 0..0))?;
+        let time = header.cells.iter().position(|&name| name == TIME);
+        let time = time.ok_or_else(|| fault("the table has no column time_s", header.span.clone()))?;
+        let columns = columns(&header, robot)?;
+        let mut table = Self { times_s: Vec::new(), points: Vec::new() };
+        for row in rows {
+            if row.cells.len() != header.cells.len() {
+                let (found, expected) = (row.cells.len(), header.cells.len());
+                let message = format!("line {}: {found} cells, the header has {expected}", row.number);
+                return Err(fault(&message, row.span));
+            }
+            let time_s = row.number_in(time)?;
+            let mut q = from.clone();
+            for column in &columns {
+                let value = row.number_in(column.cell)?;
+                q[column.coordinate] = column.handy.map_or(value, |unit| unit.convert(value));
+            }
+            robot.apply_mimic(&mut q);
+            table.follow(&row, (time_s, &q), (robot, limits))?;
+            table.times_s.push(time_s);
+            table.points.push(q);
+        }
+        if table.points.len() < 2 {
+            return Err(fault("the table has less than two rows of positions", header.span));
+        }
+        let first_s = table.times_s[0];
+        table.times_s.iter_mut().for_each(|time_s| *time_s -= first_s);
+        Ok(table)
+    }
+
+    /// Refuses a row that does not follow on the one before.
+    fn follow(
+        &self,
+        row: &Row<'_>,
+        (time_s, q): (f64, &RobotQ),
+        (robot, limits): (&Robot, &MotionLimits),
+    ) -> Result<(), Diagnostic> {
+        let (Some(&before_s), Some(before)) = (self.times_s.last(), self.points.last()) else {
+            return Ok(());
+        };
+        if time_s <= before_s {
+            let message = format!("line {}: time {time_s} s is not after {before_s} s", row.number);
+            return Err(fault(&message, row.span.clone()));
+        }
+        let speed = |joint: usize| (q[joint] - before[joint]).abs() / (time_s - before_s);
+        // A table has few digits: half a unit of the fourth is no jump.
+        let jumps = |joint: &usize| speed(*joint) > limits.velocity[*joint] * 1.0005;
+        let Some(joint) = (0..q.len()).find(jumps) else { return Ok(()) };
+        let described = robot.joint(robot.movable_joints()[joint]);
+        let unit = described.kind.unit();
+        let [way, interval] = [(q[joint] - before[joint], unit), (time_s - before_s, "s")]
+            .map(|(value, unit)| quantity(value, unit));
+        let [speed, limit] =
+            [speed(joint), limits.velocity[joint]].map(|value| quantity(value, &format!("{unit}/s")));
+        let message = format!(
+            "line {}: joint \"{}\" jumps by {way} in {interval}: {speed}, its limit is {limit}",
+            row.number, described.name
+        );
+        Err(Diagnostic::error("scenario::playback_jump", message).at(row.span.clone()))
+    }
+}
+
+impl Row<'_> {
+    fn number_in(&self, cell: usize) -> Result<f64, Diagnostic> {
+        let written = self.cells[cell];
+        written.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
+            let message = format!("line {}: \"{written}\" is not a finite number", self.number);
+            fault(&message, self.span.clone())
+        })
+    }
+}
+
+/// All lines but empty ones and comments.
+fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
+    let mut start = 0;
+    let lines = text.split_inclusive('\n').enumerate().map(move |(index, whole)| {
+        let line = whole.trim_end_matches(['\n', '\r']);
+        let span = start..start + line.len();
+        start += whole.len();
+        (index, line, span)
+    });
+    lines.filter(|(_, line, _)| !line.trim().is_empty() && !line.starts_with('#')).map(
+        |(index, line, span)| {
+            let cells = line.split(',').map(|cell| cell.trim().trim_matches('"')).collect();
+            Row { number: index + 1, span, cells }
+        },
+    )
+}
+
+/// The columns of positions; of a table that a run has written, other quantities are left out.
+fn columns(header: &Row<'_>, robot: &Robot) -> Result<Vec<Column>, Diagnostic> {
+    let mut columns: Vec<Column> = Vec::new();
+    for (cell, name) in header.cells.iter().enumerate().filter(|(_, name)| **name != TIME) {
+        let units = [
+            ("_rad", true, None),
+            ("_deg", true, Some(Unit::Angle)),
+            ("_mm", false, Some(Unit::Length)),
+            ("_m", false, None),
+        ];
+        let unit = units
+            .iter()
+            .find_map(|(suffix, turns, handy)| Some((name.strip_suffix(suffix)?, *turns, *handy)));
+        let (stem, turns, handy) = match unit {
+            Some((stem, turns, handy)) => (stem.strip_suffix(POSITION).unwrap_or(stem), turns, handy),
+            None if is_other_quantity(name, robot) => continue,
+            None => return Err(unknown(name, header, robot)),
+        };
+        let joint =
+            robot.find_joint(stem).and_then(|joint| Some((robot.joint(joint), robot.coordinate(joint)?)));
+        let Some((joint, coordinate)) = joint else {
+            if is_other_quantity(name, robot) {
+                continue;
+            }
+            return Err(unknown(name, header, robot));
+        };
+        if joint.kind.is_angular() != turns {
+            let (what, keys) = if turns { ("slides", "_m or _mm") } else { ("turns", "_deg or _rad") };
+            let message = format!("column \"{name}\": the joint {what}, its column ends in {keys}");
+            return Err(fault(&message, header.span.clone()));
+        }
+        if columns.iter().any(|known| known.coordinate == coordinate) {
+            return Err(fault(&format!("joint \"{stem}\" has two columns"), header.span.clone()));
+        }
+        if joint.mimic.is_none() {
+            columns.push(Column { cell, coordinate, handy });
+        }
+    }
+    if columns.is_empty() {
+        return Err(fault("the table has no column of a joint", header.span.clone()));
+    }
+    Ok(columns)
+}
+
+/// Whether a column is one of those that runs write beside positions: `joint.qd_rad_s`, `link.error_m`.
+fn is_other_quantity(name: &str, robot: &Robot) -> bool {
+    name.split_once('.').is_some_and(|(_, quantity)| !quantity.starts_with("q_"))
+        && robot.find_joint(name).is_none()
+}
+
+fn unknown(name: &str, header: &Row<'_>, robot: &Robot) -> Diagnostic {
+    let message = format!("column \"{name}\" is no joint with a unit");
+    let known = known_names(name, "joints", robot.movable_joint_names());
+    fault(&message, header.span.clone()).with_help(format!("{known}; a column is JOINT_deg, _rad, _m or _mm"))
+}
+
+fn fault(message: &str, span: Range<usize>) -> Diagnostic {
+    Diagnostic::error("scenario::playback", message.to_owned()).at(span)
+}

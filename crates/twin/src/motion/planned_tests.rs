@@ -1,0 +1,473 @@
+//! Planned motions of real robots, evaluated as a run evaluates them: paths, speeds and limits by independent means.
+
+use std::{collections::BTreeMap, path::Path};
+
+use congruent_description::{Diagnostic, RobotDescription, RobotQ, load_robot};
+use congruent_kinematics::UrdfTree;
+use nalgebra::{Isometry3, Vector3};
+
+use super::reference_generator::ReferenceGenerator;
+use crate::{
+    scenario::{
+        ArcMotion, ArcSettings, Between, ControllerSettings, JointMotion, JointPathMotion, LimitSettings,
+        LineMotion, MotionSettings, OverLimit, PlaybackMotion, PoseSettings, Profile, Scenario, ServoMotion,
+        StartSettings, TcpPathMotion,
+    },
+    setup::RunSetup,
+};
+
+fn ur5e() -> RobotDescription {
+    load_robot(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/ur5e")).unwrap()
+}
+
+/// The UR5e with its elbow up and its tool down.
+fn setup(motion: Vec<MotionSettings>, limits: LimitSettings) -> Result<RunSetup, Vec<Diagnostic>> {
+    let start = [
+        ("shoulder_lift_joint", -90.0),
+        ("elbow_joint", 90.0),
+        ("wrist_1_joint", -90.0),
+        ("wrist_2_joint", -90.0),
+    ];
+    let scenario = Scenario {
+        name: "planned".to_owned(),
+        controller: ControllerSettings::default(),
+        start: StartSettings {
+            joints_deg: start.map(|(name, deg)| (name.to_owned(), deg)).into(),
+            ..StartSettings::default()
+        },
+        motion,
+        limits,
+        ..Scenario::default()
+    };
+    RunSetup::new(scenario, ur5e())
+}
+
+fn planned(motion: Vec<MotionSettings>) -> RunSetup {
+    setup(motion, LimitSettings::default()).unwrap_or_else(|found| panic!("{found:#?}"))
+}
+
+#[track_caller]
+fn refused(motion: Vec<MotionSettings>, code: &str, words: &[&str]) {
+    let found = setup(motion, LimitSettings::default()).map(|_| ()).unwrap_err();
+    assert_eq!(found[0].code, code, "{found:#?}");
+    let said = format!("{}; {}", found[0].message, found[0].help.clone().unwrap_or_default());
+    for word in words {
+        assert!(said.contains(word), "\"{word}\" is not in: {said}");
+    }
+}
+
+struct Instant {
+    time_s: f64,
+    q: RobotQ,
+    qd: Vec<f64>,
+    qdd: Vec<f64>,
+    world_from_tcp: Isometry3<f64>,
+}
+
+/// All instants of a setup's motions, each millisecond.
+fn instants(setup: &RunSetup) -> Vec<Instant> {
+    let description = &setup.description;
+    let mut reference = ReferenceGenerator::new(&setup.trajectory, description).unwrap();
+    let tree = UrdfTree::new(&description.robot);
+    let tip_from_tcp = description.tip_from_tcp.unwrap_or_else(Isometry3::identity);
+    let mut found = Vec::new();
+    for step in 0..=setup.clock.steps {
+        let time_s = setup.clock.time_s(step);
+        // A perfect arm: it is where it was told to be.
+        let measured = reference.q().clone();
+        if step > 0 {
+            reference.advance(time_s, &measured).unwrap();
+        }
+        let world_from_tip = tree.root_from_link(reference.q(), description.tip).unwrap().to_isometry();
+        found.push(Instant {
+            time_s,
+            q: reference.q().clone(),
+            qd: reference.qd().to_vec(),
+            qdd: reference.qdd().to_vec(),
+            world_from_tcp: world_from_tip * tip_from_tcp,
+        });
+    }
+    found
+}
+
+/// Velocities and accelerations are the derivatives of positions: central differences over 1 ms. `jump` is the largest
+/// third derivative times half a step, with which the difference of an acceleration that bends is off.
+#[track_caller]
+fn assert_derivatives(instants: &[Instant], jump: f64) {
+    let h_s = instants[1].time_s - instants[0].time_s;
+    for three in instants.windows(3) {
+        let [before, now, after] = three else { panic!("three instants") };
+        for joint in 0..now.q.len() {
+            let qd = (after.q[joint] - before.q[joint]) / (2.0 * h_s);
+            let qdd = (after.qd[joint] - before.qd[joint]) / (2.0 * h_s);
+            assert!((qd - now.qd[joint]).abs() < jump * h_s + 1e-8, "joint {joint} at {}: {qd}", now.time_s);
+            assert!(
+                (qdd - now.qdd[joint]).abs() < jump,
+                "joint {joint} at {}: {qdd} for {}",
+                now.time_s,
+                now.qdd[joint]
+            );
+        }
+    }
+}
+
+fn pose(xyz: [f64; 3]) -> PoseSettings {
+    PoseSettings { xyz_m: Some(xyz), ..PoseSettings::default() }
+}
+
+fn line(xyz: [f64; 3], speed_m_s: f64, blend_m: f64) -> MotionSettings {
+    let speed_m_s = Some(speed_m_s);
+    MotionSettings::Line(LineMotion { line_tcp: pose(xyz), speed_m_s, blend_m, ..LineMotion::default() })
+}
+
+fn tcp(instants: &[Instant], at: usize) -> Vector3<f64> {
+    instants[at].world_from_tcp.translation.vector
+}
+
+/// Where the tool stands at the start.
+fn start() -> Vector3<f64> {
+    let still = JointMotion {
+        move_joints_deg: BTreeMap::from([("elbow_joint".to_owned(), 90.0)]),
+        duration_s: Some(0.01),
+        ..JointMotion::default()
+    };
+    tcp(&instants(&planned(vec![MotionSettings::Joints(still)])), 0)
+}
+
+fn move_to(joint: &str, deg: f64, duration_s: Option<f64>, profile: Profile) -> MotionSettings {
+    let move_joints_deg = BTreeMap::from([(joint.to_owned(), deg)]);
+    MotionSettings::Joints(JointMotion { move_joints_deg, duration_s, profile, ..JointMotion::default() })
+}
+
+/// Promised between knots; in fact 2e-9 m at most.
+const PATH_M: f64 = 1e-6;
+
+#[test]
+fn a_line_is_straight_at_its_speed_and_keeps_the_orientation() {
+    let from = start();
+    let to = from + Vector3::new(0.1, 0.25, -0.15);
+    let setup = planned(vec![line(to.into(), 0.2, 0.0)]);
+    let instants = instants(&setup);
+    let direction = (to - from).normalize();
+    let mut at_speed = 0;
+    for (at, pair) in instants.windows(2).enumerate() {
+        let way = tcp(&instants, at) - from;
+        assert!((way - direction * way.dot(&direction)).norm() < PATH_M, "at {}", pair[0].time_s);
+        let turned = pair[0].world_from_tcp.rotation.angle_to(&instants[0].world_from_tcp.rotation);
+        assert!(turned < 1e-6, "{turned}");
+        let speed = (tcp(&instants, at + 1) - tcp(&instants, at)).norm() * 1e3;
+        assert!(speed < 0.2 + 1e-6, "{speed}");
+        at_speed += usize::from((speed - 0.2).abs() < 1e-6);
+    }
+    let last = instants.len() - 1;
+    assert!((tcp(&instants, last) - to).norm() < PATH_M);
+    assert!(instants[last].qd.iter().all(|qd| qd.abs() < 1e-9));
+    // L/v + v/a + a/j with 1.2 m/s2 and 12 m/s3, of which the ramps take twice v/a + a/j.
+    let (length, ramp_s) = ((to - from).norm(), 0.2 / 1.2 + 0.1);
+    assert!((setup.trajectory.duration_s() - (length / 0.2 + ramp_s)).abs() < 1e-9);
+    let expected = (length / 0.2 - ramp_s) * 1e3;
+    assert!((at_speed as f64 - expected).abs() < 4.0, "{at_speed} ms at speed, expected {expected}");
+    assert_derivatives(&instants, 0.1);
+}
+
+#[test]
+fn an_arc_keeps_its_radius() {
+    let from = start();
+    let centre = from + Vector3::new(0.0, 0.1, 0.0);
+    let (via, to) = (centre + Vector3::new(0.1, 0.0, 0.0), centre + Vector3::new(0.0, 0.1, 0.0));
+    let arc_tcp = ArcSettings { via: pose(via.into()), to: pose(to.into()) };
+    let arc = ArcMotion { arc_tcp, speed_m_s: Some(0.15), ..ArcMotion::default() };
+    let setup = planned(vec![MotionSettings::Arc(arc)]);
+    let instants = instants(&setup);
+    let mut nearest = f64::INFINITY;
+    for at in 0..instants.len() {
+        let from_centre = tcp(&instants, at) - centre;
+        assert!((from_centre.norm() - 0.1).abs() < PATH_M && from_centre.z.abs() < PATH_M);
+        nearest = nearest.min((tcp(&instants, at) - via).norm());
+    }
+    assert!(nearest < 1e-3 && (tcp(&instants, instants.len() - 1) - to).norm() < PATH_M);
+    assert_derivatives(&instants, 0.1);
+}
+
+#[test]
+fn a_narrow_arc_is_slower_and_says_so() {
+    let from = start();
+    let (via, to) = (from + Vector3::new(0.01, 0.01, 0.0), from + Vector3::new(0.0, 0.02, 0.0));
+    let arc_tcp = ArcSettings { via: pose(via.into()), to: pose(to.into()) };
+    let arc = ArcMotion { arc_tcp, speed_m_s: Some(0.5), ..ArcMotion::default() };
+    let setup = planned(vec![MotionSettings::Arc(arc)]);
+    let warning = setup.warnings.iter().find(|warning| warning.code == "scenario::arc_speed").unwrap();
+    // sqrt(1.2 m/s2 x 10 mm).
+    assert!(warning.message.contains("110 mm/s instead of 500 mm/s"), "{}", warning.message);
+}
+
+#[test]
+fn blends_do_not_stop_and_stay_in_their_zone() {
+    let from = start();
+    let corner = from + Vector3::new(0.0, 0.2, 0.0);
+    let to = corner + Vector3::new(0.15, 0.0, -0.1);
+    let setup = planned(vec![line(corner.into(), 0.1, 0.03), line(to.into(), 0.2, 0.0)]);
+    let instants = instants(&setup);
+    let (mut slowest, mut nearest) = (f64::INFINITY, f64::INFINITY);
+    for at in 1..instants.len() - 1 {
+        let here = tcp(&instants, at);
+        let to_corner = (here - corner).norm();
+        nearest = nearest.min(to_corner);
+        let speed = (tcp(&instants, at + 1) - here).norm() * 1e3;
+        if to_corner < 0.03 {
+            slowest = slowest.min(speed);
+        } else {
+            // Outside of the zone it is on one of the lines.
+            let off = |a: &Vector3<f64>, b: &Vector3<f64>| (here - a).cross(&(b - a).normalize()).norm();
+            assert!(off(&from, &corner).min(off(&corner, &to)) < PATH_M);
+        }
+    }
+    // At right angles cos(45 deg) of the speed, and 3/16 of the radius times the corner's sqrt(2).
+    assert!((slowest - 0.1 * 0.5_f64.sqrt()).abs() < 1e-3, "{slowest}");
+    assert!((nearest - 0.03 * 3.0 / 16.0 * 2.0_f64.sqrt()).abs() < 1e-4, "{nearest}");
+    assert_derivatives(&instants, 0.5);
+    assert_eq!(setup.trajectory.motions().len(), 2);
+}
+
+#[test]
+fn a_path_of_points_with_blends_is_one_motion_and_without_them_it_stops() {
+    let from = start();
+    let square = [[0.1, 0.0, 0.0], [0.1, 0.1, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.0]];
+    let path_tcp: Vec<PoseSettings> = square.map(|xyz| pose((from + Vector3::from(xyz)).into())).into();
+    let slowest_between = |blend_m: f64| {
+        let path_tcp = path_tcp.clone();
+        let path = TcpPathMotion { path_tcp, speed_m_s: 0.1, blend_m, ..TcpPathMotion::default() };
+        let instants = instants(&planned(vec![MotionSettings::TcpPath(path)]));
+        assert!((tcp(&instants, instants.len() - 1) - from).norm() < PATH_M);
+        let half = 300..instants.len() - 300;
+        half.map(|at| (tcp(&instants, at + 1) - tcp(&instants, at)).norm() * 1e3)
+            .fold(f64::INFINITY, f64::min)
+    };
+    assert!(slowest_between(0.02) > 0.06);
+    assert!(slowest_between(0.0) < 1e-4);
+}
+
+#[test]
+fn moves_without_a_duration_take_the_least_time_within_all_limits() {
+    let every = |value: f64| BTreeMap::from([("*".to_owned(), value)]);
+    for (profile, acceleration, jerk) in [
+        (Profile::JerkLimited, 200.0, 900.0),
+        (Profile::Trapezoidal, 200.0, f64::INFINITY),
+        (Profile::Quintic, 300.0, 2000.0),
+    ] {
+        let limits = LimitSettings {
+            velocity_deg_s: BTreeMap::from([("*".to_owned(), 120.0), ("elbow_joint".to_owned(), 60.0)]),
+            acceleration_deg_s2: every(acceleration),
+            jerk_deg_s3: every(if jerk.is_finite() { jerk } else { 1e6 }),
+            ..LimitSettings::default()
+        };
+        let move_joints_deg =
+            BTreeMap::from([("shoulder_pan_joint".to_owned(), 80.0), ("elbow_joint".to_owned(), 30.0)]);
+        let motion = JointMotion { move_joints_deg, profile, ..JointMotion::default() };
+        let setup = setup(vec![MotionSettings::Joints(motion)], limits).unwrap();
+        let instants = instants(&setup);
+        let mut peaks = [0.0_f64; 3];
+        for (at, now) in instants.iter().enumerate().skip(1) {
+            let third = (now.qdd[0] - instants[at - 1].qdd[0]) * 1e3;
+            let share = [now.qd[0] / 120.0, now.qdd[0] / acceleration, third / jerk];
+            let elbow = (now.qd[2] / 60.0).to_degrees().abs();
+            assert!(elbow < 1.0 + 1e-9, "{profile:?}: {elbow}");
+            for (peak, share) in peaks.iter_mut().zip(share) {
+                *peak = peak.max(share.to_degrees().abs());
+            }
+        }
+        assert!(peaks.iter().all(|peak| *peak < 1.0 + 1e-6), "{profile:?}: {peaks:?}");
+        // One of them is what takes the time: the elbow's 60 deg/s allows the pan 80.
+        let elbow_bound = peaks[0] * 120.0 / 80.0;
+        assert!(elbow_bound.max(peaks[1]).max(peaks[2]) > 0.99, "{profile:?}: {peaks:?}");
+    }
+}
+
+#[test]
+fn a_move_above_a_velocity_limit_is_refused_or_slowed() {
+    let fast = |duration_s| vec![move_to("elbow_joint", -30.0, Some(duration_s), Profile::Quintic)];
+    // 120 deg by 1.875 in 0.5 s is 450 deg/s, the limit 180 deg/s.
+    refused(
+        fast(0.5),
+        "scenario::over_limit",
+        &["elbow_joint", "450 deg/s", "250 ms", "180 deg/s", "1.25 s"],
+    );
+    let slow = LimitSettings { over_limit: OverLimit::Slow, ..LimitSettings::default() };
+    let setup = setup(fast(0.5), slow).unwrap();
+    assert!(setup.warnings.iter().any(|warning| warning.code == "scenario::slowed"));
+    assert!((setup.trajectory.duration_s() - 1.25).abs() < 1e-9);
+    planned(fast(1.25));
+}
+
+#[test]
+fn a_path_beyond_reach_says_where() {
+    let from = start();
+    let away = from + Vector3::new(-0.5, -0.9, 0.0);
+    refused(
+        vec![line(away.into(), 0.1, 0.0)],
+        "scenario::path_reach",
+        &["cannot go on", "along the path of 1030 mm", "left at best"],
+    );
+}
+
+#[test]
+fn paths_that_cannot_be_driven_are_refused() {
+    let from = start();
+    let at = |x: f64| (from + Vector3::new(x, 0.0, 0.0)).into();
+    refused(vec![line(at(0.05), 0.1, 0.01)], "scenario::path", &["no line or arc after it"]);
+    refused(
+        vec![line(at(0.05), 0.1, 0.03), line(at(0.1), 0.1, 0.0)],
+        "scenario::path",
+        &["30 mm does not fit", "25 mm"],
+    );
+    refused(vec![line(at(0.0), 0.1, 0.0)], "scenario::path", &["there already"]);
+    let timeless = LineMotion { line_tcp: pose(at(0.1)), ..LineMotion::default() };
+    refused(vec![MotionSettings::Line(timeless)], "scenario::path_speed", &["speed_m_s", "duration_s"]);
+    let arc_tcp = ArcSettings { via: pose(at(0.1)), to: pose(at(0.2)) };
+    let arc = ArcMotion { arc_tcp, speed_m_s: Some(0.1), ..ArcMotion::default() };
+    refused(vec![MotionSettings::Arc(arc)], "scenario::arc", &["straight line"]);
+}
+
+fn joint_path(points: &[f64]) -> JointPathMotion {
+    let point = |deg: &f64| BTreeMap::from([("shoulder_pan_joint".to_owned(), *deg)]);
+    JointPathMotion { path_joints_deg: points.iter().map(point).collect(), ..JointPathMotion::default() }
+}
+
+#[test]
+fn a_joint_path_goes_through_its_points_at_its_times() {
+    let path = JointPathMotion { at_s: vec![0.5, 1.0, 2.5], ..joint_path(&[20.0, -10.0, 60.0]) };
+    let found = instants(&planned(vec![MotionSettings::JointPath(path)]));
+    for (at, deg) in [(0, 0.0), (500, 20.0), (1000, -10.0), (2500, 60.0)] {
+        assert!((found[at].q[0].to_degrees() - deg).abs() < 1e-9, "{}", found[at].q[0].to_degrees());
+    }
+    assert!(found[500].qd[0].abs() > 0.01, "it does not stop at its points");
+    assert!(found[1].qdd[0].abs() < 0.2 && found[2500].qd[0].abs() < 1e-9);
+    assert_derivatives(&found, 0.2);
+    let path = JointPathMotion { at_s: vec![0.5, 0.5], ..joint_path(&[20.0, -10.0]) };
+    refused(vec![MotionSettings::JointPath(path)], "scenario::path_times", &["time 2", "not after"]);
+    let path = JointPathMotion { at_s: vec![0.5], ..joint_path(&[20.0, -10.0]) };
+    refused(vec![MotionSettings::JointPath(path)], "scenario::path_times", &["1 times for 2 points"]);
+}
+
+#[test]
+fn a_joint_path_without_times_takes_its_least_time() {
+    let found = instants(&planned(vec![MotionSettings::JointPath(joint_path(&[20.0, -10.0, 60.0]))]));
+    // The UR5e's 180 deg/s in 0.25 s, and that in 0.1 s.
+    let (velocity, acceleration, jerk) = (180.0, 720.0, 7200.0);
+    let mut peaks = [0.0_f64; 3];
+    for pair in found.windows(2) {
+        let third = (pair[1].qdd[0] - pair[0].qdd[0]) * 1e3;
+        let shares = [pair[1].qd[0] / velocity, pair[1].qdd[0] / acceleration, third / jerk];
+        for (peak, share) in peaks.iter_mut().zip(shares) {
+            *peak = peak.max(share.to_degrees().abs());
+        }
+    }
+    assert!(peaks.iter().all(|peak| *peak < 1.0 + 1e-6), "{peaks:?}");
+    assert!(peaks.iter().any(|peak| *peak > 0.98), "{peaks:?}");
+}
+
+fn playback(text: &str, between: Between) -> (tempfile::TempDir, Vec<MotionSettings>) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("moves.csv");
+    std::fs::write(&file, text).unwrap();
+    let play_csv = file.display().to_string();
+    (folder, vec![MotionSettings::Playback(PlaybackMotion { play_csv, between })])
+}
+
+#[test]
+fn a_table_is_played_back() {
+    let mut text =
+        "# from a log\ntime_s,elbow_joint_deg,shoulder_pan_joint.q_rad,shoulder_pan_joint.qd_rad_s\n"
+            .to_owned();
+    let wave = |time_s: f64| (90.0 + 20.0 * (1.0 - (2.0 * time_s).cos()), 0.3 * time_s.sin().powi(2));
+    for step in 0..=40 {
+        let time_s = f64::from(step) * 0.05;
+        let (elbow_deg, pan) = wave(time_s);
+        text += &format!("{},{elbow_deg},{pan},7\n", time_s + 5.0);
+    }
+    let (_folder, motion) = playback(&text, Between::Spline);
+    let found = instants(&planned(motion));
+    for now in &found {
+        let (elbow_deg, pan) = wave(now.time_s);
+        // A cubic spline: 5/384 h^4 times the fourth derivative of 320 deg/s^4; the ends a little more.
+        assert!(
+            (now.q[2].to_degrees() - elbow_deg).abs() < 5e-4,
+            "{} at {}",
+            now.q[2].to_degrees(),
+            now.time_s
+        );
+        assert!((now.q[0] - pan).abs() < 2e-5);
+    }
+    let (_folder, motion) = playback(&text, Between::Linear);
+    let found = instants(&planned(motion));
+    let between = f64::midpoint(wave(0.5).0, wave(0.55).0);
+    assert!((found[525].q[2].to_degrees() - between).abs() < 1e-9);
+}
+
+#[test]
+fn tables_that_cannot_be_played_are_refused_with_their_line() {
+    let head = "time_s,elbow_joint_deg\n0,90\n";
+    for (text, code, words) in [
+        ("elbow_joint_deg\n90\n".to_owned(), "scenario::playback", vec!["no column time_s"]),
+        ("time_s,elbow\n0,90\n".to_owned(), "scenario::playback", vec!["column \"elbow\"", "elbow_joint"]),
+        ("time_s,elbow_joint_m\n0,90\n".to_owned(), "scenario::playback", vec!["_deg or _rad"]),
+        (format!("{head}1,x\n"), "scenario::playback", vec!["line 3", "\"x\" is not a finite number"]),
+        (format!("{head}1,91\n1,92\n"), "scenario::playback", vec!["line 4", "not after 1 s"]),
+        (format!("{head}1,91,5\n"), "scenario::playback", vec!["line 3", "3 cells, the header has 2"]),
+        (
+            format!("{head}0.01,100\n"),
+            "scenario::playback_jump",
+            vec!["line 3", "elbow_joint", "10 deg in 10 ms", "1000 deg/s", "180 deg/s"],
+        ),
+        (
+            "time_s,elbow_joint_deg\n0,80\n1,81\n".to_owned(),
+            "scenario::playback_start",
+            vec!["80 deg", "90 deg"],
+        ),
+        (head.to_owned(), "scenario::playback", vec!["less than two rows"]),
+    ] {
+        let (_folder, motion) = playback(&text, Between::Spline);
+        refused(motion, code, &words);
+    }
+}
+
+#[test]
+fn motions_after_a_servo_start_where_it_ended() {
+    let from = start();
+    let (servo, down) = (from + Vector3::new(0.05, 0.05, 0.0), Vector3::new(0.0, 0.0, -0.1));
+    let servo_tcp = pose(servo.into());
+    let drive =
+        ServoMotion { servo_tcp, method: Default::default(), gain_per_s: Some(20.0), duration_s: 1.0 };
+    let away =
+        LineMotion { line_tcp: pose((servo + down).into()), duration_s: Some(0.5), ..LineMotion::default() };
+    let back = move_to("shoulder_pan_joint", 0.0, Some(0.5), Profile::Quintic);
+    let setup = planned(vec![MotionSettings::Servo(drive.clone()), MotionSettings::Line(away), back]);
+    let found = instants(&setup);
+    assert!((tcp(&found, 1000) - servo).norm() < 1e-6);
+    assert!((tcp(&found, 1250) - (servo + down / 2.0)).norm() < 1e-5, "{}", tcp(&found, 1250));
+    assert!((tcp(&found, 1500) - (servo + down)).norm() < 1e-5);
+    assert!(found[2000].q[0].abs() < 1e-12);
+    for pair in found.windows(2) {
+        assert!(pair[0].q.iter().zip(&pair[1].q).all(|(before, after)| (before - after).abs() < 5e-3));
+    }
+    let timeless = move_to("shoulder_pan_joint", 0.0, None, Profile::Quintic);
+    refused(vec![MotionSettings::Servo(drive.clone()), timeless], "scenario::after_servo", &["duration_s"]);
+    // What cannot be planned is known only in the run.
+    let far = LineMotion { line_tcp: pose([3.0, 0.0, 0.0]), duration_s: Some(0.5), ..LineMotion::default() };
+    let setup = planned(vec![MotionSettings::Servo(drive), MotionSettings::Line(far)]);
+    let mut reference = ReferenceGenerator::new(&setup.trajectory, &setup.description).unwrap();
+    let mut failed = None;
+    for step in 1..=setup.clock.steps {
+        let measured = reference.q().clone();
+        if let Err(error) = reference.advance(setup.clock.time_s(step), &measured) {
+            failed = Some((step, error.to_string()));
+            break;
+        }
+    }
+    let (step, said) = failed.unwrap();
+    assert_eq!(step, 1000);
+    assert!(
+        said.starts_with("motion 2 cannot start where the servo_tcp") && said.contains("cannot go on"),
+        "{said}"
+    );
+}

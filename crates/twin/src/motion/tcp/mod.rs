@@ -1,0 +1,8 @@
+//! Motions of the tool centre point: to a pose by moving the joints, along lines and arcs, by a servo.
+
+mod geometry;
+mod inverse;
+pub(super) mod path;
+mod segment;
+pub(super) mod tcp_move;
+pub(super) mod tcp_servo;

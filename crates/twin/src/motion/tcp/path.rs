@@ -1,0 +1,394 @@
+//! `line_tcp`, `arc_tcp` and `path_tcp`: motions that lead into each other are one path with one speed profile.
+
+use std::sync::Arc;
+
+use congruent_description::{
+    Diagnostic, RobotQ,
+    display::{length, quantity},
+};
+use congruent_kinematics::{Arm, Pose, UrdfTree};
+use nalgebra::Isometry3;
+
+use super::{
+    geometry::TcpPath,
+    inverse::{Stop, along},
+    segment::Segment,
+};
+use crate::{
+    motion::{
+        course::{Course, Motion, PlannedMove, SetpointMut, Way},
+        joints::JointSpline,
+        pace::{Pace, RateLimits, SpeedProfile, Stretch},
+        planning::Planning,
+    },
+    scenario::{ArcMotion, FilePlace, LineMotion, MotionSettings, PoseSettings, Profile, TcpPathMotion},
+};
+
+/// Acceleration if none is given, as arms in industry have it by default.
+const ACCELERATION_M_S2: f64 = 1.2;
+/// In which the acceleration is reached if no jerk is given.
+const TO_ACCELERATION_S: f64 = 0.1;
+
+/// One line or arc with how it is driven.
+struct Leg<'a> {
+    segment: Segment,
+    /// Of the motion in the group.
+    motion: usize,
+    blend_m: f64,
+    drive: Drive,
+    place: FilePlace<'a>,
+}
+
+/// How the tool goes along a leg.
+#[derive(Clone, Copy)]
+enum Drive {
+    Speed(RateLimits),
+    Duration { duration_s: f64, profile: Profile },
+}
+
+/// How many motions from here on are one path; 0 if the first is no line or arc.
+pub(in crate::motion) fn group_length(motions: &[MotionSettings]) -> usize {
+    let is_path = |motion: &MotionSettings| {
+        matches!(motion, MotionSettings::Line(_) | MotionSettings::Arc(_) | MotionSettings::TcpPath(_))
+    };
+    let leads_on = |motion: &MotionSettings| match motion {
+        MotionSettings::Line(line) => line.blend_m > 0.0,
+        MotionSettings::Arc(arc) => arc.blend_m > 0.0,
+        _ => false,
+    };
+    let mut count = 0;
+    while count < motions.len() && is_path(&motions[count]) {
+        count += 1;
+        if !leads_on(&motions[count - 1]) {
+            break;
+        }
+    }
+    count
+}
+
+/// Plans the motions of one path; `planning.place` is the list of all motions, in which the first has this index.
+pub(in crate::motion) fn plan(
+    motions: &[MotionSettings],
+    first: usize,
+    planning: &mut Planning<'_>,
+) -> Result<Vec<Motion>, Diagnostic> {
+    let places = planning.place;
+    planning.place = places.item(first);
+    let world_from_base = world_from_base(planning)?;
+    let legs = legs(motions, (places, first), (planning, &world_from_base))?;
+    check(&legs)?;
+    planning.warnings.extend(legs.iter().filter_map(Leg::slower_on_arc));
+    let pace = pace(&legs);
+    let ends: Vec<usize> = legs.iter().map(|leg| leg.motion).collect();
+    let places_of_legs: Vec<FilePlace<'_>> = legs.iter().map(|leg| leg.place).collect();
+    let path = TcpPath::new(legs.into_iter().map(|leg| (leg.segment, leg.blend_m)).collect());
+    let spline = along(&path, planning.description, (&world_from_base.inverse(), planning.from));
+    let spline = Arc::new(spline.map_err(|stop| refused(stop, &path, &places_of_legs))?);
+    let whole = PlannedMove {
+        to: end_of(&spline, 1.0, planning.from.len()),
+        way: Way::Spline(Arc::clone(&spline)),
+        pace,
+        begins_s: 0.0,
+    };
+    let where_ = |time_s: f64, pace: &Pace| {
+        let at_m = pace.at(time_s).share * path.length_m();
+        format!(", {} along the path of {}", length(at_m), length(path.length_m()))
+    };
+    let pace = whole.pace.clone();
+    let whole = planning.within_limits(whole, |time_s| where_(time_s, &pace)).map_err(|mut error| {
+        let help = error.help.take().unwrap_or_default();
+        error.with_help(format!("{help}; the joints are fast where the tool is fast or near a singularity"))
+    })?;
+    planning.place = places;
+    Ok(split(&whole, &spline, (&path, &ends)))
+}
+
+/// The motions of one path, each from where the one before ends.
+fn split(
+    whole: &PlannedMove,
+    spline: &JointSpline,
+    (path, motion_of_leg): (&TcpPath, &[usize]),
+) -> Vec<Motion> {
+    let count = motion_of_leg.last().map_or(0, |last| last + 1);
+    let mut begins_s = 0.0;
+    let mut motions = Vec::with_capacity(count);
+    for motion in 0..count {
+        let last_leg = motion_of_leg.iter().rposition(|&of| of == motion).unwrap_or(0);
+        let share = path.ends_m()[last_leg] / path.length_m();
+        let is_last = motion + 1 == count;
+        let ends_s = match &whole.pace {
+            Pace::Phases(phases) if !is_last => phases.time_of(share),
+            _ => whole.pace.duration_s(),
+        };
+        let to = if is_last { whole.to.clone() } else { end_of(spline, share, whole.to.len()) };
+        let course = Course::Planned(PlannedMove { to, begins_s, ..whole.clone() });
+        motions.push(Motion { duration_s: ends_s - begins_s, course });
+        begins_s = ends_s;
+    }
+    motions
+}
+
+fn end_of(spline: &JointSpline, share: f64, dof: usize) -> RobotQ {
+    let (mut q, mut first, mut second) = (RobotQ::zeros(dof), vec![0.0; dof], vec![0.0; dof]);
+    let SetpointMut { q: values, qd, qdd } = SetpointMut { q: &mut q, qd: &mut first, qdd: &mut second };
+    spline.at(share, crate::motion::joints::SplineValues { q: values, first: qd, second: qdd });
+    q
+}
+
+fn world_from_base(planning: &Planning<'_>) -> Result<Isometry3<f64>, Diagnostic> {
+    let tree = UrdfTree::new(&planning.description.robot);
+    let found = tree.root_from_link(planning.from, planning.description.base);
+    let refused =
+        |error: congruent_kinematics::KinematicsError| Diagnostic::error("scenario::path", error.to_string());
+    found.map(|pose| pose.to_isometry()).map_err(|error| planning.place.mark(refused(error)))
+}
+
+/// All lines and arcs of a group.
+fn legs<'a>(
+    motions: &[MotionSettings],
+    (places, first): (FilePlace<'a>, usize),
+    (planning, world_from_base): (&Planning<'_>, &Isometry3<f64>),
+) -> Result<Vec<Leg<'a>>, Diagnostic> {
+    let model = |error: congruent_kinematics::KinematicsError| {
+        planning.place.mark(Diagnostic::error("scenario::path", error.to_string()))
+    };
+    let mut arm = Arm::of(planning.description).map_err(model)?;
+    let from = arm.from_robot(planning.from);
+    let stands: Isometry3<f64> = world_from_base * arm.base_from_tcp(&from).map_err(model)?.to_isometry();
+    let mut legs: Vec<Leg<'a>> = Vec::new();
+    for (motion, settings) in motions.iter().enumerate() {
+        let place = places.item(first + motion);
+        let begins = legs.last().map_or(stands, Leg::end);
+        match settings {
+            MotionSettings::Line(line) => {
+                let to = pose_of(&line.line_tcp, &begins, place.key("line_tcp"))?;
+                let (segment, drive) = (Segment::line(begins, to), line_drive(line, place)?);
+                legs.push(Leg { segment, motion, blend_m: line.blend_m, drive, place });
+            }
+            MotionSettings::Arc(arc) => {
+                let segment = arc_of(arc, &begins, place)?;
+                let drive = arc_drive(arc, place)?;
+                legs.push(Leg { segment, motion, blend_m: arc.blend_m, drive, place });
+            }
+            MotionSettings::TcpPath(path) => {
+                for (index, point) in path.path_tcp.iter().enumerate() {
+                    let place = place.key("path_tcp").item(index);
+                    let begins = legs.last().map_or(stands, Leg::end);
+                    let segment = Segment::line(begins, pose_of(point, &begins, place)?);
+                    let blend_m = if index + 1 < path.path_tcp.len() { path.blend_m } else { 0.0 };
+                    legs.push(Leg { segment, motion, blend_m, drive: path_drive(path), place });
+                }
+                if path.path_tcp.is_empty() {
+                    let error = Diagnostic::error("scenario::path_points", "the path has no points");
+                    return Err(place.mark(error));
+                }
+            }
+            _ => unreachable!("a group holds lines, arcs and paths"),
+        }
+    }
+    Ok(legs)
+}
+
+/// The pose of a target in the world; without a rotation it keeps the orientation.
+fn pose_of(
+    settings: &PoseSettings,
+    before: &Isometry3<f64>,
+    place: FilePlace<'_>,
+) -> Result<Isometry3<f64>, Diagnostic> {
+    let mut pose = settings.isometry(place)?;
+    if !settings.has_rotation() {
+        pose.rotation = before.rotation;
+    }
+    // As exact as poses are elsewhere: a matrix of a file has few digits.
+    Ok(Pose::from(pose).to_isometry())
+}
+
+fn arc_of(arc: &ArcMotion, before: &Isometry3<f64>, place: FilePlace<'_>) -> Result<Segment, Diagnostic> {
+    let place = place.key("arc_tcp");
+    let via_place = place.key("via");
+    if arc.arc_tcp.via.has_rotation() {
+        let error = Diagnostic::error("scenario::arc", "`via` is a position, the rotation is that of `to`");
+        return Err(via_place.mark(error.with_help("the tool turns evenly from its start to `to`")));
+    }
+    let via = arc.arc_tcp.via.isometry(via_place)?.translation.vector;
+    let to = pose_of(&arc.arc_tcp.to, before, place.key("to"))?;
+    Segment::arc(*before, via, to).ok_or_else(|| {
+        let error =
+            Diagnostic::error("scenario::arc", "start, `via` and `to` are on a straight line: no circle");
+        place.mark(error.with_help("move `via` off the line, or use line_tcp; a whole circle is two arcs"))
+    })
+}
+
+fn line_drive(line: &LineMotion, place: FilePlace<'_>) -> Result<Drive, Diagnostic> {
+    let LineMotion { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3, .. } = *line;
+    drive((speed_m_s, duration_s, profile), (acceleration_m_s2, jerk_m_s3), place)
+}
+
+fn arc_drive(arc: &ArcMotion, place: FilePlace<'_>) -> Result<Drive, Diagnostic> {
+    let ArcMotion { speed_m_s, duration_s, profile, acceleration_m_s2, jerk_m_s3, .. } = *arc;
+    drive((speed_m_s, duration_s, profile), (acceleration_m_s2, jerk_m_s3), place)
+}
+
+fn path_drive(path: &TcpPathMotion) -> Drive {
+    Drive::Speed(rates(path.speed_m_s, path.acceleration_m_s2, path.jerk_m_s3))
+}
+
+fn drive(
+    (speed_m_s, duration_s, profile): (Option<f64>, Option<f64>, Profile),
+    (acceleration_m_s2, jerk_m_s3): (Option<f64>, Option<f64>),
+    place: FilePlace<'_>,
+) -> Result<Drive, Diagnostic> {
+    match (speed_m_s, duration_s) {
+        (Some(speed_m_s), None) => Ok(Drive::Speed(rates(speed_m_s, acceleration_m_s2, jerk_m_s3))),
+        (None, Some(duration_s)) => Ok(Drive::Duration { duration_s, profile }),
+        (None, None) => Err(place.mark(
+            Diagnostic::error("scenario::path_speed", "the motion has no speed")
+                .with_help("give `speed_m_s`, or `duration_s`"),
+        )),
+        (Some(_), Some(_)) => Err(place.key("duration_s").mark(
+            Diagnostic::error(
+                "scenario::path_speed",
+                "`speed_m_s` and `duration_s` both say how fast the tool is",
+            )
+            .with_help("give one of them"),
+        )),
+    }
+}
+
+fn rates(velocity: f64, acceleration: Option<f64>, jerk: Option<f64>) -> RateLimits {
+    let acceleration = acceleration.unwrap_or(ACCELERATION_M_S2);
+    RateLimits { velocity, acceleration, jerk: jerk.unwrap_or(acceleration / TO_ACCELERATION_S) }
+}
+
+/// Refuses blends that do not fit, and lines that cannot be driven as they say.
+fn check(legs: &[Leg<'_>]) -> Result<(), Diagnostic> {
+    for (index, leg) in legs.iter().enumerate() {
+        let is_last = index + 1 == legs.len();
+        let refused = |message: String, help: &'static str| {
+            Err(leg.place.mark(Diagnostic::error("scenario::path", message).with_help(help)))
+        };
+        if leg.segment.length_m() == 0.0 {
+            return refused("the tool is there already".to_owned(), "leave the motion out");
+        }
+        if leg.segment.is_turn_alone() && matches!(leg.drive, Drive::Speed(_)) {
+            let help = "give `duration_s` instead of a speed";
+            return refused(
+                "the tool turns on the spot, for which a speed in m/s says nothing".to_owned(),
+                help,
+            );
+        }
+        if matches!(leg.drive, Drive::Duration { .. }) && legs.len() > 1 {
+            let help = "give `speed_m_s` instead of `duration_s` to all of them";
+            return refused("motions that blend into each other need a speed".to_owned(), help);
+        }
+        if is_last && leg.blend_m > 0.0 {
+            let help = "leave `blend_m` out, or let a line_tcp, arc_tcp or path_tcp follow";
+            return refused("there is no line or arc after it to blend into".to_owned(), help);
+        }
+        let shortest_m = |other: &Leg<'_>| other.segment.length_m() / 2.0;
+        if !is_last && leg.blend_m > shortest_m(leg).min(shortest_m(&legs[index + 1])) {
+            let (blend, at_most) =
+                (length(leg.blend_m), length(shortest_m(leg).min(shortest_m(&legs[index + 1]))));
+            let message =
+                format!("a blend of {blend} does not fit: half of the shorter way beside it is {at_most}");
+            return refused(message, "blends of one line may not overlap");
+        }
+    }
+    Ok(())
+}
+
+/// The progress along all legs.
+fn pace(legs: &[Leg<'_>]) -> Pace {
+    if let [Leg { drive: Drive::Duration { duration_s, profile }, .. }] = legs {
+        return Pace::Shape { profile: *profile, duration_s: *duration_s };
+    }
+    let path = TcpPath::new(legs.iter().map(|leg| (leg.segment.clone(), leg.blend_m)).collect());
+    let rates: Vec<RateLimits> = legs.iter().filter_map(Leg::rates).collect();
+    let mut stretches = Vec::with_capacity(2 * legs.len());
+    let mut blended_m = 0.0;
+    for (index, (leg, limits)) in legs.iter().zip(&rates).enumerate() {
+        let length = leg.segment.length_m() - blended_m - leg.blend_m;
+        let is_last = index + 1 == legs.len();
+        let stops = !is_last && leg.blend_m == 0.0;
+        // A blend over all of a line leaves nothing between.
+        if length > 0.0 {
+            stretches.push(Stretch { length, limits: *limits, stops });
+        }
+        blended_m = leg.blend_m;
+        if !is_last && leg.blend_m > 0.0 {
+            let limits = blend_rates(limits, &rates[index + 1], path.corner(index) / leg.blend_m);
+            stretches.push(Stretch { length: 2.0 * leg.blend_m, limits, stops: false });
+        }
+    }
+    Pace::Phases(Arc::new(SpeedProfile::over(&stretches)))
+}
+
+impl Leg<'_> {
+    fn end(&self) -> Isometry3<f64> {
+        self.segment.at(self.segment.length_m())
+    }
+
+    /// Its rates; slower on an arc on which the acceleration across the path would exceed its limit.
+    fn rates(&self) -> Option<RateLimits> {
+        let Drive::Speed(rates) = self.drive else { return None };
+        let fastest = (rates.acceleration * self.segment.radius_m()).sqrt();
+        Some(RateLimits { velocity: rates.velocity.min(fastest), ..rates })
+    }
+}
+
+impl Leg<'_> {
+    /// The warning that an arc is too narrow for its speed.
+    fn slower_on_arc(&self) -> Option<Diagnostic> {
+        let Drive::Speed(asked) = self.drive else { return None };
+        let rates = self.rates().filter(|rates| rates.velocity < asked.velocity)?;
+        let [speed, asked] = [rates.velocity, asked.velocity].map(|value| quantity(value, "m/s"));
+        let message = format!(
+            "the tool goes at {speed} instead of {asked} on an arc of radius {}",
+            length(self.segment.radius_m())
+        );
+        let help = format!(
+            "more would exceed an acceleration of {} across the path",
+            quantity(rates.acceleration, "m/s2")
+        );
+        Some(self.place.mark(Diagnostic::warning("scenario::arc_speed", message).with_help(help)))
+    }
+}
+
+/// The lower of both sides, and slower if the blend's acceleration would exceed the limit: at most
+/// `3/4 v^2 |t2 - t1| / r`.
+fn blend_rates(before: &RateLimits, after: &RateLimits, corner_per_m: f64) -> RateLimits {
+    let acceleration = before.acceleration.min(after.acceleration);
+    let fastest = (acceleration / (0.75 * corner_per_m)).sqrt();
+    RateLimits {
+        velocity: before.velocity.min(after.velocity).min(fastest),
+        acceleration,
+        jerk: before.jerk.min(after.jerk),
+    }
+}
+
+/// Why there are no joint positions along the path, at the line or arc on which it ends.
+fn refused(stop: Stop, path: &TcpPath, places: &[FilePlace<'_>]) -> Diagnostic {
+    let at = |at_m: f64| {
+        let whole = path.at(at_m).translation.vector;
+        let [x, y, z] = [whole.x, whole.y, whole.z].map(|value| quantity(value, "m"));
+        format!("{} along the path of {}, at [{x}, {y}, {z}]", length(at_m), length(path.length_m()))
+    };
+    let place = |at_m: f64| places[path.segment_at(at_m)];
+    match stop {
+        Stop::OutOfReach { at_m, left, limits_held } => {
+            let message = format!("the tool cannot go on {}: {left} are left at best", at(at_m));
+            let help = if limits_held.is_empty() {
+                "the rest of the path is out of reach, or needs another configuration of the arm".to_owned()
+            } else {
+                format!("{} at the limit: start in another configuration", limits_held.join(", "))
+            };
+            place(at_m).mark(Diagnostic::error("scenario::path_reach", message).with_help(help))
+        }
+        Stop::Singular { at_m, joint } => {
+            let message = format!("joint \"{joint}\" would have to jump {}", at(at_m));
+            let help = "the path passes a singularity of the arm: move it, or start in another configuration";
+            place(at_m).mark(Diagnostic::error("scenario::path_singular", message).with_help(help))
+        }
+        Stop::Model(error) => places[0].mark(Diagnostic::error("scenario::path", error.to_string())),
+    }
+}

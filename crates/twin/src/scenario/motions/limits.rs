@@ -1,0 +1,67 @@
+//! `[limits]`: what planned moves keep, beside the velocity limits of the robot's description.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Values by joint; `*` stands for every joint of this kind (turning or sliding) that is not named.
+type ByJoint = BTreeMap<String, f64>;
+
+/// `[limits]`: of planned moves. Velocities are those of the description, or lower ones that are given here. If none is
+/// given, a joint's acceleration limit is what reaches its velocity limit in 0.25 s, its jerk limit what reaches the
+/// acceleration limit in 0.1 s; both are kept by moves of least time, that is without `duration_s`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitSettings {
+    /// What happens to a move that breaks a velocity limit: `refuse` or `slow`.
+    #[serde(default)]
+    pub over_limit: OverLimit,
+    /// Velocities by joint, in degrees per second.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub velocity_deg_s: ByJoint,
+    /// Velocities by joint, in radians per second.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub velocity_rad_s: ByJoint,
+    /// Velocities by joint, in metres per second.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub velocity_m_s: ByJoint,
+    /// Velocities by joint, in millimetres per second.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub velocity_mm_s: ByJoint,
+    /// Accelerations by joint, in degrees per second squared.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub acceleration_deg_s2: ByJoint,
+    /// Accelerations by joint, in radians per second squared.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub acceleration_rad_s2: ByJoint,
+    /// Accelerations by joint, in metres per second squared.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub acceleration_m_s2: ByJoint,
+    /// Accelerations by joint, in millimetres per second squared.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub acceleration_mm_s2: ByJoint,
+    /// Jerks by joint, in degrees per second cubed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub jerk_deg_s3: ByJoint,
+    /// Jerks by joint, in radians per second cubed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub jerk_rad_s3: ByJoint,
+    /// Jerks by joint, in metres per second cubed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub jerk_m_s3: ByJoint,
+    /// Jerks by joint, in millimetres per second cubed.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub jerk_mm_s3: ByJoint,
+}
+
+/// What happens to a planned move that breaks a velocity limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OverLimit {
+    /// The scenario is refused; the message says which duration would do.
+    #[default]
+    Refuse,
+    /// The move takes as long as the limit needs, with a warning.
+    Slow,
+}

@@ -1,0 +1,126 @@
+//! `[limits]` and the robot's own velocity limits as limits of its coordinates.
+
+use std::collections::BTreeMap;
+
+use congruent_description::{Diagnostic, Joint, Robot, known_names, units::Unit};
+
+use crate::{
+    motion::MotionLimits,
+    scenario::{FilePlace, LimitSettings},
+};
+
+/// In which a joint reaches its velocity limit if no acceleration limit is given.
+const TO_VELOCITY_S: f64 = 0.25;
+/// In which a joint reaches its acceleration limit if no jerk limit is given.
+const TO_ACCELERATION_S: f64 = 0.1;
+
+/// The name that stands for every joint of a kind.
+const EVERY: &str = "*";
+
+/// The limits that planned moves of this robot keep.
+pub(super) fn build(
+    settings: &LimitSettings,
+    place: FilePlace<'_>,
+    robot: &Robot,
+) -> Result<MotionLimits, Vec<Diagnostic>> {
+    let LimitSettings { over_limit, velocity_deg_s, velocity_rad_s, velocity_m_s, velocity_mm_s, .. } =
+        settings;
+    let LimitSettings { acceleration_deg_s2, acceleration_rad_s2, acceleration_m_s2, .. } = settings;
+    let LimitSettings { acceleration_mm_s2, jerk_deg_s3, jerk_rad_s3, jerk_m_s3, jerk_mm_s3, .. } = settings;
+    let mut reader = Reader { robot, place, errors: Vec::new() };
+    let mut velocity = reader.given([
+        ("velocity_deg_s", velocity_deg_s),
+        ("velocity_rad_s", velocity_rad_s),
+        ("velocity_m_s", velocity_m_s),
+        ("velocity_mm_s", velocity_mm_s),
+    ]);
+    let mut acceleration = reader.given([
+        ("acceleration_deg_s2", acceleration_deg_s2),
+        ("acceleration_rad_s2", acceleration_rad_s2),
+        ("acceleration_m_s2", acceleration_m_s2),
+        ("acceleration_mm_s2", acceleration_mm_s2),
+    ]);
+    let mut jerk = reader.given([
+        ("jerk_deg_s3", jerk_deg_s3),
+        ("jerk_rad_s3", jerk_rad_s3),
+        ("jerk_m_s3", jerk_m_s3),
+        ("jerk_mm_s3", jerk_mm_s3),
+    ]);
+    if !reader.errors.is_empty() {
+        return Err(reader.errors);
+    }
+    for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
+        let own = robot.joint(joint).limit.and_then(|limit| limit.velocity).filter(|&limit| limit > 0.0);
+        velocity[coordinate] = velocity[coordinate].min(own.unwrap_or(f64::INFINITY));
+        if acceleration[coordinate].is_infinite() {
+            acceleration[coordinate] = velocity[coordinate] / TO_VELOCITY_S;
+        }
+        if jerk[coordinate].is_infinite() {
+            jerk[coordinate] = acceleration[coordinate] / TO_ACCELERATION_S;
+        }
+    }
+    Ok(MotionLimits { velocity, acceleration, jerk, over_limit: *over_limit })
+}
+
+struct Reader<'a> {
+    robot: &'a Robot,
+    place: FilePlace<'a>,
+    errors: Vec<Diagnostic>,
+}
+
+impl Reader<'_> {
+    /// One quantity under its four keys: in degrees, radians, metres and millimetres. Infinity for what is not given.
+    fn given(&mut self, keys: [(&str, &BTreeMap<String, f64>); 4]) -> Vec<f64> {
+        let mut values = vec![f64::INFINITY; self.robot.dof()];
+        let mut is_named = vec![false; self.robot.dof()];
+        let units = [Some(Unit::Angle), None, None, Some(Unit::Length)];
+        for (index, (key, by_joint)) in keys.into_iter().enumerate() {
+            let place = self.place.key(key);
+            for (name, &value) in by_joint {
+                let at_name = |error| crate::scenario::mark(error, place.key_span(name));
+                let value = units[index].map_or(value, |unit| unit.convert(value));
+                if !(value.is_finite() && value > 0.0) {
+                    let message = format!("{key}: expected a finite number above 0 for \"{name}\"");
+                    self.errors.push(at_name(Diagnostic::error("scenario::number", message)));
+                    continue;
+                }
+                match self.coordinates(name, index < 2) {
+                    Ok(coordinates) => {
+                        for coordinate in coordinates {
+                            if name != EVERY || !is_named[coordinate] {
+                                values[coordinate] = value;
+                            }
+                            is_named[coordinate] |= name != EVERY;
+                        }
+                    }
+                    Err(error) => self.errors.push(at_name(error)),
+                }
+            }
+        }
+        values
+    }
+
+    /// The coordinates that a name means, of joints that turn or of joints that slide.
+    fn coordinates(&self, name: &str, turning: bool) -> Result<Vec<usize>, Diagnostic> {
+        let of_kind = |joint: &Joint| joint.kind.is_angular() == turning;
+        let joints = || self.robot.movable_joints().iter().map(|&joint| self.robot.joint(joint)).enumerate();
+        if name == EVERY {
+            return Ok(joints().filter(|(_, joint)| of_kind(joint)).map(|(at, _)| at).collect());
+        }
+        match joints().find(|(_, joint)| joint.name == name) {
+            Some((at, joint)) if of_kind(joint) => Ok(vec![at]),
+            Some((_, joint)) => {
+                let (kind, keys) =
+                    if turning { ("slides", "`_m_` or `_mm_`") } else { ("turns", "`_deg_` or `_rad_`") };
+                let message = format!("joint \"{}\" {kind}", joint.name);
+                let help = format!("give its limit under a key with {keys}");
+                Err(Diagnostic::error("scenario::joint_unit", message).with_help(help))
+            }
+            None => {
+                let message = format!("robot \"{}\" has no moving joint \"{name}\"", self.robot.name());
+                let known = known_names(name, "joints", self.robot.movable_joint_names());
+                Err(Diagnostic::error("scenario::unknown_joint", message).with_help(known))
+            }
+        }
+    }
+}
