@@ -45,7 +45,14 @@ pub(crate) fn explain(setup: &RunSetup, outcome: &mut Outcome) {
             outcome.diagnoses = found;
         }
     }
-    check.notes.extend(notes(&outcome.diagnoses, &description));
+    match (&outcome.diagnosis, foremost(&outcome.diagnoses)) {
+        // Model and physics are the same robot: the twin differs from what is measured.
+        (Some(diagnosis), None) if !diagnosis.is_empty() => {
+            let cause = |sentence: String| format!("cause (in the run): {sentence}");
+            check.notes.extend(diagnosis.sentences().into_iter().map(cause));
+        }
+        _ => check.notes.extend(notes(&outcome.diagnoses, &description)),
+    }
 }
 
 /// A robot that has just been simulated can be simulated; without its physics there is no diagnosis.

@@ -52,7 +52,7 @@ impl<'a> SimulationSource<'a> {
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
         let kind = &setup.scenario.controller.kind;
-        let mut faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
+        let faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
         let mut sensors = JointSensors::new(robot.dof());
         sensors.read(faults.measured().q, faults.measured().qd);
         let mut payloads = CarriedPayloads::new(&setup.payloads);
