@@ -231,7 +231,7 @@ impl<'a> Run<'a> {
         let mut results: Vec<CheckResult> = checks.iter().map(|check| check.result(&self.names)).collect();
         let has_failed = results.iter().any(|check| check.status == Status::Fail);
         let outcome = Outcome {
-            diagnosis: has_failed.then(|| diagnose(self.setup, &self.store)).flatten(),
+            diagnosis: has_failed.then(|| diagnose(self.setup, &self.store, &mut self.clearance)).flatten(),
             stopped: stopping.map(|index| stopped_by(&mut results[index], self.setup, steps)),
             checks: results,
             steps,

@@ -1,9 +1,9 @@
 //! Hypotheses on one actuator: what it exerts, and what resists its joint.
 
 use super::{
-    fit::{Fit, Window, best, least_squares},
+    fit::{Fit, best, least_squares},
     observed::Observed,
-    residual::Residual,
+    residual::{OffWindow, Residual},
 };
 use crate::{
     fault::{FaultQuantity, RunFault},
@@ -20,18 +20,16 @@ pub(super) fn fault(
     observed: &Observed<'_>,
     joint: usize,
     residuals: &[Residual],
-    window: Window,
+    OffWindow { residuals: window, samples }: OffWindow,
 ) -> Option<Fit> {
-    let of_window = &residuals[window.first..window.end];
-    let samples = Window {
-        // An effort acts in the step before the sample that shows it.
-        first: of_window.first()?.sample - 1,
-        end: of_window.last()?.sample + 1,
-    };
+    let of_window = &residuals[window.samples()];
     let left: Vec<f64> = of_window.iter().map(|residual| residual.residual[joint]).collect();
     let effort: Vec<f64> = of_window.iter().map(|residual| residual.effort[joint]).collect();
     let make = |kind: FaultKind, values: Vec<FaultQuantity>| {
-        let (from_s, until_s) = observed.times(samples);
+        let (from_s, mut until_s) = observed.times(samples);
+        if kind == FaultKind::AddedFriction {
+            until_s = observed.times_in_motion(samples, &[joint]).1;
+        }
         let joints = vec![observed.name(joint)];
         RunFault { kind, joints, link: None, values, from_s, until_s }
     };

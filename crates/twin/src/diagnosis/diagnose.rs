@@ -5,15 +5,15 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
-    actuator, encoder,
-    fit::{Fit, Window},
+    actuator, contact, encoder,
+    fit::Fit,
     observed::Observed,
     payload,
-    residual::{Residual, SMALLEST, STEP_PART, residuals},
+    residual::{OffWindow, Residual, SMALLEST, STEP_PART, residuals},
     store::SampleStore,
     stuck, tool, transport,
 };
-use crate::{fault::RunFault, setup::RunSetup};
+use crate::{fault::RunFault, proximity::Clearance, setup::RunSetup};
 
 /// What is wrong with the twin, from the samples of the run alone.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
@@ -53,13 +53,18 @@ impl RunDiagnosis {
     }
 }
 
-/// Diagnoses the samples of a run; `None` if they show nothing wrong.
-pub(crate) fn diagnose(setup: &RunSetup, store: &SampleStore) -> Option<RunDiagnosis> {
+/// Diagnoses the samples of a run; `None` if they show nothing wrong. `clearance` is that of the run.
+pub(crate) fn diagnose(
+    setup: &RunSetup,
+    store: &SampleStore,
+    clearance: &mut Clearance,
+) -> Option<RunDiagnosis> {
     let observed = Observed::new(store, &setup.description.robot, &setup.clock);
     let mut search = Search { observed: &observed, open: observed.independent_joints(), found: Vec::new() };
     search.poses();
     let unexplained = search.unexplained();
-    search.efforts(setup).ok()?;
+    let first_contact = contact::first(&observed, clearance);
+    search.efforts(setup, first_contact).ok()?;
     let mut faults = search.found;
     faults.sort_by(|a, b| a.fault.from_s.total_cmp(&b.fault.from_s));
     let found = |fit: Fit| FoundFault { fault: fit.fault, remaining: fit.remaining };
@@ -110,8 +115,15 @@ impl Search<'_> {
     }
 
     /// The efforts that are reported against those that the motion needs.
-    fn efforts(&mut self, setup: &RunSetup) -> Result<(), DynamicsError> {
-        let residuals = residuals(self.observed, &setup.payloads)?;
+    fn efforts(&mut self, setup: &RunSetup, first_contact: Option<usize>) -> Result<(), DynamicsError> {
+        let mut residuals = residuals(self.observed, &setup.payloads)?;
+        if residuals.is_empty() {
+            self.not_followed();
+            return Ok(());
+        }
+        if let Some(contact) = first_contact {
+            residuals.retain(|residual| residual.sample < contact);
+        }
         let robot = self.observed.robot;
         let masters: Vec<usize> = robot
             .joints()
@@ -120,20 +132,14 @@ impl Search<'_> {
             .collect();
         // The effort of a joint that others follow moves those as well.
         self.open.retain(|joint| !masters.contains(joint));
-        if residuals.is_empty() {
-            return Ok(self.not_followed());
-        }
-        let off: Vec<(usize, Window)> =
-            self.open.iter().filter_map(|&joint| Some((joint, off_window(&residuals, joint)?))).collect();
+        let off: Vec<(usize, OffWindow)> =
+            self.open.iter().filter_map(|&joint| Some((joint, self.off_window(&residuals, joint)?))).collect();
         let alone: Vec<Fit> = off
             .iter()
             .filter_map(|&(joint, window)| self.of_actuator(joint, (&residuals, window)))
             .collect();
         let joints: Vec<usize> = off.iter().map(|&(joint, _)| joint).collect();
-        let together = off.iter().map(|&(_, window)| window).reduce(|a, b| Window {
-            first: a.first.min(b.first),
-            end: a.end.max(b.end),
-        });
+        let together = off.iter().map(|&(_, window)| window).reduce(OffWindow::with);
         let Some(together) = together else { return Ok(()) };
         let load = payload::fault(self.observed, &setup.description, &joints, (&residuals, together))?;
         let load = load.filter(Fit::explains);
@@ -146,9 +152,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    fn of_actuator(&self, joint: usize, (residuals, window): (&[Residual], Window)) -> Option<Fit> {
-        let samples = Window { first: residuals[window.first].sample - 1, end: residuals[window.end - 1].sample + 1 };
-        stuck::fault(self.observed, joint, samples)
+    fn of_actuator(&self, joint: usize, (residuals, window): (&[Residual], OffWindow)) -> Option<Fit> {
+        stuck::fault(self.observed, joint, window.samples)
             .or_else(|| actuator::fault(self.observed, joint, residuals, window))
     }
 
@@ -159,11 +164,16 @@ impl Search<'_> {
             self.found.extend(behind.and_then(|window| stuck::fault(self.observed, joint, window)));
         }
     }
-}
 
-/// When the residual of a joint is more than the length of a step makes it.
-fn off_window(residuals: &[Residual], joint: usize) -> Option<Window> {
-    let largest = residuals.iter().map(|residual| residual.effort[joint].abs()).fold(0.0, f64::max);
-    let threshold = SMALLEST.max(STEP_PART * largest);
-    Window::of(residuals.len(), |index| residuals[index].residual[joint].abs() > threshold)
+    /// When the residual of a joint is more than the length of a step makes it, until the joint stops at a limit.
+    fn off_window(&self, residuals: &[Residual], joint: usize) -> Option<OffWindow> {
+        let before_limit = self.observed.samples_before_limit(joint);
+        let usable = residuals.partition_point(|residual| residual.sample < before_limit);
+        let residuals = &residuals[..usable];
+        let largest = residuals.iter().map(|residual| residual.effort[joint].abs()).fold(0.0, f64::max);
+        let threshold = SMALLEST.max(STEP_PART * largest);
+        OffWindow::of(residuals, self.observed.samples(), |residual| {
+            residual.residual[joint].abs() > threshold
+        })
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     fit::{EXPLAINED, Fit, Window, best, least_squares, rms},
-    observed::{Observed, ROUNDING},
+    observed::{Observed, ROUNDING, spread},
 };
 use crate::{
     fault::{FaultQuantity, RunFault},
@@ -36,18 +36,22 @@ pub(super) fn wrong(observed: &Observed<'_>, joint: usize) -> Option<Window> {
     Window::of(error.len(), |sample| error[sample].abs() > threshold)
 }
 
-/// Six standard deviations of what changes from sample to sample, by the median, which a fault does not change much.
+/// Six standard deviations of the noise of a series, by the median of its changes, which a fault does not move much. A
+/// series that seldom turns is a motion, and has none.
 fn noise(series: &[f64]) -> f64 {
     /// Median of the size of a normal variable, and the difference of two has twice the variance.
     const DEVIATIONS: f64 = 6.0 / (0.6745 * std::f64::consts::SQRT_2);
-    let mut changes: Vec<f64> = series.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    /// Of noise, two of three changes are followed by one in the other direction.
+    const SELDOM: f64 = 0.2;
+    let mut changes: Vec<f64> = series.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let turns = changes.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count();
+    #[expect(clippy::cast_precision_loss, reason = "samples are few")]
+    if (turns as f64) < SELDOM * changes.len() as f64 {
+        return 0.0;
+    }
+    changes.iter_mut().for_each(|change| *change = change.abs());
     changes.sort_by(f64::total_cmp);
-    let median = changes.get(changes.len() / 2).copied().unwrap_or(0.0);
-    // A change that goes on in one direction is no noise.
-    let drift = series.windows(3).filter(|three| {
-        (three[1] - three[0]) * (three[2] - three[1]) > 0.0
-    });
-    if drift.count() * 4 > series.len() * 3 { 0.0 } else { DEVIATIONS * median }
+    DEVIATIONS * changes[changes.len() / 2]
 }
 
 fn fault(
@@ -79,14 +83,6 @@ fn swapped(observed: &Observed<'_>, a: (usize, Window), b: (usize, Window)) -> O
     let remaining = left(a.0, b.0).max(left(b.0, a.0)) / whole;
     let fault = fault(observed, FaultKind::SwappedJoints, &[a.0, b.0], (Vec::new(), window));
     (remaining <= EXPLAINED).then_some(Fit { fault, remaining, parameters: 2 })
-}
-
-/// Largest minus smallest value.
-pub(super) fn spread(values: &[f64]) -> f64 {
-    let (low, high) = values
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)));
-    high - low
 }
 
 /// Hypotheses on one encoder.

@@ -10,6 +10,11 @@ use crate::setup::RunClock;
 /// joints; an encoder of 32 bits has steps of 1.5e-9.
 pub(super) const ROUNDING: f64 = 1e-10;
 
+/// What a servo settles by after a motion counts as rest, rad and m.
+const SLOW: f64 = 1e-3;
+/// Within this of its limit a joint may be held by it, rad and m.
+const AT_LIMIT: f64 = 1e-4;
+
 /// All kept samples as series over time, joint by joint.
 #[derive(Debug)]
 pub(super) struct Observed<'a> {
@@ -78,6 +83,22 @@ impl<'a> Observed<'a> {
         (self.times_s[window.first], self.times_s.get(window.end).copied())
     }
 
+    /// The same for a fault that shows only while one of some joints moves: if all of them rest after the window, its end
+    /// is not known.
+    pub(super) fn times_in_motion(&self, window: Window, joints: &[usize]) -> (f64, Option<f64>) {
+        let (from_s, until_s) = self.times(window);
+        let moves = |joint: &usize| spread(&self.q[*joint][window.end..]) > SLOW;
+        (from_s, until_s.filter(|_| joints.iter().any(moves)))
+    }
+
+    /// Number of samples before a joint first stands at a limit, or beyond it.
+    pub(super) fn samples_before_limit(&self, coordinate: usize) -> usize {
+        let Some((lower, upper)) = self.joint(coordinate).position_range() else { return self.samples() };
+        let q = &self.q[coordinate];
+        let is_free = |q: f64| q > lower + AT_LIMIT && q < upper - AT_LIMIT;
+        q.iter().position(|&q| !is_free(q)).unwrap_or(q.len())
+    }
+
     /// Whether two kept samples follow each other in the run.
     pub(super) fn are_consecutive(&self, first: usize, second: usize) -> bool {
         let steps = self.store.steps();
@@ -100,6 +121,14 @@ impl<'a> Observed<'a> {
         });
         expected_motion(joint, q).inverse() * motion
     }
+}
+
+/// Largest minus smallest value.
+pub(super) fn spread(values: &[f64]) -> f64 {
+    let (low, high) = values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)));
+    (high - low).max(0.0)
 }
 
 /// How the child of a joint stands in the joint's frame.

@@ -5,9 +5,9 @@ use congruent_dynamics::{BodyTree, DynamicsError, JointMotion, PARAMETERS, Spati
 use nalgebra::{DMatrix, Point3, Vector3};
 
 use super::{
-    fit::{Fit, Window, least_squares},
+    fit::{Fit, least_squares},
     observed::Observed,
-    residual::{Residual, body_of},
+    residual::{OffWindow, Residual, body_of},
 };
 use crate::{
     fault::{FaultQuantity, RunFault},
@@ -26,12 +26,12 @@ pub(super) fn fault(
     observed: &Observed<'_>,
     description: &RobotDescription,
     joints: &[usize],
-    (residuals, window): (&[Residual], Window),
+    (residuals, window): (&[Residual], OffWindow),
 ) -> Result<Option<Fit>, DynamicsError> {
     let tree = BodyTree::new(observed.robot).with_gravity(observed.clock.gravity_in_world);
     let (body, body_from_tip) = body_of(observed.robot, description.tip);
     let Some(body) = (0..tree.dof()).find(|&joint| tree.link(joint) == body) else { return Ok(None) };
-    let of_window = &residuals[window.first..window.end];
+    let of_window = &residuals[window.residuals.samples()];
     let every = of_window.len().div_ceil(MOST_RESIDUALS).max(1);
     let (mut columns, mut left) = (vec![Vec::new(); PARAMETERS], Vec::new());
     let mut buffer = tree.buffer();
@@ -50,8 +50,7 @@ pub(super) fn fault(
     let Some((load, remaining)) = point_mass(&columns, &left) else { return Ok(None) };
     let com_in_body = load.first_moment_kg_m / load.mass_kg;
     let com_in_tip = body_from_tip.inverse() * Point3::from(com_in_body);
-    let samples = Window { first: of_window[0].sample - 1, end: of_window[of_window.len() - 1].sample + 1 };
-    let (from_s, until_s) = observed.times(samples);
+    let (from_s, until_s) = observed.times(window.samples);
     let fault = RunFault {
         kind: FaultKind::WrongPayload,
         joints: Vec::new(),

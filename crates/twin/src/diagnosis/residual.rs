@@ -5,7 +5,7 @@ use congruent_dynamics::{BodyTree, DynamicsBuffer, DynamicsError, JointMotion, S
 use congruent_kinematics::Pose;
 use nalgebra::Isometry3;
 
-use super::observed::Observed;
+use super::{fit::Window, observed::Observed};
 use crate::setup::Payload;
 
 /// Residuals below this part of the largest effort of the joint are the difference of the engine's step from its limit, which
@@ -14,6 +14,34 @@ use crate::setup::Payload;
 pub(super) const STEP_PART: f64 = 0.02;
 /// And this is rounding of second differences: 1e-15 rad over 1e-6 s^2, times 10 kg m^2.
 pub(super) const SMALLEST: f64 = 1e-6;
+
+/// When residuals are off: a range of them, and the samples in which the fault that makes them is there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OffWindow {
+    pub(super) residuals: Window,
+    pub(super) samples: Window,
+}
+
+impl OffWindow {
+    /// From the first to the last of `usable` residuals of which `is_off` holds. If that is the very last, the fault
+    /// lasts to the end of the run as far as is known.
+    pub(super) fn of(usable: &[Residual], samples: usize, is_off: impl Fn(&Residual) -> bool) -> Option<Self> {
+        let residuals = Window::of(usable.len(), |index| is_off(&usable[index]))?;
+        let end = usable.get(residuals.end).map_or(samples, |next| next.sample);
+        // An effort acts in the step before the sample that shows it.
+        let first = usable[residuals.first].sample - 1;
+        Some(Self { residuals, samples: Window { first, end } })
+    }
+
+    /// From the first of both to the last.
+    pub(super) fn with(self, other: Self) -> Self {
+        let both = |a: Window, b: Window| Window { first: a.first.min(b.first), end: a.end.max(b.end) };
+        Self {
+            residuals: both(self.residuals, other.residuals),
+            samples: both(self.samples, other.samples),
+        }
+    }
+}
 
 /// One sample with its motion and its residual.
 #[derive(Debug)]

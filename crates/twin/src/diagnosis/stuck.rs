@@ -1,9 +1,8 @@
 //! Hypothesis: a joint does not move although it should.
 
 use super::{
-    encoder::spread,
     fit::{Fit, Window},
-    observed::{Observed, ROUNDING},
+    observed::{Observed, ROUNDING, spread},
 };
 use crate::{fault::RunFault, scenario::FaultKind};
 

@@ -32,16 +32,17 @@ pub(super) fn dropped(observed: &Observed<'_>, joints: &[usize]) -> Option<Fit> 
     #[expect(clippy::cast_precision_loss, reason = "samples are few")]
     let count = |is: &dyn Fn(usize) -> bool| window.samples().filter(|&sample| is(sample)).count() as f64;
     let share = count(&repeats) / count(&moves);
-    Some(fit(observed, FaultKind::DroppedSamples, (FaultQuantity::share(share), window), remaining))
+    let share = FaultQuantity::share(share);
+    Some(fit(observed, FaultKind::DroppedSamples, (share, window, joints), remaining))
 }
 
 fn fit(
     observed: &Observed<'_>,
     kind: FaultKind,
-    (value, window): (FaultQuantity, Window),
+    (value, window, joints): (FaultQuantity, Window, &[usize]),
     remaining: f64,
 ) -> Fit {
-    let (from_s, until_s) = observed.times(window);
+    let (from_s, until_s) = observed.times_in_motion(window, joints);
     let fault = RunFault { kind, joints: Vec::new(), link: None, values: vec![value], from_s, until_s };
     Fit { fault, remaining, parameters: 1 }
 }
@@ -79,7 +80,7 @@ pub(super) fn late(observed: &Observed<'_>, joints: &[usize]) -> Option<Fit> {
     let (centre, _) = best(&mut around.into_iter())?;
     let (steps, remaining) = best(&mut near(centre).into_iter())?;
     let latency = FaultQuantity::latency(steps * step_s);
-    Some(fit(observed, FaultKind::Latency, (latency, window), remaining))
+    Some(fit(observed, FaultKind::Latency, (latency, window, joints), remaining))
 }
 
 /// `tau` in `error = -tau speed`.
