@@ -126,7 +126,13 @@ fn refused(controller: &str, fault: &str, code: &str, place: &str, help: &str) {
 #[test]
 fn a_wrong_fault_is_refused_at_its_place() {
     let offset = "kind = \"encoder_offset\"\njoint = \"elbow_joint\"\n";
-    refused("kinematic", "kind = \"encoder_ofset\"", "scenario::unknown_kind", "encoder_ofset", "encoder_offset");
+    refused(
+        "kinematic",
+        "kind = \"encoder_ofset\"",
+        "scenario::unknown_kind",
+        "encoder_ofset",
+        "encoder_offset",
+    );
     let unknown = offset.replace("elbow", "elbw") + "value_deg = 1";
     refused("kinematic", &unknown, "scenario::unknown_joint", "elbw", "elbow_joint");
     refused("kinematic", offset, "scenario::fault_value", "[[fault]]", "`value_rad` or `value_deg`");

@@ -84,8 +84,10 @@ struct Document<'a> {
 impl<'a> Document<'a> {
     fn read(path: &'a Path) -> Result<Self, Diagnostic> {
         let refused = |message: String| {
-            Diagnostic::error("faults::markdown", message)
-                .with_help(format!("the file needs a line `{}` and after it a line `{END}`", BEGIN.trim_end()))
+            Diagnostic::error("faults::markdown", message).with_help(format!(
+                "the file needs a line `{}` and after it a line `{END}`",
+                BEGIN.trim_end()
+            ))
         };
         let text = fs::read_to_string(path)
             .map_err(|error| refused(format!("{} cannot be read: {error}", path.display())))?;

@@ -66,7 +66,17 @@ impl Engine {
         let Built { sets, handles, slots, multibody } = built;
         let gravity = adapter::vector(&settings.gravity_in_world);
         let pipeline = new_pipeline();
-        Self { sets, handles, slots, multibody, pipeline, parameters, gravity, unknown_loads: Vec::new(), is_forced: false }
+        Self {
+            sets,
+            handles,
+            slots,
+            multibody,
+            pipeline,
+            parameters,
+            gravity,
+            unknown_loads: Vec::new(),
+            is_forced: false,
+        }
     }
 
     pub(crate) fn step_s(&self) -> f64 {

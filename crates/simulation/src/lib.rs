@@ -16,7 +16,8 @@ mod settings;
 mod world;
 
 pub use actuation::{
-    Commands, Controller, DriveConnection, Gains, JointsView, MeasuredState, Motor, Setpoint, controller, controller_names,
+    Commands, Controller, DriveConnection, Gains, JointsView, MeasuredState, Motor, Setpoint, controller,
+    controller_names,
 };
 pub use changes::CarriedBody;
 pub use error::SimulationError;

@@ -287,7 +287,11 @@ impl World {
 
     /// The whole state: after [`World::restore`], steps repeat bit by bit.
     pub fn snapshot(&self) -> WorldSnapshot {
-        WorldSnapshot { state: self.state.clone(), sets: self.engine.sets().clone(), unknown_loads: self.engine.unknown_loads.clone() }
+        WorldSnapshot {
+            state: self.state.clone(),
+            sets: self.engine.sets().clone(),
+            unknown_loads: self.engine.unknown_loads.clone(),
+        }
     }
 
     /// Returns to a snapshot of this world.

@@ -5,7 +5,8 @@ mod support;
 
 use congruent_description::Inertia;
 use congruent_simulation::{
-    CarriedBody, DriveConnection, Gains, MeasuredState, Setpoint, SimulationError, World, WorldSettings, controller,
+    CarriedBody, DriveConnection, Gains, MeasuredState, Setpoint, SimulationError, World, WorldSettings,
+    controller,
 };
 use nalgebra::{Isometry3, Matrix3, Vector3};
 

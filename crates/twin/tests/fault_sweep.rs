@@ -10,10 +10,10 @@ use congruent_twin::{
     fault::{Judgement, RunFault, judge},
     recorder::NoRecorder,
     scenario::{
-        AddedFrictionFault, AgreementCheck, Check, ControllerSettings, DroppedSamplesFault, EncoderDriftFault,
-        EncoderOffsetFault, FaultKind, FaultSettings, GoalCheck, JointFault, JointMotion, LatencyFault,
-        MotionSettings, OnViolation, PoseSettings, Profile, Scenario, ScaledTorqueFault, ShiftedToolFault,
-        StartSettings, SwappedJointsFault, WrongPayloadFault,
+        AddedFrictionFault, AgreementCheck, Check, ControllerSettings, DroppedSamplesFault,
+        EncoderDriftFault, EncoderOffsetFault, FaultKind, FaultSettings, GoalCheck, JointFault, JointMotion,
+        LatencyFault, MotionSettings, OnViolation, PoseSettings, Profile, ScaledTorqueFault, Scenario,
+        ShiftedToolFault, StartSettings, SwappedJointsFault, WrongPayloadFault,
     },
 };
 use rand_chacha::{
@@ -83,7 +83,8 @@ fn fault(kind: FaultKind, robot: &Robot, draw: &mut Draw) -> FaultSettings {
             let dry_n_m = Some(largest * draw.between(0.02, 0.1));
             let viscous = Some(largest * draw.between(0.02, 0.1));
             let viscous_n_m_s_per_rad = viscous.filter(|_| draw.below(2) == 0);
-            let fault = AddedFrictionFault { joint, dry_n_m, viscous_n_m_s_per_rad, at_s, ..Default::default() };
+            let fault =
+                AddedFrictionFault { joint, dry_n_m, viscous_n_m_s_per_rad, at_s, ..Default::default() };
             FaultSettings::AddedFriction(fault)
         }
         FaultKind::WrongPayload => {
@@ -252,7 +253,8 @@ fn nothing_is_found_without_a_fault() {
 #[ignore = "hundreds of runs: run it after a change of thresholds or hypotheses; FAULT_ROBOTS adds robots, divided by `:`"]
 fn table_of_random_faults() {
     let more = std::env::var("FAULT_ROBOTS").unwrap_or_default();
-    let robots: Vec<&str> = [UR5E, PANDA].into_iter().chain(more.split(':').filter(|path| !path.is_empty())).collect();
+    let robots: Vec<&str> =
+        [UR5E, PANDA].into_iter().chain(more.split(':').filter(|path| !path.is_empty())).collect();
     let counts = sweep(&robots, 20, 2);
     for (kind, count) in &counts {
         show(&format!("{kind}: {count:?}"));

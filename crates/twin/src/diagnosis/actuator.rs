@@ -1,8 +1,8 @@
 //! Hypotheses on one actuator: what it exerts, and what resists its joint.
 
 use super::{
-    fit::{Fit, best, least_squares},
-    observed::Observed,
+    fit::{Fit, Window, best, least_squares},
+    observed::{Observed, spread},
     residual::{OffWindow, Residual},
 };
 use crate::{
@@ -41,7 +41,8 @@ pub(super) fn fault(
         } else {
             make(FaultKind::ScaledTorque, vec![FaultQuantity::share(share)])
         };
-        let is_possible = share > -NO_SHARE;
+        // A joint that nothing drives does not follow its setpoint.
+        let is_possible = share > NO_SHARE || (share > -NO_SHARE && !follows(observed, joint, samples));
         fits.extend(is_possible.then_some(Fit { fault, remaining, parameters: 1 }));
     }
     fits.extend(friction(joint, of_window, observed.unit(joint)).into_iter().map(|(values, remaining)| {
@@ -50,6 +51,18 @@ pub(super) fn fault(
         Fit { fault: make(FaultKind::AddedFriction, values), remaining, parameters }
     }));
     best(fits)
+}
+
+/// Whether a joint goes with its setpoint, which moves.
+fn follows(observed: &Observed<'_>, joint: usize, window: Window) -> bool {
+    /// How far behind it may be, as a part of the way of the setpoint.
+    const BEHIND: f64 = 0.1;
+    /// A setpoint that stands still says nothing, rad and m.
+    const STANDS: f64 = 1e-3;
+    let setpoint = &observed.setpoint[joint][window.samples()];
+    let q = &observed.q[joint][window.samples()];
+    let behind: Vec<f64> = setpoint.iter().zip(q).map(|(setpoint, q)| setpoint - q).collect();
+    spread(setpoint) > STANDS && spread(&behind) < BEHIND * spread(setpoint)
 }
 
 /// Dry friction, viscous friction, and both, while the joint slides.
@@ -68,7 +81,10 @@ fn friction(joint: usize, residuals: &[Residual], unit: &'static str) -> Vec<(Ve
         let Some((parameters, remaining)) = least_squares(&columns, &left) else { continue };
         if parameters.iter().all(|&parameter| parameter > 0.0) {
             let mut both = [0.0; 2];
-            places.iter().zip(parameters).for_each(|(&place, parameter): (&usize, f64)| both[place] = parameter);
+            places
+                .iter()
+                .zip(parameters)
+                .for_each(|(&place, parameter): (&usize, f64)| both[place] = parameter);
             fits.push((FaultQuantity::friction(both, unit), remaining));
         }
     }

@@ -9,7 +9,7 @@ use super::{
     fit::Fit,
     observed::Observed,
     payload,
-    residual::{OffWindow, Residual, SMALLEST, STEP_PART, residuals},
+    residual::{OffWindow, Residual, residuals},
     store::SampleStore,
     stuck, tool, transport,
 };
@@ -110,7 +110,9 @@ impl Search<'_> {
         let wrong = wrong.filter(|&joint| encoder::wrong(self.observed, joint).is_some());
         let names = wrong.map(|joint| self.observed.name(joint)).filter(|name| !is_explained(name));
         names
-            .map(|name| format!("joint {name}: the encoder differs from the poses, and no known fault explains how"))
+            .map(|name| {
+                format!("joint {name}: the encoder differs from the poses, and no known fault explains how")
+            })
             .collect()
     }
 
@@ -125,19 +127,17 @@ impl Search<'_> {
             residuals.retain(|residual| residual.sample < contact);
         }
         let robot = self.observed.robot;
-        let masters: Vec<usize> = robot
-            .joints()
-            .iter()
-            .filter_map(|joint| robot.coordinate(joint.mimic?.master))
-            .collect();
+        let masters: Vec<usize> =
+            robot.joints().iter().filter_map(|joint| robot.coordinate(joint.mimic?.master)).collect();
         // The effort of a joint that others follow moves those as well.
         self.open.retain(|joint| !masters.contains(joint));
-        let off: Vec<(usize, OffWindow)> =
-            self.open.iter().filter_map(|&joint| Some((joint, self.off_window(&residuals, joint)?))).collect();
-        let alone: Vec<Fit> = off
+        let off: Vec<(usize, OffWindow)> = self
+            .open
             .iter()
-            .filter_map(|&(joint, window)| self.of_actuator(joint, (&residuals, window)))
+            .filter_map(|&joint| Some((joint, self.off_window(&residuals, joint)?)))
             .collect();
+        let alone: Vec<Fit> =
+            off.iter().filter_map(|&(joint, window)| self.of_actuator(joint, (&residuals, window))).collect();
         let joints: Vec<usize> = off.iter().map(|&(joint, _)| joint).collect();
         let together = off.iter().map(|&(_, window)| window).reduce(OffWindow::with);
         let Some(together) = together else { return Ok(()) };
@@ -170,10 +170,6 @@ impl Search<'_> {
         let before_limit = self.observed.samples_before_limit(joint);
         let usable = residuals.partition_point(|residual| residual.sample < before_limit);
         let residuals = &residuals[..usable];
-        let largest = residuals.iter().map(|residual| residual.effort[joint].abs()).fold(0.0, f64::max);
-        let threshold = SMALLEST.max(STEP_PART * largest);
-        OffWindow::of(residuals, self.observed.samples(), |residual| {
-            residual.residual[joint].abs() > threshold
-        })
+        OffWindow::of(residuals, self.observed.samples(), joint)
     }
 }

@@ -32,8 +32,19 @@ pub(super) fn faults(observed: &Observed<'_>, joints: &[usize]) -> Vec<Fit> {
 /// When an encoder reads something else than the poses show.
 pub(super) fn wrong(observed: &Observed<'_>, joint: usize) -> Option<Window> {
     let error = &observed.error[joint];
-    let threshold = ROUNDING.max(noise(error));
+    let threshold = ROUNDING.max(noise(error)) + resolution(observed, joint);
     Window::of(error.len(), |sample| error[sample].abs() > threshold)
+}
+
+/// The steps of a reading that stands still at times while the joint moves: the smallest change that it shows. Zero for one
+/// that follows.
+fn resolution(observed: &Observed<'_>, joint: usize) -> f64 {
+    let changes =
+        |series: &[f64]| -> Vec<f64> { series.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect() };
+    let (moved, read) = (changes(&observed.q[joint]), changes(&observed.measured[joint]));
+    let stands = moved.iter().zip(&read).any(|(moved, read)| *moved > ROUNDING && *read <= 0.0);
+    let smallest = read.into_iter().filter(|change| *change > 0.0).fold(f64::INFINITY, f64::min);
+    if stands && smallest.is_finite() { smallest } else { 0.0 }
 }
 
 /// Six standard deviations of the noise of a series, by the median of its changes, which a fault does not move much. A
@@ -75,8 +86,7 @@ fn swapped(observed: &Observed<'_>, a: (usize, Window), b: (usize, Window)) -> O
     };
     let whole = rms(window.samples().map(|sample| observed.error[a.0][sample]))
         .max(rms(window.samples().map(|sample| observed.error[b.0][sample])));
-    let begins_at_zero =
-        |joint: usize| observed.error[joint][window.first].abs() <= EXPLAINED * whole;
+    let begins_at_zero = |joint: usize| observed.error[joint][window.first].abs() <= EXPLAINED * whole;
     if whole <= 0.0 || !begins_at_zero(a.0) || !begins_at_zero(b.0) {
         return None;
     }

@@ -11,9 +11,15 @@ use crate::setup::Payload;
 /// Residuals below this part of the largest effort of the joint are the difference of the engine's step from its limit, which
 /// is proportional to its length. Worst seen without fault 0.004 in steps of 1 ms, in moves of UR5e, Panda and iiwa14 of
 /// 1 rad in 0.6 s.
-pub(super) const STEP_PART: f64 = 0.02;
-/// And this is rounding of second differences: 1e-15 rad over 1e-6 s^2, times 10 kg m^2.
-pub(super) const SMALLEST: f64 = 1e-6;
+const STEP_PART: f64 = 0.02;
+/// The same for the largest effort of any joint, whose motion the others feel.
+const COUPLED_PART: f64 = 2e-4;
+/// What a step is off by is what changes in it: this many times the change of the needed effort.
+const CHANGES: f64 = 3.0;
+/// Rounding of second differences, N m: 1e-15 rad over 1e-6 s^2, times 10 kg m^2.
+const SMALLEST: f64 = 1e-6;
+/// Fewer residuals that are off are an impact, not a fault.
+const FEWEST: usize = 10;
 
 /// When residuals are off: a range of them, and the samples in which the fault that makes them is there.
 #[derive(Debug, Clone, Copy)]
@@ -23,10 +29,22 @@ pub(super) struct OffWindow {
 }
 
 impl OffWindow {
-    /// From the first to the last of `usable` residuals of which `is_off` holds. If that is the very last, the fault
-    /// lasts to the end of the run as far as is known.
-    pub(super) fn of(usable: &[Residual], samples: usize, is_off: impl Fn(&Residual) -> bool) -> Option<Self> {
-        let residuals = Window::of(usable.len(), |index| is_off(&usable[index]))?;
+    /// From the first to the last of `usable` residuals of a joint that are more than the length of a step makes them. If
+    /// that is the very last, the fault lasts to the end of the run as far as is known.
+    pub(super) fn of(usable: &[Residual], samples: usize, joint: usize) -> Option<Self> {
+        let largest =
+            |joint: usize| usable.iter().map(|residual| residual.effort[joint].abs()).fold(0.0, f64::max);
+        let joints = usable.first()?.effort.len();
+        let of_any = (0..joints).map(largest).fold(0.0, f64::max);
+        let threshold = SMALLEST.max(STEP_PART * largest(joint)).max(COUPLED_PART * of_any);
+        let is_off = |index: usize| {
+            let Residual { residual, change, .. } = &usable[index];
+            residual[joint].abs() > threshold + CHANGES * change[joint]
+        };
+        let residuals = Window::of(usable.len(), is_off)?;
+        if residuals.samples().filter(|&index| is_off(index)).count() < FEWEST {
+            return None;
+        }
         let end = usable.get(residuals.end).map_or(samples, |next| next.sample);
         // An effort acts in the step before the sample that shows it.
         let first = usable[residuals.first].sample - 1;
@@ -36,10 +54,7 @@ impl OffWindow {
     /// From the first of both to the last.
     pub(super) fn with(self, other: Self) -> Self {
         let both = |a: Window, b: Window| Window { first: a.first.min(b.first), end: a.end.max(b.end) };
-        Self {
-            residuals: both(self.residuals, other.residuals),
-            samples: both(self.samples, other.samples),
-        }
+        Self { residuals: both(self.residuals, other.residuals), samples: both(self.samples, other.samples) }
     }
 }
 
@@ -56,6 +71,20 @@ pub(super) struct Residual {
     pub(super) effort: Vec<f64>,
     /// Needed minus reported, by joint.
     pub(super) residual: Vec<f64>,
+    /// How much the needed effort has changed since the residual before, by joint.
+    change: Vec<f64>,
+}
+
+impl Residual {
+    /// Of a group of samples, the first has no change: groups are shorter than any fault that they show.
+    fn compare_with(&mut self, before: &Self) {
+        if self.sample != before.sample + 1 {
+            return;
+        }
+        let needed = |of: &Self, joint: usize| of.residual[joint] + of.effort[joint];
+        let change = |joint| (needed(self, joint) - needed(before, joint)).abs();
+        self.change = (0..self.change.len()).map(change).collect();
+    }
 }
 
 /// The residuals of all samples with two kept ones before them; empty if the drives report no effort at all.
@@ -71,9 +100,10 @@ pub(super) fn residuals(
     let mut carried: Vec<bool> = vec![false; payloads.len()];
     let mut tree = plain.clone();
     let mut buffer = tree.buffer();
-    let mut found = Vec::new();
+    let mut found: Vec<Residual> = Vec::new();
     for sample in 2..observed.samples() {
-        if !observed.are_consecutive(sample - 2, sample - 1) || !observed.are_consecutive(sample - 1, sample) {
+        if !observed.are_consecutive(sample - 2, sample - 1) || !observed.are_consecutive(sample - 1, sample)
+        {
             continue;
         }
         let begin_s = observed.times_s[sample - 1];
@@ -83,7 +113,11 @@ pub(super) fn residuals(
             tree = loaded(&plain, robot, loads)?;
             carried = now;
         }
-        found.push(residual(observed, sample, &tree, &mut buffer)?);
+        let mut residual = residual(observed, sample, &tree, &mut buffer)?;
+        if let Some(before) = found.last() {
+            residual.compare_with(before);
+        }
+        found.push(residual);
     }
     let is_driven = found.iter().any(|residual| residual.effort.iter().any(|effort| effort.abs() > 0.0));
     Ok(if is_driven { found } else { Vec::new() })
@@ -106,8 +140,9 @@ fn residual(
     let mut residual = vec![0.0; q.len()];
     tree.inverse_into(&JointMotion { q: &q, qd: &qd[0], qdd: &qdd }, buffer, &mut residual)?;
     let effort = observed.store.sample(sample).effort.to_vec();
+    let change = vec![0.0; q.len()];
     residual.iter_mut().zip(&effort).for_each(|(residual, effort)| *residual -= effort);
-    Ok(Residual { sample, q, qd, qdd, effort, residual })
+    Ok(Residual { sample, q, qd, qdd, effort, residual, change })
 }
 
 /// The robot with what its links carry.
@@ -116,7 +151,8 @@ fn loaded<'p>(
     robot: &Robot,
     payloads: impl Iterator<Item = &'p Payload>,
 ) -> Result<BodyTree, DynamicsError> {
-    let mut inertias: Vec<SpatialInertia> = (0..plain.dof()).map(|joint| plain.inertia_in_link(joint)).collect();
+    let mut inertias: Vec<SpatialInertia> =
+        (0..plain.dof()).map(|joint| plain.inertia_in_link(joint)).collect();
     for payload in payloads {
         let (body, body_from_link) = body_of(robot, payload.carried.link);
         if let Some(joint) = (0..plain.dof()).find(|&joint| plain.link(joint) == body) {

@@ -7,7 +7,7 @@ use crate::sample::Sample;
 /// Samples that are kept at most: 8 s in steps of 1 ms, 7 MB for an arm with twelve links.
 const CAPACITY: usize = 8192;
 /// Samples that are kept one after another, so that accelerations can be computed.
-const CONSECUTIVE: u64 = 3;
+const CONSECUTIVE: u64 = 4;
 /// Distance of kept groups after the store is full for the first time.
 const FIRST_STRIDE: u64 = 8;
 
@@ -137,7 +137,7 @@ mod tests {
             }
         }
         assert!(store.steps.len() <= 64 && store.steps.len() > 20, "{}", store.steps.len());
-        assert!(*store.steps.last().unwrap() > 900 && store.steps[..3] == [0, 1, 2]);
+        assert!(*store.steps.last().unwrap() > 900 && store.steps[..4] == [0, 1, 2, 3]);
         for (index, &step) in store.steps.iter().enumerate() {
             #[expect(clippy::cast_precision_loss, reason = "small")]
             let expected = step as f64;

@@ -21,7 +21,8 @@ pub(super) fn fault(observed: &Observed<'_>, joint: usize, window: Window) -> Op
     }
     let (from_s, until_s) = observed.times(window);
     let joints = vec![observed.name(joint)];
-    let fault = RunFault { kind: FaultKind::StuckJoint, joints, link: None, values: Vec::new(), from_s, until_s };
+    let fault =
+        RunFault { kind: FaultKind::StuckJoint, joints, link: None, values: Vec::new(), from_s, until_s };
     Some(Fit { fault, remaining: moved / commanded, parameters: 0 })
 }
 

@@ -14,13 +14,12 @@ pub(super) fn dropped(observed: &Observed<'_>, joints: &[usize]) -> Option<Fit> 
     let moves = |sample: usize| {
         sample > 0
             && observed.are_consecutive(sample - 1, sample)
-            && joints.iter().any(|&joint| {
-                (observed.q[joint][sample] - observed.q[joint][sample - 1]).abs() > ROUNDING
-            })
+            && joints
+                .iter()
+                .any(|&joint| (observed.q[joint][sample] - observed.q[joint][sample - 1]).abs() > ROUNDING)
     };
     let repeats = |sample: usize| {
-        moves(sample)
-            && observed.measured.iter().all(|q| q[sample].to_bits() == q[sample - 1].to_bits())
+        moves(sample) && observed.measured.iter().all(|q| q[sample].to_bits() == q[sample - 1].to_bits())
     };
     let window = Window::of(observed.samples(), repeats)?;
     // What a lost reading leaves behind; a sensor with coarse steps differs at the others as well.
@@ -49,19 +48,18 @@ fn fit(
 
 /// All readings are those of an earlier time.
 pub(super) fn late(observed: &Observed<'_>, joints: &[usize]) -> Option<Fit> {
-    let is_off =
-        |sample: usize| joints.iter().any(|&joint| observed.error[joint][sample].abs() > ROUNDING);
+    let is_off = |sample: usize| joints.iter().any(|&joint| observed.error[joint][sample].abs() > ROUNDING);
     let window = Window::of(observed.samples(), is_off)?;
-    let whole = rms(window.samples().flat_map(|sample| {
-        joints.iter().map(move |&joint| observed.error[joint][sample])
-    }));
+    let whole = rms(window
+        .samples()
+        .flat_map(|sample| joints.iter().map(move |&joint| observed.error[joint][sample])));
     let left = |latency_s: f64| {
         let difference = |sample: usize| {
             let then = observed.times_s[sample] - latency_s;
             let at = position_in_time(&observed.times_s, then);
-            joints.iter().map(move |&joint| {
-                observed.measured[joint][sample] - interpolated(&observed.q[joint], at)
-            })
+            joints
+                .iter()
+                .map(move |&joint| observed.measured[joint][sample] - interpolated(&observed.q[joint], at))
         };
         rms(window.samples().flat_map(difference)) / whole
     };
@@ -106,7 +104,13 @@ fn position_in_time(times_s: &[f64], time_s: f64) -> (usize, f64) {
     let next = (before + 1).min(times_s.len() - 1);
     let way = times_s[next] - times_s[before];
     let part = if way > 0.0 { ((time_s - times_s[before]) / way).clamp(0.0, 1.0) } else { 0.0 };
-    let part = if part < AT_SAMPLE { 0.0 } else if part > 1.0 - AT_SAMPLE { 1.0 } else { part };
+    let part = if part < AT_SAMPLE {
+        0.0
+    } else if part > 1.0 - AT_SAMPLE {
+        1.0
+    } else {
+        part
+    };
     (before, part)
 }
 

@@ -1,6 +1,8 @@
 //! The faults of a scenario against its robot: names, units, ranges and times, each error at its place.
 
-use congruent_description::{Diagnostic, Inertia, JointKind, LinkIndex, Robot, RobotDescription, units::Unit};
+use congruent_description::{
+    Diagnostic, Inertia, JointKind, LinkIndex, Robot, RobotDescription, units::Unit,
+};
 use congruent_simulation::CarriedBody;
 use nalgebra::{Isometry3, Matrix3, Translation3};
 

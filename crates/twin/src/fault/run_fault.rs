@@ -97,7 +97,8 @@ impl RunFault {
     pub fn words(&self) -> String {
         let value = |name: &str| self.values.iter().find(|value| value.quantity == name);
         let shown = |name: &str| value(name).map(FaultQuantity::shown).unwrap_or_default();
-        let percent = || value("share").map_or(String::new(), |share| format!("{} %", number(100.0 * share.value)));
+        let percent =
+            || value("share").map_or(String::new(), |share| format!("{} %", number(100.0 * share.value)));
         let what = match self.kind {
             FaultKind::EncoderOffset => format!("encoder offset of {}", shown("offset")),
             FaultKind::EncoderDrift => format!("encoder drift of {}", shown("rate")),

@@ -47,10 +47,8 @@ pub(crate) fn explain(setup: &RunSetup, outcome: &mut Outcome) {
     }
     match (&outcome.diagnosis, foremost(&outcome.diagnoses)) {
         // Model and physics are the same robot: the twin differs from what is measured.
-        (Some(diagnosis), None) if !diagnosis.is_empty() => {
-            let cause = |sentence: String| format!("cause (in the run): {sentence}");
-            check.notes.extend(diagnosis.sentences().into_iter().map(cause));
-        }
+        // The report has that once, for all checks.
+        (Some(_), None) => {}
         _ => check.notes.extend(notes(&outcome.diagnoses, &description)),
     }
 }

@@ -90,7 +90,9 @@ impl FaultTable {
 
     /// Whether every fault is seen and diagnosed, and nothing is seen without one.
     pub fn is_sound(&self) -> bool {
-        [&self.unseen, &self.false_alarms, &self.not_diagnosed, &self.broken].iter().all(|names| names.is_empty())
+        [&self.unseen, &self.false_alarms, &self.not_diagnosed, &self.broken]
+            .iter()
+            .all(|names| names.is_empty())
     }
 
     /// What is not as it should be, in sentences.

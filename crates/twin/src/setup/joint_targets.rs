@@ -134,8 +134,9 @@ pub(crate) fn moving_joint(robot: &Robot, name: &str) -> Result<JointIndex, Diag
     let joint = robot.joint(index);
     if let Some(mimic) = joint.mimic {
         let message = format!("joint \"{name}\" mimics \"{}\"", robot.joint(mimic.master).name);
-        return Err(Diagnostic::error("scenario::mimic_joint", message)
-            .with_help("name the joint that it mimics"));
+        return Err(
+            Diagnostic::error("scenario::mimic_joint", message).with_help("name the joint that it mimics")
+        );
     }
     Ok(index)
 }
