@@ -21,6 +21,7 @@ mod corpus;
 mod diagnosis;
 mod diagnosis_chains;
 mod dynamics_goldens;
+mod faults;
 mod forward_goldens;
 mod golden;
 mod jacobian_goldens;

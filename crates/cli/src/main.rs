@@ -5,6 +5,7 @@ mod arm;
 mod batch;
 mod compare;
 mod failure;
+mod faults;
 mod input;
 #[cfg(feature = "recording")]
 mod inspect;
@@ -39,6 +40,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Arguments),
+    Faults(faults::Arguments),
     Check(model::check::Arguments),
     Fk(arm::fk::Arguments),
     Jacobian(arm::jacobian::Arguments),
@@ -62,6 +64,7 @@ fn main() -> ExitCode {
     let printer = Printer::new(arguments.format);
     let result = match arguments.command {
         Command::Run(arguments) => run::run(&arguments, &printer),
+        Command::Faults(arguments) => faults::run(&arguments, &printer),
         Command::Check(arguments) => model::check::run(&arguments, &printer),
         Command::Fk(arguments) => arm::fk::run(&arguments, &printer),
         Command::Jacobian(arguments) => arm::jacobian::run(&arguments, &printer),

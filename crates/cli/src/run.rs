@@ -10,7 +10,9 @@ use std::{
 use congruent::{
     description::{Diagnostic, display::quantity},
     twin::{
-        ExecuteError, Options, RecordingFormat, RunSetup, execute,
+        ExecuteError, Options, RecordingFormat, RunSetup,
+        diagnosis::RunDiagnosis,
+        execute,
         report::{OutputFolder, Reason, RunReport, TestCase, TestResult, TestSuite, lines},
         scenario::{CheckKind, Expectation, Override},
         verdict::{CheckResult, Status, Verdict},
@@ -247,6 +249,12 @@ fn described(report: &RunReport) -> String {
     }
     for check in report.checks_failed_first() {
         checked(&mut text, check);
+    }
+    for fault in &report.faults {
+        let _ = writeln!(text, "  {:10} {:7} {}", "injected", "", fault.sentence());
+    }
+    for sentence in report.diagnosis.iter().flat_map(RunDiagnosis::sentences) {
+        let _ = writeln!(text, "  {:10} {:7} {sentence}", "diagnosis", "");
     }
     text
 }

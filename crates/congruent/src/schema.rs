@@ -10,7 +10,11 @@ use congruent_calibration::report::CalibrationReport;
 use congruent_description::{configurations_schema, robot_file_schema};
 #[cfg(feature = "recording")]
 use congruent_recording::RecordingSummary;
-use congruent_twin::{proximity::DistanceReport, report::RunReport, scenario::Scenario};
+use congruent_twin::{
+    proximity::DistanceReport,
+    report::{FaultTable, RunReport},
+    scenario::Scenario,
+};
 use schemars::{
     JsonSchema, Schema,
     generate::SchemaSettings,
@@ -38,6 +42,7 @@ impl Document {
         Self::new("scenario", "scenario file", || schema_for!(Scenario)),
         Self::new("configurations", "file of configurations, of --configurations", configurations_schema),
         Self::new("report", "report.json of a run, printed by `run`", written::<RunReport>),
+        Self::new("faults", "table of faults against checks, printed by `faults`", written::<FaultTable>),
         Self::new("check", "report of one robot, printed by `check`", written::<RobotCheck>),
         Self::new("fk", "link poses, printed by `fk`", written::<ForwardReport>),
         Self::new("jacobian", "Jacobians, printed by `jacobian`", written::<JacobianReport>),

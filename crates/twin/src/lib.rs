@@ -5,6 +5,7 @@
 //! [`source`] of joint states, [`monitor`] holds the checks, and [`execute`] does all of it for one scenario.
 
 pub mod comparison;
+pub mod diagnosis;
 mod execute;
 pub mod fault;
 pub mod monitor;

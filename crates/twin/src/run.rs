@@ -8,6 +8,7 @@ use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
 
 use crate::{
+    diagnosis::{RunDiagnosis, SampleStore, diagnose},
     monitor::{Names, RunningCheck},
     motion::ServoResult,
     proximity::{Clearance, PairChoice, ProximityError},
@@ -15,7 +16,7 @@ use crate::{
     sample::Sample,
     setup::RunSetup,
     source::{JointStateSource, SimulationSource, SourceError},
-    verdict::{CheckResult, Stop},
+    verdict::{CheckResult, Status, Stop},
 };
 
 /// Why a run cannot start or cannot continue.
@@ -51,6 +52,8 @@ pub struct Outcome {
     pub trajectory_sha256: String,
     /// Why model and twin differ, if a check of their agreement failed and the source is the physics.
     pub diagnoses: Vec<ReportedDiagnosis>,
+    /// What the samples show to be wrong with the twin, if a check failed.
+    pub diagnosis: Option<RunDiagnosis>,
 }
 
 /// A run in progress. [`Run::finish`] does all of it; the stages are public so that a benchmark can
@@ -68,6 +71,7 @@ pub struct Run<'a> {
     by_tree: Vec<Pose>,
     errors: Vec<PoseError>,
     hash: Sha256,
+    store: SampleStore,
 }
 
 impl std::fmt::Debug for Run<'_> {
@@ -112,6 +116,7 @@ impl<'a> Run<'a> {
             by_tree: vec![Pose::identity(); links],
             errors: vec![PoseError::default(); links],
             hash: Sha256::new(),
+            store: SampleStore::new(robot.dof(), links, setup.clock.steps),
         })
     }
 
@@ -191,6 +196,7 @@ impl<'a> Run<'a> {
         for q in joints.truth.q {
             self.hash.update(q.to_le_bytes());
         }
+        self.store.take(&sample);
         recorder.record(&mut sample)?;
         Ok(stopping)
     }
@@ -223,7 +229,9 @@ impl<'a> Run<'a> {
         };
         let steps = self.source.step_count();
         let mut results: Vec<CheckResult> = checks.iter().map(|check| check.result(&self.names)).collect();
+        let has_failed = results.iter().any(|check| check.status == Status::Fail);
         let outcome = Outcome {
+            diagnosis: has_failed.then(|| diagnose(self.setup, &self.store, &mut self.clearance)).flatten(),
             stopped: stopping.map(|index| stopped_by(&mut results[index], self.setup, steps)),
             checks: results,
             steps,

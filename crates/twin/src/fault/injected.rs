@@ -201,3 +201,92 @@ fn read_truth(world: &World, truth: &mut Reading) {
     truth.qd.copy_from_slice(world.qd());
     truth.effort.copy_from_slice(world.asked_torque());
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use congruent_description::load_robot;
+    use congruent_simulation::{Gains, WorldSettings, controller};
+
+    use super::*;
+    use crate::scenario::{
+        ControllerSettings, DroppedSamplesFault, EncoderDriftFault, FaultSettings, JointFault, LatencyFault,
+        Scenario,
+    };
+
+    fn setup() -> RunSetup {
+        let description =
+            load_robot(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/ur5e")).unwrap();
+        let elbow = "elbow_joint".to_owned();
+        let drift = EncoderDriftFault {
+            joint: elbow,
+            rate_deg_per_s: Some(2.0),
+            at_s: 0.01,
+            ..EncoderDriftFault::default()
+        };
+        let flipped = JointFault { joint: "wrist_1_joint".to_owned(), at_s: 0.02, until_s: Some(0.07) };
+        let mut scenario = Scenario {
+            name: "faults".to_owned(),
+            seed: 3,
+            controller: ControllerSettings { kind: "pd".to_owned(), stiffness: 100.0, damping: 5.0 },
+            fault: vec![
+                FaultSettings::EncoderDrift(drift),
+                FaultSettings::FlippedAxis(flipped),
+                FaultSettings::Latency(LatencyFault { time_s: 0.002, at_s: 0.03, until_s: None }),
+                FaultSettings::DroppedSamples(DroppedSamplesFault { share: 0.4, at_s: 0.0, until_s: None }),
+            ],
+            ..Scenario::default()
+        };
+        scenario.simulation.duration_s = Some(0.1);
+        RunSetup::new(scenario, description).unwrap()
+    }
+
+    /// The measured positions of the following steps.
+    fn measured(world: &mut World, faults: &mut InjectedFaults<'_>, steps: u64) -> Vec<Vec<u64>> {
+        let target = RobotQ::zeros(6);
+        let mut pd = controller("pd", Gains { stiffness: 100.0, damping: 5.0 }).unwrap();
+        (0..steps)
+            .map(|_| {
+                let setpoint = Setpoint { q: &target, qd: &[0.0; 6], qdd: &[0.0; 6] };
+                world.step_measured(&mut *pd, &setpoint, &faults.measured()).unwrap();
+                faults.advance(world.step_count(), world).unwrap();
+                faults.measured().q.iter().map(|q| q.to_bits()).collect()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_clone_goes_on_as_the_original() {
+        let setup = setup();
+        let mut world = World::new(&setup.description.robot, &WorldSettings::default()).unwrap();
+        let mut faults = InjectedFaults::new(&setup, &mut world).unwrap();
+        measured(&mut world, &mut faults, 40);
+        let (snapshot, mut cloned) = (world.snapshot(), faults.clone());
+        let first = measured(&mut world, &mut faults, 50);
+        world.restore(&snapshot);
+        assert_eq!(measured(&mut world, &mut cloned, 50), first);
+        let repeats = first.windows(2).filter(|pair| pair[0] == pair[1]).count();
+        assert!((10..30).contains(&repeats), "{repeats} of 49 readings got lost, with a share of 0.4");
+    }
+
+    #[test]
+    fn a_flipped_axis_and_its_end() {
+        let setup = setup();
+        let mut world = World::new(&setup.description.robot, &WorldSettings::default()).unwrap();
+        let faults = &setup.faults[1..2];
+        let mut injected = InjectedFaults { faults, ..InjectedFaults::new(&setup, &mut world).unwrap() };
+        injected.states = vec![injected.states[1].clone()];
+        injected.begin_and_end(&mut world).unwrap();
+        let at = |world: &mut World, injected: &mut InjectedFaults<'_>, step: u64, q: f64| {
+            let mut all = RobotQ::zeros(6);
+            all[3] = q;
+            world.set_state(&all, &[0.5; 6]).unwrap();
+            injected.advance(step, world).unwrap();
+            (injected.measured().q[3], injected.measured().qd[3])
+        };
+        assert_eq!(at(&mut world, &mut injected, 20, 0.25), (0.25, -0.5));
+        assert_eq!(at(&mut world, &mut injected, 30, 0.75), (-0.25, -0.5));
+        assert_eq!(at(&mut world, &mut injected, 70, 0.75), (0.75, 0.5));
+    }
+}

@@ -45,7 +45,12 @@ pub(crate) fn explain(setup: &RunSetup, outcome: &mut Outcome) {
             outcome.diagnoses = found;
         }
     }
-    check.notes.extend(notes(&outcome.diagnoses, &description));
+    match (&outcome.diagnosis, foremost(&outcome.diagnoses)) {
+        // Model and physics are the same robot: the twin differs from what is measured.
+        // The report has that once, for all checks.
+        (Some(_), None) => {}
+        _ => check.notes.extend(notes(&outcome.diagnoses, &description)),
+    }
 }
 
 /// A robot that has just been simulated can be simulated; without its physics there is no diagnosis.

@@ -6,6 +6,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
+    diagnosis::RunDiagnosis,
+    fault::RunFault,
     motion::ServoResult,
     run::{Outcome, RunError},
     scenario::Expectation,
@@ -44,6 +46,13 @@ pub struct RunReport {
     /// `check` gives it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub diagnoses: Vec<ReportedDiagnosis>,
+    /// Faults that the scenario injects into the twin.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub faults: Vec<RunFault>,
+    /// What the samples of the run show to be wrong with the twin, if a check failed: found without the knowledge of
+    /// `faults`. `None` if they show nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diagnosis: Option<RunDiagnosis>,
     /// Why the run failed; `None` if it did not.
     pub error: Option<String>,
     /// The clock.
@@ -115,6 +124,8 @@ impl RunReport {
             stopped: outcome.stopped,
             servos: outcome.servos,
             diagnoses: outcome.diagnoses,
+            faults: setup.faults.iter().map(|fault| fault.described().clone()).collect(),
+            diagnosis: outcome.diagnosis,
             error: error.map(ToString::to_string),
             simulation: RunClockReport {
                 step_s: setup.clock.step_s,

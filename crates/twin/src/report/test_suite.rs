@@ -6,6 +6,7 @@ use super::{
     sentence::lines,
 };
 use crate::{
+    diagnosis::RunDiagnosis,
     scenario::Expectation,
     verdict::{CheckResult, Status, Verdict},
 };
@@ -35,7 +36,9 @@ fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
         Expectation::Pass => false,
         Expectation::Fail { checks } => checks.is_empty() || checks.contains(&check.check),
     };
-    let output = lines(check).join("\n");
+    let diagnosis = report.diagnosis.iter().filter(|_| check.status == Status::Fail);
+    let causes = diagnosis.flat_map(RunDiagnosis::sentences).map(|cause| format!("diagnosis: {cause}"));
+    let output = lines(check).into_iter().chain(causes).collect::<Vec<_>>().join("\n");
     let reason = |message: String| Reason { kind: check.check.word().to_owned(), message };
     let result = match check.status {
         Status::Pass if !must_fail => TestResult::Passed,

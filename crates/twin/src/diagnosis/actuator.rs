@@ -1,0 +1,92 @@
+//! Hypotheses on one actuator: what it exerts, and what resists its joint.
+
+use super::{
+    fit::{Fit, Window, best, least_squares},
+    observed::{Observed, spread},
+    residual::{OffWindow, Residual},
+};
+use crate::{
+    fault::{FaultQuantity, RunFault},
+    scenario::FaultKind,
+};
+
+/// A share below this is none: what is left is the difference of the engine's step.
+const NO_SHARE: f64 = 0.01;
+/// Slower than this part of the joint's largest speed, dry friction is not what slides.
+const SLIDING_PART: f64 = 0.02;
+
+/// The best hypothesis on the actuator of a joint, of the residuals in a window of them.
+pub(super) fn fault(
+    observed: &Observed<'_>,
+    joint: usize,
+    residuals: &[Residual],
+    OffWindow { residuals: window, samples }: OffWindow,
+) -> Option<Fit> {
+    let of_window = &residuals[window.samples()];
+    let left: Vec<f64> = of_window.iter().map(|residual| residual.residual[joint]).collect();
+    let effort: Vec<f64> = of_window.iter().map(|residual| residual.effort[joint]).collect();
+    let make = |kind: FaultKind, values: Vec<FaultQuantity>| {
+        let (from_s, mut until_s) = observed.times(samples);
+        if kind == FaultKind::AddedFriction {
+            until_s = observed.times_in_motion(samples, &[joint]).1;
+        }
+        let joints = vec![observed.name(joint)];
+        RunFault { kind, joints, link: None, values, from_s, until_s }
+    };
+    let mut fits = Vec::new();
+    if let Some((parameters, remaining)) = least_squares(std::slice::from_ref(&effort), &left) {
+        let share = 1.0 + parameters[0];
+        let fault = if share.abs() < NO_SHARE {
+            make(FaultKind::LostTorque, Vec::new())
+        } else {
+            make(FaultKind::ScaledTorque, vec![FaultQuantity::share(share)])
+        };
+        // A joint that nothing drives does not follow its setpoint.
+        let is_possible = share > NO_SHARE || (share > -NO_SHARE && !follows(observed, joint, samples));
+        fits.extend(is_possible.then_some(Fit { fault, remaining, parameters: 1 }));
+    }
+    fits.extend(friction(joint, of_window, observed.unit(joint)).into_iter().map(|(values, remaining)| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "one or two")]
+        let parameters = values.len() as i32;
+        Fit { fault: make(FaultKind::AddedFriction, values), remaining, parameters }
+    }));
+    best(fits)
+}
+
+/// Whether a joint goes with its setpoint, which moves.
+fn follows(observed: &Observed<'_>, joint: usize, window: Window) -> bool {
+    /// How far behind it may be, as a part of the way of the setpoint.
+    const BEHIND: f64 = 0.1;
+    /// A setpoint that stands still says nothing, rad and m.
+    const STANDS: f64 = 1e-3;
+    let setpoint = &observed.setpoint[joint][window.samples()];
+    let q = &observed.q[joint][window.samples()];
+    let behind: Vec<f64> = setpoint.iter().zip(q).map(|(setpoint, q)| setpoint - q).collect();
+    spread(setpoint) > STANDS && spread(&behind) < BEHIND * spread(setpoint)
+}
+
+/// Dry friction, viscous friction, and both, while the joint slides.
+fn friction(joint: usize, residuals: &[Residual], unit: &'static str) -> Vec<(Vec<FaultQuantity>, f64)> {
+    let speed = |residual: &Residual| residual.qd[1][joint];
+    let fastest = residuals.iter().map(|residual| speed(residual).abs()).fold(0.0, f64::max);
+    let sliding: Vec<&Residual> =
+        residuals.iter().filter(|residual| speed(residual).abs() > SLIDING_PART * fastest).collect();
+    let left: Vec<f64> = sliding.iter().map(|residual| residual.residual[joint]).collect();
+    let dry: Vec<f64> = sliding.iter().map(|residual| -speed(residual).signum()).collect();
+    let viscous: Vec<f64> = sliding.iter().map(|residual| -speed(residual)).collect();
+    let mut fits = Vec::new();
+    for (columns, places) in
+        [(vec![dry.clone()], vec![0]), (vec![viscous.clone()], vec![1]), (vec![dry, viscous], vec![0, 1])]
+    {
+        let Some((parameters, remaining)) = least_squares(&columns, &left) else { continue };
+        if parameters.iter().all(|&parameter| parameter > 0.0) {
+            let mut both = [0.0; 2];
+            places
+                .iter()
+                .zip(parameters)
+                .for_each(|(&place, parameter): (&usize, f64)| both[place] = parameter);
+            fits.push((FaultQuantity::friction(both, unit), remaining));
+        }
+    }
+    fits
+}

@@ -1,0 +1,175 @@
+//! Where the joints of the twin are, as the poses of its links show it, against what the encoders read.
+
+use congruent_description::{Joint, JointKind, Robot};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+
+use super::{fit::Window, store::SampleStore};
+use crate::setup::RunClock;
+
+/// Below this a difference of a joint's position is rounding of the poses, rad and m. Worst seen 6e-15 for arms of seven
+/// joints; an encoder of 32 bits has steps of 1.5e-9.
+pub(super) const ROUNDING: f64 = 1e-10;
+
+/// What a servo settles by after a motion counts as rest, rad and m.
+const SLOW: f64 = 1e-3;
+/// Within this of its limit a joint may be held by it, rad and m.
+const AT_LIMIT: f64 = 1e-4;
+
+/// All kept samples as series over time, joint by joint.
+#[derive(Debug)]
+pub(super) struct Observed<'a> {
+    pub(super) store: &'a SampleStore,
+    pub(super) robot: &'a Robot,
+    pub(super) clock: &'a RunClock,
+    pub(super) times_s: Vec<f64>,
+    /// Positions that the poses show: by joint, then by sample.
+    pub(super) q: Vec<Vec<f64>>,
+    /// Positions that were measured, likewise.
+    pub(super) measured: Vec<Vec<f64>>,
+    /// Measured minus shown, likewise.
+    pub(super) error: Vec<Vec<f64>>,
+    /// Setpoints, likewise.
+    pub(super) setpoint: Vec<Vec<f64>>,
+}
+
+impl<'a> Observed<'a> {
+    pub(super) fn new(store: &'a SampleStore, robot: &'a Robot, clock: &'a RunClock) -> Self {
+        let samples = store.steps().len();
+        let series = |of: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
+            (0..robot.dof()).map(|joint| (0..samples).map(|sample| of(joint, sample)).collect()).collect()
+        };
+        let measured = series(&|joint, sample| store.sample(sample).q[joint]);
+        let setpoint = series(&|joint, sample| store.sample(sample).setpoint[joint]);
+        let mut q = series(&|coordinate, sample| {
+            let joint = robot.joint(robot.movable_joints()[coordinate]);
+            shown(joint, &joint_motion(joint, store.sample(sample).root_from_links))
+        });
+        for ((q, measured), &joint) in q.iter_mut().zip(&measured).zip(robot.movable_joints()) {
+            if robot.joint(joint).kind.is_angular() {
+                unwind(q, measured.first().copied().unwrap_or(0.0));
+            }
+        }
+        let minus = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a - b).collect();
+        let error = measured.iter().zip(&q).map(minus).collect();
+        let times_s = store.steps().iter().map(|&step| clock.time_s(step)).collect();
+        Self { store, robot, clock, times_s, q, measured, error, setpoint }
+    }
+
+    pub(super) fn samples(&self) -> usize {
+        self.times_s.len()
+    }
+
+    /// Name of a movable joint.
+    pub(super) fn name(&self, coordinate: usize) -> String {
+        self.joint(coordinate).name.clone()
+    }
+
+    /// Unit of a coordinate.
+    pub(super) fn unit(&self, coordinate: usize) -> &'static str {
+        self.joint(coordinate).kind.unit()
+    }
+
+    fn joint(&self, coordinate: usize) -> &Joint {
+        self.robot.joint(self.robot.movable_joints()[coordinate])
+    }
+
+    /// Joints with an encoder and a drive of their own.
+    pub(super) fn independent_joints(&self) -> Vec<usize> {
+        (0..self.robot.dof()).filter(|&coordinate| self.joint(coordinate).mimic.is_none()).collect()
+    }
+
+    /// Times of a window: of its first sample, and of the one after its last if the run goes on.
+    pub(super) fn times(&self, window: Window) -> (f64, Option<f64>) {
+        (self.times_s[window.first], self.times_s.get(window.end).copied())
+    }
+
+    /// The same for a fault that shows only while one of some joints moves: if all of them rest after the window, its end
+    /// is not known.
+    pub(super) fn times_in_motion(&self, window: Window, joints: &[usize]) -> (f64, Option<f64>) {
+        let (from_s, until_s) = self.times(window);
+        let moves = |joint: &usize| spread(&self.q[*joint][window.end..]) > SLOW;
+        (from_s, until_s.filter(|_| joints.iter().any(moves)))
+    }
+
+    /// Number of samples before a joint first stands at a limit, or beyond it.
+    pub(super) fn samples_before_limit(&self, coordinate: usize) -> usize {
+        let Some((lower, upper)) = self.joint(coordinate).position_range() else { return self.samples() };
+        let q = &self.q[coordinate];
+        let is_free = |q: f64| q > lower + AT_LIMIT && q < upper - AT_LIMIT;
+        q.iter().position(|&q| !is_free(q)).unwrap_or(q.len())
+    }
+
+    /// Whether two kept samples follow each other in the run.
+    pub(super) fn are_consecutive(&self, first: usize, second: usize) -> bool {
+        let steps = self.store.steps();
+        steps[first] + 1 == steps[second]
+    }
+
+    /// The pose of a link in the frame in which it would stand on its parent: the identity for a sound twin. For a link
+    /// behind a moving joint, the position of the joint is `q`, or the one that the poses show.
+    pub(super) fn displacement(&self, link: usize, sample: usize, q: Option<&[f64]>) -> Isometry3<f64> {
+        let root_from_links = self.store.sample(sample).root_from_links;
+        let Some(index) = self.robot.link_indices().nth(link).and_then(|link| self.robot.parent_joint(link))
+        else {
+            return root_from_links[link];
+        };
+        let joint = self.robot.joint(index);
+        let motion = joint_motion(joint, root_from_links);
+        let q = self.robot.coordinate(index).map_or(0.0, |coordinate| match q {
+            Some(q) => q[coordinate],
+            None => self.q[coordinate][sample],
+        });
+        expected_motion(joint, q).inverse() * motion
+    }
+}
+
+/// Largest minus smallest value.
+pub(super) fn spread(values: &[f64]) -> f64 {
+    let (low, high) = values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)));
+    (high - low).max(0.0)
+}
+
+/// How the child of a joint stands in the joint's frame.
+fn joint_motion(joint: &Joint, root_from_links: &[Isometry3<f64>]) -> Isometry3<f64> {
+    let root_from_joint = root_from_links[joint.parent.get()] * joint.parent_from_joint;
+    root_from_joint.inverse() * root_from_links[joint.child.get()]
+}
+
+fn expected_motion(joint: &Joint, q: f64) -> Isometry3<f64> {
+    match joint.kind {
+        JointKind::Fixed => Isometry3::identity(),
+        JointKind::Prismatic => Translation3::from(joint.axis_in_joint.into_inner() * q).into(),
+        _ => Isometry3::from_parts(
+            Translation3::identity(),
+            UnitQuaternion::from_axis_angle(&joint.axis_in_joint, q),
+        ),
+    }
+}
+
+/// The position of a joint, an angle in (-pi, pi].
+fn shown(joint: &Joint, motion: &Isometry3<f64>) -> f64 {
+    let axis = joint.axis_in_joint;
+    match joint.kind {
+        JointKind::Prismatic => motion.translation.vector.dot(&axis),
+        _ => {
+            let half = motion.rotation.imag().dot(&axis).atan2(motion.rotation.scalar());
+            nearest_turn(2.0 * half, 0.0)
+        }
+    }
+}
+
+/// The angle that differs from this one by whole turns and is nearest to `near`.
+fn nearest_turn(angle: f64, near: f64) -> f64 {
+    angle + std::f64::consts::TAU * ((near - angle) / std::f64::consts::TAU).round()
+}
+
+/// Takes out jumps by whole turns: the first angle is the one nearest to `first`.
+fn unwind(angles: &mut [f64], first: f64) {
+    let mut before = first;
+    for angle in angles {
+        *angle = nearest_turn(*angle, before);
+        before = *angle;
+    }
+}

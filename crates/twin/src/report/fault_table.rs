@@ -1,0 +1,217 @@
+//! Faults against checks: which check sees which fault, after how long, and what the diagnosis says.
+
+use congruent_description::display::quantity;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::run_report::RunReport;
+use crate::{
+    diagnosis::RunDiagnosis,
+    fault::{Judgement, RunFault, judge},
+    scenario::CheckKind,
+    verdict::{CheckResult, Status, Verdict},
+};
+
+/// The runs of several scenarios, each with its faults or with none.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct FaultTable {
+    /// One row for each scenario.
+    pub rows: Vec<FaultRow>,
+    /// Every kind of check of these scenarios.
+    pub checks: Vec<CheckKind>,
+    /// Kinds of check that see none of the faults.
+    pub blind_checks: Vec<CheckKind>,
+    /// Scenarios with faults that no check sees.
+    pub unseen: Vec<String>,
+    /// Scenarios without faults in which a check fails or the diagnosis finds something.
+    pub false_alarms: Vec<String>,
+    /// Scenarios whose diagnosis is not right.
+    pub not_diagnosed: Vec<String>,
+    /// Scenarios whose simulation failed.
+    pub broken: Vec<String>,
+}
+
+/// One scenario.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct FaultRow {
+    /// Its name.
+    pub scenario: String,
+    /// Its robot.
+    pub robot: String,
+    /// The faults that are injected.
+    pub faults: Vec<RunFault>,
+    /// Every kind of check of this scenario.
+    pub checks: Vec<SeenBy>,
+    /// What the samples show to be wrong.
+    pub diagnosis: Option<RunDiagnosis>,
+    /// Whether that is right.
+    pub judgement: Judgement,
+}
+
+/// What one kind of check says.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct SeenBy {
+    /// The kind.
+    pub check: CheckKind,
+    /// Whether it failed.
+    pub fails: bool,
+    /// Time from the beginning of the first fault to the first violation.
+    pub after_s: Option<f64>,
+}
+
+impl FaultTable {
+    /// The table of these runs.
+    pub fn new(reports: &[RunReport]) -> Self {
+        let rows: Vec<FaultRow> = reports.iter().map(FaultRow::new).collect();
+        let mut checks: Vec<CheckKind> = Vec::new();
+        for seen in rows.iter().flat_map(|row| &row.checks) {
+            if !checks.contains(&seen.check) {
+                checks.push(seen.check);
+            }
+        }
+        let named = |is: &dyn Fn(&FaultRow) -> bool| -> Vec<String> {
+            rows.iter().filter(|row| is(row)).map(|row| row.scenario.clone()).collect()
+        };
+        let broken = reports.iter().filter(|report| report.verdict == Verdict::Broken);
+        let sees = |kind: CheckKind| {
+            let faulty = rows.iter().filter(|row| !row.faults.is_empty());
+            faulty.flat_map(|row| &row.checks).any(|seen| seen.check == kind && seen.fails)
+        };
+        Self {
+            blind_checks: checks.iter().copied().filter(|&kind| !sees(kind)).collect(),
+            unseen: named(&|row| !row.faults.is_empty() && !row.is_seen()),
+            false_alarms: named(&|row| row.faults.is_empty() && (row.is_seen() || row.diagnosis.is_some())),
+            not_diagnosed: named(&|row| !row.faults.is_empty() && row.judgement != Judgement::Right),
+            broken: broken.map(|report| report.scenario.clone()).collect(),
+            checks,
+            rows,
+        }
+    }
+
+    /// Whether every fault is seen and diagnosed, and nothing is seen without one.
+    pub fn is_sound(&self) -> bool {
+        [&self.unseen, &self.false_alarms, &self.not_diagnosed, &self.broken]
+            .iter()
+            .all(|names| names.is_empty())
+    }
+
+    /// What is not as it should be, in sentences.
+    pub fn remarks(&self) -> Vec<String> {
+        let remark = |names: Vec<&str>, what: &str| {
+            (!names.is_empty()).then(|| format!("{what}: {}", names.join(", ")))
+        };
+        let names = |names: &'_ [String]| names.to_vec();
+        let scenario = |found: &[String], what: &str| {
+            let found = names(found);
+            remark(found.iter().map(String::as_str).collect(), what)
+        };
+        let blind = self.blind_checks.iter().map(|kind| kind.word()).collect();
+        [
+            scenario(&self.broken, "the simulation failed"),
+            scenario(&self.unseen, "seen by no check"),
+            scenario(&self.false_alarms, "a check fails or the diagnosis finds something without a fault"),
+            scenario(&self.not_diagnosed, "the diagnosis is not right"),
+            remark(blind, "checks that see none of these faults"),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// The table for a document.
+    pub fn markdown(&self) -> String {
+        let words: Vec<&str> = self.checks.iter().map(|kind| kind.word()).collect();
+        let mut lines = vec![
+            format!("| scenario | injected | {} | diagnosis | right |", words.join(" | ")),
+            format!("|---|---|{}---|---|", "---|".repeat(words.len())),
+        ];
+        for row in &self.rows {
+            let checks: Vec<String> = self.checks.iter().map(|&kind| row.cell(kind)).collect();
+            lines.push(format!(
+                "| `{}` | {} | {} | {} | {} |",
+                row.scenario,
+                row.injected(),
+                checks.join(" | "),
+                row.diagnosed(),
+                row.judged()
+            ));
+        }
+        let remarks = self.remarks();
+        if !remarks.is_empty() {
+            lines.push(String::new());
+            lines.extend(remarks.iter().map(|remark| format!("- {remark}")));
+        }
+        lines.join("\n") + "\n"
+    }
+}
+
+impl FaultRow {
+    fn new(report: &RunReport) -> Self {
+        let begin_s = report.faults.iter().map(|fault| fault.from_s).fold(f64::INFINITY, f64::min);
+        let mut checks: Vec<SeenBy> = Vec::new();
+        for result in &report.checks {
+            let seen = seen_by(result, begin_s);
+            match checks.iter_mut().find(|known| known.check == seen.check) {
+                Some(known) if seen.fails && (!known.fails || seen.after_s < known.after_s) => *known = seen,
+                Some(_) => {}
+                None => checks.push(seen),
+            }
+        }
+        let found: Vec<RunFault> = report.diagnosis.iter().flat_map(RunDiagnosis::run_faults).collect();
+        Self {
+            scenario: report.scenario.clone(),
+            robot: report.robot.clone(),
+            faults: report.faults.clone(),
+            checks,
+            diagnosis: report.diagnosis.clone(),
+            judgement: judge(&report.faults, &found),
+        }
+    }
+
+    fn is_seen(&self) -> bool {
+        self.checks.iter().any(|seen| seen.fails)
+    }
+
+    /// What a check says of it: the time after which it sees the fault, or a dash.
+    pub fn cell(&self, kind: CheckKind) -> String {
+        match self.checks.iter().find(|seen| seen.check == kind) {
+            Some(SeenBy { fails: true, after_s, .. }) => {
+                after_s.map_or("fails".to_owned(), |after_s| quantity(after_s, "s"))
+            }
+            Some(_) => "-".to_owned(),
+            None => String::new(),
+        }
+    }
+
+    /// The injected faults.
+    pub fn injected(&self) -> String {
+        let sentences: Vec<String> = self.faults.iter().map(RunFault::sentence).collect();
+        if sentences.is_empty() { "nothing".to_owned() } else { sentences.join("; ") }
+    }
+
+    /// What the diagnosis says.
+    pub fn diagnosed(&self) -> String {
+        let sentences = self.diagnosis.as_ref().map(RunDiagnosis::sentences).unwrap_or_default();
+        if sentences.is_empty() { "nothing".to_owned() } else { sentences.join("; ") }
+    }
+
+    /// Whether it is right.
+    pub fn judged(&self) -> &'static str {
+        match self.judgement {
+            Judgement::Right => "yes",
+            Judgement::OtherValue => "another value",
+            Judgement::Wrong | Judgement::Nothing => "no",
+        }
+    }
+}
+
+fn seen_by(result: &CheckResult, begin_s: f64) -> SeenBy {
+    let violations = result.measures.iter().filter_map(|measure| measure.first_violation.as_ref());
+    let first_s = violations.map(|moment| moment.time_s).fold(f64::INFINITY, f64::min);
+    let after_s = first_s - begin_s;
+    SeenBy {
+        check: result.check,
+        fails: result.status == Status::Fail,
+        after_s: after_s.is_finite().then_some(after_s),
+    }
+}
