@@ -11,7 +11,7 @@ use super::{
 use crate::{
     bound,
     compare::{hidden, invariants::invariants, limits},
-    diagnosis::{FaultySide, Setting},
+    diagnosis::{Expected, FaultySide, Setting},
     side::{Inertial, Side},
     thresholds::{Precision, STATES},
     torque::{
@@ -91,7 +91,8 @@ pub fn compare(
         faulty: FaultySide::Candidate,
         precision: Precision::EXACT,
     };
-    let mut told = Told::new(&setting, candidate, &torque);
+    let expected = Expected { states: &states, torques: &expected };
+    let mut told = Told::new(&setting, candidate, &torque, expected)?;
     if !told.same && told.explanations.is_empty() {
         let sides = (candidate, reference.side);
         told.explanations = link_by_link(&setting, sides, &seen_as_candidate, &states)?;

@@ -6,7 +6,7 @@ use super::{
     told::{NamedSide, Told},
 };
 use crate::{
-    diagnosis::{FaultySide, Setting},
+    diagnosis::{Expected, FaultySide, Setting},
     thresholds::{Precision, STATES},
     torque::{
         compressed::Compressed,
@@ -45,7 +45,8 @@ pub fn compare_with_source(
         faulty: FaultySide::Reference,
         precision: Precision::ENGINE,
     };
-    let told = Told::new(&setting, candidate, &torque);
+    let expected = Expected { states: &states, torques: &torques };
+    let told = Told::new(&setting, candidate, &torque, expected)?;
     Ok(DynamicsReport {
         sides: Sides {
             candidate: candidate.name.to_owned(),

@@ -7,7 +7,7 @@ use super::{
     told::{NamedSide, Told},
 };
 use crate::{
-    diagnosis::Setting,
+    diagnosis::{Expected, Setting},
     side::Side,
     torque::{
         compressed::{Compressed, torques},
@@ -42,9 +42,10 @@ pub(super) fn link_by_link(
     }
     let mut explanations = Vec::new();
     for one in &corrected {
-        let torque = Compressed::new(side, states, &torques(one, states)?)?;
+        let expected = torques(one, states)?;
+        let torque = Compressed::new(side, states, &expected)?;
         let setting = Setting { reference: Some(one), ..*setting };
-        let told = Told::new(&setting, candidate, &torque);
+        let told = Told::new(&setting, candidate, &torque, Expected { states, torques: &expected })?;
         if told.explanations.is_empty() && !told.same {
             return Ok(Vec::new());
         }
