@@ -84,9 +84,9 @@ pub(crate) const PLACEHOLDER: f64 = 1e-9;
 /// Price of figures that the file does not have or that stand there as a placeholder, however many they are. Unit:
 /// free numbers; kind: choice, dearer than a slip and cheaper than any free number.
 pub(crate) const PRICE_OF_MISSING: f64 = 0.5;
-/// If every single explanation costs more, pairs are tried as well: six or ten free numbers of one link also explain a
+/// If every single explanation has more, pairs are tried as well: six or ten free numbers of one link also explain a
 /// fault there and one at the first link, of which torque shows one number. Unit: free numbers; kind: choice.
-pub(crate) const PAIRS_ABOVE: f64 = 3.0;
+pub(crate) const PAIRS_ABOVE: usize = 3;
 /// Price of each part beyond the first. Unit: free numbers; kind: choice.
 pub(crate) const PRICE_OF_PART: f64 = 1.0;
 

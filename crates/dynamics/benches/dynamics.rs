@@ -6,7 +6,7 @@ mod corpus;
 use std::path::PathBuf;
 
 use congruent_description::{RobotQ, load_robot};
-use congruent_dynamics::{BodyTree, DrivenState, JointMotion, Rollout};
+use congruent_dynamics::{BodyTree, DrivenState, JointMotion, JointMotions, Rollout};
 use divan::{Bencher, black_box};
 use nalgebra::DMatrix;
 
@@ -39,6 +39,22 @@ fn inverse(bencher: Bencher<'_, '_>) {
     let (mut buffer, mut tau) = (tree.buffer(), vec![0.0; tree.dof()]);
     bencher.bench_local(|| {
         tree.inverse_into(black_box(&JointMotion { q: &q, qd: &qd, qdd: &qdd }), &mut buffer, &mut tau)
+    });
+}
+
+/// The time of one batch; divided by its samples, `items` is that of one.
+#[divan::bench(args = [8, 1024])]
+fn inverse_many(bencher: Bencher<'_, '_>, samples: usize) {
+    let tree = iiwa();
+    let many = |phase: f64| -> Vec<f64> {
+        let phases = (0_u32..).map(|sample| phase + 0.01 * f64::from(sample)).take(samples);
+        phases.flat_map(|phase| values(&tree, phase)).collect()
+    };
+    let (q, qd, qdd) = (many(0.3), many(0.4), many(0.5));
+    let (mut buffer, mut tau) = (tree.batch_buffer(), vec![0.0; samples * tree.dof()]);
+    bencher.counter(divan::counter::ItemsCount::new(samples)).bench_local(|| {
+        let motions = JointMotions { q: &q, qd: &qd, qdd: &qdd };
+        tree.inverse_many_into(black_box(&motions), &mut buffer, &mut tau)
     });
 }
 

@@ -4,6 +4,7 @@
 //! | question | call |
 //! |---|---|
 //! | torques of a motion | [`BodyTree::inverse_into`], [`BodyTree::gravity_into`], [`BodyTree::bias_into`] |
+//! | torques of many motions at once | [`BodyTree::inverse_many_into`] |
 //! | mass matrix | [`BodyTree::mass_matrix_into`] |
 //! | accelerations under torques | [`BodyTree::forward_into`] |
 //! | energies, momentum | [`BodyTree::energy`], [`BodyTree::momentum_in_root`] |
@@ -20,6 +21,7 @@ mod energy;
 mod error;
 mod forward;
 mod inverse;
+mod inverse_batch;
 mod joint_dynamics;
 mod mass_matrix;
 mod parameters;
@@ -31,6 +33,7 @@ pub use buffer::DynamicsBuffer;
 pub use energy::Energy;
 pub use error::DynamicsError;
 pub use forward::DrivenState;
+pub use inverse_batch::{BatchBuffer, JointMotions};
 pub use joint_dynamics::{JointDynamics, JointDynamicsError, TreeDynamics};
 pub use parameters::{BaseParameter, BaseParameters, InertialParameter};
 pub use rollout::{Rollout, RolloutState};

@@ -4,7 +4,7 @@
 mod corpus;
 
 use congruent_description::{Robot, RobotQ, load_robot};
-use congruent_dynamics::{BodyTree, DrivenState, JointMotion, JointResistance, Rollout};
+use congruent_dynamics::{BodyTree, DrivenState, JointMotion, JointMotions, JointResistance, Rollout};
 use congruent_kinematics::{JacobianKind, UrdfTree, random_configurations};
 use nalgebra::{DMatrix, DVector, Vector3};
 
@@ -81,6 +81,43 @@ fn forward_undoes_inverse() {
         tree.forward_into(&state, &mut tree.buffer(), &mut found).unwrap();
         assert_near(name, &found, qdd);
     });
+}
+
+/// Full groups, the rest of a group, and none; no joint of the project's robots is left out.
+#[test]
+fn a_batch_is_its_motions_one_by_one() {
+    for name in ROBOTS {
+        let robot = load(name);
+        let tree = resisting(&robot).with_gravity(Vector3::new(1.0, -2.0, -9.0));
+        let n = tree.dof();
+        let mut buffer = tree.batch_buffer();
+        for count in [0, 1, 8, 19] {
+            let q: Vec<f64> =
+                random_configurations(&robot, 7, count).iter().flat_map(|q| q.to_vec()).collect();
+            let (mut qd, qdd) = (values(n * count, 3), values(n * count, 4));
+            qd.iter_mut().step_by(5).for_each(|qd| *qd = 0.0);
+            let mut tau = vec![f64::NAN; n * count];
+            let motions = JointMotions { q: &q, qd: &qd, qdd: &qdd };
+            tree.inverse_many_into(&motions, &mut buffer, &mut tau).expect("lengths agree");
+            for sample in 0..count {
+                let of = |all: &[f64]| all[sample * n..][..n].to_vec();
+                let alone = inverse(&tree, &RobotQ::from(of(&q)), [&of(&qd), &of(&qdd)]);
+                assert_near(name, &of(&tau), &alone);
+            }
+        }
+    }
+    let tree = BodyTree::new(&load("ur5e"));
+    let six = [0.0; 6];
+    let refused = |q: &[f64], tau: &mut [f64]| {
+        let motions = JointMotions { q, qd: &six, qdd: &six };
+        tree.inverse_many_into(&motions, &mut tree.batch_buffer(), tau).is_err()
+    };
+    assert!(
+        refused(&six[..5], &mut [0.0; 6]) && refused(&six, &mut [0.0; 7]) && refused(&six, &mut [0.0; 12])
+    );
+    let motions = JointMotions { q: &six, qd: &six, qdd: &six };
+    let mut of_another = BodyTree::new(&load("panda")).batch_buffer();
+    assert!(tree.inverse_many_into(&motions, &mut of_another, &mut [0.0; 6]).is_err());
 }
 
 #[test]

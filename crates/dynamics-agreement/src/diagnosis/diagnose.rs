@@ -1,5 +1,7 @@
 //! The explanations of a difference, in order.
 
+use congruent_dynamics::DynamicsError;
+
 use super::{
     fit::Target,
     hypothesis::FaultySide,
@@ -10,7 +12,7 @@ use super::{
 use crate::{
     side::Side,
     thresholds::{PAIRS_ABOVE, Precision},
-    torque::compressed::Compressed,
+    torque::{compressed::Compressed, states::State},
 };
 
 /// Whose figures are taken to be wrong, and what is known.
@@ -44,11 +46,47 @@ pub(crate) struct Grouped {
     pub(crate) reason: Option<EquivalenceReason>,
 }
 
-/// Most pairs that are kept. Kind: choice; more of them say no more.
-const MOST_PAIRS: usize = 40;
+/// Most explanations that are kept. Kind: choice; more of them say no more.
+const MOST_EXPLANATIONS: usize = 40;
 
-/// Finds what explains a difference of torque.
-pub(crate) fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed {
+/// Torques of a reference at some states.
+#[derive(Clone, Copy)]
+pub(crate) struct Expected<'a> {
+    pub(crate) states: &'a [State],
+    pub(crate) torques: &'a [Vec<f64>],
+}
+
+/// Finds what explains a difference of torque. Beside a figure that is a thousand million times too large any other
+/// fault is rounding: what is left after the correction of the first is looked at again.
+pub(crate) fn diagnose_in_stages(
+    setting: &Setting<'_>,
+    torque: &Compressed,
+    expected: Expected<'_>,
+) -> Result<Diagnosed, DynamicsError> {
+    let mut first = diagnose(setting, torque);
+    let Some(named) = first.explanations.first().map(|grouped| grouped.named.clone()) else {
+        return Ok(first);
+    };
+    let corrected = named.corrected.side(setting.candidate);
+    let rest = Compressed::new(&corrected, expected.states, expected.torques)?;
+    let second = diagnose(&Setting { candidate: &corrected, ..*setting }, &rest);
+    if second.same || second.explanations.is_empty() {
+        return Ok(first);
+    }
+    let both = second.explanations.into_iter().flat_map(|grouped| {
+        std::iter::once(grouped.named).chain(grouped.also).map(|other| {
+            let parts = named.parts.iter().cloned().chain(other.parts).collect();
+            Exact::new(parts, setting.candidate, setting.reference)
+        })
+    });
+    let mut both: Vec<Exact> = both.collect();
+    sort(&mut both);
+    first.explanations = grouped(setting.candidate, torque, both);
+    Ok(first)
+}
+
+/// The same in one stage.
+fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed {
     let size = torque.difference.norm().hypot(torque.outside);
     let exact = setting.precision.exact(size, torque.torques);
     let target = Target { side: setting.candidate, torque, exact };
@@ -62,12 +100,8 @@ pub(crate) fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed 
     let exactly = |parts| Exact::new(parts, setting.candidate, setting.reference);
     let mut found: Vec<Exact> =
         catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit])).collect();
-    if found.iter().all(|exact| exact.price > PAIRS_ABOVE) {
-        let mut pairs: Vec<Exact> =
-            catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into())).collect();
-        sort(&mut pairs);
-        pairs.truncate(MOST_PAIRS);
-        found.extend(pairs);
+    if found.iter().all(|exact| exact.free_numbers() > PAIRS_ABOVE) {
+        found.extend(catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into())));
     }
     sort(&mut found);
     Diagnosed { same: false, links, explanations: grouped(setting.candidate, torque, found) }
@@ -83,6 +117,9 @@ fn grouped(side: &Side, torque: &Compressed, found: Vec<Exact>) -> Vec<Grouped> 
     for exact in found {
         if let Some(group) = groups.iter_mut().find(|group| group.named.has_figures_of(&exact, side)) {
             group.also.push(exact);
+            continue;
+        }
+        if groups.len() == MOST_EXPLANATIONS {
             continue;
         }
         let reason =

@@ -5,7 +5,7 @@ use congruent_kinematics::rotation_exp;
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 
 use super::{
-    free::Free,
+    free::{ENTRIES, Free},
     hypothesis::{Change, Hypothesis},
 };
 use crate::{
@@ -20,6 +20,21 @@ pub(crate) struct Corrected {
     pub(crate) links: Vec<(usize, Inertial)>,
     pub(crate) joints: Option<Vec<JointResistance>>,
     pub(crate) gravity: Option<Vector3<f64>>,
+}
+
+impl Corrected {
+    /// A side with the correction.
+    pub(crate) fn side(&self, side: &Side) -> Side {
+        let mut corrected = side.clone();
+        for (link, figures) in &self.links {
+            corrected.inertials[*link] = Some(*figures);
+        }
+        if let Some(joints) = &self.joints {
+            corrected.resistances.clone_from(joints);
+        }
+        corrected.gravity_m_s2 = self.gravity.unwrap_or(side.gravity_m_s2);
+        corrected
+    }
 }
 
 /// A hypothesis that leaves nothing.
@@ -98,11 +113,17 @@ impl Target<'_> {
     fn free_link(&self, link: usize, from: &Inertial, free: Free) -> Option<Effect> {
         let block = self.torque.link(link)?;
         let target = &self.torque.difference - self.of_figures(link, from)?;
-        let best = self
+        let ends = self
             .starts(block, &target, from, free)
             .into_iter()
-            .map(|(free, start)| (free, self.descend(block, &target, (from, free), start)))
-            .min_by(|(_, a), (_, b)| a.left.total_cmp(&b.left));
+            .map(|(free, start)| (free, self.descend(block, &target, (from, free), start)));
+        // What torque does not show may be that of a body as well as anything else.
+        let is_no_body = |(free, end): &(Free, Descent)| {
+            let is_exact = end.left.hypot(self.torque.outside) <= self.exact;
+            !is_exact
+                || free.figures(from, end.unknowns.as_slice()).law_broken(self.side.frames.reach_m).is_some()
+        };
+        let best = ends.min_by(|a, b| is_no_body(a).cmp(&is_no_body(b)).then(a.1.left.total_cmp(&b.1.left)));
         let (free, end) = best?;
         let figures = free.figures(from, end.unknowns.as_slice());
         let numbers = free.about_origin(from, end.unknowns.as_slice()).parameters();
@@ -147,8 +168,27 @@ impl Target<'_> {
                 let shifted = |by_m: f64| (free, DVector::repeat(free.count(), by_m));
                 vec![(free, zeros), shifted(COM_START_M), shifted(-COM_START_M)]
             }
+            Free::Inertia | Free::Inertial => {
+                let ball = self.ball(from, &linear(free).unknowns, free);
+                vec![(free, zeros), (free, ball)]
+            }
             _ => vec![(free, zeros)],
         }
+    }
+
+    /// Free numbers that make a link a ball with the largest moment of a fit: of few numbers that torque shows the
+    /// shortest fit is seldom a body.
+    fn ball(&self, from: &Inertial, fitted: &DVector<f64>, free: Free) -> DVector<f64> {
+        let moment = free.about_origin(from, fitted.as_slice()).tensor_kg_m2.amax();
+        let mut ball = Inertial { tensor_kg_m2: Matrix3::from_diagonal_element(moment), ..*from };
+        if ball.mass_kg <= 0.0 {
+            ball.mass_kg = BALL_DENSITY * moment;
+        }
+        let of = |figures: &Inertial| match free {
+            Free::Inertial => figures.ten_numbers().iter().copied().collect::<Vec<f64>>(),
+            _ => ENTRIES.map(|entry| figures.tensor_kg_m2[entry]).to_vec(),
+        };
+        DVector::from_vec(of(&ball)) - DVector::from_vec(of(from))
     }
 
     /// Steps of Gauss and Newton; what nothing shows stays.
@@ -233,6 +273,9 @@ impl Target<'_> {
         Effect { corrected, torque: columns * solution.unknowns, rank: solution.rank }
     }
 }
+
+/// Mass of a ball for a unit of its moment, 1/m^2. Kind: choice; a radius of gyration of 0.1 m.
+const BALL_DENSITY: f64 = 100.0;
 
 /// Turns that lie square to nothing: a tensor that is turned onto its own axes changes no moment at first.
 const SKEW_STARTS_RAD: [[f64; 3]; 2] = [[0.5, 0.4, 0.3], [-0.4, 0.5, -0.3]];

@@ -1,6 +1,6 @@
 //! Why two sides have other torques.
 //!
-//! [`diagnose`] tries the hypotheses of `cause/` (one file a family) on the compressed difference of torque (`fit.rs`,
+//! [`diagnose_in_stages`] tries the hypotheses of `cause/` (one file a family) on the compressed difference of torque (`fit.rs`,
 //! `search.rs`), orders those that leave nothing by what they cost (`rank.rs`), and says of the others why torque cannot
 //! tell them from the first (`reason.rs`).
 
@@ -15,7 +15,7 @@ mod reason;
 mod search;
 
 pub use cause_names::DynamicsCause;
-pub(crate) use diagnose::{Grouped, Setting, diagnose};
+pub(crate) use diagnose::{Expected, Grouped, Setting, diagnose_in_stages};
 pub(crate) use fit::Corrected;
 pub use hypothesis::FaultySide;
 pub(crate) use hypothesis::Place;

@@ -46,6 +46,11 @@ impl Exact {
         Self { parts, corrected, law_broken, contradicted, price }
     }
 
+    /// Free numbers that torque shows, those that the file lacks among them.
+    pub(super) fn free_numbers(&self) -> usize {
+        self.parts.iter().map(|part| part.rank).sum()
+    }
+
     /// The left norm, of the part that was fitted last.
     pub(crate) fn left(&self) -> f64 {
         self.parts.last().map_or(0.0, |part| part.left)

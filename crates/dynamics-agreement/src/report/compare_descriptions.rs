@@ -12,7 +12,7 @@ use super::{
 use crate::{
     bound,
     compare::{hidden, invariants::invariants, limits},
-    diagnosis::{FaultySide, Setting},
+    diagnosis::{Expected, FaultySide, Setting},
     side::{Inertial, Side},
     thresholds::{Precision, STATES},
     torque::{
@@ -93,7 +93,8 @@ pub fn compare(
         precision: Precision::EXACT,
     };
     let files = Files { found: candidate.places, expected: reference.places };
-    let mut told = Told::new(&setting, files, &torque);
+    let expected = Expected { states: &states, torques: &expected };
+    let mut told = Told::new(&setting, files, &torque, expected)?;
     if !told.same && told.explanations.is_empty() {
         told.explanations = link_by_link(&setting, files, (reference.side, &seen_as_candidate), &states)?;
     }

@@ -7,7 +7,7 @@ use super::{
     told::{NamedSide, Told},
 };
 use crate::{
-    diagnosis::{FaultySide, Setting},
+    diagnosis::{Expected, FaultySide, Setting},
     thresholds::{Precision, STATES},
     torque::{
         compressed::Compressed,
@@ -46,7 +46,9 @@ pub fn compare_with_source(
         faulty: FaultySide::Reference,
         precision: Precision::ENGINE,
     };
-    let told = Told::new(&setting, Files { found: candidate.places, expected: None }, &torque);
+    let expected = Expected { states: &states, torques: &torques };
+    let files = Files { found: candidate.places, expected: None };
+    let told = Told::new(&setting, files, &torque, expected)?;
     Ok(DynamicsReport {
         sides: Sides {
             candidate: candidate.name.to_owned(),

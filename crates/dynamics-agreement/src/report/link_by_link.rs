@@ -4,7 +4,7 @@ use congruent_dynamics::DynamicsError;
 
 use super::{content::DynamicsExplanation, places::Files, told::Told};
 use crate::{
-    diagnosis::Setting,
+    diagnosis::{Expected, Setting},
     side::Side,
     torque::{
         compressed::{Compressed, torques},
@@ -39,9 +39,10 @@ pub(super) fn link_by_link(
     }
     let mut explanations = Vec::new();
     for one in &corrected {
-        let torque = Compressed::new(side, states, &torques(one, states)?)?;
+        let expected = torques(one, states)?;
+        let torque = Compressed::new(side, states, &expected)?;
         let setting = Setting { reference: Some(one), ..*setting };
-        let told = Told::new(&setting, files, &torque);
+        let told = Told::new(&setting, files, &torque, Expected { states, torques: &expected })?;
         if told.explanations.is_empty() && !told.same {
             return Ok(Vec::new());
         }

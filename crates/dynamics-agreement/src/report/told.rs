@@ -1,12 +1,14 @@
 //! A diagnosis in names.
 
+use congruent_dynamics::DynamicsError;
+
 use super::{
     content::{DynamicsExplanation, DynamicsVerdict},
     explained::Teller,
     places::{FigurePlaces, Files},
 };
 use crate::{
-    diagnosis::{Setting, diagnose},
+    diagnosis::{Expected, Setting, diagnose_in_stages},
     side::Side,
     torque::compressed::Compressed,
 };
@@ -40,8 +42,13 @@ impl Told {
         }
     }
 
-    pub(super) fn new(setting: &Setting<'_>, files: Files<'_>, torque: &Compressed) -> Self {
-        let diagnosed = diagnose(setting, torque);
+    pub(super) fn new(
+        setting: &Setting<'_>,
+        files: Files<'_>,
+        torque: &Compressed,
+        expected: Expected<'_>,
+    ) -> Result<Self, DynamicsError> {
+        let diagnosed = diagnose_in_stages(setting, torque, expected)?;
         let difference = torque.difference.norm().hypot(torque.outside);
         let teller = Teller {
             candidate: setting.candidate,
@@ -55,11 +62,11 @@ impl Told {
         let mut explained = diagnosed.explanations.iter().map(|grouped| teller.explanation(grouped));
         let explanations = explained.by_ref().take(1).collect();
         let name = |&link: &usize| setting.candidate.frames.link_name(link).to_owned();
-        Self {
+        Ok(Self {
             same: diagnosed.same,
             links: diagnosed.links.iter().map(name).collect(),
             explanations,
             indistinguishable: explained.collect(),
-        }
+        })
     }
 }

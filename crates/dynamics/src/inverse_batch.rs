@@ -1,0 +1,251 @@
+//! Inverse dynamics of many samples at once: the steps of `inverse.rs` taken by several samples side by side, in the
+//! widest vector instructions that the machine has.
+
+#![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
+
+use congruent_kinematics::SinCos;
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::{
+    algebra::lanes::{LANES, LaneVector, Lanes, lanes},
+    body_tree::{BodyTree, TreeBody},
+    error::DynamicsError,
+    spatial_inertia::SpatialInertia,
+};
+
+/// Motions of many samples, one sample after another.
+///
+/// | field | shape | unit |
+/// |---|---|---|
+/// | `q` | m x dof | rad, m |
+/// | `qd` | m x dof | rad/s, m/s |
+/// | `qdd` | m x dof | rad/s^2, m/s^2 |
+#[derive(Debug, Clone, Copy)]
+pub struct JointMotions<'a> {
+    /// Positions.
+    pub q: &'a [f64],
+    /// Speeds.
+    pub qd: &'a [f64],
+    /// Accelerations.
+    pub qdd: &'a [f64],
+}
+
+/// Intermediate values of a batch: [`BodyTree::batch_buffer`] makes it, and no call allocates after that.
+#[derive(Debug, Clone)]
+pub struct BatchBuffer {
+    bodies: Vec<BodyLanes>,
+}
+
+/// What is known of one body in all lanes.
+#[derive(Debug, Clone, Copy)]
+struct BodyLanes {
+    sin: Lanes,
+    cos: Lanes,
+    /// In the parent's frame.
+    origin: LaneVector,
+    motion: MotionLanes,
+    moment: LaneVector,
+    force: LaneVector,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct MotionLanes {
+    angular_velocity: LaneVector,
+    angular: LaneVector,
+    linear: LaneVector,
+}
+
+impl BodyLanes {
+    const NONE: Self = Self {
+        sin: [0.0; LANES],
+        cos: [1.0; LANES],
+        origin: LaneVector::ZERO,
+        motion: MotionLanes {
+            angular_velocity: LaneVector::ZERO,
+            angular: LaneVector::ZERO,
+            linear: LaneVector::ZERO,
+        },
+        moment: LaneVector::ZERO,
+        force: LaneVector::ZERO,
+    };
+}
+
+impl BodyTree {
+    /// A buffer for batches of this robot.
+    pub fn batch_buffer(&self) -> BatchBuffer {
+        BatchBuffer { bodies: vec![BodyLanes::NONE; self.dof()] }
+    }
+
+    /// Torques of many motions, as [`BodyTree::inverse_into`] gives them one by one, to rounding.
+    ///
+    /// | value | shape | unit |
+    /// |---|---|---|
+    /// | `motions` | m x dof each, one sample after another | rad, m and s |
+    /// | `tau` | m x dof | N m, N |
+    ///
+    /// # Errors
+    /// [`DynamicsError::Length`] if the vectors do not hold as many numbers as `tau`, if these are not a number for each
+    /// moving joint of each sample, or if the buffer is another robot's.
+    pub fn inverse_many_into(
+        &self,
+        motions: &JointMotions<'_>,
+        buffer: &mut BatchBuffer,
+        tau: &mut [f64],
+    ) -> Result<(), DynamicsError> {
+        let n = self.dof();
+        if buffer.bodies.len() != n {
+            let found = buffer.bodies.len();
+            return Err(DynamicsError::Length { what: "buffer", expected: n, found });
+        }
+        let expected = tau.len().checked_div(n).unwrap_or(0) * n;
+        DynamicsError::check("torques", expected, tau)?;
+        DynamicsError::check("positions", expected, motions.q)?;
+        DynamicsError::check("speeds", expected, motions.qd)?;
+        DynamicsError::check("accelerations", expected, motions.qdd)?;
+        Arch::new().dispatch(Batch { tree: self, motions, buffer, tau });
+        Ok(())
+    }
+}
+
+/// All samples, in the widest vectors that the machine has.
+struct Batch<'a> {
+    tree: &'a BodyTree,
+    motions: &'a JointMotions<'a>,
+    buffer: &'a mut BatchBuffer,
+    tau: &'a mut [f64],
+}
+
+impl WithSimd for Batch<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { tree, motions, buffer, tau } = self;
+        let n = tree.dof();
+        if n == 0 {
+            return;
+        }
+        for (group, tau) in tau.chunks_mut(n * LANES).enumerate() {
+            let samples = tau.len() / n;
+            let first = group * LANES * n;
+            let group = Group { tree, samples, first, bodies: &mut buffer.bodies };
+            group.run(motions, tau);
+        }
+    }
+}
+
+/// Samples that fill the lanes, or fewer: the rest of the lanes repeats the first one.
+struct Group<'a> {
+    tree: &'a BodyTree,
+    samples: usize,
+    first: usize,
+    bodies: &'a mut [BodyLanes],
+}
+
+impl Group<'_> {
+    #[inline(always)]
+    fn of_joint(&self, numbers: &[f64], joint: usize) -> Lanes {
+        let n = self.tree.dof();
+        let numbers = &numbers[self.first..][..self.samples * n];
+        lanes(|lane| numbers[if lane < self.samples { lane * n } else { 0 } + joint])
+    }
+
+    #[inline(always)]
+    fn run(mut self, motions: &JointMotions<'_>, tau: &mut [f64]) {
+        for joint in 0..self.tree.dof() {
+            self.carry(joint, motions);
+        }
+        for joint in (0..self.tree.dof()).rev() {
+            self.take_up(joint, motions, tau);
+        }
+    }
+
+    /// Outwards: the motion of a body from its parent's, and the wrench that it takes.
+    #[inline(always)]
+    fn carry(&mut self, joint: usize, motions: &JointMotions<'_>) {
+        let body = &self.tree.bodies[joint];
+        let [q, qd, qdd] = [motions.q, motions.qd, motions.qdd].map(|of| self.of_joint(of, joint));
+        let parent = body.parent.map_or_else(
+            || MotionLanes { linear: LaneVector::of(&-self.tree.gravity_in_root), ..BodyLanes::NONE.motion },
+            |parent| self.bodies[parent].motion,
+        );
+        let lanes = &mut self.bodies[joint];
+        lanes.place(body, &q);
+        lanes.motion = lanes.carried(body, &parent, (&qd, &qdd));
+        (lanes.moment, lanes.force) = wrench(&body.spatial_inertia, &lanes.motion);
+    }
+
+    /// Inwards: the torque of a joint, and what its body asks of the parent.
+    #[inline(always)]
+    fn take_up(&mut self, joint: usize, motions: &JointMotions<'_>, tau: &mut [f64]) {
+        let (n, body) = (self.tree.dof(), &self.tree.bodies[joint]);
+        let resistance = &self.tree.resistances[joint];
+        let BodyLanes { sin, cos, origin, moment, force, .. } = self.bodies[joint];
+        let along = if body.frame.turns { &moment.0[2] } else { &force.0[2] };
+        let [qd, qdd] = [motions.qd, motions.qdd].map(|of| self.of_joint(of, joint));
+        for (sample, tau) in tau.chunks_exact_mut(n).enumerate() {
+            tau[joint] =
+                along[sample] + resistance.against_speed(qd[sample]) + resistance.armature * qdd[sample];
+        }
+        let Some(parent) = body.parent else { return };
+        let in_parent =
+            |v: &LaneVector| v.turned_about_z(&sin, &cos).turned_by(&body.parent_from_body.rotation);
+        let force = in_parent(&force);
+        let parent = &mut self.bodies[parent];
+        parent.moment = parent.moment + in_parent(&moment) + origin.cross(&force);
+        parent.force = parent.force + force;
+    }
+}
+
+impl BodyLanes {
+    #[inline(always)]
+    fn place(&mut self, body: &TreeBody, q: &Lanes) {
+        let origin = &body.parent_from_body.translation;
+        if body.frame.turns {
+            let mut turns = [SinCos { sin: 0.0, cos: 1.0 }; LANES];
+            SinCos::of_many_into(q, &mut turns);
+            self.sin = turns.map(|turn| turn.sin);
+            self.cos = turns.map(|turn| turn.cos);
+            self.origin = LaneVector::of(origin);
+        } else {
+            let axis = body.parent_from_body.rotation.column(2);
+            let along = |entry: usize| lanes(|lane| origin[entry] + axis[entry] * q[lane]);
+            self.origin = LaneVector([along(0), along(1), along(2)]);
+        }
+    }
+
+    /// Source: Luh, Walker, Paul (1980), with the acceleration of the point at the frame's origin.
+    #[inline(always)]
+    fn carried(&self, body: &TreeBody, parent: &MotionLanes, (qd, qdd): (&Lanes, &Lanes)) -> MotionLanes {
+        let turning = parent.angular_velocity;
+        let linear =
+            parent.linear + parent.angular.cross(&self.origin) + turning.cross(&turning.cross(&self.origin));
+        let minus_sin = self.sin.map(|sin| -sin);
+        let inverse = body.parent_from_body.rotation.transpose();
+        let to_body = |v: &LaneVector| v.turned_by(&inverse).turned_about_z(&minus_sin, &self.cos);
+        let mut angular_velocity = to_body(&turning);
+        let (mut angular, mut linear) = (to_body(&parent.angular), to_body(&linear));
+        // The angular velocity times the joint's own motion, which is along z.
+        let [x, y, _] = &angular_velocity.0;
+        let crossed =
+            LaneVector([lanes(|lane| y[lane] * qd[lane]), lanes(|lane| -x[lane] * qd[lane]), [0.0; LANES]]);
+        if body.frame.turns {
+            angular = (angular + crossed).plus_z(qdd);
+            angular_velocity = angular_velocity.plus_z(qd);
+        } else {
+            linear = (linear + crossed.times(2.0)).plus_z(qdd);
+        }
+        MotionLanes { angular_velocity, angular, linear }
+    }
+}
+
+/// The moment and the force that make a body move so.
+#[inline(always)]
+fn wrench(inertia: &SpatialInertia, motion: &MotionLanes) -> (LaneVector, LaneVector) {
+    let MotionLanes { angular_velocity: turning, angular, linear } = motion;
+    let h = LaneVector::of(&inertia.first_moment_kg_m);
+    let tensor = &inertia.tensor_kg_m2;
+    let moment = angular.turned_by(tensor) + h.cross(linear) + turning.cross(&turning.turned_by(tensor));
+    let force = linear.times(inertia.mass_kg) - h.cross(angular) + turning.cross(&turning.cross(&h));
+    (moment, force)
+}
