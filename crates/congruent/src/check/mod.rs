@@ -5,10 +5,12 @@ mod declared;
 mod physics;
 mod suite;
 
+use std::sync::Arc;
+
 use congruent_agreement::compare::{Agreement, CheckError, CheckOptions, CheckReport, NotAsked};
 use congruent_description::{Diagnostic, Finding, RobotDescription};
 use congruent_dynamics_agreement::{
-    CompareError, DynamicsReport, FigurePlaces, NamedSide, Side, certify, compare,
+    CompareError, DynamicsReport, FigurePlaces, Frames, NamedSide, Side, certify, compare,
 };
 use congruent_kinematics::LinkPoses;
 use schemars::JsonSchema;
@@ -139,9 +141,16 @@ fn two_descriptions(
     Ok(report)
 }
 
-/// What the URDF of a description says.
+/// What the URDF of a description says; a figure may be mistaken for one in a frame of the table.
 fn urdf_side(description: &RobotDescription) -> Side {
-    Side::new(&description.robot)
+    let robot = &description.robot;
+    let mut frames = Frames::new(robot);
+    for (row, (link, link_from_dh)) in (1..).zip(declared::link_from_dh_frames(description)) {
+        let mut link_from_frame = vec![None; robot.links().len()];
+        link_from_frame[link] = Some(link_from_dh);
+        frames = frames.with_other_frame(&format!("dh{row}"), link_from_frame);
+    }
+    Side::with_frames(robot, Arc::new(frames))
 }
 
 /// Where the URDF of a description says figures.
