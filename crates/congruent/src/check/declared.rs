@@ -4,18 +4,18 @@ use std::ops::Range;
 
 use congruent_description::{
     DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces, InertialPoint, Robot,
-    RobotDescription, RobotQ, SourceFile, TextEdit,
+    RobotDescription, SourceFile, TextEdit,
 };
 use congruent_dynamics::JointResistance;
 use congruent_dynamics_agreement::{
     CompareError, DynamicsExplanation, DynamicsReport, FigurePlaces, Inertial, NamedSide, Side,
 };
-use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree};
+use congruent_kinematics::Pose;
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{two_descriptions, urdf_places, urdf_side};
+use super::sides::{AtZero, two_descriptions, urdf_places, urdf_side};
 
 /// The dynamics that the robot file declares beside the URDF.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
@@ -105,42 +105,6 @@ fn not_declared(declared: &DeclaredDynamics, robot: &Robot) -> Vec<String> {
         declared.gravity_in_base_m_s2.is_none().then(|| "gravity".to_owned()),
     ];
     left_out.into_iter().flatten().collect()
-}
-
-/// Links and frames of the table, joints at zero.
-struct AtZero {
-    root_from_links: Vec<Pose>,
-    root_from_base: Pose,
-    /// Empty without a table.
-    base_from_dh: Vec<Pose>,
-}
-
-impl AtZero {
-    fn new(description: &RobotDescription) -> Result<Self, KinematicsError> {
-        let robot = &description.robot;
-        let zero = RobotQ::zeros(robot.dof());
-        let mut root_from_links = vec![Pose::identity(); robot.links().len()];
-        UrdfTree::new(robot).root_from_links_into(&zero, &mut root_from_links)?;
-        let mut base_from_dh = Vec::new();
-        if let Some(table) = &description.dh {
-            let chain = DhChain::new(table, robot);
-            base_from_dh.resize(chain.joint_count() + 1, Pose::identity());
-            chain.dh_frames_into(&zero, &mut base_from_dh)?;
-        }
-        let root_from_base = root_from_links[description.base.get()];
-        Ok(Self { root_from_links, root_from_base, base_from_dh })
-    }
-
-    fn link_from_dh(&self, link: usize, frame: usize) -> Pose {
-        self.root_from_links[link].inverse() * self.root_from_base * self.base_from_dh[frame]
-    }
-}
-
-/// For each row of the table the link of its joint, by number, and the row's frame in it; empty without a table.
-pub(super) fn link_from_dh_frames(description: &RobotDescription) -> Vec<(usize, Pose)> {
-    let (Some(table), Ok(zero)) = (&description.dh, AtZero::new(description)) else { return Vec::new() };
-    let links = table.rows.iter().map(|row| description.robot.joint(row.joint).child.get());
-    (1..).zip(links).map(|(frame, link)| (link, zero.link_from_dh(link, frame))).collect()
 }
 
 /// A declared body in the frame of the link that its joint carries.
