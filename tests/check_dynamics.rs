@@ -256,6 +256,16 @@ fn a_centre_of_mass_in_the_tables_frame_is_named() {
 }
 
 #[test]
+fn masses_in_frames_of_a_wrong_table_are_not_compared() {
+    let robot = Copy::of("ur5e");
+    let file = fs::read_to_string(robot.robot_file()).unwrap();
+    fs::write(robot.robot_file(), file.replacen("d_m = 0.0997", "d_m = 0.1027", 1)).unwrap();
+    let report = robot.against_declared().json();
+    assert_eq!(report["dynamics"]["sides"]["reference"], "physics");
+    assert_eq!(report["not_asked"][0]["source"], "declared_dynamics", "{report:#}");
+}
+
+#[test]
 fn gravity_in_another_direction() {
     let gravity = |value: &str| format!("[dynamics]\ngravity_m_s2 = {value}");
     declared("[dynamics]", &gravity("[0, -9.81, 0]"), ("gravity_direction", "gravity"), "gravity_m_s2");

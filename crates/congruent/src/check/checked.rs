@@ -1,7 +1,10 @@
 //! The geometry of a robot's sources, then its dynamics.
 
-use congruent_agreement::compare::{Agreement, CheckError, CheckOptions, NotAsked};
-use congruent_description::{Diagnostic, Finding, RobotDescription};
+use congruent_agreement::{
+    SourcePair,
+    compare::{Agreement, CheckError, CheckOptions, CheckReport, NotAsked},
+};
+use congruent_description::{DeclaredDynamics, Diagnostic, Finding, InertialFrame, RobotDescription};
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_kinematics::LinkPoses;
 
@@ -51,13 +54,15 @@ fn checked(
     };
     let mut declared_dynamics = None;
     if let Some(declared) = &description.dynamics {
-        match declared::compared(description, declared, options.seed) {
+        match frames_of_table(declared, &geometry).and_then(|()| {
+            declared::compared(description, declared, options.seed).map_err(|error| error.to_string())
+        }) {
             Ok((source, report)) => {
                 declared_dynamics = Some(source);
                 compared.push(report);
             }
-            Err(error) => {
-                let finding = Diagnostic::error("check::declared_dynamics", error.to_string());
+            Err(why) => {
+                let finding = Diagnostic::error("check::declared_dynamics", why);
                 geometry.not_asked.push(not_asked("declared_dynamics", &finding));
             }
         }
@@ -79,6 +84,19 @@ fn checked(
     let mut compared = compared.into_iter();
     let (dynamics, other_dynamics) = (compared.next(), compared.collect());
     Ok(RobotCheck { geometry, against, declared_dynamics, dynamics, other_dynamics })
+}
+
+/// Whether figures in frames of the table can be compared: a wrong row would be taken for wrong masses.
+fn frames_of_table(declared: &DeclaredDynamics, geometry: &CheckReport) -> Result<(), String> {
+    let uses_table = declared.inertials.iter().any(|of| matches!(of.frame, InertialFrame::Dh(_)));
+    let mut table = geometry.comparisons.iter().filter(|of| of.name == SourcePair::ModelUrdf);
+    if uses_table && table.any(|of| of.verdict == Agreement::Disagree) {
+        return Err(
+            "it is in frames of the table, which is not the chain of the URDF: correct the table first"
+                .to_owned(),
+        );
+    }
+    Ok(())
 }
 
 fn not_asked(source: &'static str, finding: &Diagnostic) -> NotAsked {
