@@ -10,7 +10,7 @@ use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, UrdfTree};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{two_descriptions, urdf_places, urdf_side};
+use super::sides::{two_descriptions, urdf_places, urdf_side};
 
 /// The other description of a robot.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]

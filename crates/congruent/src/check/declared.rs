@@ -4,16 +4,18 @@ use std::ops::Range;
 
 use congruent_description::{
     DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces, InertialPoint, Robot,
-    RobotDescription, RobotQ, SourceFile, TextEdit,
+    RobotDescription, SourceFile, TextEdit,
 };
 use congruent_dynamics::JointResistance;
-use congruent_dynamics_agreement::{CompareError, DynamicsReport, FigurePlaces, Inertial, NamedSide, Side};
-use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree};
+use congruent_dynamics_agreement::{
+    CompareError, DynamicsExplanation, DynamicsReport, FigurePlaces, Inertial, NamedSide, Side,
+};
+use congruent_kinematics::Pose;
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{two_descriptions, urdf_places, urdf_side};
+use super::sides::{AtZero, two_descriptions, urdf_places, urdf_side};
 
 /// The dynamics that the robot file declares beside the URDF.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
@@ -38,14 +40,26 @@ pub(super) fn compared(
         declared.inertials.iter().map(|of| Body::new(of, &zero, &description.robot)).collect();
     let side = declared_side(declared, (&bodies, &zero), &urdf);
     let places = description.places.inertials.as_deref();
-    let places = places.map(|places| DeclaredPlaces { places, bodies: &bodies, robot: &description.robot });
+    let robot = &description.robot;
+    let places =
+        places.map(|places| DeclaredPlaces { places, bodies: &bodies, robot, figures: InFrame::Link });
     let names = [&description.urdf_path, &description.path].map(|path| path.display().to_string());
     let by_urdf = NamedSide { name: &names[0], side: &urdf, places: urdf_places(description) };
     let by_file = places.as_ref().map(|places| places as &dyn FigurePlaces);
     let by_file = NamedSide { name: &names[1], side: &side, places: by_file };
     let mut report = two_descriptions(&by_urdf, &by_file, seed)?;
     if !report.has_same_torques() {
-        let other = two_descriptions(&by_file, &by_urdf, seed)?;
+        // A mistake in the file was made in the frames of the file.
+        let frames: Vec<(usize, Pose)> =
+            bodies.iter().map(|body| (body.link, body.link_from_frame)).collect();
+        let [urdf, side] = [&urdf, &side].map(|side| side.in_frames(&frames));
+        let places = places.as_ref().map(|places| DeclaredPlaces { figures: InFrame::Entry, ..*places });
+        let by_file = NamedSide {
+            side: &side,
+            places: places.as_ref().map(|places| places as &dyn FigurePlaces),
+            ..by_file
+        };
+        let other = two_descriptions(&by_file, &NamedSide { side: &urdf, ..by_urdf }, seed)?;
         if cost(&other) < cost(&report) {
             report = other;
         }
@@ -54,8 +68,9 @@ pub(super) fn compared(
     Ok((DeclaredSource { source, not_declared: not_declared(declared, &description.robot) }, report))
 }
 
-/// Free numbers of the explanations, and before that whether there are any and whether they leave bodies.
-fn cost(report: &DynamicsReport) -> (bool, bool, u32) {
+/// Free numbers of the explanations, and before that whether there are any, whether they leave bodies, and whether the
+/// file can say them, as a URDF cannot say gravity.
+fn cost(report: &DynamicsReport) -> (bool, bool, bool, u32) {
     let explanations = &report.explanations;
     let numbers: f64 = explanations.iter().map(|explanation| explanation.numbers).sum();
     #[expect(
@@ -64,7 +79,9 @@ fn cost(report: &DynamicsReport) -> (bool, bool, u32) {
         reason = "a few free numbers, in halves"
     )]
     let halves = (2.0 * numbers).round() as u32;
-    (explanations.is_empty(), explanations.iter().any(|explanation| !explanation.is_a_body), halves)
+    let any = |is_so: fn(&DynamicsExplanation) -> bool| explanations.iter().any(is_so);
+    let (is_no_body, is_not_said) = (any(|of| !of.is_a_body), any(|of| of.changes.is_empty()));
+    (explanations.is_empty(), is_no_body, is_not_said, halves)
 }
 
 /// What is left out of the entries.
@@ -90,31 +107,6 @@ fn not_declared(declared: &DeclaredDynamics, robot: &Robot) -> Vec<String> {
     left_out.into_iter().flatten().collect()
 }
 
-/// Links and frames of the table, joints at zero.
-struct AtZero {
-    root_from_links: Vec<Pose>,
-    root_from_base: Pose,
-    /// Empty without a table.
-    base_from_dh: Vec<Pose>,
-}
-
-impl AtZero {
-    fn new(description: &RobotDescription) -> Result<Self, KinematicsError> {
-        let robot = &description.robot;
-        let zero = RobotQ::zeros(robot.dof());
-        let mut root_from_links = vec![Pose::identity(); robot.links().len()];
-        UrdfTree::new(robot).root_from_links_into(&zero, &mut root_from_links)?;
-        let mut base_from_dh = Vec::new();
-        if let Some(table) = &description.dh {
-            let chain = DhChain::new(table, robot);
-            base_from_dh.resize(chain.joint_count() + 1, Pose::identity());
-            chain.dh_frames_into(&zero, &mut base_from_dh)?;
-        }
-        let root_from_base = root_from_links[description.base.get()];
-        Ok(Self { root_from_links, root_from_base, base_from_dh })
-    }
-}
-
 /// A declared body in the frame of the link that its joint carries.
 #[derive(Debug, Clone)]
 struct Body {
@@ -132,9 +124,7 @@ impl Body {
         let link = robot.joint(declared.joint).child.get();
         let link_from_frame = match declared.frame {
             InertialFrame::Link => Pose::identity(),
-            InertialFrame::Dh(frame) => {
-                zero.root_from_links[link].inverse() * zero.root_from_base * zero.base_from_dh[frame]
-            }
+            InertialFrame::Dh(frame) => zero.link_from_dh(link, frame),
         };
         let mut in_frame = Inertial {
             mass_kg: declared.mass_kg,
@@ -159,21 +149,28 @@ impl Body {
         }
     }
 
-    /// Figures of the link in the frame of the entry, the tensor about the point of the entry.
+    /// Figures as they are written.
+    fn written(&self) -> Inertial {
+        self.about_point(&self.in_frame(&self.figures))
+    }
+
+    /// Figures of the link in the frame of the entry.
     fn in_frame(&self, figures: &Inertial) -> Inertial {
         let frame_from_link = self.link_from_frame.inverse();
-        let mut in_frame = Inertial {
-            mass_kg: figures.mass_kg,
+        Inertial {
             com_m: frame_from_link.rotation * figures.com_m + frame_from_link.translation,
-            link_from_axes: Matrix3::identity(),
-            tensor_kg_m2: frame_from_link.rotation
-                * figures.tensor_in_link()
-                * frame_from_link.rotation.transpose(),
-        };
-        if self.about == InertialPoint::Frame {
-            in_frame.tensor_kg_m2 += in_frame.shift();
+            link_from_axes: frame_from_link.rotation * figures.link_from_axes,
+            ..*figures
         }
-        in_frame
+    }
+
+    /// Figures in the frame of the entry with the tensor in its axes and about the point of the entry.
+    fn about_point(&self, in_frame: &Inertial) -> Inertial {
+        let mut tensor_kg_m2 = in_frame.tensor_in_link();
+        if self.about == InertialPoint::Frame {
+            tensor_kg_m2 += in_frame.shift();
+        }
+        Inertial { link_from_axes: Matrix3::identity(), tensor_kg_m2, ..*in_frame }
     }
 }
 
@@ -203,6 +200,16 @@ struct DeclaredPlaces<'a> {
     places: &'a InertialPlaces,
     bodies: &'a [Body],
     robot: &'a Robot,
+    figures: InFrame,
+}
+
+/// The frame of the figures that are asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum InFrame {
+    /// The link's.
+    Link,
+    /// That of the entry.
+    Entry,
 }
 
 impl DeclaredPlaces<'_> {
@@ -226,7 +233,11 @@ impl FigurePlaces for DeclaredPlaces<'_> {
     fn set_inertial(&self, link: &str, figures: &Inertial) -> Vec<TextEdit> {
         let Some(entry) = self.entry(link) else { return Vec::new() };
         let body = &self.bodies[entry];
-        let [written, new] = [&body.figures, figures].map(|figures| body.in_frame(figures));
+        let written = body.written();
+        let new = match self.figures {
+            InFrame::Link => body.about_point(&body.in_frame(figures)),
+            InFrame::Entry => body.about_point(figures),
+        };
         let mut edits = self.places.set_mass(entry, figures.mass_kg);
         let length = written.com_m.amax().max(new.com_m.amax());
         if (new.com_m - written.com_m).amax() > ROUNDING * length {

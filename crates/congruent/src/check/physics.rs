@@ -8,7 +8,7 @@ use congruent_dynamics_agreement::{
 };
 use congruent_twin::source::SimulatedDynamics;
 
-use super::{urdf_places, urdf_side};
+use super::sides::{urdf_places, urdf_side};
 
 /// The code of the finding that the physics could not be probed.
 const CODE: &str = "check::simulated_dynamics";

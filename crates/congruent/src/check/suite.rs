@@ -8,7 +8,7 @@ use congruent_description::{display::length_and_angle, serde_name};
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_twin::report::{Clock, Reason, TestCase, TestResult, TestSuite};
 
-use super::RobotCheck;
+use super::robot_check::RobotCheck;
 
 /// The comparisons of a report as test cases; what failed names its cause with the line.
 ///

@@ -187,15 +187,16 @@ pub(super) fn has_usable_numbers(side: &Side) -> bool {
     terms.chain(numbers).chain(side.gravity_m_s2.iter().copied()).all(|number| number.abs() < LARGEST_NUMBER)
 }
 
-/// The figures of a reference in a candidate's geometry: one inertial for each body, in the frame of the link that its
-/// joint carries.
+/// The figures of a reference in a candidate's geometry: one inertial for each body, at the link that its joint carries.
 fn in_geometry_of(candidate: &Side, reference: &Side, joints: &[usize]) -> Side {
     let bodies = reference.bodies();
     let mut seen = candidate.clone();
     seen.inertials.fill(None);
     for (joint, &other) in joints.iter().enumerate() {
         let link = candidate.frames.joints[joint].link;
-        seen.inertials[link] = Some(Inertial::from_origin(&bodies[other], Matrix3::identity()));
+        let link_from_body = candidate.frames.links[link].body_from_link.inverse();
+        let in_link = bodies[other].transformed_by(&link_from_body);
+        seen.inertials[link] = Some(Inertial::from_origin(&in_link, Matrix3::identity()));
         seen.resistances[joint] = reference.resistances[other];
         seen.limits[joint] = reference.limits[other];
     }

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     compare::figures,
     diagnosis::{Corrected, DynamicsCause, Exact, FaultySide, Grouped, Place},
-    side::{Inertial, Side},
+    side::{Inertial, JointTerm, Side},
     torque::compressed::Compressed,
 };
 
@@ -95,24 +95,41 @@ impl Teller<'_> {
         }
     }
 
-    /// The corrected figures without the rounding of a fit; those of the other description where they have the same
-    /// effect, since torque does not show every number that is free.
+    /// The corrected figures without the rounding of a fit; those of the other description if they leave nothing
+    /// either, since torque does not show every number that is free.
     fn worth_writing(&self, exact: &Exact) -> Corrected {
         let mut corrected = exact.corrected.clone();
-        for (link, figures) in &mut corrected.links {
-            let written = self.candidate.inertials[*link].as_ref();
-            let there = (exact.price > 0.0).then(|| self.of_reference(*link, figures)).flatten();
-            *figures = there.unwrap_or_else(|| without_rounding(written, figures));
-        }
+        let there = (exact.price > 0.0).then(|| self.by_reference(&corrected)).flatten();
+        corrected.links = there.unwrap_or_else(|| {
+            let links = corrected.links.iter();
+            links
+                .map(|(link, figures)| {
+                    (*link, without_rounding(self.candidate.inertials[*link].as_ref(), figures))
+                })
+                .collect()
+        });
         corrected
     }
 
-    fn of_reference(&self, link: usize, figures: &Inertial) -> Option<Inertial> {
-        let reference = self.reference?;
-        let there = reference.frames.find_link(self.candidate.frames.link_name(link))?;
-        let there = reference.inertials[there]?;
-        let apart = self.torque.link(link)? * (there.ten_numbers() - figures.ten_numbers());
-        (apart.norm() <= self.exact).then_some(there)
+    /// The corrected links with the figures of the other description; `None` if these leave something of the difference.
+    fn by_reference(&self, corrected: &Corrected) -> Option<Vec<(usize, Inertial)>> {
+        let reference = self.reference.filter(|_| corrected.gravity.is_none())?;
+        let mut left = self.torque.difference.clone();
+        let mut links = Vec::with_capacity(corrected.links.len());
+        for (link, _) in &corrected.links {
+            let there = reference.frames.find_link(self.candidate.frames.link_name(*link))?;
+            let there = reference.inertials[there]?;
+            let written = self.candidate.inertials[*link].unwrap_or_else(Inertial::nothing);
+            left -= self.torque.link(*link)? * (there.ten_numbers() - written.ten_numbers());
+            links.push((*link, without_rounding(self.candidate.inertials[*link].as_ref(), &there)));
+        }
+        for (joint, new) in corrected.joints.iter().flatten().enumerate() {
+            for term in JointTerm::ALL {
+                let change = term.of(new) - term.of(&self.candidate.resistances[joint]);
+                left.axpy(-change, &self.torque.term(term).column(joint), 1.0);
+            }
+        }
+        (left.norm().hypot(self.torque.outside) <= self.exact).then_some(links)
     }
 
     /// The figures that a correction changes: found is what the faulty says.

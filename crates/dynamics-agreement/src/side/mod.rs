@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use congruent_description::{JointLimit, Robot, RobotDescription};
 use congruent_dynamics::{BodyTree, GRAVITY_M_S2, JointResistance, SpatialInertia};
-use congruent_kinematics::KinematicsError;
+use congruent_kinematics::{KinematicsError, Pose};
 use nalgebra::{DVector, Matrix3, Vector3};
 
 pub use frames::Frames;
@@ -106,6 +106,36 @@ impl Side {
             };
         }
         lumped
+    }
+
+    /// The same with some links in other frames, each by its number and the pose of the frame in it: figures are then
+    /// those of the frame, and what a person may have mistaken is mistaken there. The link's own frame is one of the
+    /// others.
+    ///
+    /// # Panics
+    /// If there is no such link.
+    #[must_use]
+    pub fn in_frames(&self, link_from_frames: &[(usize, Pose)]) -> Self {
+        let mut frames = (*self.frames).clone();
+        let mut moved = self.clone();
+        let mut own = vec![None; frames.links.len()];
+        for (link, link_from_frame) in link_from_frames {
+            let frame_from_link = link_from_frame.inverse();
+            let place = &mut frames.links[*link];
+            place.body_from_link = place.body_from_link * *link_from_frame;
+            place.root_from_link = place.root_from_link * *link_from_frame;
+            for other in &mut frames.others {
+                let there = &mut other.link_from_frame[*link];
+                *there = there.map(|link_from_other| frame_from_link * link_from_other);
+            }
+            own[*link] = Some(frame_from_link);
+            if let Some(figures) = &mut moved.inertials[*link] {
+                figures.com_m = frame_from_link.rotation * figures.com_m + frame_from_link.translation;
+                figures.link_from_axes = frame_from_link.rotation * figures.link_from_axes;
+            }
+        }
+        moved.frames = Arc::new(frames.with_other_frame("link", own));
+        moved
     }
 
     /// The numbers of all bodies, one body after another.

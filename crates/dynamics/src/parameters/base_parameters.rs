@@ -44,7 +44,7 @@ pub struct BaseParameters {
     pub unseen: Vec<InertialParameter>,
 }
 
-/// A column whose part outside of the others is below this share of it depends on them. Kind: rounding of some
+/// A column whose part outside of the others is below this share of the longest column depends on them. Kind: rounding of some
 /// thousand products; worst seen 3e-14, smallest share of an independent column 1e-7 (axes that a rounded pi/2
 /// leaves almost parallel).
 const DEPENDENT: f64 = 1e-11;
@@ -75,7 +75,7 @@ impl BodyTree {
                 found.unseen.push(parameter);
                 continue;
             }
-            let Some(coefficients) = basis.insert(column.into_owned()) else {
+            let Some(coefficients) = basis.insert(column.into_owned(), DEPENDENT * scale) else {
                 found.groups.push(BaseParameter { parameter, grouped: Vec::new(), value: values[index] });
                 continue;
             };
@@ -120,9 +120,9 @@ struct OrthonormalColumns {
 }
 
 impl OrthonormalColumns {
-    /// The coefficients of a column in the inserted ones; `None` if it is independent of them, and then it is inserted.
-    fn insert(&mut self, column: DVector<f64>) -> Option<Vec<f64>> {
-        let whole = column.norm();
+    /// The coefficients of a column in the inserted ones; `None` if more than `least` of it is independent of them, and
+    /// then it is inserted.
+    fn insert(&mut self, column: DVector<f64>, least: f64) -> Option<Vec<f64>> {
         let mut rest = column;
         let mut entries = vec![0.0; self.columns.len()];
         // Twice is enough: Giraud, Langou, Rozloznik (2005).
@@ -134,7 +134,7 @@ impl OrthonormalColumns {
             }
         }
         let norm = rest.norm();
-        if norm <= DEPENDENT * whole {
+        if norm <= least {
             return Some(self.solve(entries));
         }
         entries.push(norm);

@@ -103,12 +103,16 @@ fn written_term(entry: &WrittenInertial, term: WrittenTerm) -> Option<&Spanned<f
 }
 
 fn changed(written: &Spanned<f64>, value: f64) -> Option<TextEdit> {
-    let is_other = value.total_cmp(written.get_ref()).is_ne() && value != *written.get_ref();
-    is_other.then(|| TextEdit { span: written.span(), text: significant(value) })
+    is_other(*written.get_ref(), value).then(|| TextEdit { span: written.span(), text: significant(value) })
 }
 
 fn array(written: &Spanned<[f64; 3]>, values: &Vector3<f64>) -> Option<TextEdit> {
-    let values: [f64; 3] = (*values).into();
-    let text = || format!("[{}]", values.map(significant).join(", "));
-    (values != *written.get_ref()).then(|| TextEdit { span: written.span(), text: text() })
+    let differs = written.get_ref().iter().zip(values).any(|(old, new)| is_other(*old, *new));
+    let text = || format!("[{}]", <[f64; 3]>::from(*values).map(significant).join(", "));
+    differs.then(|| TextEdit { span: written.span(), text: text() })
+}
+
+/// Exactly, but for the sign of zero.
+fn is_other(old: f64, new: f64) -> bool {
+    (old + 0.0).total_cmp(&(new + 0.0)).is_ne()
 }

@@ -1,0 +1,104 @@
+//! The geometry of a robot's sources, then its dynamics.
+
+use congruent_agreement::{
+    SourcePair,
+    compare::{Agreement, CheckError, CheckOptions, CheckReport, NotAsked},
+};
+use congruent_description::{DeclaredDynamics, Diagnostic, Finding, InertialFrame, RobotDescription};
+use congruent_dynamics_agreement::DynamicsReport;
+use congruent_kinematics::LinkPoses;
+
+use super::{against, declared, physics, robot_check::RobotCheck};
+use crate::with_physics::simulated_poses;
+
+/// Compares table, URDF chain, screws and the physics twin of a robot, first their poses and then their dynamics. A robot
+/// that cannot be simulated is compared without the physics, and the report says why.
+///
+/// # Errors
+/// [`CheckError`] if a source rejects the robot.
+pub fn check(description: &RobotDescription, options: &CheckOptions) -> Result<RobotCheck, CheckError> {
+    checked(description, None, options)
+}
+
+/// The same, and the URDF with the URDF of another description of the robot.
+///
+/// Dynamics is compared if the two are the same chain: the same moving joints by name, at the same poses.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_against(
+    description: &RobotDescription,
+    other: &RobotDescription,
+    options: &CheckOptions,
+) -> Result<RobotCheck, CheckError> {
+    checked(description, Some(other), options)
+}
+
+fn checked(
+    description: &RobotDescription,
+    other: Option<&RobotDescription>,
+    options: &CheckOptions,
+) -> Result<RobotCheck, CheckError> {
+    let mut poses = simulated_poses(description);
+    let is_simulated = poses.is_ok();
+    let poses = poses.as_mut().map(|poses| poses as &mut dyn LinkPoses).map_err(|found| found.clone());
+    let mut geometry = congruent_agreement::compare::check(description, poses, options)?;
+    let mut compared = Vec::new();
+    let against = match other {
+        Some(other) => {
+            let (against, dynamics) = against::compared(&mut geometry, (description, other), options)?;
+            compared.extend(dynamics);
+            Some(against)
+        }
+        None => None,
+    };
+    let mut declared_dynamics = None;
+    if let Some(declared) = &description.dynamics {
+        match frames_of_table(declared, &geometry).and_then(|()| {
+            declared::compared(description, declared, options.seed).map_err(|error| error.to_string())
+        }) {
+            Ok((source, report)) => {
+                declared_dynamics = Some(source);
+                compared.push(report);
+            }
+            Err(why) => {
+                let finding = Diagnostic::error("check::declared_dynamics", why);
+                geometry.not_asked.push(not_asked("declared_dynamics", &finding));
+            }
+        }
+    }
+    if is_simulated {
+        match physics::compared(description, options.seed) {
+            Ok(report) => compared.push(report),
+            Err(finding) => geometry.not_asked.push(not_asked("simulated_dynamics", &finding)),
+        }
+    }
+    // A comparison that disagrees comes first; the order is otherwise kept.
+    compared.sort_by_key(DynamicsReport::agrees);
+    let is_same = against.as_ref().is_none_or(|against| against.dynamics_not_compared.is_none());
+    if !is_same || compared.iter().any(|report| !report.agrees()) {
+        geometry.verdict = Agreement::Disagree;
+    } else if geometry.verdict == Agreement::NothingCompared && !compared.is_empty() {
+        geometry.verdict = Agreement::Agree;
+    }
+    let mut compared = compared.into_iter();
+    let (dynamics, other_dynamics) = (compared.next(), compared.collect());
+    Ok(RobotCheck { geometry, against, declared_dynamics, dynamics, other_dynamics })
+}
+
+/// Whether figures in frames of the table can be compared: a wrong row would be taken for wrong masses.
+fn frames_of_table(declared: &DeclaredDynamics, geometry: &CheckReport) -> Result<(), String> {
+    let uses_table = declared.inertials.iter().any(|of| matches!(of.frame, InertialFrame::Dh(_)));
+    let mut table = geometry.comparisons.iter().filter(|of| of.name == SourcePair::ModelUrdf);
+    if uses_table && table.any(|of| of.verdict == Agreement::Disagree) {
+        return Err(
+            "it is in frames of the table, which is not the chain of the URDF: correct the table first"
+                .to_owned(),
+        );
+    }
+    Ok(())
+}
+
+fn not_asked(source: &'static str, finding: &Diagnostic) -> NotAsked {
+    NotAsked { source, findings: vec![Finding::from(finding)] }
+}

@@ -1,0 +1,37 @@
+//! The answer of `congruent check`: geometry, then dynamics.
+
+use congruent_agreement::compare::CheckReport;
+use congruent_dynamics_agreement::DynamicsReport;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{against::OtherDescription, declared::DeclaredSource};
+
+/// The answer of `congruent check` for one robot.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "CheckReport")]
+pub struct RobotCheck {
+    /// Poses of table, URDF, screws and physics. Its `verdict` and `not_asked` are those of the whole check.
+    #[serde(flatten)]
+    pub geometry: CheckReport,
+    /// The other description, of --against.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub against: Option<OtherDescription>,
+    /// The dynamics that the robot file declares.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub declared_dynamics: Option<DeclaredSource>,
+    /// The comparison of masses, inertias, joint terms, gravity and limits that matters most: the first that disagrees;
+    /// if all agree that of two descriptions, and without a second one that of the URDF and the physics. `null` if none
+    /// could be made.
+    pub dynamics: Option<DynamicsReport>,
+    /// The other comparisons of dynamics.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub other_dynamics: Vec<DynamicsReport>,
+}
+
+impl RobotCheck {
+    /// All comparisons of dynamics.
+    pub fn all_dynamics(&self) -> impl Iterator<Item = &DynamicsReport> {
+        self.dynamics.iter().chain(&self.other_dynamics)
+    }
+}

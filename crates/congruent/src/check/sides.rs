@@ -1,0 +1,75 @@
+//! What is compared: the URDF of a description, and where its links and the frames of its table are.
+
+use std::sync::Arc;
+
+use congruent_description::{RobotDescription, RobotQ};
+use congruent_dynamics_agreement::{
+    CompareError, DynamicsReport, FigurePlaces, Frames, NamedSide, Side, certify, compare,
+};
+use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree};
+
+/// Compares two descriptions of one chain, with the certificates if they disagree.
+pub(super) fn two_descriptions(
+    candidate: &NamedSide<'_>,
+    reference: &NamedSide<'_>,
+    seed: u64,
+) -> Result<DynamicsReport, CompareError> {
+    let mut report = compare(candidate, reference, seed)?;
+    if !report.has_same_torques() {
+        report.certificates = Some(certify(candidate, reference, seed)?);
+    }
+    Ok(report)
+}
+
+/// What the URDF of a description says; a figure may be mistaken for one in a frame of the table.
+pub(super) fn urdf_side(description: &RobotDescription) -> Side {
+    let robot = &description.robot;
+    let mut frames = Frames::new(robot);
+    for (row, (link, link_from_dh)) in (1..).zip(link_from_dh_frames(description)) {
+        let mut link_from_frame = vec![None; robot.links().len()];
+        link_from_frame[link] = Some(link_from_dh);
+        frames = frames.with_other_frame(&format!("dh{row}"), link_from_frame);
+    }
+    Side::with_frames(robot, Arc::new(frames))
+}
+
+/// Where the URDF of a description says figures.
+pub(super) fn urdf_places(description: &RobotDescription) -> Option<&dyn FigurePlaces> {
+    description.places.urdf.as_ref().map(|places| places as &dyn FigurePlaces)
+}
+
+/// Links and frames of the table, joints at zero.
+pub(super) struct AtZero {
+    root_from_links: Vec<Pose>,
+    pub(super) root_from_base: Pose,
+    /// Empty without a table.
+    base_from_dh: Vec<Pose>,
+}
+
+impl AtZero {
+    pub(super) fn new(description: &RobotDescription) -> Result<Self, KinematicsError> {
+        let robot = &description.robot;
+        let zero = RobotQ::zeros(robot.dof());
+        let mut root_from_links = vec![Pose::identity(); robot.links().len()];
+        UrdfTree::new(robot).root_from_links_into(&zero, &mut root_from_links)?;
+        let mut base_from_dh = Vec::new();
+        if let Some(table) = &description.dh {
+            let chain = DhChain::new(table, robot);
+            base_from_dh.resize(chain.joint_count() + 1, Pose::identity());
+            chain.dh_frames_into(&zero, &mut base_from_dh)?;
+        }
+        let root_from_base = root_from_links[description.base.get()];
+        Ok(Self { root_from_links, root_from_base, base_from_dh })
+    }
+
+    pub(super) fn link_from_dh(&self, link: usize, frame: usize) -> Pose {
+        self.root_from_links[link].inverse() * self.root_from_base * self.base_from_dh[frame]
+    }
+}
+
+/// For each row of the table the link of its joint, by number, and the row's frame in it; empty without a table.
+fn link_from_dh_frames(description: &RobotDescription) -> Vec<(usize, Pose)> {
+    let (Some(table), Ok(zero)) = (&description.dh, AtZero::new(description)) else { return Vec::new() };
+    let links = table.rows.iter().map(|row| description.robot.joint(row.joint).child.get());
+    (1..).zip(links).map(|(frame, link)| (link, zero.link_from_dh(link, frame))).collect()
+}
