@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector, Isometry3};
 use crate::{
     actuation::{Commands, Controller, JointsView, MeasuredState, Motor, Setpoint},
     build,
+    drive::Saturation,
     engine::Engine,
     error::SimulationError,
     lumping::{Bodies, LinkOnBody},
@@ -32,7 +33,7 @@ const LARGEST: f64 = 1e75;
 /// A bar of 1 kg on a hinge, released level, falls:
 /// ```
 /// use congruent_description::{Inertia, Joint, JointKind, JointParts, Link, Robot, RobotQ};
-/// use congruent_simulation::{Gains, Setpoint, World, WorldSettings, controller};
+/// use congruent_simulation::{Passive, Setpoint, World, WorldSettings};
 /// use nalgebra::{Isometry3, Matrix3, Vector3};
 ///
 /// # let root = Robot::new("", vec![Link::default()], vec![])?.root();
@@ -55,9 +56,8 @@ const LARGEST: f64 = 1e75;
 /// let robot = Robot::new("pendulum", vec![base, bar], vec![parts])?;
 ///
 /// let mut world = World::new(&robot, &WorldSettings::default())?;
-/// let mut passive = controller("passive", Gains::default())?;
 /// let level = RobotQ::zeros(1);
-/// world.step(passive.as_mut(), &Setpoint { q: &level, qd: &[0.0], qdd: &[0.0] })?;
+/// world.step(&mut Passive, &Setpoint { q: &level, qd: &[0.0], qdd: &[0.0] })?;
 /// // Acceleration m g l / (I + m l^2) = 4.905 / 0.27 rad/s^2, for 1 ms.
 /// assert!((world.qd()[0] - 4.905 / 0.27 * 1e-3).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -80,6 +80,7 @@ pub(crate) struct WorldState {
     q: RobotQ,
     qd: Vec<f64>,
     torque: Vec<f64>,
+    saturations: Vec<Saturation>,
     /// The share of its commanded effort that each actuator delivers.
     pub(crate) delivered: Vec<f64>,
     step_count: u64,
@@ -119,6 +120,7 @@ impl World {
                 q: RobotQ::zeros(dof),
                 qd: vec![0.0; dof],
                 torque: vec![0.0; dof],
+                saturations: vec![Saturation::default(); dof],
                 delivered: vec![1.0; dof],
                 step_count: 0,
             },
@@ -135,6 +137,7 @@ impl World {
         self.check_vector("velocity", qd)?;
         self.engine.place(q, qd);
         self.state.torque.fill(0.0);
+        self.state.saturations.fill(Saturation::default());
         self.engine.read(&mut self.state.q, &mut self.state.qd);
         Ok(())
     }
@@ -152,6 +155,11 @@ impl World {
     /// Effort of each actuator in the last step; zero after a step that placed the robot.
     pub fn torque(&self) -> &[f64] {
         &self.state.torque
+    }
+
+    /// Which limits of each actuator held it back in the last step.
+    pub fn saturations(&self) -> &[Saturation] {
+        &self.state.saturations
     }
 
     /// Simulated time, s: the number of steps times their length.
@@ -206,7 +214,8 @@ impl World {
     ) -> Result<(), SimulationError> {
         self.check_setpoint(setpoint)?;
         self.commands.clear();
-        let joints = JointsView { q: &self.state.q, qd: &self.state.qd, engine: &self.engine };
+        let (q, qd, time_s) = (&self.state.q, &self.state.qd, self.time_s());
+        let joints = JointsView { q, qd, time_s, engine: &self.engine };
         controller.command(&joints, setpoint, &mut self.commands);
         self.apply(setpoint)
     }
@@ -229,7 +238,8 @@ impl World {
         self.check_vector("measured position", measured.q)?;
         self.check_vector("measured velocity", measured.qd)?;
         self.commands.clear();
-        let joints = JointsView { q: measured.q, qd: measured.qd, engine: &self.engine };
+        let (q, qd, time_s) = (measured.q, measured.qd, self.time_s());
+        let joints = JointsView { q, qd, time_s, engine: &self.engine };
         controller.command(&joints, setpoint, &mut self.commands);
         for (coordinate, motor) in self.commands.motors.iter_mut().enumerate() {
             if let Some(motor) = motor {
@@ -250,7 +260,7 @@ impl World {
         }
         self.check_commands()?;
         self.commands.deliver(&self.state.delivered);
-        self.engine.step(&mut self.commands);
+        self.engine.step(&self.commands, &self.state.q, &self.state.qd);
         self.state.step_count += 1;
         self.finish_step()
     }
@@ -284,9 +294,9 @@ impl World {
     }
 
     fn finish_step(&mut self) -> Result<(), SimulationError> {
-        let WorldState { q, qd, torque, .. } = &mut self.state;
+        let WorldState { q, qd, torque, saturations, .. } = &mut self.state;
         self.engine.read(q, qd);
-        self.engine.exerted(&self.commands, q, qd, torque);
+        self.engine.exerted(q, qd, torque, saturations);
         self.check_finite("position", &self.state.q)?;
         self.check_finite("velocity", &self.state.qd)?;
         match self.engine.first_unsolved() {

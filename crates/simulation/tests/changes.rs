@@ -4,9 +4,7 @@
 mod support;
 
 use congruent_description::Inertia;
-use congruent_simulation::{
-    CarriedBody, Gains, MeasuredState, Setpoint, SimulationError, World, WorldSettings, controller,
-};
+use congruent_simulation::{CarriedBody, MeasuredState, Setpoint, SimulationError, World, WorldSettings};
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
 /// Sums of a few products; worst seen 3e-16 of the largest.
@@ -44,7 +42,7 @@ fn a_joint_of_very_large_damping_stands_still() {
     let mut world = World::new(&support::arm(), &WorldSettings::default()).unwrap();
     world.set_state(&support::arm_q0(), &[0.5; 6]).unwrap();
     world.set_damping(2, 1e9).unwrap();
-    let mut passive = controller("passive", Gains::default()).unwrap();
+    let mut passive = support::make("passive", 0.0, 0.0);
     for _ in 0..500 {
         world
             .step(passive.as_mut(), &Setpoint { q: &support::arm_q0(), qd: &[0.0; 6], qdd: &[0.0; 6] })
@@ -59,7 +57,7 @@ fn a_joint_of_very_large_damping_stands_still() {
 fn an_actuator_delivers_a_share_of_its_command() {
     let mut world = World::new(&support::arm(), &WorldSettings::default()).unwrap();
     world.set_state(&support::arm_q0(), &[0.0; 6]).unwrap();
-    let mut pd = controller("pd", Gains { stiffness: 100.0, damping: 5.0 }).unwrap();
+    let mut pd = support::make("pd", 100.0, 5.0);
     world.set_delivered_share(1, 0.0).unwrap();
     world.set_delivered_share(2, 0.5).unwrap();
     let mut target = support::arm_q0();
@@ -74,7 +72,7 @@ fn an_actuator_delivers_a_share_of_its_command() {
 fn a_servo_acts_on_what_the_encoder_gives() {
     let mut world = World::new(&support::arm(), &WorldSettings::default()).unwrap();
     world.set_state(&support::arm_q0(), &[0.0; 6]).unwrap();
-    let mut pd = controller("pd", Gains { stiffness: 2000.0, damping: 200.0 }).unwrap();
+    let mut pd = support::make("pd", 2000.0, 200.0);
     let offset_rad = 0.02;
     for _ in 0..4000 {
         let mut measured = world.q().clone();

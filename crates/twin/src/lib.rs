@@ -4,6 +4,7 @@
 //! [`scenario`] is a scenario as plain data, [`setup`] checks it against its robot, [`Run`] is the loop over a
 //! [`source`] of joint states, [`monitor`] holds the checks, and [`execute`] does all of it for one scenario.
 
+mod control;
 mod execute;
 pub mod monitor;
 pub mod motion;
@@ -17,6 +18,7 @@ pub mod setup;
 pub mod source;
 pub mod verdict;
 
+pub use control::JointController;
 pub use execute::{ExecuteError, Options, Recording, RecordingFormat, execute};
 pub use run::{Outcome, Run, RunError};
 pub use sample::Sample;

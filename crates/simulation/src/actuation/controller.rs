@@ -7,12 +7,9 @@ use super::{
 
 /// Decides before each step which commands the actuators get.
 ///
-/// A controller only fills [`Commands`]; the world applies them, and clips every force to the
-/// joint's effort limit if the description gives one above zero.
+/// A controller only fills [`Commands`]; the world applies them within the limits of effort and speed that the
+/// description gives above zero.
 pub trait Controller {
-    /// The name under which [`controller`](crate::controller) finds it.
-    fn name(&self) -> &'static str;
-
     /// Fills `commands`, which come cleared: no torque, no motor, dynamics on.
     fn command(&mut self, joints: &JointsView<'_>, setpoint: &Setpoint<'_>, commands: &mut Commands);
 }

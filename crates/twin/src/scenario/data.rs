@@ -7,7 +7,8 @@ use super::{
     checks::{Check, CheckKind},
     joints::StartSettings,
     motions::MotionSettings,
-    number::{finite_array, non_negative, optional_positive, positive},
+    number::{finite_array, optional_positive, positive},
+    robot::ControllerSettings,
     spaces::{ObstacleSettings, ZoneSettings},
 };
 
@@ -121,28 +122,6 @@ fn down() -> [f64; 3] {
 impl Default for SimulationSettings {
     fn default() -> Self {
         Self { step_s: one_millisecond(), duration_s: None, gravity_m_s2: down() }
-    }
-}
-
-/// `[controller]`: the controller of the twin.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ControllerSettings {
-    /// Its name.
-    #[schemars(extend("enum" = congruent_simulation::controller_names().collect::<Vec<_>>()))]
-    pub kind: String,
-    /// Torque per position error: N m/rad, N/m.
-    #[serde(default, deserialize_with = "non_negative")]
-    pub stiffness: f64,
-    /// Torque per velocity error: N m s/rad, N s/m.
-    #[serde(default, deserialize_with = "non_negative")]
-    pub damping: f64,
-}
-
-impl Default for ControllerSettings {
-    /// Playback of the motions without dynamics.
-    fn default() -> Self {
-        Self { kind: "kinematic".to_owned(), stiffness: 0.0, damping: 0.0 }
     }
 }
 

@@ -14,8 +14,8 @@ pub(super) fn check(scenario: &Scenario) -> Vec<Diagnostic> {
         .gravity_m_s2
         .iter()
         .for_each(|&value| numbers.one("simulation.gravity_m_s2", value, Range::Finite));
-    numbers.one("controller.stiffness", scenario.controller.stiffness, Range::NonNegative);
-    numbers.one("controller.damping", scenario.controller.damping, Range::NonNegative);
+    numbers.maybe("controller.rate_hz", scenario.controller.rate_hz, Range::Positive);
+    numbers.maybe("controller.delay_s", scenario.controller.delay_s, Range::Positive);
     for motion in &scenario.motion {
         let duration_s = match motion {
             MotionSettings::Joints(motion) => motion.duration_s,

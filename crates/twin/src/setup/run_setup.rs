@@ -8,9 +8,10 @@ use congruent_description::{
 };
 use congruent_dynamics::JointResistance;
 use congruent_kinematics::move_inside_limits;
-use congruent_simulation::{Gains, Obstacle, controller_names};
+use congruent_simulation::Obstacle;
 
 use super::{
+    actuation::ControllerSetup,
     clock::RunClock,
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
@@ -47,6 +48,8 @@ pub struct RunSetup {
     pub start: RobotQ,
     /// The motions.
     pub trajectory: Trajectory,
+    /// The controller.
+    pub controller: ControllerSetup,
     /// Bodies that stand around the robot, in the root link's frame.
     pub obstacles: Vec<Obstacle>,
     /// Space that named links may not enter, in the root link's frame.
@@ -88,7 +91,11 @@ impl RunSetup {
                 return Err(findings);
             }
         };
-        let built = Self::build(file.scenario.clone(), description, file.place());
+        let mut scenario = file.scenario.clone();
+        if let Some(torques) = &mut scenario.controller.torque_file {
+            *torques = file.relative(torques).display().to_string();
+        }
+        let built = Self::build(scenario, description, file.place());
         let mut setup = match built {
             Ok(setup) if file.findings().is_empty() => setup,
             Ok(_) => return Err(file.findings().to_vec()),
@@ -136,6 +143,10 @@ impl RunSetup {
         let motions_s = scenario.motion.iter().map(MotionSettings::duration_s).sum();
         let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
         let clock = found.keep(clock);
+        let step_s = scenario.simulation.step_s;
+        let at_controller = place.key("controller");
+        let controller = ControllerSetup::new(&scenario.controller, at_controller, robot, step_s);
+        let controller = keep_all(&mut found, controller);
         let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);
         let obstacles = keep_all(&mut found, obstacles);
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
@@ -148,8 +159,8 @@ impl RunSetup {
         if needs_shapes(&scenario) {
             keep_all(&mut found, description.for_use(Use::Clearance));
         }
-        let (Some(trajectory), Some(clock), Some(obstacles), Some(zones)) =
-            (trajectory, clock, obstacles, zones)
+        let (Some(trajectory), Some(clock), Some(controller), Some(obstacles), Some(zones)) =
+            (trajectory, clock, controller, obstacles, zones)
         else {
             return Err(found.into_vec());
         };
@@ -176,6 +187,7 @@ impl RunSetup {
             clock,
             start,
             trajectory,
+            controller,
             obstacles,
             zones,
             payloads: Vec::new(),
@@ -207,10 +219,13 @@ impl RunSetup {
         DeclaredDynamics::new(&self.description.robot, &self.payloads, &self.resistances, gravity)
     }
 
-    /// The gains of the controller.
-    pub fn gains(&self) -> Gains {
-        let controller = &self.scenario.controller;
-        Gains { stiffness: controller.stiffness, damping: controller.damping }
+    /// The largest effort of each joint's actuator, N m or N; `f64::MAX` if it has no limit.
+    pub(crate) fn largest_efforts(&self) -> Vec<f64> {
+        let robot = &self.description.robot;
+        let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+        // Zero is what descriptions write for unknown.
+        let effort = |joint: &Joint| joint.limit?.effort.filter(|&effort| effort > 0.0);
+        joints.map(|joint| effort(joint).unwrap_or(f64::MAX)).collect()
     }
 }
 
@@ -235,7 +250,7 @@ fn robot_refused(file: &ScenarioFile) -> Diagnostic {
 
 /// What a file's reader has checked already, for a scenario that was made in code.
 fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnostic> {
-    let Scenario { schema_version, name, seed, controller, .. } = scenario;
+    let Scenario { schema_version, name, seed, .. } = scenario;
     let error = if *schema_version != SCHEMA_VERSION {
         Diagnostic::error("scenario::version", format!("schema_version = {schema_version} is not known"))
     } else if name.trim().is_empty() {
@@ -243,10 +258,6 @@ fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnosti
     } else if i64::try_from(*seed).is_err() {
         let message = format!("seed = {seed} is above {}, the largest integer of TOML", i64::MAX);
         place.key("seed").mark(Diagnostic::error("scenario::seed", message))
-    } else if !controller_names().any(|known| known == controller.kind) {
-        let known: Vec<&str> = controller_names().collect();
-        Diagnostic::error("scenario::unknown_kind", format!("unknown controller \"{}\"", controller.kind))
-            .with_help(format!("give kind = {}", known.join(" | ")))
     } else {
         return Ok(());
     };

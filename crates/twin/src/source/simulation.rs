@@ -1,7 +1,7 @@
 //! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
 use congruent_description::{Diagnostic, Use};
-use congruent_simulation::{Controller, Setpoint, World, WorldSettings, controller};
+use congruent_simulation::{Setpoint, World, WorldSettings};
 use nalgebra::Isometry3;
 
 use super::{
@@ -10,6 +10,7 @@ use super::{
     sensors::JointSensors,
 };
 use crate::{
+    control::JointController,
     motion::{ReferenceGenerator, ServoResult},
     setup::RunSetup,
 };
@@ -17,7 +18,7 @@ use crate::{
 /// A robot in a simulated world, driven by its controller along the motions of a scenario.
 pub struct SimulationSource<'a> {
     world: World,
-    controller: Box<dyn Controller>,
+    controller: JointController<'a>,
     reference: ReferenceGenerator<'a>,
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
@@ -44,10 +45,10 @@ impl<'a> SimulationSource<'a> {
             gravity_in_world: setup.clock.gravity_in_world,
             obstacles: setup.obstacles.clone(),
             contacts: true,
+            actuator_limits: true,
         };
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
-        let kind = &setup.scenario.controller.kind;
         let mut sensors = JointSensors::new(robot.dof());
         sensors.read(world.q(), world.qd());
         let mut payloads = CarriedPayloads::new(&setup.payloads);
@@ -56,7 +57,7 @@ impl<'a> SimulationSource<'a> {
             sensors,
             payloads,
             world,
-            controller: controller(kind, setup.gains()).map_err(SourceError::new)?,
+            controller: JointController::new(setup),
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
         })
     }
@@ -92,7 +93,7 @@ impl JointStateSource for SimulationSource<'_> {
         let setpoint = Setpoint { q: self.reference.q(), qd: self.reference.qd(), qdd: self.reference.qdd() };
         // A payload that comes at the start of the step acts in the whole of it.
         self.payloads.update(self.world.time_s(), &mut self.world);
-        let stepped = self.world.step_measured(&mut *self.controller, &setpoint, &measured);
+        let stepped = self.world.step_measured(&mut self.controller, &setpoint, &measured);
         self.sensors.read(self.world.q(), self.world.qd());
         stepped.map_err(SourceError::new)
     }

@@ -9,16 +9,16 @@ use std::{
 use congruent_description::{
     Diagnostic, Diagnostics, SourceFile, is_standard_input, known_names, read_text, toml_text,
 };
-use congruent_simulation::controller_names;
 use serde::Deserialize;
 use toml::{Spanned, de::DeTable};
 
 use super::{overrides::Override, section::Section};
 use crate::scenario::{
     checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck},
-    data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario},
+    data::{Expectation, SCHEMA_VERSION, Scenario},
     motions::{JOINT_KEYS, JointMotion, MotionSettings, SERVO_KEY, ServoMotion, TCP_KEY, TcpMotion},
     place::{FilePlace, PlaceNode},
+    robot::{ControllerKind, ControllerSettings},
 };
 
 /// Largest scenario file that is read.
@@ -84,8 +84,13 @@ impl ScenarioFile {
 
     /// The robot's path, relative to the folder of the file.
     pub fn robot_path(&self) -> PathBuf {
+        self.relative(&self.scenario.robot)
+    }
+
+    /// A path that is relative to the folder of the file.
+    pub(crate) fn relative(&self, path: &str) -> PathBuf {
         let folder = self.path().parent().filter(|_| !is_standard_input(self.path()));
-        folder.unwrap_or(Path::new("")).join(&self.scenario.robot)
+        folder.unwrap_or(Path::new("")).join(path)
     }
 
     /// The places of its values.
@@ -254,24 +259,15 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
 }
 
 fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, Vec<Diagnostic>> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct WrittenGains {
-        #[serde(default, deserialize_with = "crate::scenario::number::non_negative")]
-        stiffness: f64,
-        #[serde(default, deserialize_with = "crate::scenario::number::non_negative")]
-        damping: f64,
-    }
-    let known: Vec<&str> = controller_names().collect();
-    let Some(mut section) = section else {
+    let known = ControllerKind::names();
+    let Some(section) = section else {
         return Err(Diagnostic::error("scenario::no_controller", "the scenario has no [controller]")
             .with_help(format!("add one with kind = {}", known.join(" | ")))
             .into());
     };
-    let kind = (*section.select("kind", "controller", &known, |name| name)?).to_owned();
-    let read = section.read();
-    let WrittenGains { stiffness, damping } = read.map_err(|found| named_too(found, "and kind"))?;
-    Ok(ControllerSettings { kind, stiffness, damping })
+    // With a kind that there is not, nothing is known of the other keys.
+    section.clone().select("kind", "controller", &known, |name| name)?;
+    section.read()
 }
 
 fn read_expect(mut section: Section<'_>) -> Result<Expectation, Vec<Diagnostic>> {
