@@ -8,7 +8,7 @@ use super::{
     joints::StartSettings,
     motions::MotionSettings,
     number::{finite_array, optional_positive, positive},
-    robot::ControllerSettings,
+    robot::{ControllerSettings, JointSettings, PayloadSettings, SensorSettings},
     spaces::{ObstacleSettings, ZoneSettings},
 };
 
@@ -50,6 +50,15 @@ pub struct Scenario {
     pub start: StartSettings,
     /// The controller of the twin.
     pub controller: ControllerSettings,
+    /// Resistances and limits of the joints.
+    #[serde(default)]
+    pub joints: JointSettings,
+    /// Encoders.
+    #[serde(default)]
+    pub sensors: SensorSettings,
+    /// Bodies that the tool or a link carries.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub payload: Vec<PayloadSettings>,
     /// Motions, one after another.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<MotionSettings>,
@@ -77,6 +86,9 @@ impl Default for Scenario {
             simulation: SimulationSettings::default(),
             start: StartSettings::default(),
             controller: ControllerSettings::default(),
+            joints: JointSettings::default(),
+            sensors: SensorSettings::default(),
+            payload: Vec::new(),
             motion: Vec::new(),
             obstacle: Vec::new(),
             zone: Vec::new(),

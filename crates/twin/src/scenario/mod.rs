@@ -27,5 +27,8 @@ pub use pose::PoseSettings;
 pub use profile::{Profile, Progress};
 pub use reading::{Override, ScenarioFile};
 pub(crate) use robot::{CONTROLLER_KINDS, ControllerKind, OTHERS};
-pub use robot::{ControllerSettings, JointNumbers};
+pub use robot::{
+    ControllerSettings, JointNumbers, JointSettings, PayloadInertia, PayloadSettings, SensorSettings,
+    VelocitySensor,
+};
 pub use spaces::{CylinderSettings, ObstacleSettings, ZoneSettings};

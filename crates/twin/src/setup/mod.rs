@@ -11,7 +11,7 @@ mod spaces;
 mod zones;
 
 pub(crate) use actuation::Sampling;
-pub use actuation::{ControllerSetup, TorqueTable};
+pub use actuation::{ControllerSetup, SensorSetup, TorqueTable};
 pub use clock::RunClock;
 pub use declared_dynamics::DeclaredDynamics;
 pub(crate) use joint_targets::JointTargets;

@@ -16,6 +16,11 @@ pub(super) fn check(scenario: &Scenario) -> Vec<Diagnostic> {
         .for_each(|&value| numbers.one("simulation.gravity_m_s2", value, Range::Finite));
     numbers.maybe("controller.rate_hz", scenario.controller.rate_hz, Range::Positive);
     numbers.maybe("controller.delay_s", scenario.controller.delay_s, Range::Positive);
+    for payload in &scenario.payload {
+        numbers.one("payload.mass_kg", payload.mass_kg, Range::Positive);
+        numbers.one("payload.from_s", payload.from_s, Range::NonNegative);
+        numbers.maybe("payload.until_s", payload.until_s, Range::Positive);
+    }
     for motion in &scenario.motion {
         let duration_s = match motion {
             MotionSettings::Joints(motion) => motion.duration_s,

@@ -11,7 +11,7 @@ use congruent_kinematics::move_inside_limits;
 use congruent_simulation::Obstacle;
 
 use super::{
-    actuation::ControllerSetup,
+    actuation::{self, ControllerSetup, SensorSetup},
     clock::RunClock,
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
@@ -58,6 +58,8 @@ pub struct RunSetup {
     pub payloads: Vec<Payload>,
     /// What resists each moving joint: known to controllers and checks.
     pub resistances: Vec<JointResistance>,
+    /// Resolution and noise of the encoders.
+    pub sensors: SensorSetup,
     /// What is suspicious in the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
     check_lines: Vec<Option<usize>>,
@@ -147,6 +149,12 @@ impl RunSetup {
         let at_controller = place.key("controller");
         let controller = ControllerSetup::new(&scenario.controller, at_controller, robot, step_s);
         let controller = keep_all(&mut found, controller);
+        let resistances = actuation::resistances(&scenario.joints, place.key("joints"), robot);
+        let resistances = keep_all(&mut found, resistances);
+        let sensors = SensorSetup::new(&scenario.sensors, place.key("sensors"), robot);
+        let sensors = keep_all(&mut found, sensors);
+        let payloads = actuation::payloads(&scenario.payload, place.key("payload"), &description);
+        let payloads = keep_all(&mut found, payloads);
         let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);
         let obstacles = keep_all(&mut found, obstacles);
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
@@ -164,6 +172,9 @@ impl RunSetup {
         else {
             return Err(found.into_vec());
         };
+        let (Some(resistances), Some(sensors), Some(payloads)) = (resistances, sensors, payloads) else {
+            return Err(found.into_vec());
+        };
         if found.has_error() {
             return Err(found.into_vec());
         }
@@ -171,14 +182,6 @@ impl RunSetup {
         let check_lines = (0..scenario.check.len()).map(line).collect();
         write_out_defaults(&mut scenario, &description, (&clock, &start));
         let path = None;
-        let robot = &description.robot;
-        let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
-        let resistance = |joint: &Joint| JointResistance {
-            damping: joint.damping,
-            friction: joint.friction,
-            armature: 0.0,
-        };
-        let resistances = joints.map(resistance).collect();
         Ok(Self {
             scenario,
             path,
@@ -190,7 +193,8 @@ impl RunSetup {
             controller,
             obstacles,
             zones,
-            payloads: Vec::new(),
+            payloads,
+            sensors,
             resistances,
             warnings,
             check_lines,
@@ -224,7 +228,8 @@ impl RunSetup {
         let robot = &self.description.robot;
         let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
         // Zero is what descriptions write for unknown.
-        let effort = |joint: &Joint| joint.limit?.effort.filter(|&effort| effort > 0.0);
+        let has_limits = self.scenario.joints.enforce_limits;
+        let effort = |joint: &Joint| joint.limit?.effort.filter(|&effort| has_limits && effort > 0.0);
         joints.map(|joint| effort(joint).unwrap_or(f64::MAX)).collect()
     }
 }

@@ -1,7 +1,8 @@
 //! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
 use congruent_description::{Diagnostic, Use};
-use congruent_simulation::{Setpoint, World, WorldSettings};
+use congruent_dynamics::JointResistance;
+use congruent_simulation::{Setpoint, SimulationError, World, WorldSettings};
 use nalgebra::Isometry3;
 
 use super::{
@@ -45,12 +46,13 @@ impl<'a> SimulationSource<'a> {
             gravity_in_world: setup.clock.gravity_in_world,
             obstacles: setup.obstacles.clone(),
             contacts: true,
-            actuator_limits: true,
+            actuator_limits: setup.scenario.joints.enforce_limits,
         };
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
-        let mut sensors = JointSensors::new(robot.dof());
+        let mut sensors = JointSensors::new(setup);
         sensors.read(world.q(), world.qd());
+        resist(&mut world, &setup.resistances).map_err(SourceError::new)?;
         let mut payloads = CarriedPayloads::new(&setup.payloads);
         payloads.update(0.0, &mut world);
         Ok(Self {
@@ -61,6 +63,16 @@ impl<'a> SimulationSource<'a> {
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
         })
     }
+}
+
+/// Puts what resists the joints into the physics.
+fn resist(world: &mut World, resistances: &[JointResistance]) -> Result<(), SimulationError> {
+    for (coordinate, resistance) in resistances.iter().enumerate() {
+        world.set_damping(coordinate, resistance.damping)?;
+        world.set_dry_friction(coordinate, resistance.friction)?;
+        world.set_armature(coordinate, resistance.armature)?;
+    }
+    Ok(())
 }
 
 impl JointStateSource for SimulationSource<'_> {

@@ -46,8 +46,19 @@ struct Top {
 }
 
 /// The sections of a file besides its top.
-const SECTIONS: [&str; 8] =
-    ["simulation", "start", "controller", "motion", "obstacle", "zone", "check", "expect"];
+const SECTIONS: [&str; 11] = [
+    "simulation",
+    "start",
+    "controller",
+    "joints",
+    "sensors",
+    "payload",
+    "motion",
+    "obstacle",
+    "zone",
+    "check",
+    "expect",
+];
 
 impl ScenarioFile {
     /// Reads a file; `overrides` replace its values.
@@ -151,6 +162,12 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
     let start = one(&mut document, "start", findings);
     let controller = take(&mut document, "controller", findings);
     let controller = keep_all(findings, controller.and_then(read_controller));
+    let joints = one(&mut document, "joints", findings);
+    let sensors = one(&mut document, "sensors", findings);
+    let payload = all(&mut document, "payload", findings, |section, findings| {
+        keep_all(findings, section.require_table("inertia_kg_m2").map_err(Into::into));
+        section.read_into(findings)
+    });
     let motion = all(&mut document, "motion", findings, read_motion);
     let obstacle = all(&mut document, "obstacle", findings, |section, findings| {
         keep_all(findings, section.require_table("cylinder").map_err(Into::into));
@@ -176,6 +193,9 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         simulation: simulation?,
         start: start?,
         controller: controller?,
+        joints: joints?,
+        sensors: sensors?,
+        payload: payload?,
         motion: motion?,
         obstacle: obstacle?,
         zone: zone?,

@@ -6,7 +6,7 @@ use congruent_description::{Diagnostic, Robot, known_names, read_text};
 use congruent_simulation::Gains;
 
 use super::{
-    joint_numbers::{NumberRule, resolve},
+    joint_numbers::{NumberRule, Unnamed, resolve},
     torque_table::TorqueTable,
 };
 use crate::scenario::{ControllerKind, ControllerSettings, FilePlace, JointNumbers, Range};
@@ -52,14 +52,14 @@ impl ControllerSetup {
         let kind = kind(settings, place).map_err(|error| vec![error])?;
         let mut errors: Vec<Diagnostic> = strange_keys(settings, kind, place).collect();
         let mut numbers = |numbers: &JointNumbers, key: &str, (range, unnamed)| {
-            let rule = NumberRule { what: key, range, unnamed };
+            let rule = NumberRule { what: key, range, unnamed, of_angles: None };
             let resolved = resolve(numbers, rule, place.key(key), robot);
             resolved.map_err(|found| errors.extend(found)).unwrap_or_default()
         };
-        let stiffness = numbers(&settings.stiffness, "stiffness", (Range::NonNegative, None));
-        let damping = numbers(&settings.damping, "damping", (Range::NonNegative, None));
-        let integral = numbers(&settings.integral, "integral", (Range::NonNegative, None));
-        let torque = numbers(&settings.torque, "torque", (Range::Finite, Some(0.0)));
+        let stiffness = numbers(&settings.stiffness, "stiffness", (Range::NonNegative, Unnamed::Refused));
+        let damping = numbers(&settings.damping, "damping", (Range::NonNegative, Unnamed::Refused));
+        let integral = numbers(&settings.integral, "integral", (Range::NonNegative, Unnamed::Refused));
+        let torque = numbers(&settings.torque, "torque", (Range::Finite, Unnamed::Zero));
         let mut keep = |result: Result<_, Diagnostic>| result.map_err(|error| errors.push(error)).ok();
         let sampling = keep(sampling(settings, place, step_s).map(|sampling| (sampling, None)));
         let torque_table = keep(torque_table(settings, place, robot).map(|table| (None, table)));

@@ -1,6 +1,6 @@
 //! A number for all joints, or numbers by joint, as one for each movable joint.
 
-use congruent_description::{Diagnostic, Robot, known_names};
+use congruent_description::{Diagnostic, Joint, Robot, known_names};
 
 use crate::scenario::{FilePlace, JointNumbers, OTHERS, Range, mark};
 
@@ -11,11 +11,24 @@ pub(super) struct NumberRule<'a> {
     pub(super) what: &'a str,
     /// What each must be.
     pub(super) range: Range,
-    /// The number of a joint that a table does not name, if it has no `others`; `None` refuses such a table.
-    pub(super) unnamed: Option<f64>,
+    /// What holds for the joints that a table does not name, if it has no `others`.
+    pub(super) unnamed: Unnamed<'a>,
+    /// Only joints that turn have one, or only joints that slide; `None` for both.
+    pub(super) of_angles: Option<bool>,
 }
 
-/// One number for each movable joint; those of mimic joints are zero, as they have no actuator of their own.
+/// What holds for joints that have no number.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Unnamed<'a> {
+    /// Each needs one.
+    Refused,
+    /// Zero.
+    Zero,
+    /// What the description says.
+    Described(&'a [f64]),
+}
+
+/// One number for each movable joint; those of mimic joints, which have no actuator of their own, cannot be given.
 ///
 /// # Errors
 /// Every unknown or mimic joint, every number out of range, and a table that leaves joints out that need a number.
@@ -31,37 +44,44 @@ pub(super) fn resolve(
         let refused = || place.mark(Diagnostic::error("toml::invalid", message));
         if rule.range.contains(number) { Ok(()) } else { Err(refused()) }
     };
-    let by_joint = match numbers {
-        JointNumbers::All(number) => {
-            in_range(*number, place).map_err(|error| vec![error])?;
-            return Ok(joints().map(|joint| if joint.mimic.is_some() { 0.0 } else { *number }).collect());
-        }
-        JointNumbers::ByJoint(by_joint) => by_joint,
-    };
     let mut errors = Vec::new();
-    for (name, &number) in by_joint {
-        let named = if name == OTHERS { Ok(()) } else { check_name(robot, name) };
-        errors.extend(named.map_err(|error| mark(error, place.key_span(name))).err());
-        errors.extend(in_range(number, place.key(name)).err());
-    }
-    let others = by_joint.get(OTHERS).copied().or(rule.unnamed);
-    let mut resolved = Vec::with_capacity(robot.dof());
-    for joint in joints() {
-        let number = by_joint.get(&joint.name).copied().or(others);
-        if number.is_none() && joint.mimic.is_none() {
-            let message = format!("joint \"{}\" has no {}", joint.name, rule.what);
-            let error = Diagnostic::error("scenario::joint_left_out", message);
-            errors.push(
-                place.mark(error.with_help("name it, or give `others = ...` for all that are not named")),
-            );
+    match numbers {
+        JointNumbers::All(number) => errors.extend(in_range(*number, place).err()),
+        JointNumbers::ByJoint(by_joint) => {
+            for (name, &number) in by_joint {
+                let named = if name == OTHERS { Ok(()) } else { check_name(robot, name, rule) };
+                errors.extend(named.map_err(|error| mark(error, place.key_span(name))).err());
+                errors.extend(in_range(number, place.key(name)).err());
+            }
         }
-        resolved.push(if joint.mimic.is_some() { 0.0 } else { number.unwrap_or(0.0) });
+    }
+    let mut resolved = Vec::with_capacity(robot.dof());
+    for (coordinate, joint) in joints().enumerate() {
+        let number = match numbers {
+            _ if !rule.applies_to(joint) => None,
+            JointNumbers::All(number) => Some(*number),
+            JointNumbers::ByJoint(by_joint) => by_joint.get(&joint.name).or(by_joint.get(OTHERS)).copied(),
+        };
+        if number.is_none() && rule.applies_to(joint) && matches!(rule.unnamed, Unnamed::Refused) {
+            let message = format!("joint \"{}\" has no {}", joint.name, rule.what);
+            let help = "name it, or give `others = ...` for all that are not named";
+            errors.push(place.mark(Diagnostic::error("scenario::joint_left_out", message).with_help(help)));
+        }
+        let unnamed =
+            if let Unnamed::Described(described) = rule.unnamed { described[coordinate] } else { 0.0 };
+        resolved.push(number.unwrap_or(unnamed));
     }
     if errors.is_empty() { Ok(resolved) } else { Err(errors) }
 }
 
+impl NumberRule<'_> {
+    fn applies_to(&self, joint: &Joint) -> bool {
+        joint.mimic.is_none() && self.of_angles.is_none_or(|of_angles| of_angles == joint.kind.is_angular())
+    }
+}
+
 /// Whether a joint of this name has an actuator.
-fn check_name(robot: &Robot, name: &str) -> Result<(), Diagnostic> {
+fn check_name(robot: &Robot, name: &str, rule: NumberRule<'_>) -> Result<(), Diagnostic> {
     let joint = robot.find_joint(name).filter(|&joint| robot.coordinate(joint).is_some());
     let Some(joint) = joint.map(|joint| robot.joint(joint)) else {
         let message = format!("robot \"{}\" has no moving joint \"{name}\"", robot.name());
@@ -72,13 +92,15 @@ fn check_name(robot: &Robot, name: &str) -> Result<(), Diagnostic> {
             names.chain([OTHERS]),
         )));
     };
-    match joint.mimic {
-        Some(mimic) => {
-            let master = &robot.joint(mimic.master).name;
-            let message = format!("joint \"{name}\" mimics \"{master}\" and has no actuator of its own");
-            Err(Diagnostic::error("scenario::mimic_joint", message)
-                .with_help("give the number of the joint that it mimics"))
-        }
-        None => Ok(()),
+    if let Some(mimic) = joint.mimic {
+        let master = &robot.joint(mimic.master).name;
+        let message = format!("joint \"{name}\" mimics \"{master}\" and has no actuator of its own");
+        return Err(Diagnostic::error("scenario::mimic_joint", message)
+            .with_help("give the number of the joint that it mimics"));
     }
+    if rule.applies_to(joint) {
+        return Ok(());
+    }
+    let message = format!("joint \"{name}\" is {}, `{}` is for others", joint.kind.name(), rule.what);
+    Err(Diagnostic::error("scenario::joint_unit", message).with_help("give it under the key of its unit"))
 }
