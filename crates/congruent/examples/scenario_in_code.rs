@@ -41,7 +41,12 @@ fn lift(stiffness: f64) -> Scenario {
     Scenario {
         name: "lift".to_owned(),
         simulation: SimulationSettings { duration_s: Some(1.5), ..SimulationSettings::default() },
-        controller: ControllerSettings { kind: "pd".to_owned(), stiffness, damping: stiffness / 10.0 },
+        controller: ControllerSettings {
+            kind: "pd".to_owned(),
+            stiffness: stiffness.into(),
+            damping: (stiffness / 10.0).into(),
+            ..ControllerSettings::default()
+        },
         motion: vec![MotionSettings::Joints(lift)],
         check: vec![Check::Agreement(AgreementCheck::default())],
         ..Scenario::default()

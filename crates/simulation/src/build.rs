@@ -14,6 +14,7 @@ use rapier3d_f64::{
 
 use crate::{
     adapter, contact,
+    drive::Capability,
     error::SimulationError,
     lumping::Bodies,
     sets::{EngineSets, EngineSlot},
@@ -44,7 +45,7 @@ pub(crate) fn build(
     if settings.contacts && !settings.obstacles.is_empty() {
         add_colliders(&mut sets, &handles, robot, bodies, &settings.obstacles)?;
     }
-    let slots = slots(robot)?;
+    let slots = slots(robot, settings.actuator_limits)?;
     for (slot, &index) in slots.iter().zip(robot.movable_joints()) {
         let joint = robot.joint(index);
         let (parent, child) = (bodies.links[joint.parent.get()].body, bodies.links[joint.child.get()].body);
@@ -58,6 +59,7 @@ pub(crate) fn build(
         body.recompute_mass_properties_from_colliders(&sets.colliders);
     }
     let multibody = sets.multibody_joints.rigid_body_link(handles[0]).map(|link| link.multibody);
+    sets.damping = robot.movable_joints().iter().map(|&joint| robot.joint(joint).damping).collect();
     if let Some(index) = multibody {
         finish_multibody(&mut sets, index, robot, &slots);
     }
@@ -90,9 +92,14 @@ fn add_colliders(
     Ok(())
 }
 
-fn slots(robot: &Robot) -> Result<Vec<EngineSlot>, SimulationError> {
+fn slots(robot: &Robot, actuator_limits: bool) -> Result<Vec<EngineSlot>, SimulationError> {
     let mut slots =
         robot.movable_joints().iter().map(|&joint| slot(robot, joint)).collect::<Result<Vec<_>, _>>()?;
+    if !actuator_limits {
+        for slot in &mut slots {
+            slot.capability = Capability { effort: f64::MAX, speed: f64::MAX };
+        }
+    }
     for (row, &joint) in robot.movable_joints().iter().enumerate() {
         if let Some(mimic) = robot.joint(joint).mimic {
             let master = robot.coordinate(mimic.master).expect("a mimicked joint moves");
@@ -125,13 +132,16 @@ fn slot(robot: &Robot, index: JointIndex) -> Result<EngineSlot, SimulationError>
         let (joint_name, unit) = (joint.name.clone(), joint.kind.unit());
         return Err(SimulationError::Limits { joint: joint_name, lower, upper, unit });
     }
-    let effort = joint.limit.and_then(|limit| limit.effort).unwrap_or(0.0);
+    // Zero is what descriptions write for unknown.
+    let largest =
+        |limit: Option<f64>| limit.filter(|&limit| limit > 0.0).map_or(f64::MAX, |limit| limit.min(f64::MAX));
+    let effort = largest(joint.limit.and_then(|limit| limit.effort));
+    let speed = largest(joint.limit.and_then(|limit| limit.velocity));
     Ok(EngineSlot {
         axis: if joint.kind.is_angular() { JointAxis::AngX } else { JointAxis::LinX },
         lower,
         upper,
-        // Zero is what descriptions write for unknown.
-        effort: if effort > 0.0 { effort.min(f64::MAX) } else { f64::MAX },
+        capability: Capability { effort, speed },
         is_mimic: joint.mimic.is_some(),
     })
 }

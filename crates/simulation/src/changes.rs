@@ -2,7 +2,7 @@
 
 use congruent_description::{Inertia, LinkIndex};
 
-use crate::{actuation::DriveConnection, engine::UnknownLoad, error::SimulationError, world::World};
+use crate::{actuation::DriveConnection, error::SimulationError, world::World};
 
 /// A body that a link carries from now on, in addition to its own mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,18 +98,12 @@ impl World {
         self.load_links();
     }
 
-    /// Sets everything that links carry of which controllers do not know: they compensate for the gravity of the rest.
+    /// Sets everything that links carry of which nobody knows, in addition to [`World::set_carried`].
     ///
     /// # Panics
     /// If a link is not one of this robot.
     pub fn set_carried_unknown(&mut self, carried: &[CarriedBody]) {
         carried.clone_into(&mut self.state.carried[1]);
-        let unknown = carried.iter().map(|carried| {
-            let place = self.links[carried.link.get()];
-            let com_in_body = (place.body_from_link * carried.inertia.link_from_inertial).translation.vector;
-            UnknownLoad { body: place.body, mass_kg: carried.inertia.mass_kg, com_in_body }
-        });
-        self.engine.unknown_loads = unknown.collect();
         self.load_links();
     }
 

@@ -9,9 +9,10 @@ use rapier3d_f64::prelude::{
 };
 
 use crate::{
-    actuation::commands::{Commands, Motor},
+    actuation::Commands,
     adapter,
     build::Built,
+    drive::{CoordinateState, Drive, Linear, Saturation},
     sets::{EngineSets, EngineSlot},
     settings::WorldSettings,
 };
@@ -30,14 +31,6 @@ const SWEEPS_PER_MIMIC: usize = 25;
 /// rapier by itself returns within one step: a robot placed 1 rad outside would get 1000 rad/s.
 const RETURN_SPEED: f64 = 1.0;
 
-/// What a body carries of which controllers do not know.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct UnknownLoad {
-    pub body: usize,
-    pub mass_kg: f64,
-    pub com_in_body: Vector3<f64>,
-}
-
 /// The robot in rapier, and how it is stepped.
 pub(crate) struct Engine {
     sets: EngineSets,
@@ -47,7 +40,8 @@ pub(crate) struct Engine {
     pipeline: PhysicsPipeline,
     parameters: IntegrationParameters,
     gravity: Vector,
-    pub unknown_loads: Vec<UnknownLoad>,
+    /// Of the step that is taken.
+    drives: Vec<Drive>,
     /// Whether some body carries a force of the step before: rapier's forces persist.
     is_forced: bool,
 }
@@ -66,17 +60,8 @@ impl Engine {
         let Built { sets, handles, slots, multibody } = built;
         let gravity = adapter::vector(&settings.gravity_in_world);
         let pipeline = new_pipeline();
-        Self {
-            sets,
-            handles,
-            slots,
-            multibody,
-            pipeline,
-            parameters,
-            gravity,
-            unknown_loads: Vec::new(),
-            is_forced: false,
-        }
+        let drives = vec![Drive::default(); slots.len()];
+        Self { sets, handles, slots, multibody, pipeline, parameters, gravity, drives, is_forced: false }
     }
 
     pub(crate) fn step_s(&self) -> f64 {
@@ -142,11 +127,40 @@ impl Engine {
         }
     }
 
-    /// One step under the commands, which hold finite numbers.
-    pub(crate) fn step(&mut self, commands: &mut Commands) {
+    /// One step from `q`, `qd` under the commands, which hold finite numbers.
+    pub(crate) fn step(&mut self, commands: &Commands, q: &[f64], qd: &[f64]) {
+        let step_s = self.step_s();
+        for (coordinate, (drive, slot)) in self.drives.iter_mut().zip(&self.slots).enumerate() {
+            let state = CoordinateState { q: q[coordinate], qd: qd[coordinate] };
+            let (torque, servo) = (commands.torque[coordinate], commands.motors[coordinate]);
+            let servo = servo.filter(|_| !slot.is_mimic);
+            *drive = slot.capability.drive(torque, servo, state, step_s);
+        }
+        self.step_drives();
+        // Rare: the blow of a contact, or a joint that reaches its largest speed in this step.
+        if self.correct_drives() {
+            self.place(q, qd);
+            self.step_drives();
+        }
+    }
+
+    /// Corrects the drives that took their joints beyond a limit; returns whether there are any.
+    fn correct_drives(&mut self) -> bool {
+        let Some(index) = self.multibody else { return false };
+        let multibody = self.sets.multibody_joints.get_multibody(index).expect("the multibody exists");
+        let speeds = multibody.generalized_velocity();
+        let mut is_corrected = false;
+        for (row, (link, slot)) in multibody.links().skip(1).zip(&self.slots).enumerate() {
+            let end = CoordinateState { q: link.joint().coords()[slot.axis as usize], qd: speeds[row] };
+            is_corrected |= slot.capability.correct(&mut self.drives[row], end);
+        }
+        is_corrected
+    }
+
+    fn step_drives(&mut self) {
         self.clear_forces();
-        self.apply_torques(commands);
-        self.set_motors_and_limits(commands);
+        self.set_servos_and_limits();
+        self.apply_torques();
         let sets = &mut self.sets;
         self.pipeline.step(
             self.gravity,
@@ -166,9 +180,7 @@ impl Engine {
     }
 
     pub(crate) fn set_damping(&mut self, coordinate: usize, damping: f64) {
-        if let Some(multibody) = self.multibody_mut() {
-            multibody.damping_mut()[coordinate] = damping;
-        }
+        self.sets.damping[coordinate] = damping;
     }
 
     pub(crate) fn set_dry_friction(&mut self, coordinate: usize, friction: f64) {
@@ -178,7 +190,7 @@ impl Engine {
     }
 
     pub(crate) fn damping(&self, coordinate: usize) -> f64 {
-        self.multibody().map_or(0.0, |multibody| multibody.damping()[coordinate])
+        self.sets.damping[coordinate]
     }
 
     pub(crate) fn dry_friction(&self, coordinate: usize) -> f64 {
@@ -218,12 +230,12 @@ impl Engine {
         }
     }
 
-    /// Each torque acts on the child and, the other way, on the parent.
-    fn apply_torques(&mut self, commands: &Commands) {
+    /// Each torque acts on the child and, the other way, on the parent. That of a servo is a part of the servo.
+    fn apply_torques(&mut self) {
         let Some(index) = self.multibody else { return };
         let multibody = self.sets.multibody_joints.get_multibody(index).expect("the multibody exists");
-        for (coordinate, slot) in self.slots.iter().enumerate() {
-            let torque = commands.torque[coordinate].clamp(-slot.effort, slot.effort);
+        for (coordinate, (slot, drive)) in self.slots.iter().zip(&self.drives).enumerate() {
+            let torque = if drive.is_constrained { 0.0 } else { drive.linear().torque };
             if torque == 0.0 {
                 continue;
             }
@@ -241,32 +253,33 @@ impl Engine {
         }
     }
 
-    fn set_motors_and_limits(&mut self, commands: &mut Commands) {
+    fn set_servos_and_limits(&mut self) {
         let Some(index) = self.multibody else { return };
         let step_s = self.parameters.dt;
         let multibody = self.sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
-        for (coordinate, (link, slot)) in multibody.links_mut().skip(1).zip(&self.slots).enumerate() {
+        for (row, (link, slot)) in multibody.links_mut().skip(1).zip(&self.slots).enumerate() {
             let q = link.joint.coords()[slot.axis as usize];
             let data = &mut link.joint.data;
-            let passed = slot.passed_limits(q, step_s);
             data.limit_axes.remove(slot.axis.into());
-            if let Some(limits) = passed {
+            data.motor_axes.remove(slot.axis.into());
+            if let Some(limits) = slot.passed_limits(q, step_s) {
                 data.set_limits(slot.axis, limits);
             }
-            let Some(motor) = &mut commands.motors[coordinate] else {
-                data.motor_axes.remove(slot.axis.into());
-                continue;
-            };
-            // rapier moves the target along for the step; ours is the target at its end.
-            let target = motor.q - step_s * motor.qd;
-            if let Some([lower, upper]) = passed {
-                // So does rapier; done here, the servo's law holds for what is commanded.
-                motor.qd = motor.qd.clamp((lower - q) / step_s, (upper - q) / step_s);
-                motor.q = target + step_s * motor.qd;
+            let drive = &self.drives[row];
+            let linear = if drive.is_constrained { Linear::default() } else { drive.linear() };
+            link.joint.set_spring(slot.axis as usize, linear.stiffness, linear.rest);
+            if let Some(motor) = drive.combined().filter(|_| drive.is_constrained) {
+                // rapier moves the target along for the step; ours is the target at its end.
+                let (target, gains) = (motor.q - step_s * motor.qd, motor.gains);
+                let data = &mut link.joint.data;
+                data.set_motor(slot.axis, target, motor.qd, gains.stiffness, gains.damping);
+                data.set_motor_model(slot.axis, MotorModel::ForceBased);
+                data.set_motor_max_force(slot.axis, slot.capability.effort);
             }
-            data.set_motor(slot.axis, target, motor.qd, motor.gains.stiffness, motor.gains.damping);
-            data.set_motor_model(slot.axis, MotorModel::ForceBased);
-            data.set_motor_max_force(slot.axis, slot.servo_effort(commands.torque[coordinate]));
+        }
+        for (row, (drive, own)) in self.drives.iter().zip(&self.sets.damping).enumerate() {
+            let servo = drive.servo.filter(|_| !drive.is_constrained);
+            multibody.damping_mut()[row] = own + servo.map_or(0.0, |servo| servo.gains.damping);
         }
     }
 
@@ -283,18 +296,23 @@ impl Engine {
         (0..factors.nrows()).find(|&row| !pivot(row).is_finite() || pivot(row) == 0.0)
     }
 
-    /// Effort of each actuator in the step that ended in `q`, `qd`: the torque, and the servo's effort
-    /// by the law that rapier integrates implicitly.
-    pub(crate) fn exerted(&self, commands: &Commands, q: &[f64], qd: &[f64], torque: &mut [f64]) {
-        for (coordinate, slot) in self.slots.iter().enumerate() {
-            let direct = commands.torque[coordinate].clamp(-slot.effort, slot.effort);
-            let servo =
-                commands.motors[coordinate].map_or(0.0, |Motor { gains, q: target_q, qd: target_qd }| {
-                    let effort = slot.servo_effort(direct);
-                    let position = gains.stiffness * (target_q - q[coordinate]);
-                    (position + gains.damping * (target_qd - qd[coordinate])).clamp(-effort, effort)
-                });
-            torque[coordinate] = direct + servo;
+    /// Effort of each actuator in the step that ended in `q`, `qd`, and which of its limits held it back.
+    pub(crate) fn exerted(&self, q: &[f64], qd: &[f64], torque: &mut [f64], saturations: &mut [Saturation]) {
+        for (row, (slot, drive)) in self.slots.iter().zip(&self.drives).enumerate() {
+            let (effort, is_largest) =
+                slot.capability.exerted(drive, CoordinateState { q: q[row], qd: qd[row] });
+            torque[row] = effort;
+            saturations[row] =
+                Saturation { effort: drive.saturation.effort || is_largest, ..drive.saturation };
+        }
+    }
+
+    /// Effort that each actuator would have exerted under other commands in the step that ended in `q`, `qd`.
+    pub(crate) fn asked(&self, commands: &Commands, q: &[f64], qd: &[f64], torque: &mut [f64]) {
+        for (row, slot) in self.slots.iter().enumerate() {
+            let servo = commands.motors[row].filter(|_| !slot.is_mimic);
+            let drive = Drive { torque: commands.torque[row], servo, ..Drive::default() };
+            torque[row] = slot.capability.exerted(&drive, CoordinateState { q: q[row], qd: qd[row] }).0;
         }
     }
 
@@ -308,27 +326,6 @@ impl Engine {
             let jacobian = multibody.body_jacobian(link.link_id());
             for (torque, column) in torque.iter_mut().zip(jacobian.column_iter()) {
                 *torque -= column[0] * weight.x + column[1] * weight.y + column[2] * weight.z;
-            }
-        }
-    }
-
-    /// The same for what a controller knows: without the weight of unknown loads.
-    pub(crate) fn add_known_gravity_torque(&self, torque: &mut [f64]) {
-        self.add_gravity_torque(torque);
-        let Some(multibody) = self.multibody() else { return };
-        for load in &self.unknown_loads {
-            let Some(link) = multibody.link(load.body) else { continue };
-            let body = self.sets.bodies.get(link.rigid_body_handle()).expect("the body exists");
-            let weight = adapter::vector3(self.gravity) * load.mass_kg;
-            let world_from_body = adapter::isometry(link.local_to_world());
-            let com_in_world = world_from_body * nalgebra::Point3::from(load.com_in_body);
-            // The Jacobian is that of the body's centre of mass.
-            let arm = com_in_world.coords - adapter::vector3(body.center_of_mass());
-            let moment = arm.cross(&weight);
-            let jacobian = multibody.body_jacobian(link.link_id());
-            for (torque, column) in torque.iter_mut().zip(jacobian.column_iter()) {
-                *torque += column[0] * weight.x + column[1] * weight.y + column[2] * weight.z;
-                *torque += column[3] * moment.x + column[4] * moment.y + column[5] * moment.z;
             }
         }
     }
@@ -364,11 +361,6 @@ impl EngineSlot {
         let way = RETURN_SPEED * step_s;
         let is_inside = (self.lower..=self.upper).contains(&q);
         (!is_inside).then(|| [self.lower.min(q + way), self.upper.max(q - way)])
-    }
-
-    /// The effort that the joint's limit allows a servo beside a torque.
-    fn servo_effort(&self, torque: f64) -> f64 {
-        (self.effort - torque.abs()).max(0.0)
     }
 }
 

@@ -1,7 +1,5 @@
 //! The errors of this crate: one enum, one test for each variant.
 
-use congruent_description::known_names;
-
 /// Why a world was not built, or why it did not step.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -73,21 +71,5 @@ pub enum SimulationError {
     Massless {
         /// The link that the joint carries.
         link: String,
-    },
-    /// There is no controller of that name.
-    #[error("unknown controller \"{name}\"; {}", known_names(.name, "controllers", .known.iter().copied()))]
-    UnknownController {
-        /// The requested name.
-        name: String,
-        /// All names.
-        known: Vec<&'static str>,
-    },
-    /// A gain is negative or not finite.
-    #[error("{gain} = {value} is not a gain; it must be zero or positive")]
-    Gain {
-        /// `stiffness` or `damping`.
-        gain: &'static str,
-        /// Its value.
-        value: f64,
     },
 }

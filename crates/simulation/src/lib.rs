@@ -8,6 +8,7 @@ mod adapter;
 mod build;
 mod changes;
 mod contact;
+mod drive;
 mod engine;
 mod error;
 mod lumping;
@@ -16,10 +17,11 @@ mod settings;
 mod world;
 
 pub use actuation::{
-    CloneController, Commands, Controller, DriveConnection, Gains, JointsView, MeasuredState, Motor,
-    Setpoint, controller, controller_names,
+    Commands, Controller, DriveConnection, Gains, JointsView, Kinematic, MeasuredState, Motor, Passive, Pd,
+    Setpoint, Torque,
 };
 pub use changes::CarriedBody;
+pub use drive::Saturation;
 pub use error::SimulationError;
 pub use settings::{Obstacle, WorldSettings};
 pub use world::{World, WorldSnapshot};

@@ -5,7 +5,9 @@ use rapier3d_f64::prelude::{
     NarrowPhase, RigidBodySet, SoftBodySet,
 };
 
-/// Everything that a step changes; a clone is a snapshot.
+use crate::drive::Capability;
+
+/// Everything that a step or a change of the robot changes; a clone is a snapshot.
 #[derive(Clone, Default)]
 pub(crate) struct EngineSets {
     pub bodies: RigidBodySet,
@@ -17,6 +19,8 @@ pub(crate) struct EngineSets {
     pub broad_phase: BroadPhaseBvh,
     pub narrow_phase: NarrowPhase,
     pub ccd: CCDSolver,
+    /// The joints' own damping: rapier's has that of the servos in addition.
+    pub damping: Vec<f64>,
 }
 
 /// Properties of one movable joint; unit of the coordinate, N m or N.
@@ -25,7 +29,6 @@ pub(crate) struct EngineSlot {
     pub axis: JointAxis,
     pub lower: f64,
     pub upper: f64,
-    /// Largest force or torque; `f64::MAX` if there is no limit.
-    pub effort: f64,
+    pub capability: Capability,
     pub is_mimic: bool,
 }

@@ -16,16 +16,19 @@ pub struct WorldSettings {
     pub obstacles: Vec<Obstacle>,
     /// Whether links touch obstacles; links never touch each other.
     pub contacts: bool,
+    /// Whether actuators keep the limits of effort and velocity that the description gives.
+    pub actuator_limits: bool,
 }
 
 impl Default for WorldSettings {
-    /// A step of 1 ms, 9.81 m/s^2 along -z, no obstacle.
+    /// A step of 1 ms, 9.81 m/s^2 along -z, no obstacle, limits as in the description.
     fn default() -> Self {
         Self {
             step_s: 1e-3,
             gravity_in_world: Vector3::new(0.0, 0.0, -9.81),
             obstacles: Vec::new(),
             contacts: false,
+            actuator_limits: true,
         }
     }
 }

@@ -7,7 +7,8 @@ use crate::{
     actuation::{Commands, Controller, JointsView, MeasuredState, Motor, Setpoint, connection::Connections},
     build,
     changes::CarriedBody,
-    engine::{Engine, UnknownLoad},
+    drive::Saturation,
+    engine::Engine,
     error::SimulationError,
     lumping::{Bodies, LinkOnBody},
     sets::EngineSets,
@@ -33,7 +34,7 @@ const LARGEST: f64 = 1e75;
 /// A bar of 1 kg on a hinge, released level, falls:
 /// ```
 /// use congruent_description::{Inertia, Joint, JointKind, JointParts, Link, Robot, RobotQ};
-/// use congruent_simulation::{Gains, Setpoint, World, WorldSettings, controller};
+/// use congruent_simulation::{Passive, Setpoint, World, WorldSettings};
 /// use nalgebra::{Isometry3, Matrix3, Vector3};
 ///
 /// # let root = Robot::new("", vec![Link::default()], vec![])?.root();
@@ -56,9 +57,8 @@ const LARGEST: f64 = 1e75;
 /// let robot = Robot::new("pendulum", vec![base, bar], vec![parts])?;
 ///
 /// let mut world = World::new(&robot, &WorldSettings::default())?;
-/// let mut passive = controller("passive", Gains::default())?;
 /// let level = RobotQ::zeros(1);
-/// world.step(passive.as_mut(), &Setpoint { q: &level, qd: &[0.0], qdd: &[0.0] })?;
+/// world.step(&mut Passive, &Setpoint { q: &level, qd: &[0.0], qdd: &[0.0] })?;
 /// // Acceleration m g l / (I + m l^2) = 4.905 / 0.27 rad/s^2, for 1 ms.
 /// assert!((world.qd()[0] - 4.905 / 0.27 * 1e-3).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -83,6 +83,7 @@ pub(crate) struct WorldState {
     q: RobotQ,
     qd: Vec<f64>,
     torque: Vec<f64>,
+    saturations: Vec<Saturation>,
     /// The share of its commanded effort that each actuator delivers.
     pub(crate) delivered: Vec<f64>,
     /// The effort that each actuator would have exerted if it delivered all of it.
@@ -98,7 +99,6 @@ pub(crate) struct WorldState {
 pub struct WorldSnapshot {
     state: WorldState,
     sets: EngineSets,
-    unknown_loads: Vec<UnknownLoad>,
 }
 
 impl World {
@@ -129,6 +129,7 @@ impl World {
                 q: RobotQ::zeros(dof),
                 qd: vec![0.0; dof],
                 torque: vec![0.0; dof],
+                saturations: vec![Saturation::default(); dof],
                 delivered: vec![1.0; dof],
                 asked: vec![0.0; dof],
                 connections: Connections::new(dof),
@@ -149,6 +150,7 @@ impl World {
         self.engine.place(q, qd);
         self.state.torque.fill(0.0);
         self.state.asked.fill(0.0);
+        self.state.saturations.fill(Saturation::default());
         self.engine.read(&mut self.state.q, &mut self.state.qd);
         Ok(())
     }
@@ -172,6 +174,11 @@ impl World {
     /// drive reports that knows its current, not its torque.
     pub fn asked_torque(&self) -> &[f64] {
         &self.state.asked
+    }
+
+    /// Which limits of each actuator held it back in the last step.
+    pub fn saturations(&self) -> &[Saturation] {
+        &self.state.saturations
     }
 
     /// Simulated time, s: the number of steps times their length.
@@ -226,7 +233,8 @@ impl World {
     ) -> Result<(), SimulationError> {
         self.check_setpoint(setpoint)?;
         self.commands.clear();
-        let joints = JointsView { q: &self.state.q, qd: &self.state.qd, engine: &self.engine };
+        let (q, qd, time_s) = (&self.state.q, &self.state.qd, self.time_s());
+        let joints = JointsView { q, qd, time_s, engine: &self.engine };
         controller.command(&joints, setpoint, &mut self.commands);
         self.apply(setpoint)
     }
@@ -249,7 +257,8 @@ impl World {
         self.check_vector("measured position", measured.q)?;
         self.check_vector("measured velocity", measured.qd)?;
         self.commands.clear();
-        let joints = JointsView { q: measured.q, qd: measured.qd, engine: &self.engine };
+        let (q, qd, time_s) = (measured.q, measured.qd, self.time_s());
+        let joints = JointsView { q, qd, time_s, engine: &self.engine };
         controller.command(&joints, setpoint, &mut self.commands);
         let WorldState { q, qd, connections, .. } = &self.state;
         connections.connect(&mut self.commands, &mut self.asked, (q, qd), measured);
@@ -267,7 +276,7 @@ impl World {
         self.check_commands()?;
         self.asked.copy_from(&self.commands);
         self.commands.deliver(&self.state.delivered);
-        self.engine.step(&mut self.commands);
+        self.engine.step(&self.commands, &self.state.q, &self.state.qd);
         self.state.step_count += 1;
         self.finish_step()
     }
@@ -287,11 +296,7 @@ impl World {
 
     /// The whole state: after [`World::restore`], steps repeat bit by bit.
     pub fn snapshot(&self) -> WorldSnapshot {
-        WorldSnapshot {
-            state: self.state.clone(),
-            sets: self.engine.sets().clone(),
-            unknown_loads: self.engine.unknown_loads.clone(),
-        }
+        WorldSnapshot { state: self.state.clone(), sets: self.engine.sets().clone() }
     }
 
     /// Returns to a snapshot of this world.
@@ -301,17 +306,16 @@ impl World {
     pub fn restore(&mut self, snapshot: &WorldSnapshot) {
         assert_eq!(snapshot.state.q.len(), self.state.q.len(), "the snapshot is of another robot");
         self.engine.restore(&snapshot.sets);
-        self.engine.unknown_loads.clone_from(&snapshot.unknown_loads);
         self.state.clone_from(&snapshot.state);
     }
 
     fn finish_step(&mut self) -> Result<(), SimulationError> {
-        let WorldState { q, qd, torque, asked, delivered, .. } = &mut self.state;
+        let WorldState { q, qd, torque, asked, saturations, delivered, .. } = &mut self.state;
         self.engine.read(q, qd);
-        self.engine.exerted(&self.commands, q, qd, torque);
+        self.engine.exerted(q, qd, torque, saturations);
         asked.copy_from_slice(torque);
         if delivered.iter().any(|&share| share < 1.0 || share > 1.0) {
-            self.engine.exerted(&self.asked, q, qd, asked);
+            self.engine.asked(&self.asked, q, qd, asked);
         }
         self.check_finite("position", &self.state.q)?;
         self.check_finite("velocity", &self.state.qd)?;

@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use congruent_description::{Geometry, Mesh, Robot, RobotQ};
 use congruent_simulation::{
-    Commands, Controller, Gains, JointsView, Obstacle, Setpoint, SimulationError, World, WorldSettings,
-    controller, controller_names,
+    Commands, Controller, JointsView, Obstacle, Setpoint, SimulationError, World, WorldSettings,
 };
 use nalgebra::{Isometry3, Point3, Vector3};
 use support::{arm, arm_q0, arm_with, limited, make, massless, pendulum, run};
@@ -65,24 +64,6 @@ fn vectors_of_another_length() {
 }
 
 #[test]
-fn an_unknown_controller_lists_the_known() {
-    let error = controller("kinematics", Gains::default()).err().unwrap();
-    let expected = "unknown controller \"kinematics\"; did you mean \"kinematic\"? known controllers: \
-                    passive, kinematic, pd, gravity_compensation";
-    assert_eq!(error.to_string(), expected);
-    for name in controller_names() {
-        assert_eq!(controller(name, Gains::default()).unwrap().name(), name);
-    }
-}
-
-#[test]
-fn a_gain_that_is_none() {
-    let error = controller("pd", Gains { stiffness: 1.0, damping: -2.0 }).err().unwrap();
-    assert_eq!(error.to_string(), "damping = -2 is not a gain; it must be zero or positive");
-    assert!(controller("pd", Gains { stiffness: f64::NAN, damping: 0.0 }).is_err());
-}
-
-#[test]
 fn a_robot_without_mass_is_placed_but_not_stepped() {
     let parts =
         support::joint(congruent_description::JointKind::Continuous, ("base", "arm"), [0.0; 3], [0.0; 3]);
@@ -112,10 +93,6 @@ fn a_robot_without_a_joint_stands() {
 struct Push(f64);
 
 impl Controller for Push {
-    fn name(&self) -> &'static str {
-        "push"
-    }
-
     fn command(&mut self, _: &JointsView<'_>, _: &Setpoint<'_>, commands: &mut Commands) {
         commands.torque_mut().fill(self.0);
     }

@@ -10,7 +10,7 @@ mod support;
 use std::path::Path;
 
 use congruent_description::{Joint, JointParts, Robot, RobotQ, load_robot};
-use congruent_simulation::{Commands, Controller, JointsView, Setpoint, World, WorldSettings};
+use congruent_simulation::{Torque, World, WorldSettings};
 use nalgebra::{DMatrix, DVector, Isometry3, Quaternion, UnitQuaternion};
 use serde_json::Value;
 use support::{at, make, run, steps, worst};
@@ -216,20 +216,6 @@ fn one_step_error(golden: &Golden, config: &Value, world: &mut World) -> f64 {
     (found - &expected).amax() / expected.amax()
 }
 
-/// Torques that stay as they are.
-#[derive(Clone)]
-struct Torques(Vec<f64>);
-
-impl Controller for Torques {
-    fn name(&self) -> &'static str {
-        "torques"
-    }
-
-    fn command(&mut self, _: &JointsView<'_>, _: &Setpoint<'_>, commands: &mut Commands) {
-        commands.torque_mut().copy_from_slice(&self.0);
-    }
-}
-
 /// Ratio of the errors at h and h/2; physics, first order.
 const FIRST_ORDER: std::ops::Range<f64> = 1.9..2.1;
 
@@ -271,7 +257,7 @@ fn motion_error(robot: &Robot, case: &Value, places: &[usize], step_s: f64) -> f
     let q0 = sorted(&case["q0"]).into();
     world.set_state(&q0, &sorted(&case["v0"])).expect("a state");
     let (sample, at_s) = (30, 0.3);
-    run(&mut world, &mut Torques(sorted(&case["torque"])), &q0, steps(at_s, step_s));
+    run(&mut world, &mut Torque(sorted(&case["torque"])), &q0, steps(at_s, step_s));
     worst(world.q(), &sorted(&case["q"][sample]))
 }
 

@@ -331,10 +331,6 @@ fn a01_poses_are_those_of_the_coordinates() {
 struct OneServo;
 
 impl Controller for OneServo {
-    fn name(&self) -> &'static str {
-        "one_servo"
-    }
-
     fn command(&mut self, joints: &JointsView<'_>, setpoint: &Setpoint<'_>, commands: &mut Commands) {
         joints.add_gravity_torque(commands.torque_mut());
         let gains = Gains { stiffness: 500.0, damping: 100.0 };

@@ -5,6 +5,7 @@
 //! [`source`] of joint states, [`monitor`] holds the checks, and [`execute`] does all of it for one scenario.
 
 pub mod comparison;
+mod control;
 pub mod diagnosis;
 mod execute;
 pub mod fault;
@@ -21,6 +22,7 @@ pub mod source;
 pub mod trajectory_file;
 pub mod verdict;
 
+pub use control::JointController;
 pub use execute::{ExecuteError, Options, Recording, RecordingFormat, execute};
 pub use run::{Outcome, Run, RunError};
 pub use sample::Sample;

@@ -1,8 +1,15 @@
 //! The commands of a controller to the actuators.
 
-use super::gains::Gains;
+/// Gains of a joint servo: N m/rad and N m s/rad for an angle, N/m and N s/m for a shift.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Gains {
+    /// Torque per position error.
+    pub stiffness: f64,
+    /// Torque per velocity error.
+    pub damping: f64,
+}
 
-/// A servo that rapier integrates implicitly, stable at any gain: it exerts
+/// A servo that is integrated implicitly, stable at any gain: it exerts
 /// `stiffness (q - q(t)) + damping (qd - qd(t))`, state and target at the end of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motor {
@@ -57,9 +64,9 @@ impl Commands {
         &mut self.torque
     }
 
-    /// Drives a joint by a servo, in addition to its torque. Gains of zero have no effect.
+    /// Drives a joint by a servo, in addition to its torque. Gains of zero have no effect, and none have those of a
+    /// mimic joint, which has no actuator of its own.
     pub fn drive(&mut self, coordinate: usize, motor: Motor) {
-        // rapier takes a motor without gains for an infinitely stiff one.
         let drives = motor.gains.stiffness > 0.0 || motor.gains.damping > 0.0;
         self.motors[coordinate] = drives.then_some(motor);
     }

@@ -3,10 +3,6 @@
 use congruent_description::RobotQ;
 use nalgebra::Vector3;
 
-use super::{
-    commands::{Commands, Motor},
-    gains::Gains,
-};
 use crate::engine::Engine;
 
 /// The desired state at the end of the step, one entry for each movable joint, mimic joints
@@ -32,20 +28,26 @@ pub struct MeasuredState<'a> {
 
 /// The joints at the beginning of the step, as the controller knows them.
 pub struct JointsView<'a> {
-    pub(crate) q: &'a [f64],
+    pub(crate) q: &'a RobotQ,
     pub(crate) qd: &'a [f64],
+    pub(crate) time_s: f64,
     pub(crate) engine: &'a Engine,
 }
 
 impl JointsView<'_> {
     /// Positions, rad or m.
-    pub fn q(&self) -> &[f64] {
+    pub fn q(&self) -> &RobotQ {
         self.q
     }
 
     /// Velocities, rad/s or m/s.
     pub fn qd(&self) -> &[f64] {
         self.qd
+    }
+
+    /// Simulated time at the beginning of the step, s.
+    pub fn time_s(&self) -> f64 {
+        self.time_s
     }
 
     /// Length of the step, s.
@@ -63,25 +65,11 @@ impl JointsView<'_> {
         self.engine.is_mimic(coordinate)
     }
 
-    /// Adds to `torque` the efforts that hold the robot against gravity, N m or N, without loads that it does not know of.
+    /// Adds to `torque` the efforts that hold the robot against gravity, N m or N.
     ///
     /// # Panics
     /// If `torque` does not hold one entry for each movable joint.
     pub fn add_gravity_torque(&self, torque: &mut [f64]) {
-        self.engine.add_known_gravity_torque(torque);
-    }
-}
-
-/// Drives every joint that has an actuator of its own towards the setpoint.
-pub(crate) fn drive_all(
-    gains: Gains,
-    joints: &JointsView<'_>,
-    setpoint: &Setpoint<'_>,
-    commands: &mut Commands,
-) {
-    for (coordinate, (&q, &qd)) in setpoint.q.iter().zip(setpoint.qd).enumerate() {
-        if !joints.is_mimic(coordinate) {
-            commands.drive(coordinate, Motor { gains, q, qd });
-        }
+        self.engine.add_gravity_torque(torque);
     }
 }

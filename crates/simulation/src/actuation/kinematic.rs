@@ -6,17 +6,11 @@ use super::{
     joints_view::{JointsView, Setpoint},
 };
 
-pub(super) const NAME: &str = "kinematic";
-
 /// Places positions and velocities; no dynamics, no limits, no contacts.
-#[derive(Clone)]
-pub(super) struct Kinematic;
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Kinematic;
 
 impl Controller for Kinematic {
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
     fn command(&mut self, _: &JointsView<'_>, _: &Setpoint<'_>, commands: &mut Commands) {
         commands.place();
     }

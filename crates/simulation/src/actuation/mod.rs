@@ -1,20 +1,20 @@
-//! Controllers: from state and setpoint to commands for the actuators. A new controller is a file here and a
-//! line in the list of `known.rs`.
+//! From state and setpoint to commands for the actuators: the trait of controllers and the simplest of them. Those that
+//! know a model of the robot, or sensors, are above this crate.
 
 pub(crate) mod commands;
 pub(crate) mod connection;
 mod controller;
-mod gains;
-mod gravity_compensation;
 mod joints_view;
 mod kinematic;
-mod known;
 mod passive;
 mod pd;
+mod torque;
 
-pub use commands::{Commands, Motor};
+pub use commands::{Commands, Gains, Motor};
 pub use connection::DriveConnection;
-pub use controller::{CloneController, Controller};
-pub use gains::Gains;
+pub use controller::Controller;
 pub use joints_view::{JointsView, MeasuredState, Setpoint};
-pub use known::{controller, controller_names};
+pub use kinematic::Kinematic;
+pub use passive::Passive;
+pub use pd::Pd;
+pub use torque::Torque;

@@ -2,26 +2,23 @@
 //! Without gravity compensation, so it sags by gravity torque / stiffness.
 
 use super::{
-    commands::Commands,
+    commands::{Commands, Gains, Motor},
     controller::Controller,
-    gains::Gains,
-    joints_view::{JointsView, Setpoint, drive_all},
+    joints_view::{JointsView, Setpoint},
 };
 
-pub(super) const NAME: &str = "pd";
-
 /// Servos; mimic joints follow their masters through the coupling.
-#[derive(Clone)]
-pub(super) struct Pd {
-    pub(super) gains: Gains,
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pd {
+    /// One for each movable joint; those of mimic joints are of no effect.
+    pub gains: Vec<Gains>,
 }
 
 impl Controller for Pd {
-    fn name(&self) -> &'static str {
-        NAME
-    }
-
-    fn command(&mut self, joints: &JointsView<'_>, setpoint: &Setpoint<'_>, commands: &mut Commands) {
-        drive_all(self.gains, joints, setpoint, commands);
+    fn command(&mut self, _: &JointsView<'_>, setpoint: &Setpoint<'_>, commands: &mut Commands) {
+        let targets = setpoint.q.iter().zip(setpoint.qd);
+        for (coordinate, (&gains, (&q, &qd))) in self.gains.iter().zip(targets).enumerate() {
+            commands.drive(coordinate, Motor { gains, q, qd });
+        }
     }
 }

@@ -7,7 +7,9 @@
 use congruent_description::{
     Geometry, Inertia, Joint, JointKind, JointLimit, JointParts, Link, LinkIndex, Robot, RobotQ, Shape,
 };
-use congruent_simulation::{Controller, Gains, Setpoint, World, WorldSettings, controller};
+use congruent_simulation::{
+    Commands, Controller, Gains, JointsView, Kinematic, Motor, Passive, Pd, Setpoint, World, WorldSettings,
+};
 use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// A link index, which `Robot::new` overwrites.
@@ -149,9 +151,28 @@ pub fn swinging_bar() -> Robot {
     Robot::new("bar", vec![massless("base"), bar], vec![hinge]).unwrap()
 }
 
+/// Gravity torque of the present configuration by the engine's own masses, and servos if the gains are not zero.
+pub struct EngineGravity(pub Gains);
+
+impl Controller for EngineGravity {
+    fn command(&mut self, joints: &JointsView<'_>, setpoint: &Setpoint<'_>, commands: &mut Commands) {
+        joints.add_gravity_torque(commands.torque_mut());
+        for (coordinate, (&q, &qd)) in setpoint.q.iter().zip(setpoint.qd).enumerate() {
+            commands.drive(coordinate, Motor { gains: self.0, q, qd });
+        }
+    }
+}
+
 /// A controller without or with gains.
 pub fn make(kind: &str, stiffness: f64, damping: f64) -> Box<dyn Controller> {
-    controller(kind, Gains { stiffness, damping }).unwrap()
+    let gains = Gains { stiffness, damping };
+    match kind {
+        "passive" => Box::new(Passive),
+        "kinematic" => Box::new(Kinematic),
+        "pd" => Box::new(Pd { gains: vec![gains; 40] }),
+        "gravity_compensation" => Box::new(EngineGravity(gains)),
+        unknown => panic!("{unknown}"),
+    }
 }
 
 /// A world with the robot at `q`, at rest.

@@ -207,7 +207,7 @@ mod tests {
     use std::path::Path;
 
     use congruent_description::load_robot;
-    use congruent_simulation::{Gains, WorldSettings, controller};
+    use congruent_simulation::{Gains, Pd, WorldSettings};
 
     use super::*;
     use crate::scenario::{
@@ -229,7 +229,12 @@ mod tests {
         let mut scenario = Scenario {
             name: "faults".to_owned(),
             seed: 3,
-            controller: ControllerSettings { kind: "pd".to_owned(), stiffness: 100.0, damping: 5.0 },
+            controller: ControllerSettings {
+                kind: "pd".to_owned(),
+                stiffness: 100.0.into(),
+                damping: 5.0.into(),
+                ..ControllerSettings::default()
+            },
             fault: vec![
                 FaultSettings::EncoderDrift(drift),
                 FaultSettings::FlippedAxis(flipped),
@@ -245,11 +250,11 @@ mod tests {
     /// The measured positions of the following steps.
     fn measured(world: &mut World, faults: &mut InjectedFaults<'_>, steps: u64) -> Vec<Vec<u64>> {
         let target = RobotQ::zeros(6);
-        let mut pd = controller("pd", Gains { stiffness: 100.0, damping: 5.0 }).unwrap();
+        let mut pd = Pd { gains: vec![Gains { stiffness: 100.0, damping: 5.0 }; 6] };
         (0..steps)
             .map(|_| {
                 let setpoint = Setpoint { q: &target, qd: &[0.0; 6], qdd: &[0.0; 6] };
-                world.step_measured(&mut *pd, &setpoint, &faults.measured()).unwrap();
+                world.step_measured(&mut pd, &setpoint, &faults.measured()).unwrap();
                 faults.advance(world.step_count(), world).unwrap();
                 faults.measured().q.iter().map(|q| q.to_bits()).collect()
             })

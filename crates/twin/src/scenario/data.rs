@@ -8,8 +8,9 @@ use super::{
     faults::FaultSettings,
     joints::StartSettings,
     motions::{LimitSettings, MotionSettings},
-    number::{finite_array, non_negative, optional_positive, positive},
+    number::{finite_array, optional_positive, positive},
     output::OutputSettings,
+    robot::{ControllerSettings, JointSettings, PayloadSettings, SensorSettings},
     spaces::{ObstacleSettings, ZoneSettings},
 };
 
@@ -54,6 +55,15 @@ pub struct Scenario {
     /// What planned moves keep.
     #[serde(default)]
     pub limits: LimitSettings,
+    /// Resistances and limits of the joints.
+    #[serde(default)]
+    pub joints: JointSettings,
+    /// Encoders.
+    #[serde(default)]
+    pub sensors: SensorSettings,
+    /// Bodies that the tool or a link carries.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub payload: Vec<PayloadSettings>,
     /// Motions, one after another.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<MotionSettings>,
@@ -88,6 +98,9 @@ impl Default for Scenario {
             start: StartSettings::default(),
             controller: ControllerSettings::default(),
             limits: LimitSettings::default(),
+            joints: JointSettings::default(),
+            sensors: SensorSettings::default(),
+            payload: Vec::new(),
             motion: Vec::new(),
             obstacle: Vec::new(),
             zone: Vec::new(),
@@ -135,28 +148,6 @@ fn down() -> [f64; 3] {
 impl Default for SimulationSettings {
     fn default() -> Self {
         Self { step_s: one_millisecond(), duration_s: None, gravity_m_s2: down() }
-    }
-}
-
-/// `[controller]`: the controller of the twin.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ControllerSettings {
-    /// Its name.
-    #[schemars(extend("enum" = congruent_simulation::controller_names().collect::<Vec<_>>()))]
-    pub kind: String,
-    /// Torque per position error: N m/rad, N/m.
-    #[serde(default, deserialize_with = "non_negative")]
-    pub stiffness: f64,
-    /// Torque per velocity error: N m s/rad, N s/m.
-    #[serde(default, deserialize_with = "non_negative")]
-    pub damping: f64,
-}
-
-impl Default for ControllerSettings {
-    /// Playback of the motions without dynamics.
-    fn default() -> Self {
-        Self { kind: "kinematic".to_owned(), stiffness: 0.0, damping: 0.0 }
     }
 }
 

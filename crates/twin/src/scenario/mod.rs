@@ -12,11 +12,12 @@ mod output;
 mod place;
 mod pose;
 mod reading;
+mod robot;
 mod spaces;
 mod text;
 
 pub use checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck};
-pub use data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
+pub use data::{Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
 pub(crate) use faults::FaultTime;
 pub use faults::{
     AddedFrictionFault, DroppedSamplesFault, EncoderDriftFault, EncoderOffsetFault, FaultKind, FaultSettings,
@@ -34,4 +35,9 @@ pub use place::FilePlace;
 pub(crate) use place::mark;
 pub use pose::PoseSettings;
 pub use reading::{Override, ScenarioFile};
+pub(crate) use robot::{CONTROLLER_KINDS, ControllerKind, OTHERS};
+pub use robot::{
+    ControllerSettings, JointNumbers, JointSettings, PayloadInertia, PayloadSettings, SensorSettings,
+    VelocitySensor,
+};
 pub use spaces::{CylinderSettings, ObstacleSettings, ZoneSettings};

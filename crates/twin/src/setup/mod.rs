@@ -1,5 +1,6 @@
 //! A scenario checked against its robot: nothing later validates again.
 
+pub(crate) mod actuation;
 mod clock;
 mod declared_dynamics;
 mod joint_targets;
@@ -11,6 +12,8 @@ mod run_setup;
 mod spaces;
 mod zones;
 
+pub(crate) use actuation::Sampling;
+pub use actuation::{ControllerSetup, SensorSetup, TorqueTable};
 pub use clock::RunClock;
 pub use declared_dynamics::DeclaredDynamics;
 pub(crate) use joint_targets::{JointTargets, moving_joint};

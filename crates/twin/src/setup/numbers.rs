@@ -16,8 +16,13 @@ pub(super) fn check(scenario: &Scenario) -> Vec<Diagnostic> {
         .gravity_m_s2
         .iter()
         .for_each(|&value| numbers.one("simulation.gravity_m_s2", value, Range::Finite));
-    numbers.one("controller.stiffness", scenario.controller.stiffness, Range::NonNegative);
-    numbers.one("controller.damping", scenario.controller.damping, Range::NonNegative);
+    numbers.maybe("controller.rate_hz", scenario.controller.rate_hz, Range::Positive);
+    numbers.maybe("controller.delay_s", scenario.controller.delay_s, Range::Positive);
+    for payload in &scenario.payload {
+        numbers.one("payload.mass_kg", payload.mass_kg, Range::Positive);
+        numbers.one("payload.from_s", payload.from_s, Range::NonNegative);
+        numbers.maybe("payload.until_s", payload.until_s, Range::Positive);
+    }
     numbers.maybe("output.trajectory_period_s", scenario.output.trajectory_period_s, Range::Positive);
     for motion in &scenario.motion {
         numbers.maybe("motion.duration_s", motion.duration_s(), Range::Positive);

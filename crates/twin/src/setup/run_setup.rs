@@ -8,9 +8,10 @@ use congruent_description::{
 };
 use congruent_dynamics::JointResistance;
 use congruent_kinematics::move_inside_limits;
-use congruent_simulation::{Gains, Obstacle, controller_names};
+use congruent_simulation::Obstacle;
 
 use super::{
+    actuation::{self, ControllerSetup, SensorSetup},
     clock::RunClock,
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
@@ -48,6 +49,8 @@ pub struct RunSetup {
     pub start: RobotQ,
     /// The motions.
     pub trajectory: Trajectory,
+    /// The controller.
+    pub controller: ControllerSetup,
     /// Bodies that stand around the robot, in the root link's frame.
     pub obstacles: Vec<Obstacle>,
     /// Space that named links may not enter, in the root link's frame.
@@ -58,6 +61,8 @@ pub struct RunSetup {
     pub resistances: Vec<JointResistance>,
     /// Faults of the twin, which nobody knows of.
     pub faults: Vec<PlannedFault>,
+    /// Resolution and noise of the encoders.
+    pub sensors: SensorSetup,
     /// What is suspicious in the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
     check_lines: Vec<Option<usize>>,
@@ -91,7 +96,11 @@ impl RunSetup {
                 return Err(findings);
             }
         };
-        let built = Self::build(file.scenario.clone(), description, (file.place(), file.folder()));
+        let mut scenario = file.scenario.clone();
+        if let Some(torques) = &mut scenario.controller.torque_file {
+            *torques = file.folder().join(&*torques).display().to_string();
+        }
+        let built = Self::build(scenario, description, (file.place(), file.folder()));
         let mut setup = match built {
             Ok(setup) if file.findings().is_empty() => setup,
             Ok(_) => return Err(file.findings().to_vec()),
@@ -144,6 +153,7 @@ impl RunSetup {
         let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
         let clock = found.keep(clock);
         found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
+        let driven = DrivenRobot::new(&scenario, place, &description, &mut found);
         let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);
         let obstacles = keep_all(&mut found, obstacles);
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
@@ -165,6 +175,9 @@ impl RunSetup {
         else {
             return Err(found.into_vec());
         };
+        let Some(DrivenRobot { controller, resistances, sensors, payloads }) = driven else {
+            return Err(found.into_vec());
+        };
         if found.has_error() {
             return Err(found.into_vec());
         }
@@ -173,14 +186,6 @@ impl RunSetup {
         write_out_defaults(&mut scenario, &description, (&clock, &start));
         write_out_paths(&mut scenario, folder);
         let path = None;
-        let robot = &description.robot;
-        let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
-        let resistance = |joint: &Joint| JointResistance {
-            damping: joint.damping,
-            friction: joint.friction,
-            armature: 0.0,
-        };
-        let resistances = joints.map(resistance).collect();
         Ok(Self {
             scenario,
             path,
@@ -189,9 +194,11 @@ impl RunSetup {
             clock,
             start,
             trajectory,
+            controller,
             obstacles,
             zones,
-            payloads: Vec::new(),
+            payloads,
+            sensors,
             resistances,
             faults,
             warnings,
@@ -221,10 +228,47 @@ impl RunSetup {
         DeclaredDynamics::new(&self.description.robot, &self.payloads, &self.resistances, gravity)
     }
 
-    /// The gains of the controller.
-    pub fn gains(&self) -> Gains {
-        let controller = &self.scenario.controller;
-        Gains { stiffness: controller.stiffness, damping: controller.damping }
+    /// The largest effort of each joint's actuator, N m or N; `f64::MAX` if it has no limit.
+    pub(crate) fn largest_efforts(&self) -> Vec<f64> {
+        let robot = &self.description.robot;
+        let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+        // Zero is what descriptions write for unknown.
+        let has_limits = self.scenario.joints.enforce_limits;
+        let effort = |joint: &Joint| joint.limit?.effort.filter(|&effort| has_limits && effort > 0.0);
+        joints.map(|joint| effort(joint).unwrap_or(f64::MAX)).collect()
+    }
+}
+
+/// What moves the robot and what it carries.
+struct DrivenRobot {
+    controller: ControllerSetup,
+    resistances: Vec<JointResistance>,
+    sensors: SensorSetup,
+    payloads: Vec<Payload>,
+}
+
+impl DrivenRobot {
+    fn new(
+        scenario: &Scenario,
+        place: FilePlace<'_>,
+        description: &RobotDescription,
+        found: &mut Diagnostics,
+    ) -> Option<Self> {
+        let robot = &description.robot;
+        let step_s = scenario.simulation.step_s;
+        let controller = ControllerSetup::new(&scenario.controller, place.key("controller"), robot, step_s);
+        let controller = keep_all(found, controller);
+        let resistances = actuation::resistances(&scenario.joints, place.key("joints"), robot);
+        let resistances = keep_all(found, resistances);
+        let sensors = keep_all(found, SensorSetup::new(&scenario.sensors, place.key("sensors"), robot));
+        let payloads = actuation::payloads(&scenario.payload, place.key("payload"), description);
+        let payloads = keep_all(found, payloads);
+        Some(Self {
+            controller: controller?,
+            resistances: resistances?,
+            sensors: sensors?,
+            payloads: payloads?,
+        })
     }
 }
 
@@ -254,7 +298,7 @@ fn robot_refused(file: &ScenarioFile) -> Diagnostic {
 
 /// What a file's reader has checked already, for a scenario that was made in code.
 fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnostic> {
-    let Scenario { schema_version, name, seed, controller, .. } = scenario;
+    let Scenario { schema_version, name, seed, .. } = scenario;
     let error = if *schema_version != SCHEMA_VERSION {
         Diagnostic::error("scenario::version", format!("schema_version = {schema_version} is not known"))
     } else if name.trim().is_empty() {
@@ -262,10 +306,6 @@ fn check_head(scenario: &Scenario, place: FilePlace<'_>) -> Result<(), Diagnosti
     } else if i64::try_from(*seed).is_err() {
         let message = format!("seed = {seed} is above {}, the largest integer of TOML", i64::MAX);
         place.key("seed").mark(Diagnostic::error("scenario::seed", message))
-    } else if !controller_names().any(|known| known == controller.kind) {
-        let known: Vec<&str> = controller_names().collect();
-        Diagnostic::error("scenario::unknown_kind", format!("unknown controller \"{}\"", controller.kind))
-            .with_help(format!("give kind = {}", known.join(" | ")))
     } else {
         return Ok(());
     };

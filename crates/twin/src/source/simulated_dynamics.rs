@@ -2,9 +2,7 @@
 
 use congruent_description::{Robot, RobotQ};
 use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError};
-use congruent_simulation::{
-    Commands, Controller, JointsView, Setpoint, SimulationError, World, WorldSettings,
-};
+use congruent_simulation::{Setpoint, SimulationError, Torque, World, WorldSettings};
 use nalgebra::DMatrix;
 
 /// The physics twin of a robot as a source of dynamics: it is stepped once from each state, with three lengths of
@@ -103,7 +101,7 @@ impl Stepped {
         state: &DrivenState<'_>,
         qdd: &mut [f64],
     ) -> Result<(), SimulationError> {
-        let (mut torques, still) = (Torques(state.tau.to_vec()), vec![0.0; state.qd.len()]);
+        let (mut torques, still) = (Torque(state.tau.to_vec()), vec![0.0; state.qd.len()]);
         let mut found = [const { Vec::new() }; 3];
         for ((world, found), share) in self.worlds.iter_mut().zip(&mut found).zip(SHARES) {
             world.set_state(state.q, state.qd)?;
@@ -127,18 +125,4 @@ fn worlds(robot: &Robot, longest_s: f64) -> Result<Vec<World>, SimulationError> 
         World::new(robot, &settings)
     };
     SHARES.into_iter().map(world).collect()
-}
-
-/// Exerts given torques.
-#[derive(Clone)]
-struct Torques(Vec<f64>);
-
-impl Controller for Torques {
-    fn name(&self) -> &'static str {
-        "torques"
-    }
-
-    fn command(&mut self, _: &JointsView<'_>, _: &Setpoint<'_>, commands: &mut Commands) {
-        commands.torque_mut().copy_from_slice(&self.0);
-    }
 }

@@ -1,7 +1,8 @@
 //! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
 use congruent_description::{Diagnostic, Use};
-use congruent_simulation::{Controller, Setpoint, World, WorldSettings, WorldSnapshot, controller};
+use congruent_dynamics::JointResistance;
+use congruent_simulation::{Setpoint, SimulationError, World, WorldSettings, WorldSnapshot};
 use nalgebra::Isometry3;
 
 use super::{
@@ -10,6 +11,7 @@ use super::{
     sensors::JointSensors,
 };
 use crate::{
+    control::JointController,
     fault::InjectedFaults,
     motion::{ReferenceGenerator, ServoResult},
     setup::RunSetup,
@@ -18,7 +20,7 @@ use crate::{
 /// A robot in a simulated world, driven by its controller along the motions of a scenario.
 pub struct SimulationSource<'a> {
     world: World,
-    controller: Box<dyn Controller>,
+    controller: JointController<'a>,
     reference: ReferenceGenerator<'a>,
     faults: InjectedFaults<'a>,
     /// Whether the controller places the robot at its setpoints.
@@ -30,7 +32,7 @@ pub struct SimulationSource<'a> {
 /// The whole state of a [`SimulationSource`] at one moment.
 pub struct SimulationSnapshot<'a> {
     world: WorldSnapshot,
-    controller: Box<dyn Controller>,
+    controller: JointController<'a>,
     reference: ReferenceGenerator<'a>,
     faults: InjectedFaults<'a>,
     sensors: JointSensors,
@@ -64,12 +66,14 @@ impl<'a> SimulationSource<'a> {
             gravity_in_world: setup.clock.gravity_in_world,
             obstacles: setup.obstacles.clone(),
             contacts: true,
+            actuator_limits: setup.scenario.joints.enforce_limits,
         };
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
+        resist(&mut world, &setup.resistances).map_err(SourceError::new)?;
         let kind = &setup.scenario.controller.kind;
         let faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
-        let mut sensors = JointSensors::new(robot.dof());
+        let mut sensors = JointSensors::new(setup);
         sensors.read(faults.measured().q, faults.measured().qd);
         let mut payloads = CarriedPayloads::new(&setup.payloads);
         payloads.update(0.0, &mut world);
@@ -79,7 +83,7 @@ impl<'a> SimulationSource<'a> {
             is_placed: kind == "kinematic",
             payloads,
             world,
-            controller: controller(kind, setup.gains()).map_err(SourceError::new)?,
+            controller: JointController::new(setup),
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
         })
     }
@@ -89,7 +93,7 @@ impl<'a> SimulationSource<'a> {
     pub fn snapshot(&self) -> SimulationSnapshot<'a> {
         SimulationSnapshot {
             world: self.world.snapshot(),
-            controller: self.controller.boxed_clone(),
+            controller: self.controller.clone(),
             reference: self.reference.clone(),
             faults: self.faults.clone(),
             sensors: self.sensors.clone(),
@@ -103,12 +107,22 @@ impl<'a> SimulationSource<'a> {
     /// When the snapshot is of a robot with another number of joints.
     pub fn restore(&mut self, snapshot: &SimulationSnapshot<'a>) {
         self.world.restore(&snapshot.world);
-        self.controller = snapshot.controller.boxed_clone();
+        self.controller.clone_from(&snapshot.controller);
         self.reference.clone_from(&snapshot.reference);
         self.faults.clone_from(&snapshot.faults);
         self.sensors.clone_from(&snapshot.sensors);
         self.payloads.clone_from(&snapshot.payloads);
     }
+}
+
+/// Puts what resists the joints into the physics.
+fn resist(world: &mut World, resistances: &[JointResistance]) -> Result<(), SimulationError> {
+    for (coordinate, resistance) in resistances.iter().enumerate() {
+        world.set_damping(coordinate, resistance.damping)?;
+        world.set_dry_friction(coordinate, resistance.friction)?;
+        world.set_armature(coordinate, resistance.armature)?;
+    }
+    Ok(())
 }
 
 impl JointStateSource for SimulationSource<'_> {
@@ -150,7 +164,7 @@ impl JointStateSource for SimulationSource<'_> {
         }
         // A payload that comes at the start of the step acts in the whole of it.
         self.payloads.update(self.world.time_s(), &mut self.world);
-        let stepped = self.world.step_measured(&mut *self.controller, &setpoint, &measured);
+        let stepped = self.world.step_measured(&mut self.controller, &setpoint, &measured);
         stepped.map_err(SourceError::new)?;
         self.faults.advance(self.world.step_count(), &mut self.world).map_err(SourceError::new)?;
         let arrived = self.faults.measured();

@@ -9,20 +9,20 @@ use std::{
 use congruent_description::{
     Diagnostic, Diagnostics, SourceFile, is_standard_input, known_names, read_text, toml_text,
 };
-use congruent_simulation::controller_names;
 use serde::Deserialize;
 use toml::{Spanned, de::DeTable};
 
 use super::{faults::read_fault, overrides::Override, section::Section};
 use crate::scenario::{
     checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck},
-    data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario},
+    data::{Expectation, SCHEMA_VERSION, Scenario},
     motions::{
         ARC_KEY, ArcMotion, JOINT_KEYS, JOINT_PATH_KEYS, JointMotion, JointPathMotion, LINE_KEY, LineMotion,
         MotionSettings, PLAYBACK_KEY, PlaybackMotion, SERVO_KEY, ServoMotion, TCP_KEY, TCP_PATH_KEY,
         TcpMotion, TcpPathMotion,
     },
     place::{FilePlace, PlaceNode},
+    robot::{ControllerKind, ControllerSettings},
 };
 
 /// Largest scenario file that is read.
@@ -50,10 +50,13 @@ struct Top {
 }
 
 /// The sections of a file besides its top.
-const SECTIONS: [&str; 11] = [
+const SECTIONS: [&str; 14] = [
     "simulation",
     "start",
     "controller",
+    "joints",
+    "sensors",
+    "payload",
     "limits",
     "motion",
     "obstacle",
@@ -167,6 +170,12 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
     let controller = take(&mut document, "controller", findings);
     let controller = keep_all(findings, controller.and_then(read_controller));
     let limits = one(&mut document, "limits", findings);
+    let joints = one(&mut document, "joints", findings);
+    let sensors = one(&mut document, "sensors", findings);
+    let payload = all(&mut document, "payload", findings, |section, findings| {
+        keep_all(findings, section.require_table("inertia_kg_m2").map_err(Into::into));
+        section.read_into(findings)
+    });
     let motion = all(&mut document, "motion", findings, read_motion);
     let obstacle = all(&mut document, "obstacle", findings, |section, findings| {
         keep_all(findings, section.require_table("cylinder").map_err(Into::into));
@@ -195,6 +204,9 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         start: start?,
         controller: controller?,
         limits: limits?,
+        joints: joints?,
+        sensors: sensors?,
+        payload: payload?,
         motion: motion?,
         obstacle: obstacle?,
         zone: zone?,
@@ -291,24 +303,15 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
 }
 
 fn read_controller(section: Option<Section<'_>>) -> Result<ControllerSettings, Vec<Diagnostic>> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct WrittenGains {
-        #[serde(default, deserialize_with = "crate::scenario::number::non_negative")]
-        stiffness: f64,
-        #[serde(default, deserialize_with = "crate::scenario::number::non_negative")]
-        damping: f64,
-    }
-    let known: Vec<&str> = controller_names().collect();
-    let Some(mut section) = section else {
+    let known = ControllerKind::names();
+    let Some(section) = section else {
         return Err(Diagnostic::error("scenario::no_controller", "the scenario has no [controller]")
             .with_help(format!("add one with kind = {}", known.join(" | ")))
             .into());
     };
-    let kind = (*section.select("kind", "controller", &known, |name| name)?).to_owned();
-    let read = section.read();
-    let WrittenGains { stiffness, damping } = read.map_err(|found| named_too(found, "and kind"))?;
-    Ok(ControllerSettings { kind, stiffness, damping })
+    // With a kind that there is not, nothing is known of the other keys.
+    section.clone().select("kind", "controller", &known, |name| name)?;
+    section.read()
 }
 
 fn read_expect(mut section: Section<'_>) -> Result<Expectation, Vec<Diagnostic>> {

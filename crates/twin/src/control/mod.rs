@@ -1,0 +1,12 @@
+//! The controllers of a scenario: from measured states and setpoints to the commands of the actuators.
+//!
+//! A law knows the declared robot, not the physics: what a fault changes in the twin, it does not see. All of a
+//! controller is cloned with it, so that a run can be continued from the middle.
+
+mod computed_torque;
+mod digital;
+mod joint_controller;
+mod model;
+mod servos;
+
+pub use joint_controller::JointController;

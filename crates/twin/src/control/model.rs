@@ -1,0 +1,76 @@
+//! The declared dynamics as a controller uses them: torques of the actuators, which mimic joints do not have.
+
+use congruent_description::{Robot, RobotQ};
+use congruent_dynamics::JointMotion;
+
+use crate::setup::{DeclaredDynamics, RunSetup};
+
+/// A mimic joint, in coordinates.
+#[derive(Debug, Clone, Copy)]
+struct Follower {
+    coordinate: usize,
+    master: usize,
+    ratio: f64,
+}
+
+/// The declared robot with memory for torques.
+#[derive(Debug, Clone)]
+pub(super) struct DeclaredModel<'a> {
+    dynamics: DeclaredDynamics<'a>,
+    followers: Vec<Follower>,
+    torque: Vec<f64>,
+}
+
+impl<'a> DeclaredModel<'a> {
+    pub(super) fn new(setup: &'a RunSetup) -> Self {
+        let robot = &setup.description.robot;
+        Self {
+            dynamics: setup.declared_dynamics(),
+            followers: followers(robot),
+            torque: vec![0.0; robot.dof()],
+        }
+    }
+
+    /// Adds the torques that hold the robot against gravity.
+    pub(super) fn add_gravity(&mut self, time_s: f64, q: &RobotQ, torque: &mut [f64]) {
+        let (tree, buffer) = self.dynamics.at(time_s);
+        tree.gravity_into(q, buffer, &mut self.torque).expect("a state of this robot");
+        self.add_actuated(torque);
+    }
+
+    /// Adds the torques of a motion. The accelerations of mimic joints are replaced by those that they follow with.
+    pub(super) fn add_inverse(
+        &mut self,
+        time_s: f64,
+        (q, qd, qdd): (&RobotQ, &[f64], &mut [f64]),
+        torque: &mut [f64],
+    ) {
+        for follower in &self.followers {
+            qdd[follower.coordinate] = follower.ratio * qdd[follower.master];
+        }
+        let (tree, buffer) = self.dynamics.at(time_s);
+        let motion = JointMotion { q, qd, qdd };
+        tree.inverse_into(&motion, buffer, &mut self.torque).expect("a state of this robot");
+        self.add_actuated(torque);
+    }
+
+    /// The master of a mimic joint exerts its torque as well.
+    fn add_actuated(&mut self, torque: &mut [f64]) {
+        for follower in &self.followers {
+            let own = std::mem::take(&mut self.torque[follower.coordinate]);
+            self.torque[follower.master] += follower.ratio * own;
+        }
+        for (torque, added) in torque.iter_mut().zip(&self.torque) {
+            *torque += added;
+        }
+    }
+}
+
+fn followers(robot: &Robot) -> Vec<Follower> {
+    let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).enumerate();
+    let follower = |(coordinate, joint): (usize, &congruent_description::Joint)| {
+        let mimic = joint.mimic?;
+        Some(Follower { coordinate, master: robot.coordinate(mimic.master)?, ratio: mimic.multiplier })
+    };
+    joints.filter_map(follower).collect()
+}

@@ -1,0 +1,145 @@
+//! Servos of the joints: stiffness, damping and integral, with the gravity torque of the declared robot or without.
+
+use congruent_simulation::{Commands, Gains, JointsView, Motor, Setpoint};
+
+use super::model::DeclaredModel;
+use crate::setup::RunSetup;
+
+/// One servo for each joint; gains of zero exert nothing.
+#[derive(Debug, Clone)]
+pub(super) struct Servos<'a> {
+    gains: Vec<Gains>,
+    integrals: Option<Integrals>,
+    /// `None` for servos that sag under gravity.
+    gravity: Option<Box<DeclaredModel<'a>>>,
+    torque: Vec<f64>,
+}
+
+/// The integral part of all servos.
+#[derive(Debug, Clone)]
+struct Integrals {
+    /// Torque per integral of the position error.
+    gains: Vec<f64>,
+    /// Present torques.
+    torques: Vec<f64>,
+    /// Largest effort of each actuator.
+    efforts: Vec<f64>,
+}
+
+impl<'a> Servos<'a> {
+    pub(super) fn new(setup: &'a RunSetup) -> Self {
+        let gains = setup.controller.gains.clone();
+        Self { torque: vec![0.0; gains.len()], gains, integrals: None, gravity: None }
+    }
+
+    /// Servos on velocity alone.
+    pub(super) fn on_velocity(mut self) -> Self {
+        self.gains.iter_mut().for_each(|gains| gains.stiffness = 0.0);
+        self
+    }
+
+    pub(super) fn with_integral(mut self, setup: &'a RunSetup) -> Self {
+        let gains = setup.controller.integral.clone();
+        let torques = vec![0.0; gains.len()];
+        self.integrals = Some(Integrals { gains, torques, efforts: setup.largest_efforts() });
+        self
+    }
+
+    pub(super) fn with_gravity(mut self, setup: &'a RunSetup) -> Self {
+        self.gravity = Some(Box::new(DeclaredModel::new(setup)));
+        self
+    }
+
+    /// Integrals and gravity: torques that are constant over the period. The setpoint is that of its end.
+    fn update(&mut self, joints: &JointsView<'_>, setpoint: &Setpoint<'_>, period_s: f64) {
+        self.torque.fill(0.0);
+        if let Some(gravity) = &mut self.gravity {
+            gravity.add_gravity(joints.time_s(), joints.q(), &mut self.torque);
+        }
+        let Some(integrals) = &mut self.integrals else { return };
+        for (joint, torque) in self.torque.iter_mut().enumerate() {
+            let present = StateError::now(joint, joints, setpoint);
+            let servo = *torque + present.effort(self.gains[joint]);
+            *torque += integrals.advance(joint, servo, present.position * period_s);
+        }
+    }
+
+    /// Servos that are continuous in time.
+    pub(super) fn command(
+        &mut self,
+        joints: &JointsView<'_>,
+        setpoint: &Setpoint<'_>,
+        commands: &mut Commands,
+    ) {
+        self.update(joints, setpoint, joints.step_s());
+        commands.torque_mut().copy_from_slice(&self.torque);
+        for (joint, &gains) in self.gains.iter().enumerate() {
+            commands.drive(joint, Motor { gains, q: setpoint.q[joint], qd: setpoint.qd[joint] });
+        }
+    }
+
+    /// The efforts of the servos at this instant, for a controller that computes them once in a period.
+    pub(super) fn efforts_into(
+        &mut self,
+        joints: &JointsView<'_>,
+        setpoint: &Setpoint<'_>,
+        (period_s, efforts): (f64, &mut [f64]),
+    ) {
+        self.update(joints, setpoint, period_s);
+        for (joint, effort) in efforts.iter_mut().enumerate() {
+            let servo = StateError::now(joint, joints, setpoint).effort(self.gains[joint]);
+            *effort = self.torque[joint] + servo;
+        }
+    }
+}
+
+impl Integrals {
+    /// Adds `change`, an error times its duration, and returns the torque. While the actuator is at its limit it does
+    /// not go further in the same direction, and by itself it never asks for more than the limit (anti-windup).
+    fn advance(&mut self, joint: usize, servo: f64, change: f64) -> f64 {
+        let (limit, torque) = (self.efforts[joint], &mut self.torques[joint]);
+        let effort = servo + *torque;
+        if effort.abs() < limit || effort * change < 0.0 {
+            *torque = (*torque + self.gains[joint] * change).clamp(-limit, limit);
+        }
+        *torque
+    }
+}
+
+/// Setpoint less measured state of one joint.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StateError {
+    pub(super) position: f64,
+    pub(super) velocity: f64,
+}
+
+impl StateError {
+    /// At the beginning of the step: the setpoint, which is that of its end, is taken back by the step.
+    pub(super) fn now(joint: usize, joints: &JointsView<'_>, setpoint: &Setpoint<'_>) -> Self {
+        let (step_s, qdd) = (joints.step_s(), setpoint.qdd[joint]);
+        let qd = setpoint.qd[joint] - step_s * qdd;
+        let q = setpoint.q[joint] - step_s * (qd + step_s * qdd / 2.0);
+        Self { position: q - joints.q()[joint], velocity: qd - joints.qd()[joint] }
+    }
+
+    fn effort(self, gains: Gains) -> f64 {
+        gains.stiffness * self.position + gains.damping * self.velocity
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_integral_stops_at_the_limit_and_comes_back_at_once() {
+        let mut integrals = Integrals { gains: vec![100.0], torques: vec![0.0], efforts: vec![5.0] };
+        let mut after =
+            |servo, change, times| (0..times).fold(0.0, |_, _| integrals.advance(0, servo, change));
+        assert!((after(0.0, 0.01, 3) - 3.0).abs() < 1e-12);
+        assert!((after(0.0, 0.01, 1000) - 5.0).abs() < 1e-12, "not beyond the limit");
+        assert!((after(0.0, -0.01, 1) - 4.0).abs() < 1e-12, "back with the first error of the other sign");
+        assert!((after(2.0, 0.01, 1000) - 4.0).abs() < 1e-12, "the actuator is at its limit");
+        assert!((after(-9.0, 0.0001, 1) - 4.01).abs() < 1e-12, "the servo pulls it off the limit");
+    }
+}

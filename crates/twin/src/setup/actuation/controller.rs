@@ -1,0 +1,159 @@
+//! `[controller]` checked against its robot: one number for each joint, periods in steps.
+
+use std::path::Path;
+
+use congruent_description::{Diagnostic, Robot, known_names, read_text};
+use congruent_simulation::Gains;
+
+use super::{
+    joint_numbers::{NumberRule, Unnamed, resolve},
+    torque_table::TorqueTable,
+};
+use crate::scenario::{ControllerKind, ControllerSettings, FilePlace, JointNumbers, Range};
+
+/// The controller of a run; vectors hold one entry for each movable joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ControllerSetup {
+    pub(crate) kind: ControllerKind,
+    pub(crate) gains: Vec<Gains>,
+    /// Torque per integral of the position error.
+    pub(crate) integral: Vec<f64>,
+    /// Constant torques.
+    pub(crate) torque: Vec<f64>,
+    /// Torques over time, in addition.
+    pub(crate) torque_table: Option<TorqueTable>,
+    /// `None` for a controller that is continuous in time.
+    pub(crate) sampling: Option<Sampling>,
+}
+
+/// The clock of a digital controller, in steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Sampling {
+    /// From one reading of the sensors to the next.
+    pub(crate) period: u64,
+    /// From a reading to the torques that follow from it.
+    pub(crate) delay: usize,
+}
+
+/// How far a rate or a delay may be from a whole number of steps, as a share of a step: digits of files.
+const WHOLE_STEPS: f64 = 1e-6;
+/// Longest delay, in steps: the torques of all of them are kept.
+const MOST_DELAYED: f64 = 1e5;
+/// Largest file of torques that is read.
+const MOST_BYTES: u64 = 64 << 20;
+
+impl ControllerSetup {
+    pub(in crate::setup) fn new(
+        settings: &ControllerSettings,
+        place: FilePlace<'_>,
+        robot: &Robot,
+        step_s: f64,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let kind = kind(settings, place).map_err(|error| vec![error])?;
+        let mut errors: Vec<Diagnostic> = strange_keys(settings, kind, place).collect();
+        let mut numbers = |numbers: &JointNumbers, key: &str, (range, unnamed)| {
+            let rule = NumberRule { what: key, range, unnamed, of_angles: None };
+            let resolved = resolve(numbers, rule, place.key(key), robot);
+            resolved.map_err(|found| errors.extend(found)).unwrap_or_default()
+        };
+        let stiffness = numbers(&settings.stiffness, "stiffness", (Range::NonNegative, Unnamed::Refused));
+        let damping = numbers(&settings.damping, "damping", (Range::NonNegative, Unnamed::Refused));
+        let integral = numbers(&settings.integral, "integral", (Range::NonNegative, Unnamed::Refused));
+        let torque = numbers(&settings.torque, "torque", (Range::Finite, Unnamed::Zero));
+        let mut keep = |result: Result<_, Diagnostic>| result.map_err(|error| errors.push(error)).ok();
+        let sampling = keep(sampling(settings, place, step_s).map(|sampling| (sampling, None)));
+        let torque_table = keep(torque_table(settings, place, robot).map(|table| (None, table)));
+        let (Some((sampling, _)), Some((_, torque_table)), true) =
+            (sampling, torque_table, errors.is_empty())
+        else {
+            return Err(errors);
+        };
+        let gains = stiffness.into_iter().zip(damping);
+        let gains = gains.map(|(stiffness, damping)| Gains { stiffness, damping }).collect();
+        Ok(Self { kind, gains, integral, torque, torque_table, sampling })
+    }
+}
+
+fn kind(settings: &ControllerSettings, place: FilePlace<'_>) -> Result<ControllerKind, Diagnostic> {
+    ControllerKind::find(&settings.kind).ok_or_else(|| {
+        let message = format!("unknown controller \"{}\"", settings.kind);
+        let help = known_names(&settings.kind, "controllers", ControllerKind::names());
+        place.key("kind").mark(Diagnostic::error("scenario::unknown_kind", message).with_help(help))
+    })
+}
+
+/// Keys that do not belong to the controller; gains of zero say nothing.
+fn strange_keys<'a>(
+    settings: &'a ControllerSettings,
+    kind: ControllerKind,
+    place: FilePlace<'a>,
+) -> impl Iterator<Item = Diagnostic> + 'a {
+    let is_playback = matches!(kind, ControllerKind::Passive | ControllerKind::Kinematic);
+    let given = [
+        // Both controllers without actuators have always ignored gains.
+        ("stiffness", !is_playback && !settings.stiffness.is_zero()),
+        ("damping", !is_playback && !settings.damping.is_zero()),
+        ("integral", !settings.integral.is_zero()),
+        ("torque", !settings.torque.is_zero()),
+        ("torque_file", settings.torque_file.is_some()),
+        ("rate_hz", settings.rate_hz.is_some()),
+        ("delay_s", settings.delay_s.is_some()),
+    ];
+    given.into_iter().filter(move |&(key, is_given)| is_given && !kind.takes(key)).map(move |(key, _)| {
+        let message = format!("controller \"{}\" has no `{key}`", settings.kind);
+        let with = crate::scenario::CONTROLLER_KINDS.iter().filter(|(_, kind)| kind.takes(key));
+        let with: Vec<&str> = with.map(|(name, _)| *name).collect();
+        let error = Diagnostic::error("scenario::controller_key", message);
+        place.key(key).mark(error.with_help(format!("controllers that have it: {}", with.join(", "))))
+    })
+}
+
+/// Periods in steps; a controller with a delay but no rate computes at every step.
+fn sampling(
+    settings: &ControllerSettings,
+    place: FilePlace<'_>,
+    step_s: f64,
+) -> Result<Option<Sampling>, Diagnostic> {
+    if settings.rate_hz.is_none() && settings.delay_s.is_none() {
+        return Ok(None);
+    }
+    let whole = |steps: f64, key: &str, written: String| {
+        let rounded = steps.round();
+        if (steps - rounded).abs() > WHOLE_STEPS || rounded < 1.0 {
+            let message = format!("{key} = {written} is {steps:.4} steps of {step_s} s");
+            let help =
+                "a period or delay is a whole number of steps; change it, or `step_s` under [simulation]";
+            return Err(place
+                .key(key)
+                .mark(Diagnostic::error("scenario::sampling", message).with_help(help)));
+        }
+        if rounded > MOST_DELAYED {
+            let message = format!("{key} = {written} is {rounded} steps, more than {MOST_DELAYED}");
+            return Err(place.key(key).mark(Diagnostic::error("scenario::sampling", message)));
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 <= rounded <= 1e5")]
+        let steps = rounded as usize;
+        Ok(steps)
+    };
+    let period = settings
+        .rate_hz
+        .map_or(Ok(1), |rate_hz| whole(1.0 / rate_hz / step_s, "rate_hz", format!("{rate_hz}")))?;
+    let delay =
+        settings.delay_s.map_or(Ok(0), |delay_s| whole(delay_s / step_s, "delay_s", format!("{delay_s}")))?;
+    Ok(Some(Sampling { period: period as u64, delay }))
+}
+
+fn torque_table(
+    settings: &ControllerSettings,
+    place: FilePlace<'_>,
+    robot: &Robot,
+) -> Result<Option<TorqueTable>, Diagnostic> {
+    let Some(path) = &settings.torque_file else { return Ok(None) };
+    let read =
+        read_text(Path::new(path), MOST_BYTES).and_then(|file| TorqueTable::read(&file, robot).map(Some));
+    read.map_err(|mut error| {
+        error.message = format!("torque_file \"{path}\": {}", error.message);
+        (error.span, error.source) = (None, None);
+        place.key("torque_file").mark(error)
+    })
+}

@@ -1,0 +1,133 @@
+//! `[[payload]]` checked against its robot.
+
+use congruent_description::{Diagnostic, Inertia, LinkIndex, RobotDescription, known_names, units::Unit};
+use congruent_simulation::CarriedBody;
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+
+use crate::{
+    scenario::{FilePlace, PayloadInertia, PayloadSettings},
+    setup::Payload,
+};
+
+/// The payloads of a run, in the order of the scenario.
+///
+/// # Errors
+/// Every fault of each of them.
+pub(in crate::setup) fn payloads(
+    all: &[PayloadSettings],
+    places: FilePlace<'_>,
+    description: &RobotDescription,
+) -> Result<Vec<Payload>, Vec<Diagnostic>> {
+    let mut errors = Vec::new();
+    let mut payloads: Vec<Payload> = Vec::new();
+    for (index, settings) in all.iter().enumerate() {
+        let place = places.item(index);
+        match payload(settings, place, description) {
+            Ok(payload) if payloads.iter().any(|known| known.name == payload.name) => {
+                let message = format!("two payloads are named \"{}\"", payload.name);
+                errors.push(place.key("name").mark(Diagnostic::error("scenario::payload_twice", message)));
+            }
+            Ok(payload) => payloads.push(payload),
+            Err(error) => errors.push(error),
+        }
+    }
+    if errors.is_empty() { Ok(payloads) } else { Err(errors) }
+}
+
+fn payload(
+    settings: &PayloadSettings,
+    place: FilePlace<'_>,
+    description: &RobotDescription,
+) -> Result<Payload, Diagnostic> {
+    let wrong = |key: &str, message: String| {
+        place
+            .key(key)
+            .mark(Diagnostic::error("scenario::payload", format!("payload \"{}\": {message}", settings.name)))
+    };
+    if settings.name.trim().is_empty() {
+        return Err(wrong("name", "the name is empty".to_owned()));
+    }
+    let until_s = settings.until_s.unwrap_or(f64::INFINITY);
+    if until_s <= settings.from_s {
+        let message = format!("it is left at {until_s} s, but taken at {} s", settings.from_s);
+        return Err(wrong("until_s", message));
+    }
+    let (link, link_from_frame) = carrier(settings, place, description)?;
+    let com_in_frame = centre_of_mass(settings).map_err(|message| wrong("com_mm", message))?;
+    let tensor_kg_m2 = settings.inertia_kg_m2.map_or(Ok(Matrix3::zeros()), tensor);
+    let tensor_kg_m2 = tensor_kg_m2.map_err(|message| wrong("inertia_kg_m2", message))?;
+    let frame_from_com = Isometry3::from_parts(Translation3::from(com_in_frame), UnitQuaternion::identity());
+    let link_from_inertial = link_from_frame * frame_from_com;
+    let inertia = Inertia { mass_kg: settings.mass_kg, link_from_inertial, tensor_kg_m2 };
+    let carried = CarriedBody { link, inertia };
+    Ok(Payload { name: settings.name.clone(), carried, from_s: settings.from_s, until_s })
+}
+
+/// The link that carries the payload, and the frame in it in which the payload is given.
+fn carrier(
+    settings: &PayloadSettings,
+    place: FilePlace<'_>,
+    description: &RobotDescription,
+) -> Result<(LinkIndex, Isometry3<f64>), Diagnostic> {
+    let robot = &description.robot;
+    let Some(name) = &settings.link else {
+        let tip_from_tcp = description.tip_from_tcp.unwrap_or_else(Isometry3::identity);
+        return Ok((description.tip, tip_from_tcp));
+    };
+    let link = robot.find_link(name).ok_or_else(|| {
+        let message = format!("robot \"{}\" has no link \"{name}\"", robot.name());
+        let names = robot.links().iter().map(|link| link.name.as_str());
+        let error = Diagnostic::error("scenario::unknown_link", message);
+        place.key("link").mark(error.with_help(known_names(name, "links", names)))
+    })?;
+    Ok((link, Isometry3::identity()))
+}
+
+fn centre_of_mass(settings: &PayloadSettings) -> Result<Vector3<f64>, String> {
+    let com_m = match (settings.com_m, settings.com_mm) {
+        (Some(_), Some(_)) => {
+            return Err("the centre of mass is given twice, as com_m and as com_mm".to_owned());
+        }
+        (None, Some(com_mm)) => com_mm.map(|value| Unit::Length.convert(value)),
+        (com_m, None) => com_m.unwrap_or_default(),
+    };
+    if com_m.iter().all(|value| value.is_finite()) {
+        Ok(com_m.into())
+    } else {
+        Err("the centre of mass is not finite".to_owned())
+    }
+}
+
+/// The tensor, if a body can have it: each principal inertia is at most the sum of the others.
+fn tensor(entries: PayloadInertia) -> Result<Matrix3<f64>, String> {
+    let PayloadInertia { xx, yy, zz, xy, xz, yz } = entries;
+    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    if !tensor.iter().all(|entry| entry.is_finite()) {
+        return Err("the inertia is not finite".to_owned());
+    }
+    let principal = tensor.symmetric_eigenvalues();
+    let (smallest, largest) = (principal.min(), principal.max());
+    // Rounding of what files give with few digits.
+    let allowance = 1e-6 * largest.abs();
+    if smallest < -allowance || 2.0 * largest > principal.sum() + allowance {
+        let [a, b, c]: [f64; 3] = principal.into();
+        return Err(format!("no body has the principal inertias {a:.3e}, {b:.3e} and {c:.3e} kg m2"));
+    }
+    Ok(tensor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_inertia_that_no_body_has() {
+        let entries = |xx, yy, zz, xy| PayloadInertia { xx, yy, zz, xy, ..PayloadInertia::default() };
+        assert!(tensor(entries(1.0, 1.0, 1.9, 0.0)).is_ok() && tensor(entries(1.0, 1.0, 2.0, 0.0)).is_ok());
+        for wrong in [entries(1.0, 1.0, 2.1, 0.0), entries(1.0, 1.0, 1.0, 1.1), entries(-1.0, 1.0, 1.0, 0.0)]
+        {
+            assert!(tensor(wrong).unwrap_err().contains("no body"), "{wrong:?}");
+        }
+        assert!(tensor(entries(f64::NAN, 1.0, 1.0, 0.0)).is_err());
+    }
+}
