@@ -119,7 +119,6 @@ fn check_sampled(what: &str, [candidate, reference]: [&Side; 2], all: &TorqueCer
 }
 
 fn check(what: &str, candidate: &Side, reference: &Side) -> TorqueCertificates {
-    let start = std::time::Instant::now();
     let all = certified(candidate, reference);
     for (part, (name, certificate)) in certificates(&all).into_iter().enumerate() {
         for bracket in &certificate.by_joint {
@@ -134,7 +133,6 @@ fn check(what: &str, candidate: &Side, reference: &Side) -> TorqueCertificates {
             );
         }
     }
-    println!("{what}: {:.2} s", start.elapsed().as_secs_f64());
     check_sampled(what, [candidate, reference], &all);
     all
 }

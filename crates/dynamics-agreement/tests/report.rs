@@ -64,6 +64,47 @@ fn a_fault_has_its_line_its_figures_and_its_sentence() {
     assert_eq!(report.seen_sentence(), "joint torques show 36 of 60 inertial numbers");
 }
 
+/// A vendor's centre of mass, which is published in the frame of the table.
+#[test]
+fn a_centre_of_mass_in_a_dh_frame_is_told_by_the_table() {
+    let description = load("ur5e");
+    assert!(description.dh.is_some(), "the robot file has a table");
+    let reference = Side::of_description(&description).expect("the table is the robot's");
+    let mut found = Vec::new();
+    for link in ["upper_arm_link", "forearm_link", "wrist_1_link"] {
+        let mut candidate = reference.clone();
+        let link_from_dh = reference.frames().dh_frame(link).expect("its joint has a row");
+        let right = figures(&mut candidate, link).com_m;
+        figures(&mut candidate, link).com_m =
+            link_from_dh.rotation.transpose() * (right - link_from_dh.translation);
+        let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+        let explanation = &report.explanations[0];
+        let names = std::iter::once((explanation.cause, explanation.detail.clone()));
+        let also = explanation.also_named.iter().map(|also| (also.cause, also.detail.clone()));
+        found.extend(names.chain(also).filter(|(cause, _)| *cause == DynamicsCause::ComFrame));
+        assert_eq!(explanation.place, [link], "{:?}", report.explanations);
+    }
+    let details: Vec<&str> = found.iter().map(|(_, detail)| detail.as_str()).collect();
+    for detail in ["dh2", "dh3", "dh4"] {
+        assert!(details.contains(&detail), "{details:?}");
+    }
+}
+
+/// Beside a tensor that is a thousand million times too large the other fault is rounding.
+#[test]
+fn a_small_fault_beside_a_huge_one_is_named() {
+    let report = changed("ur5e", |side| {
+        figures(side, "forearm_link").tensor_kg_m2 *= 1e9;
+        figures(side, "wrist_2_link").com_m.y += 0.013;
+    });
+    let [explanation] = &report.explanations[..] else { panic!("{:?}", report.explanations) };
+    let parts: Vec<_> = explanation.parts.iter().map(|part| (part.cause, part.place[0].as_str())).collect();
+    assert_eq!(
+        parts,
+        [(DynamicsCause::InertiaUnit, "forearm_link"), (DynamicsCause::ComEntry, "wrist_2_link")]
+    );
+}
+
 #[test]
 fn what_no_torque_shows_is_said_with_its_numbers() {
     let report = changed("ur5e", |side| {

@@ -164,7 +164,8 @@ impl Group<'_> {
     #[inline(always)]
     fn carry(&mut self, joint: usize, motions: &JointMotions<'_>) {
         let body = &self.tree.bodies[joint];
-        let [q, qd, qdd] = [motions.q, motions.qd, motions.qdd].map(|of| self.of_joint(of, joint));
+        let (q, qd) = (self.of_joint(motions.q, joint), self.of_joint(motions.qd, joint));
+        let qdd = self.of_joint(motions.qdd, joint);
         let parent = body.parent.map_or_else(
             || MotionLanes { linear: LaneVector::of(&-self.tree.gravity_in_root), ..BodyLanes::NONE.motion },
             |parent| self.bodies[parent].motion,
@@ -180,19 +181,19 @@ impl Group<'_> {
     fn take_up(&mut self, joint: usize, motions: &JointMotions<'_>, tau: &mut [f64]) {
         let (n, body) = (self.tree.dof(), &self.tree.bodies[joint]);
         let resistance = &self.tree.resistances[joint];
-        let BodyLanes { sin, cos, origin, moment, force, .. } = self.bodies[joint];
-        let along = if body.frame.turns { &moment.0[2] } else { &force.0[2] };
-        let [qd, qdd] = [motions.qd, motions.qdd].map(|of| self.of_joint(of, joint));
+        let (before, from) = self.bodies.split_at_mut(joint);
+        let from = &from[0];
+        let along = if body.frame.turns { &from.moment.0[2] } else { &from.force.0[2] };
         for (sample, tau) in tau.chunks_exact_mut(n).enumerate() {
-            tau[joint] =
-                along[sample] + resistance.against_speed(qd[sample]) + resistance.armature * qdd[sample];
+            let at = self.first + sample * n + joint;
+            tau[joint] = along[sample]
+                + resistance.against_speed(motions.qd[at])
+                + resistance.armature * motions.qdd[at];
         }
         let Some(parent) = body.parent else { return };
-        let in_parent =
-            |v: &LaneVector| v.turned_about_z(&sin, &cos).turned_by(&body.parent_from_body.rotation);
-        let force = in_parent(&force);
-        let parent = &mut self.bodies[parent];
-        parent.moment = parent.moment + in_parent(&moment) + origin.cross(&force);
+        let force = from.in_parent(body, &from.force);
+        let parent = &mut before[parent];
+        parent.moment = parent.moment + from.in_parent(body, &from.moment) + from.origin.cross(&force);
         parent.force = parent.force + force;
     }
 }
@@ -204,14 +205,30 @@ impl BodyLanes {
         if body.frame.turns {
             let mut turns = [SinCos { sin: 0.0, cos: 1.0 }; LANES];
             SinCos::of_many_into(q, &mut turns);
-            self.sin = turns.map(|turn| turn.sin);
-            self.cos = turns.map(|turn| turn.cos);
+            self.sin = lanes(|lane| turns[lane].sin);
+            self.cos = lanes(|lane| turns[lane].cos);
             self.origin = LaneVector::of(origin);
         } else {
             let axis = body.parent_from_body.rotation.column(2);
-            let along = |entry: usize| lanes(|lane| origin[entry] + axis[entry] * q[lane]);
-            self.origin = LaneVector([along(0), along(1), along(2)]);
+            let [ox, oy, oz] = [origin.x, origin.y, origin.z];
+            self.origin = LaneVector([
+                lanes(|lane| ox + axis[0] * q[lane]),
+                lanes(|lane| oy + axis[1] * q[lane]),
+                lanes(|lane| oz + axis[2] * q[lane]),
+            ]);
         }
+    }
+
+    /// A vector of the body in the axes of its parent.
+    #[inline(always)]
+    fn in_parent(&self, body: &TreeBody, v: &LaneVector) -> LaneVector {
+        v.turned_about_z(&self.sin, &self.cos).turned_by(&body.parent_from_body.rotation)
+    }
+
+    /// A vector of the parent in the axes of the body.
+    #[inline(always)]
+    fn in_body(&self, body: &TreeBody, v: &LaneVector) -> LaneVector {
+        v.turned_back_by(&body.parent_from_body.rotation).turned_back_about_z(&self.sin, &self.cos)
     }
 
     /// Source: Luh, Walker, Paul (1980), with the acceleration of the point at the frame's origin.
@@ -220,11 +237,8 @@ impl BodyLanes {
         let turning = parent.angular_velocity;
         let linear =
             parent.linear + parent.angular.cross(&self.origin) + turning.cross(&turning.cross(&self.origin));
-        let minus_sin = self.sin.map(|sin| -sin);
-        let inverse = body.parent_from_body.rotation.transpose();
-        let to_body = |v: &LaneVector| v.turned_by(&inverse).turned_about_z(&minus_sin, &self.cos);
-        let mut angular_velocity = to_body(&turning);
-        let (mut angular, mut linear) = (to_body(&parent.angular), to_body(&linear));
+        let mut angular_velocity = self.in_body(body, &turning);
+        let (mut angular, mut linear) = (self.in_body(body, &parent.angular), self.in_body(body, &linear));
         // The angular velocity times the joint's own motion, which is along z.
         let [x, y, _] = &angular_velocity.0;
         let crossed =

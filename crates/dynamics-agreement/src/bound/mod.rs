@@ -8,12 +8,10 @@ mod dependence;
 mod gravity;
 mod measure;
 mod motion;
-mod motion_range;
 mod rows;
 mod speeds;
 mod trigonometric;
 mod ways;
 
-pub use bracket::{TorqueBracket, TorqueCertificate};
+pub use bracket::{CoveredMotion, TorqueBracket, TorqueCertificate};
 pub(crate) use motion::certify;
-pub use motion_range::CoveredMotion;

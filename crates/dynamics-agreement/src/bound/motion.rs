@@ -6,13 +6,12 @@ use congruent_dynamics::DynamicsError;
 use congruent_kinematics::Uniform;
 
 use super::{
-    bracket::{AttainedAt, TorqueBracket, TorqueCertificate},
+    bracket::{AttainedAt, CoveredMotion, TorqueBracket, TorqueCertificate},
     branch::{Stop, upper_bound},
     climb::{self, Course},
     dependence::{Dependence, Part},
     gravity::GravityTorques,
     measure::{LargestMotion, Measure, Motion},
-    motion_range::CoveredMotion,
     rows::Rows,
     trigonometric::{Trigonometric, along},
 };

@@ -8,8 +8,7 @@ use congruent_dynamics::{
 use nalgebra::{DMatrix, Vector3};
 
 use super::{
-    bracket::AttainedAt,
-    motion_range::{CoveredMotion, covered_motions},
+    bracket::{AttainedAt, CoveredMotion, covered_motions},
     speeds::{entries, row},
     ways::Ways,
 };
@@ -105,21 +104,18 @@ impl<'a> Rows<'a> {
             }
         }
         let place = |first: usize, second: usize| 1 + products + row(products, first) + second;
-        for first in 0..products {
-            for second in (0..=first).rev() {
-                qd.fill(0.0);
-                for at in [first, second] {
-                    qd[moving[at]] = self.covered[moving[at]].speed;
-                }
-                self.difference.bias_into(q, qd, buffer, &mut tau[0])?;
-                for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
-                    let squares = if first == second {
-                        0.0
-                    } else {
-                        values[place(first, first)] + values[place(second, second)]
-                    };
-                    values[place(second, first)] = tau[0][joint] - squares;
-                }
+        let pairs = (0..products).flat_map(|first| (0..=first).rev().map(move |second| [second, first]));
+        for pair in pairs {
+            qd.fill(0.0);
+            for at in pair {
+                qd[moving[at]] = self.covered[moving[at]].speed;
+            }
+            self.difference.bias_into(q, qd, buffer, &mut tau[0])?;
+            // Both speeds together are the two squares, which are known before, and the product.
+            let squares = if pair[0] == pair[1] { &[][..] } else { &pair[..] };
+            for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
+                let known: f64 = squares.iter().map(|&at| values[place(at, at)]).sum();
+                values[place(pair[0], pair[1])] = tau[0][joint] - known;
             }
         }
         Ok(values)

@@ -66,9 +66,9 @@ impl Form<'_> {
         let mut slopes = [0.0; MAX_SPEEDS];
         // Without squares, in full rows: of a fixed length the sums below are taken side by side.
         let mut rows = [[0.0; MAX_SPEEDS]; MAX_SPEEDS];
-        for j in 0..self.speeds {
-            for k in j + 1..self.speeds {
-                (rows[j][k], rows[k][j]) = (self.coefficient(j, k), self.coefficient(j, k));
+        for (j, row) in rows.iter_mut().enumerate().take(self.speeds) {
+            for (k, entry) in row.iter_mut().enumerate().take(self.speeds).filter(|(k, _)| *k != j) {
+                *entry = self.coefficient(j, k);
             }
         }
         x.iter_mut().zip(intervals).for_each(|(x, interval)| *x = interval.0);
@@ -176,7 +176,8 @@ mod tests {
             let range = form.range(&intervals);
             let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
             for index in 0..1000_usize {
-                let share = [index % 10, index / 10 % 10, index / 100].map(|at| f64::from(at as u8) / 9.0);
+                let share = [index % 10, index / 10 % 10, index / 100]
+                    .map(|at| f64::from(u8::try_from(at).expect("below 22")) / 9.0);
                 let x: [f64; 3] =
                     std::array::from_fn(|j| intervals[j].0 + share[j] * (intervals[j].1 - intervals[j].0));
                 least = least.min(form.at(&x));
@@ -194,7 +195,8 @@ mod tests {
             let (best, x) = form.largest(sign);
             assert!((sign * form.at(&x) - best).abs() < 1e-15);
             for index in 0..9261_usize {
-                let x = [index % 21, index / 21 % 21, index / 441].map(|at| f64::from(at as u8) / 10.0 - 1.0);
+                let x = [index % 21, index / 21 % 21, index / 441]
+                    .map(|at| f64::from(u8::try_from(at).expect("below 22")) / 10.0 - 1.0);
                 assert!(sign * form.at(&x) <= best + 1e-12, "{x:?} {best}");
             }
         }

@@ -169,26 +169,11 @@ impl Target<'_> {
                 vec![(free, zeros), shifted(COM_START_M), shifted(-COM_START_M)]
             }
             Free::Inertia | Free::Inertial => {
-                let ball = self.ball(from, &linear(free).unknowns, free);
+                let ball = ball(from, &linear(free).unknowns, free);
                 vec![(free, zeros), (free, ball)]
             }
             _ => vec![(free, zeros)],
         }
-    }
-
-    /// Free numbers that make a link a ball with the largest moment of a fit: of few numbers that torque shows the
-    /// shortest fit is seldom a body.
-    fn ball(&self, from: &Inertial, fitted: &DVector<f64>, free: Free) -> DVector<f64> {
-        let moment = free.about_origin(from, fitted.as_slice()).tensor_kg_m2.amax();
-        let mut ball = Inertial { tensor_kg_m2: Matrix3::from_diagonal_element(moment), ..*from };
-        if ball.mass_kg <= 0.0 {
-            ball.mass_kg = BALL_DENSITY * moment;
-        }
-        let of = |figures: &Inertial| match free {
-            Free::Inertial => figures.ten_numbers().iter().copied().collect::<Vec<f64>>(),
-            _ => ENTRIES.map(|entry| figures.tensor_kg_m2[entry]).to_vec(),
-        };
-        DVector::from_vec(of(&ball)) - DVector::from_vec(of(from))
     }
 
     /// Steps of Gauss and Newton; what nothing shows stays.
@@ -272,6 +257,21 @@ impl Target<'_> {
         let corrected = Corrected { gravity: Some(gravity), ..Corrected::default() };
         Effect { corrected, torque: columns * solution.unknowns, rank: solution.rank }
     }
+}
+
+/// Free numbers that make a link a ball with the largest moment of a fit: of few numbers that torque shows the
+/// shortest fit is seldom a body.
+fn ball(from: &Inertial, fitted: &DVector<f64>, free: Free) -> DVector<f64> {
+    let moment = free.about_origin(from, fitted.as_slice()).tensor_kg_m2.amax();
+    let mut ball = Inertial { tensor_kg_m2: Matrix3::from_diagonal_element(moment), ..*from };
+    if ball.mass_kg <= 0.0 {
+        ball.mass_kg = BALL_DENSITY * moment;
+    }
+    let of = |figures: &Inertial| match free {
+        Free::Inertial => figures.ten_numbers().iter().copied().collect::<Vec<f64>>(),
+        _ => ENTRIES.map(|entry| figures.tensor_kg_m2[entry]).to_vec(),
+    };
+    DVector::from_vec(of(&ball)) - DVector::from_vec(of(from))
 }
 
 /// Mass of a ball for a unit of its moment, 1/m^2. Kind: choice; a radius of gyration of 0.1 m.

@@ -176,8 +176,10 @@ fn diagnosed((candidate, faulty): (&Side, FaultySide), states: &[State], expecte
     diagnose_in_stages(&setting, &torque, expected).expect("the robot's own states")
 }
 
-/// What is named, with its parts, its price and whether it is no body.
-fn first_named(explanations: &[Grouped]) -> Option<(Vec<(DynamicsCause, Place)>, f64, bool)> {
+/// The parts of what is named, its price and whether it is no body.
+type FirstNamed = (Vec<(DynamicsCause, Place)>, f64, bool);
+
+fn first_named(explanations: &[Grouped]) -> Option<FirstNamed> {
     let named = &explanations.first()?.named;
     let parts = named.parts.iter();
     let parts = parts.map(|part| (part.hypothesis.cause, part.hypothesis.place.clone())).collect();

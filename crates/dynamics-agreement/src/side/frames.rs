@@ -139,6 +139,13 @@ impl Frames {
         Ok(self)
     }
 
+    /// The frame of the table that a link's figures could have been given in, in the link; `None` if it has none.
+    pub fn dh_frame(&self, link: &str) -> Option<Pose> {
+        let link = self.find_link(link)?;
+        let mut numbered = self.others.iter().filter(|other| other.names_at_links[link].is_some());
+        numbered.find_map(|other| other.link_from_frame[link])
+    }
+
     /// Number of moving joints.
     pub fn dof(&self) -> usize {
         self.joints.len()

@@ -17,8 +17,12 @@ pub(crate) type Lanes = [f64; LANES];
 pub(crate) struct LaneVector(pub(crate) [Lanes; 3]);
 
 #[inline(always)]
-pub(crate) fn lanes(each: impl FnMut(usize) -> f64) -> Lanes {
-    std::array::from_fn(each)
+pub(crate) fn lanes(each: impl Fn(usize) -> f64) -> Lanes {
+    let mut all = [0.0; LANES];
+    for (lane, number) in all.iter_mut().enumerate() {
+        *number = each(lane);
+    }
+    all
 }
 
 impl LaneVector {
@@ -58,6 +62,15 @@ impl LaneVector {
         })
     }
 
+    /// Multiplied from the left by the transpose of one matrix for all samples.
+    #[inline(always)]
+    pub(crate) fn turned_back_by(&self, matrix: &Matrix3<f64>) -> Self {
+        let v = &self.0;
+        Self::each(|row, lane| {
+            matrix[(0, row)] * v[0][lane] + matrix[(1, row)] * v[1][lane] + matrix[(2, row)] * v[2][lane]
+        })
+    }
+
     /// Turned about z by the angles with these sines and cosines.
     #[inline(always)]
     pub(crate) fn turned_about_z(&self, sin: &Lanes, cos: &Lanes) -> Self {
@@ -65,6 +78,17 @@ impl LaneVector {
         Self([
             lanes(|lane| x[lane] * cos[lane] - y[lane] * sin[lane]),
             lanes(|lane| y[lane] * cos[lane] + x[lane] * sin[lane]),
+            *z,
+        ])
+    }
+
+    /// Turned back about z.
+    #[inline(always)]
+    pub(crate) fn turned_back_about_z(&self, sin: &Lanes, cos: &Lanes) -> Self {
+        let [x, y, z] = &self.0;
+        Self([
+            lanes(|lane| x[lane] * cos[lane] + y[lane] * sin[lane]),
+            lanes(|lane| y[lane] * cos[lane] - x[lane] * sin[lane]),
             *z,
         ])
     }
