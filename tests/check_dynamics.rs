@@ -15,12 +15,12 @@ use crate::{
 };
 
 /// A copy of a robot of the repository, in which files can be changed.
-struct Copy {
+struct RobotCopy {
     folder: tempfile::TempDir,
     name: &'static str,
 }
 
-impl Copy {
+impl RobotCopy {
     fn of(name: &'static str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let original = workspace().join("robots").join(name);
@@ -108,7 +108,7 @@ pub(crate) fn apply(explanations: &Value) {
 
 /// A wrong URDF against the right one: what is said, and that doing it makes them agree.
 #[track_caller]
-fn corrected(robot: &Copy, cause: &str, place: &[&str], line: &str) {
+fn corrected(robot: &RobotCopy, cause: &str, place: &[&str], line: &str) {
     let answer = robot.against_original();
     assert_eq!(answer.code, 1, "{}", answer.stdout);
     let report = answer.json();
@@ -126,14 +126,14 @@ fn corrected(robot: &Copy, cause: &str, place: &[&str], line: &str) {
 
 #[test]
 fn a_wrong_mass() {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     robot.replace("link", "forearm_link", "<mass value=\"2.846\"", "<mass value=\"2.275\"");
     corrected(&robot, "mass", &["forearm_link"], "<mass value=\"2.275\"");
 }
 
 #[test]
 fn a_centre_of_mass_in_millimetres() {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     robot.replace(
         "link",
         "wrist_1_link",
@@ -145,7 +145,7 @@ fn a_centre_of_mass_in_millimetres() {
 
 #[test]
 fn products_with_the_other_sign() {
-    let robot = Copy::of("panda");
+    let robot = RobotCopy::of("panda");
     robot.change("link", "panda_link4", |text| {
         let start = text.find("<inertia ").unwrap();
         let (before, tensor) = text.split_at(start);
@@ -160,7 +160,7 @@ fn products_with_the_other_sign() {
 
 #[test]
 fn an_inertia_about_the_links_origin() {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     // wrist 3: 0.365 kg, 1.159 mm along z.
     robot.change("link", "wrist_3_link", |text| text.replace("9.89041400833e-05", "9.93944376483e-05"));
     corrected(&robot, "inertia_about_origin", &["wrist_3_link"], "<inertia ");
@@ -168,7 +168,7 @@ fn an_inertia_about_the_links_origin() {
 
 #[test]
 fn two_links_with_each_others_inertia() {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     let inertial = |text: &str| {
         let start = text.find("<inertial>").unwrap();
         let end = text.find("</inertial>").unwrap();
@@ -183,7 +183,7 @@ fn two_links_with_each_others_inertia() {
 
 #[test]
 fn damping_that_is_left_out() {
-    let robot = Copy::of("panda");
+    let robot = RobotCopy::of("panda");
     let text = fs::read_to_string(robot.urdf()).unwrap();
     fs::write(robot.urdf(), text.replace("<dynamics damping=\"0.003\"/>", "")).unwrap();
     let answer = robot.against_original();
@@ -200,7 +200,7 @@ fn damping_that_is_left_out() {
 
 #[test]
 fn a_vendors_table_agrees_with_the_urdf() {
-    let report = Copy::of("ur5e").against_declared().json();
+    let report = RobotCopy::of("ur5e").against_declared().json();
     assert_eq!(report["verdict"], "agree", "{report:#}");
     let left_out = names(&report["declared_dynamics"]["not_declared"]);
     assert!(left_out.contains(&"inertia of all joints"), "{left_out:?}");
@@ -212,7 +212,7 @@ fn a_vendors_table_agrees_with_the_urdf() {
 /// A robot file in which one text is another: the cause, the joint's link, and the line that is wrong.
 #[track_caller]
 fn declared(old: &str, new: &str, (cause, place): (&str, &str), line: &str) {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     let file = fs::read_to_string(robot.robot_file()).unwrap();
     assert!(file.contains(old));
     fs::write(robot.robot_file(), file.replacen(old, new, 1)).unwrap();
@@ -240,7 +240,7 @@ fn a_slip_in_the_table_is_found_there() {
 
 #[test]
 fn a_centre_of_mass_in_the_tables_frame_is_named() {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     // The vendor's figures, which are those of the table's frame 3, in the frame of the link.
     robot.replace(
         "link",
@@ -257,7 +257,7 @@ fn a_centre_of_mass_in_the_tables_frame_is_named() {
 
 #[test]
 fn masses_in_frames_of_a_wrong_table_are_not_compared() {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     let file = fs::read_to_string(robot.robot_file()).unwrap();
     fs::write(robot.robot_file(), file.replacen("d_m = 0.0997", "d_m = 0.1027", 1)).unwrap();
     let report = robot.against_declared().json();
@@ -274,7 +274,7 @@ fn gravity_in_another_direction() {
 
 #[test]
 fn a_wrong_urdf_is_corrected_by_the_table() {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     robot.replace("link", "forearm_link", "<mass value=\"2.846\"", "<mass value=\"2846\"");
     let answer = robot.against_declared();
     assert_eq!(answer.code, 1);
@@ -287,7 +287,7 @@ fn a_wrong_urdf_is_corrected_by_the_table() {
 
 #[test]
 fn another_chain_is_not_compared_and_the_first_joint_is_named() {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     robot.replace("joint", "elbow_joint", "-0.425", "-0.435");
     let answer = robot.against_original();
     assert_eq!(answer.code, 1);
@@ -307,7 +307,7 @@ fn another_chain_is_not_compared_and_the_first_joint_is_named() {
 
 #[test]
 fn what_no_torque_shows_and_limits() {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     robot.replace("link", "shoulder_link", "xyz=\"0 -0.00193 -0.02561\"", "xyz=\"0 -0.00193 0.5\"");
     let answer = robot.against_original();
     assert_eq!(answer.code, 0, "{}", answer.stdout);
@@ -339,7 +339,7 @@ fn what_no_torque_shows_and_limits() {
 
 #[test]
 fn ci_reads_the_cause() {
-    let robot = Copy::of("ur5e");
+    let robot = RobotCopy::of("ur5e");
     robot.replace("link", "forearm_link", "<mass value=\"2.846\"", "<mass value=\"2846\"");
     let junit = robot.folder.path().join("junit.xml");
     let answer = congruent(&["check", &text(&robot.robot_file()), "--junit", &text(&junit)]);

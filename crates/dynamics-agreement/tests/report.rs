@@ -49,7 +49,8 @@ fn a_fault_has_its_line_its_figures_and_its_sentence() {
     let path = explanation.file.as_deref().expect("the file of the candidate");
     let text = std::fs::read_to_string(path).expect("it is there");
     let line = text.lines().nth(explanation.line.expect("a line") - 1).expect("it has the line");
-    assert!(line.contains("<inertial"), "{line}");
+    assert!(line.contains("<origin"), "{line}");
+    assert_eq!(explanation.changes.len(), 1, "{:?}", explanation.changes);
     let suggestion = explanation.suggestion.as_deref().expect("what to write");
     assert!(suggestion.starts_with("forearm_link: com_x = "), "{suggestion}");
     let mass = report.invariants.as_ref().expect("both are descriptions").total_mass_kg;

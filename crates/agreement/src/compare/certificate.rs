@@ -70,7 +70,7 @@ impl Brackets {
 /// The certificate of two models of the chain.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedCertificate {
-    /// The pair: `model_urdf`, `model_simulation` or `urdf_simulation`.
+    /// The pair: `model_urdf`, `model_simulation`, `urdf_simulation` or `urdf_other`.
     pub name: SourcePair,
     /// The pair in words.
     pub title: &'static str,

@@ -51,7 +51,7 @@ pub struct WorstDifference {
 /// The comparison of two sources.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Comparison {
-    /// The pair: `model_urdf`, `poe_urdf` or `urdf_simulation`.
+    /// The pair: `model_urdf`, `poe_urdf`, `urdf_simulation` or `urdf_other`.
     pub name: SourcePair,
     /// The pair in words.
     pub title: &'static str,
@@ -78,7 +78,7 @@ pub struct LinkDifference {
 /// A source that could not be asked.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NotAsked {
-    /// The source: `simulation`.
+    /// The source: `simulation`, `simulated_dynamics` or `declared_dynamics`.
     pub source: &'static str,
     /// Why.
     pub findings: Vec<Finding>,

@@ -14,7 +14,7 @@ use crate::{
 /// The diagnosis of one pair of models of the chain from base to tip.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedDiagnosis {
-    /// The pair: `model_urdf`, `model_simulation` or `urdf_simulation`.
+    /// The pair: `model_urdf`, `model_simulation`, `urdf_simulation` or `urdf_other`.
     pub name: SourcePair,
     /// The pair in words.
     pub title: &'static str,

@@ -92,7 +92,7 @@ fn frames_of_table(declared: &DeclaredDynamics, geometry: &CheckReport) -> Resul
     let mut table = geometry.comparisons.iter().filter(|of| of.name == SourcePair::ModelUrdf);
     if uses_table && table.any(|of| of.verdict == Agreement::Disagree) {
         return Err(
-            "it is in frames of the table, which is not the chain of the URDF: correct the table first"
+            "figures are in frames of the table, which is not the chain of the URDF: correct the table first"
                 .to_owned(),
         );
     }

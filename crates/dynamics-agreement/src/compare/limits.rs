@@ -2,7 +2,10 @@
 
 use congruent_description::JointLimit;
 
-use crate::{side::Side, thresholds::SAME_FIGURE};
+use crate::{
+    side::{Side, frames::JointPlace},
+    thresholds::SAME_FIGURE,
+};
 
 /// A limit that differs.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
@@ -72,7 +75,7 @@ pub(crate) fn differences(candidate: &Side, reference: &Side, joints: &[usize]) 
                 found,
                 expected,
                 factor,
-                unit: unit(cause, candidate.frames.joints[joint].is_angular).to_owned(),
+                unit: unit(cause, &candidate.frames.joints[joint]).to_owned(),
                 line: None,
                 expected_line: None,
             });
@@ -81,8 +84,8 @@ pub(crate) fn differences(candidate: &Side, reference: &Side, joints: &[usize]) 
     differences
 }
 
-fn unit(cause: LimitCause, is_angular: bool) -> &'static str {
-    match (cause, is_angular) {
+fn unit(cause: LimitCause, joint: &JointPlace) -> &'static str {
+    match (cause, joint.is_angular) {
         (LimitCause::VelocityLimit, true) => "rad/s",
         (LimitCause::VelocityLimit, false) => "m/s",
         (LimitCause::EffortLimit, true) => "N m",

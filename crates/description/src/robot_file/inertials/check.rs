@@ -71,15 +71,14 @@ fn inertial(
     let com =
         diagnostics.keep(com.and_then(|com| com.ok_or_else(|| missing("com_m or com_mm", entry).at(at()))));
     let tensor = entry.inertia_kg_m2.as_ref().map(|tensor| diagnostics.keep(self::tensor(tensor.get_ref())));
-    let frame = match &entry.frame {
-        Some(frame) => joint.and_then(|joint| diagnostics.keep(self::frame(frame, joint, context))),
-        None => {
-            let help = "frame = \"link\" is the frame of the joint's link in the URDF, \"dhN\" that of its row in the \
-                        table; neither is a default";
-            diagnostics.push(missing("frame", entry).at(at()).with_help(help));
-            None
-        }
-    };
+    let frame = diagnostics.keep(entry.frame.as_ref().ok_or_else(|| {
+        missing("frame", entry).at(at()).with_help(
+            "frame = \"link\" is the frame of the joint's link in the URDF, \"dhN\" that of its row in the table; \
+             neither is a default",
+        )
+    }));
+    let frame =
+        frame.zip(joint).and_then(|(frame, joint)| diagnostics.keep(self::frame(frame, joint, context)));
     let mut term = |term| {
         let joint = context.robot.joint(joint?);
         diagnostics.keep(self::term(entry, term, joint)).flatten()
