@@ -4,6 +4,7 @@ mod clearance;
 mod distances;
 mod hulls;
 mod pair_names;
+mod waiting;
 
 pub use clearance::{Clearance, Nearest, Pair, PairChoice, measured_pairs};
 pub use distances::{
