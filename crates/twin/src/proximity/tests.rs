@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use congruent_description::{Geometry, Joint, JointKind, JointParts, Link};
+use congruent_description::{Geometry, Joint, JointKind, JointParts, Link, LinkIndex, Robot};
 use nalgebra::{Translation3, UnitQuaternion};
 use proptest::prelude::*;
 
