@@ -1,5 +1,7 @@
 //! The same scenario twice, and continued from a snapshot in another source, is the same run, bit by bit.
 
+#![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
+
 use std::path::Path;
 
 use congruent_twin::{

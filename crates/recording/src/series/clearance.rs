@@ -81,7 +81,7 @@ impl ClearanceSeries {
         self.minimum.push(time, nearest.distance_m);
         self.follow(nearest.pair);
         // Two links that are always close to each other must not hide an obstacle that the arm approaches.
-        if let Some(closest) = clearance.nearest_below(NEAR_M, |_, pair| pair.b >= links) {
+        if let Some(closest) = clearance.nearest_of(NEAR_M, |_, pair| pair.b >= links) {
             self.follow(closest.pair);
         }
         for (&pair, line) in &mut self.pairs {

@@ -90,7 +90,7 @@ impl ClearanceMonitor {
     fn begin(&mut self, sample: &mut Sample<'_>) {
         self.choose(sample.clearance, sample.joints.truth.q.len());
         let places = &self.places;
-        let nearest = sample.clearance.nearest_below(f64::INFINITY, |pair, _| places[pair].is_some());
+        let nearest = sample.clearance.nearest_of(f64::INFINITY, |pair, _| places[pair].is_some());
         if let Some(Nearest { distance_m, pair }) = nearest {
             self.distance.observe(distance_m, pair, sample);
         }

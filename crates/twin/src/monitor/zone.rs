@@ -31,7 +31,7 @@ impl Monitor for ZoneMonitor {
             return; // no distance is below 0: nothing can be worse
         }
         let threshold_m = self.distance.worst().unwrap_or(f64::INFINITY);
-        if let Some(nearest) = sample.zones.nearest_below(threshold_m, |_, _| true) {
+        if let Some(nearest) = sample.zones.nearest_below(threshold_m) {
             self.distance.observe(nearest.distance_m, nearest.pair, sample);
         }
     }

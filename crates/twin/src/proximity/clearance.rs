@@ -241,13 +241,18 @@ impl Clearance {
         // With the pair that was nearest last time for a start, the fewest pairs need measuring.
         let first_m = self.nearest.map_or(f64::INFINITY, |pair| self.measure(pair));
         // That pair itself is found again, or one before it at the same distance.
-        let nearest = self.nearest_below(first_m.next_up(), |_, _| true);
+        let nearest = self.nearest_below(first_m.next_up());
         self.nearest = nearest.map(|nearest| nearest.pair);
         nearest
     }
 
+    /// The nearest pair if it is nearer than `threshold_m`.
+    pub fn nearest_below(&mut self, threshold_m: f64) -> Option<Nearest> {
+        self.nearest_of(threshold_m, |_, _| true)
+    }
+
     /// The nearest of some pairs, given by index and subjects, if it is nearer than `threshold_m`.
-    pub fn nearest_below(
+    pub fn nearest_of(
         &mut self,
         threshold_m: f64,
         is_chosen: impl Fn(usize, Pair) -> bool,
@@ -338,6 +343,14 @@ impl Clearance {
             watch.measured_at = self.instant;
         }
         watch.exact_m
+    }
+
+    /// The distance of one pair if it is below `threshold_m`; it is measured only if its bound does not decide that.
+    pub fn measure_below(&mut self, pair: usize, threshold_m: f64) -> Option<f64> {
+        if self.bound_m(&self.watches[pair]) >= threshold_m {
+            return None;
+        }
+        Some(self.measure(pair)).filter(|&distance_m| distance_m < threshold_m)
     }
 
     /// Measures one pair with negative depths for overlaps.

@@ -167,7 +167,7 @@ proptest! {
             stepped(&mut poses, step);
             clearance.move_links(&poses);
             let expected_m = by_brute_force(&poses);
-            match clearance.nearest_below(threshold_m, |_, _| true) {
+            match clearance.nearest_below(threshold_m) {
                 Some(found) => {
                     prop_assert!((found.distance_m - expected_m).abs() <= SAME_M);
                     prop_assert_eq!(clearance.current_m(found.pair), Some(found.distance_m));
@@ -249,6 +249,8 @@ proptest! {
             let expected: Vec<(usize, f64)> =
                 all.iter().copied().enumerate().filter(|(_, distance_m)| *distance_m < threshold_m).collect();
             prop_assert_eq!(&found, &expected);
+            let one_by_one = (0..pairs).filter_map(|pair| Some((pair, clearance.measure_below(pair, threshold_m)?)));
+            prop_assert_eq!(one_by_one.collect::<Vec<_>>(), expected);
             if number % 2 == 0 {
                 let nearest = clearance.nearest().unwrap();
                 let expected_m = all.iter().copied().fold(f64::INFINITY, f64::min);
