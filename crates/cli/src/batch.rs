@@ -232,3 +232,55 @@ pub(crate) fn unwritable(error: &OutputError, help: &str) -> Failure {
 fn shown(path: &Path) -> String {
     path.display().to_string()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::print::Format;
+
+    #[derive(Serialize)]
+    struct Passed;
+
+    impl BatchReport for Passed {
+        fn exit_code(&self) -> u8 {
+            0
+        }
+
+        fn text(&self) -> String {
+            "  answered\n".to_owned()
+        }
+
+        fn test_suite(&self, input: &str) -> TestSuite {
+            TestSuite::of_case(input, "test", TestResult::Passed)
+        }
+    }
+
+    #[test]
+    fn a_panic_leaves_the_answers_to_the_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let junit = folder.path().join("junit.xml");
+        let inputs = ["a.toml", "b.toml", "c.toml"].map(PathBuf::from);
+        let printer = Printer::new(Format::Human);
+        let batch = Batch::begin(&inputs, Some(&junit), &printer).unwrap();
+        // On threads of their own, as scenarios run.
+        let work = |input: &Path| {
+            assert!(input != Path::new("b.toml"), "a fault of the program");
+            Ok(Passed)
+        };
+        let answer = |input: &PathBuf| batch.answer(input, || work(input));
+        let answers: Vec<Answer<Passed>> = std::thread::scope(|scope| {
+            let answer = &answer;
+            let spawn = |input| scope.spawn(move || answer(input));
+            let threads: Vec<_> = inputs.iter().map(spawn).collect();
+            threads.into_iter().map(|thread| thread.join().unwrap()).collect()
+        });
+        let codes: Vec<u8> = answers.iter().map(Answer::exit_code).collect();
+        assert_eq!(codes, [0, BROKEN, 0]);
+        let shown = text(&answers);
+        assert!(shown.contains("b.toml: BROKEN\n  b.toml ended in an internal error"), "{shown}");
+        assert!(shown.contains("a.toml: passed\n  answered") && shown.contains("c.toml: passed"), "{shown}");
+        assert_eq!(batch.finish(answers).ok(), Some(BROKEN));
+        let junit = std::fs::read_to_string(junit).unwrap();
+        assert!(junit.contains("tests=\"3\"") && junit.contains("errors=\"1\""), "{junit}");
+    }
+}

@@ -37,9 +37,9 @@ pub(crate) struct Arguments {
     /// Folder for results; each scenario gets a folder of its name in it.
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// How many scenarios run at once.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
-    jobs: u16,
+    /// How many scenarios run at once; as many as the machine has cores if it is left out. The results are the same.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    jobs: Option<u16>,
     /// Replace a value of all scenarios, for example controller.stiffness=500 or check.1.position_m=1e-6.
     ///
     /// KEY is the keys of the file joined by dots; an entry of a list has its number, from 1. VALUE is TOML
@@ -67,6 +67,12 @@ fn parse_override(text: &str) -> Result<Override, String> {
 }
 
 impl Arguments {
+    /// Number of threads for so many scenarios.
+    fn threads(&self, scenarios: usize) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        self.jobs.map_or_else(cores, usize::from).min(scenarios)
+    }
+
     fn overrides(&self) -> Vec<Override> {
         self.overrides.iter().cloned().chain(self.seed.map(Override::seed)).collect()
     }
@@ -155,7 +161,7 @@ fn run_all(
         out: arguments.out.clone(),
         recording: (!arguments.no_recording).then_some(recording_format()).flatten(),
     };
-    let jobs = usize::from(arguments.jobs).min(loaded.len());
+    let jobs = arguments.threads(loaded.len());
     let waiting = Mutex::new(loaded.into_iter().enumerate());
     let work = || {
         let mut answers = Vec::new();

@@ -4,6 +4,7 @@
 
 use std::path::Path;
 
+use congruent_simulation::Obstacle;
 use congruent_twin::{
     Run, RunSetup,
     monitor::RunningCheck,
@@ -63,4 +64,50 @@ fn b_and_comparison(bencher: divan::Bencher<'_, '_>) {
 #[divan::bench]
 fn c_and_checks_and_clearance(bencher: divan::Bencher<'_, '_>) {
     bench(bencher, Stages { compare: true, observe: true }, |_| true);
+}
+
+/// The same with this many obstacles more, all out of the arm's reach, with clearance of all pairs: far obstacles should
+/// cost little, in physics as in clearance.
+#[divan::bench(args = [10, 1000])]
+fn d_with_far_obstacles(bencher: divan::Bencher<'_, '_>, more: u32) {
+    bencher
+        .with_inputs(|| {
+            let setup = among(more);
+            let checks = setup.checks();
+            (setup, checks)
+        })
+        .bench_local_values(|(setup, mut checks)| {
+            run(&setup, &mut checks, &mut NoRecorder, Stages { compare: true, observe: true });
+        });
+}
+
+/// What the physics alone costs among them, its world and its shapes included.
+#[divan::bench(args = [10, 1000])]
+fn e_physics_with_far_obstacles(bencher: divan::Bencher<'_, '_>, more: u32) {
+    bencher.with_inputs(|| among(more)).bench_local_values(|setup| {
+        run(&setup, &mut [], &mut NoRecorder, Stages { compare: false, observe: false });
+    });
+}
+
+/// The scenario with so many obstacles more, all out of reach.
+fn among(more: u32) -> RunSetup {
+    let mut setup = setup();
+    let near = setup.obstacles[0].clone();
+    setup.obstacles.extend((0..more).map(|index| far(&near, index)));
+    setup
+}
+
+/// A box 4 m away or more.
+fn far(like: &Obstacle, index: u32) -> Obstacle {
+    let angle = f64::from(index) * 0.1;
+    let radius_m = 4.0 + 0.01 * f64::from(index);
+    Obstacle {
+        name: format!("far_{index}"),
+        world_from_obstacle: nalgebra::Isometry3::translation(
+            radius_m * angle.cos(),
+            radius_m * angle.sin(),
+            0.2 * f64::from(index % 10),
+        ),
+        geometry: like.geometry.clone(),
+    }
 }

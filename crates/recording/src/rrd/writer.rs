@@ -19,7 +19,8 @@ use re_log_encoding::{
     RrdManifestBuilder, StreamFooter, StreamHeader, ToTransport,
 };
 use re_log_types::{
-    BlueprintActivationCommand, EntityPath, LogMsg, SetStoreInfo, StoreId, StoreInfo, StoreSource, TimePoint,
+    ArrowMsg, BlueprintActivationCommand, EntityPath, LogMsg, SetStoreInfo, StoreId, StoreInfo, StoreSource,
+    TimePoint,
 };
 use re_sdk_types::{AsComponents, SerializedComponentBatch, SerializedComponentColumn};
 
@@ -159,10 +160,11 @@ impl RrdWriter {
     }
 
     fn chunk(&mut self, chunk: &Chunk) -> Result<(), RecordingError> {
-        let message = chunk.to_arrow_msg().map_err(failed)?;
+        // One conversion for message and index; `Chunk::to_arrow_msg` would be another.
+        let batch = chunk.to_chunk_batch().map_err(failed)?;
+        let message = ArrowMsg { chunk_id: chunk.id().as_tuid(), batch: (&batch).into(), on_release: None };
         let message = LogMsg::ArrowMsg(self.store.clone(), message);
         let (span, uncompressed) = self.message(&message)?;
-        let batch = chunk.to_chunk_batch().map_err(failed)?;
         let manifest = self.manifests.entry(self.store.clone()).or_default();
         manifest.append(&batch, span, uncompressed).map_err(failed)
     }

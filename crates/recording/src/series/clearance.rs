@@ -81,13 +81,8 @@ impl ClearanceSeries {
         self.minimum.push(time, nearest.distance_m);
         self.follow(nearest.pair);
         // Two links that are always close to each other must not hide an obstacle that the arm approaches.
-        clearance.nearest_below(NEAR_M);
-        let to_obstacles = clearance.pairs().enumerate().filter(|(_, pair)| pair.b >= links);
-        let measured = to_obstacles.filter_map(|(pair, _)| Some((pair, clearance.current_m(pair)?)));
-        let closest =
-            measured.filter(|&(_, distance_m)| distance_m < NEAR_M).min_by(|(_, a), (_, b)| a.total_cmp(b));
-        if let Some((pair, _)) = closest {
-            self.follow(pair);
+        if let Some(closest) = clearance.nearest_of(NEAR_M, |_, pair| pair.b >= links) {
+            self.follow(closest.pair);
         }
         for (&pair, line) in &mut self.pairs {
             line.push(time, clearance.measure(pair));

@@ -26,6 +26,10 @@ pub(super) struct ClearanceMonitor {
     measured: Vec<[String; 2]>,
     /// Those that are looked at.
     pairs: Vec<LookedAt>,
+    /// For each measured pair its place among those that are looked at.
+    places: Vec<Option<usize>>,
+    /// What is near at the present sample.
+    found: Vec<Nearest>,
     samples: u64,
 }
 
@@ -57,7 +61,16 @@ impl ClearanceMonitor {
     pub(super) fn new(check: &ClearanceCheck, description: &RobotDescription) -> Self {
         let minimum_m = check.minimum_m;
         let distance = watch(minimum_m, description.robot.dof());
-        Self { names: names(check), minimum_m, distance, measured: Vec::new(), pairs: Vec::new(), samples: 0 }
+        Self {
+            names: names(check),
+            minimum_m,
+            distance,
+            measured: Vec::new(),
+            pairs: Vec::new(),
+            places: Vec::new(),
+            found: Vec::new(),
+            samples: 0,
+        }
     }
 
     /// Makes room for every pair, so that no sample after the first allocates.
@@ -66,16 +79,28 @@ impl ClearanceMonitor {
         self.measured = all.clone().map(|pair| owned(clearance.names(pair))).collect();
         let pairs = all.filter(|&pair| self.names.look_at(clearance.names(pair)));
         self.pairs = pairs.map(|pair| LookedAt { pair, below: watch(self.minimum_m, dof) }).collect();
+        self.places = vec![None; self.measured.len()];
+        self.found.reserve(self.pairs.len());
+        for (place, LookedAt { pair, .. }) in self.pairs.iter().enumerate() {
+            self.places[*pair] = Some(place);
+        }
+    }
+
+    /// The nearest pair at the first sample: from then on only smaller distances count.
+    fn begin(&mut self, sample: &mut Sample<'_>) {
+        self.choose(sample.clearance, sample.joints.truth.q.len());
+        let places = &self.places;
+        let nearest = sample.clearance.nearest_of(f64::INFINITY, |pair, _| places[pair].is_some());
+        if let Some(Nearest { distance_m, pair }) = nearest {
+            self.distance.observe(distance_m, pair, sample);
+        }
     }
 
     /// Only a smaller distance than this changes the report: touching is reported although no distance is below
     /// zero.
-    fn threshold_m(&self, below: &Watch) -> f64 {
-        match self.distance.worst() {
-            None => f64::INFINITY,
-            Some(_) if self.distance.is_violated() => below.worst().unwrap_or(self.minimum_m),
-            Some(worst_m) => worst_m.max(self.minimum_m),
-        }
+    fn threshold_m(&self) -> f64 {
+        let worst_m = self.distance.worst().unwrap_or(f64::INFINITY);
+        if self.distance.is_violated() { self.minimum_m } else { worst_m.max(self.minimum_m) }
     }
 
     /// Pairs that were left out or chosen by name.
@@ -114,22 +139,27 @@ fn watch(minimum_m: f64, dof: usize) -> Watch {
 impl Monitor for ClearanceMonitor {
     fn observe(&mut self, sample: &mut Sample<'_>) {
         if self.samples == 0 {
-            self.choose(sample.clearance, sample.joints.truth.q.len());
+            self.begin(sample);
         }
         self.samples += 1;
-        let mut nearest: Option<Nearest> = None;
-        for at in 0..self.pairs.len() {
-            let threshold_m = self.threshold_m(&self.pairs[at].below);
-            let LookedAt { pair, below } = &mut self.pairs[at];
-            let Some(distance_m) = sample.clearance.measure_below(*pair, threshold_m) else { continue };
-            if !BOUND.holds(distance_m, self.minimum_m) {
-                below.observe(distance_m, *pair, sample);
-            }
-            if nearest.is_none_or(|known| distance_m < known.distance_m) {
-                nearest = Some(Nearest { distance_m, pair: *pair });
+        let (threshold_m, is_violated) = (self.threshold_m(), self.distance.is_violated());
+        let limit_m = |pair: usize| {
+            let Some(place) = self.places[pair] else { return f64::NEG_INFINITY };
+            let worst_m = self.pairs[place].below.worst();
+            worst_m.filter(|_| is_violated).unwrap_or(threshold_m)
+        };
+        self.found.clear();
+        let found = &mut self.found;
+        sample.clearance.below(threshold_m, limit_m, |pair, distance_m| {
+            found.push(Nearest { distance_m, pair });
+        });
+        for &Nearest { distance_m, pair } in &self.found {
+            if let Some(place) = self.places[pair].filter(|_| !BOUND.holds(distance_m, self.minimum_m)) {
+                self.pairs[place].below.observe(distance_m, pair, sample);
             }
         }
-        if let Some(nearest) = nearest {
+        let by_distance = |a: &&Nearest, b: &&Nearest| a.distance_m.total_cmp(&b.distance_m);
+        if let Some(nearest) = self.found.iter().min_by(by_distance) {
             self.distance.observe(nearest.distance_m, nearest.pair, sample);
         }
     }

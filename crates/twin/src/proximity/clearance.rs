@@ -1,29 +1,25 @@
 //! Distances between links, from links to obstacles, and from links to forbidden zones, as they
 //! change along a run.
 //!
-//! An exact distance costs more than a physics step, so each pair keeps a lower bound that shrinks
-//! by how far its two bodies have moved against each other since the last exact distance. A pair
-//! is measured again only if that bound does not decide the question.
+//! An exact distance costs more than a physics step, so each pair keeps a lower bound, and is measured again only if
+//! that does not decide the question. The bound shrinks by how far the two bodies have moved: first by the way that
+//! each has gone, which costs nothing for each pair, and if that does not suffice by how far they have moved against
+//! each other since the last exact distance.
 
-use congruent_description::{Geometry, Link, LinkIndex, Robot, RobotDescription, Shape};
+use congruent_description::{Link, RobotDescription, Shape};
 use congruent_simulation::Obstacle;
 use nalgebra::{Isometry3, Vector3};
 
-use super::hulls::{Hulls, ProximityError};
+use super::{
+    hulls::{Hulls, ProximityError},
+    pairs::{Pair, PairChoice, pairs},
+    waiting::WaitingPairs,
+};
 use crate::setup::Zone;
 
 /// Subtracted from every bound: the largest error of an exact distance, with a margin.
 /// Kind: solver stop. Bound: 1e-7 m (worst of 1,950 mesh hull pairs of four arms: 2.5e-8 m).
 const DISTANCE_SLACK_M: f64 = 1e-7;
-
-/// Two subjects whose distance is watched: indices into [`Clearance::subjects`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Pair {
-    /// The first link, or a zone.
-    pub a: usize,
-    /// The second link, or an obstacle; of a zone, the link.
-    pub b: usize,
-}
 
 /// The smallest distance of one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,37 +30,32 @@ pub struct Nearest {
     pub pair: usize,
 }
 
-/// Which link pairs are left out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PairChoice {
-    /// Pairs on the same or on neighbouring moving bodies, and pairs that an SRDF disables.
-    Usual,
-    /// Only pairs on the same body.
-    All,
-}
-
 #[derive(Debug, Clone, Copy)]
 struct WatchedPair {
     pair: Pair,
     /// Relative pose at the last exact distance.
     a_from_b: Isometry3<f64>,
+    /// NaN before the first.
     exact_m: f64,
-    lower_bound_m: f64,
-    /// Whether `exact_m` is of this instant.
-    is_current: bool,
+    /// The instant of the last exact distance.
+    measured_at: u64,
+    /// The distance is at least this less what the two have travelled in total.
+    reach_m: f64,
 }
 
 impl WatchedPair {
     /// A pair that was not measured yet.
     fn new(pair: Pair) -> Self {
-        Self {
-            pair,
-            a_from_b: Isometry3::identity(),
-            exact_m: f64::NAN,
-            lower_bound_m: f64::NEG_INFINITY,
-            is_current: false,
-        }
+        let a_from_b = Isometry3::identity();
+        Self { pair, a_from_b, exact_m: f64::NAN, measured_at: 0, reach_m: f64::NEG_INFINITY }
     }
+}
+
+/// A pair that may be near, with a lower bound of its distance at this instant.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    bound_m: f64,
+    pair: usize,
 }
 
 /// Distances of all pairs.
@@ -76,6 +67,17 @@ pub struct Clearance {
     root_from_subjects: Vec<Isometry3<f64>>,
     links: usize,
     watches: Vec<WatchedPair>,
+    /// Pairs of two links, both of which move.
+    of_links: Vec<usize>,
+    /// For each link, its pairs with bodies that stand still, but for the present candidates.
+    waiting: Vec<WaitingPairs>,
+    /// The way that the points of each link have gone so far, at most.
+    travelled_m: Vec<f64>,
+    /// Number of the present instant, from 1.
+    instant: u64,
+    candidates: Vec<Candidate>,
+    /// The nearest pair of the last time.
+    nearest: Option<usize>,
 }
 
 impl Clearance {
@@ -89,21 +91,17 @@ impl Clearance {
         choice: PairChoice,
     ) -> Result<Self, ProximityError> {
         let robot = &description.robot;
-        let links = robot.links().len();
         let hulls = |link: &Link| Hulls::new(&format!("link \"{}\"", link.name), &link.collisions);
-        let mut clearance = Self {
-            subjects: robot.links().iter().map(|link| link.name.clone()).collect(),
-            hulls: robot.links().iter().map(hulls).collect::<Result<_, _>>()?,
-            root_from_subjects: vec![Isometry3::identity(); links],
-            links,
-            watches: Vec::new(),
-        };
+        let mut clearance = Self::of_links(
+            robot.links().iter().map(|link| link.name.clone()).collect(),
+            robot.links().iter().map(hulls).collect::<Result<_, _>>()?,
+        );
         for obstacle in obstacles {
             clearance.add(obstacle)?;
         }
         let is_solid = |subject: usize| !clearance.hulls[subject].is_empty();
         let pairs = pairs(description, (clearance.hulls.len(), is_solid), choice);
-        clearance.watches = pairs.into_iter().map(WatchedPair::new).collect();
+        clearance.watch(pairs);
         Ok(clearance)
     }
 
@@ -113,21 +111,57 @@ impl Clearance {
     /// # Errors
     /// [`ProximityError`] never comes from boxes, spheres and cylinders.
     pub fn before_zones(&self, zones: &[Zone]) -> Result<Self, ProximityError> {
-        let mut clearance = Self {
-            subjects: self.subjects[..self.links].to_vec(),
-            hulls: self.hulls[..self.links].to_vec(),
-            root_from_subjects: self.root_from_subjects[..self.links].to_vec(),
-            links: self.links,
-            watches: Vec::new(),
-        };
+        let mut clearance =
+            Self::of_links(self.subjects[..self.links].to_vec(), self.hulls[..self.links].to_vec());
         for zone in zones {
             let a = clearance.add(&zone.space)?;
             // Links are second: what a bound loses by a turn is proportional to the second's size,
             // and zones are large.
             let pairs = zone.links.iter().map(|link| Pair { a, b: link.get() });
-            clearance.watches.extend(pairs.map(WatchedPair::new));
+            clearance.watch(pairs);
         }
         Ok(clearance)
+    }
+
+    /// Links without pairs.
+    fn of_links(subjects: Vec<String>, hulls: Vec<Hulls>) -> Self {
+        let links = subjects.len();
+        Self {
+            subjects,
+            hulls,
+            root_from_subjects: vec![Isometry3::identity(); links],
+            links,
+            watches: Vec::new(),
+            of_links: Vec::new(),
+            waiting: vec![WaitingPairs::default(); links],
+            travelled_m: vec![0.0; links],
+            instant: 1,
+            candidates: Vec::new(),
+            nearest: None,
+        }
+    }
+
+    /// Watches more pairs.
+    fn watch(&mut self, pairs: impl IntoIterator<Item = Pair>) {
+        for pair in pairs {
+            let index = self.watches.len();
+            self.watches.push(WatchedPair::new(pair));
+            match self.only_mover(pair) {
+                Some(link) => self.waiting[link].push(f64::NEG_INFINITY, index),
+                None => self.of_links.push(index),
+            }
+        }
+        // Room for all, so that no later sample allocates.
+        self.candidates.reserve(self.watches.len());
+    }
+
+    /// The one link of a pair whose other body stands still; `None` of two links.
+    fn only_mover(&self, Pair { a, b }: Pair) -> Option<usize> {
+        match (a < self.links, b < self.links) {
+            (true, true) => None,
+            (true, false) => Some(a),
+            _ => Some(b),
+        }
     }
 
     /// Adds a body that stands still; returns its index among the subjects.
@@ -162,77 +196,161 @@ impl Clearance {
     /// The exact distance of one pair if it was measured at this instant.
     pub fn current_m(&self, pair: usize) -> Option<f64> {
         let watch = &self.watches[pair];
-        watch.is_current.then_some(watch.exact_m)
+        (watch.measured_at == self.instant).then_some(watch.exact_m)
     }
 
-    /// Moves the links to new poses (root link's frame, the robot's order) and lowers the bounds
-    /// by how far each pair can have come closer.
+    /// Moves the links to new poses (root link's frame, the robot's order).
     pub fn move_links(&mut self, root_from_links: &[Isometry3<f64>]) {
-        self.root_from_subjects[..self.links].copy_from_slice(root_from_links);
-        for watch in &mut self.watches {
-            watch.is_current = false;
-            if watch.exact_m.is_nan() {
-                continue;
+        self.instant += 1;
+        for (link, after) in root_from_links.iter().enumerate() {
+            let before = std::mem::replace(&mut self.root_from_subjects[link], *after);
+            if before != *after {
+                let travelled_m = &mut self.travelled_m[link];
+                *travelled_m += largest_shift_m(&before, after, self.hulls[link].radius_m());
+                // A sum of many small steps may be rounded, but not down.
+                *travelled_m += *travelled_m * f64::EPSILON;
             }
-            let Pair { a, b } = watch.pair;
-            let a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
-            let approach_m = largest_shift_m(&watch.a_from_b, &a_from_b, self.hulls[b].radius_m());
-            watch.lower_bound_m = watch.exact_m - approach_m - DISTANCE_SLACK_M;
         }
     }
 
-    /// Measures every pair that may be closer than `threshold_m` and gives the nearest of them.
-    pub fn nearest_below(&mut self, threshold_m: f64) -> Option<Nearest> {
-        let mut nearest: Option<Nearest> = None;
-        for pair in 0..self.watches.len() {
-            if let Some(distance_m) = self.measure_below(pair, threshold_m)
-                && nearest.is_none_or(|known| distance_m < known.distance_m)
-            {
-                nearest = Some(Nearest { distance_m, pair });
+    /// Passes every pair that is nearer than `threshold_m` to `found`, with its distance, in the order of the pairs;
+    /// less than that, and none of no interest, if `limit_m` of a pair is lower.
+    pub fn below(
+        &mut self,
+        threshold_m: f64,
+        limit_m: impl Fn(usize) -> f64,
+        mut found: impl FnMut(usize, f64),
+    ) {
+        self.gather(threshold_m);
+        self.candidates.sort_unstable_by_key(|candidate| candidate.pair);
+        for at in 0..self.candidates.len() {
+            let Candidate { bound_m, pair } = self.candidates[at];
+            let limit_m = limit_m(pair).min(threshold_m);
+            if bound_m < limit_m {
+                let distance_m = self.measure(pair);
+                if distance_m < limit_m {
+                    found(pair, distance_m);
+                }
             }
         }
-        nearest
-    }
-
-    /// The distance of one pair if it is below `threshold_m`; it is measured only if its bound does not decide
-    /// that.
-    pub fn measure_below(&mut self, pair: usize, threshold_m: f64) -> Option<f64> {
-        if self.watches[pair].lower_bound_m >= threshold_m {
-            return None;
-        }
-        Some(self.measure(pair)).filter(|&distance_m| distance_m < threshold_m)
+        self.let_wait();
     }
 
     /// The smallest distance of this instant; `None` if there is no pair.
     pub fn nearest(&mut self) -> Option<Nearest> {
-        // Starting with the pair that was closest last time, the fewest pairs need measuring.
-        let first = (0..self.watches.len())
-            .min_by(|&a, &b| self.watches[a].lower_bound_m.total_cmp(&self.watches[b].lower_bound_m))?;
-        let mut nearest = Nearest { distance_m: self.measure(first), pair: first };
-        while let Some(closer) = self.nearest_unmeasured_below(nearest.distance_m) {
-            let distance_m = self.measure(closer);
-            if distance_m < nearest.distance_m {
-                nearest = Nearest { distance_m, pair: closer };
-            }
-        }
-        Some(nearest)
+        // With the pair that was nearest last time for a start, the fewest pairs need measuring.
+        let first_m = self.nearest.map_or(f64::INFINITY, |pair| self.measure(pair));
+        // That pair itself is found again, or one before it at the same distance.
+        let nearest = self.nearest_below(first_m.next_up());
+        self.nearest = nearest.map(|nearest| nearest.pair);
+        nearest
     }
 
-    fn nearest_unmeasured_below(&self, threshold_m: f64) -> Option<usize> {
-        self.watches.iter().position(|watch| !watch.is_current && watch.lower_bound_m < threshold_m)
+    /// The nearest pair if it is nearer than `threshold_m`.
+    pub fn nearest_below(&mut self, threshold_m: f64) -> Option<Nearest> {
+        self.nearest_of(threshold_m, |_, _| true)
+    }
+
+    /// The nearest of some pairs, given by index and subjects, if it is nearer than `threshold_m`.
+    pub fn nearest_of(
+        &mut self,
+        threshold_m: f64,
+        is_chosen: impl Fn(usize, Pair) -> bool,
+    ) -> Option<Nearest> {
+        self.gather(threshold_m);
+        self.candidates.sort_unstable_by(|a, b| a.bound_m.total_cmp(&b.bound_m).then(a.pair.cmp(&b.pair)));
+        let mut nearest: Option<Nearest> = None;
+        for at in 0..self.candidates.len() {
+            let Candidate { bound_m, pair } = self.candidates[at];
+            if bound_m > nearest.map_or(threshold_m, |nearest| nearest.distance_m) {
+                break; // and so are all that follow
+            }
+            if !is_chosen(pair, self.watches[pair].pair) {
+                continue;
+            }
+            let distance_m = self.measure(pair);
+            // Of two at one distance the first counts, whatever their bounds were.
+            let is_nearer = |known: Nearest| (distance_m, pair) < (known.distance_m, known.pair);
+            if distance_m < threshold_m && nearest.is_none_or(is_nearer) {
+                nearest = Some(Nearest { distance_m, pair });
+            }
+        }
+        self.let_wait();
+        nearest
+    }
+
+    /// Makes candidates of all pairs that can be nearer than `threshold_m`.
+    fn gather(&mut self, threshold_m: f64) {
+        self.candidates.clear();
+        for at in 0..self.of_links.len() {
+            let pair = self.of_links[at];
+            let WatchedPair { pair: Pair { a, b }, reach_m, .. } = self.watches[pair];
+            if reach_m - self.travelled_m[a] - self.travelled_m[b] < threshold_m {
+                self.make_candidate(pair);
+            }
+        }
+        for link in 0..self.links {
+            while let Some(pair) = self.waiting[link].pop_below(threshold_m, self.travelled_m[link]) {
+                self.make_candidate(pair);
+            }
+        }
+    }
+
+    fn make_candidate(&mut self, pair: usize) {
+        let bound_m = self.bound_m(&self.watches[pair]);
+        self.candidates.push(Candidate { bound_m, pair });
+    }
+
+    /// A lower bound of a distance at this instant.
+    fn bound_m(&self, watch: &WatchedPair) -> f64 {
+        if watch.measured_at == self.instant {
+            return watch.exact_m;
+        }
+        let Pair { a, b } = watch.pair;
+        let [root_from_a, root_from_b] = [a, b].map(|subject| &self.root_from_subjects[subject]);
+        let radius_m = self.hulls[b].radius_m();
+        if watch.exact_m.is_nan() {
+            let origins_m = (root_from_a.translation.vector - root_from_b.translation.vector).norm();
+            return origins_m - radius_m - self.hulls[a].radius_m() - DISTANCE_SLACK_M;
+        }
+        let approach_m = largest_shift_m(&watch.a_from_b, &root_from_a.inv_mul(root_from_b), radius_m);
+        watch.exact_m - approach_m - DISTANCE_SLACK_M
+    }
+
+    /// Lets the candidates wait again, each by what is known of it now.
+    fn let_wait(&mut self) {
+        for at in 0..self.candidates.len() {
+            let Candidate { bound_m, pair } = self.candidates[at];
+            let known_m = self.current_m(pair).map_or(bound_m, |exact_m| exact_m - DISTANCE_SLACK_M);
+            let watched = self.watches[pair].pair;
+            let travelled_m = |subject: usize| self.travelled_m.get(subject).copied().unwrap_or_default();
+            let reach_m = known_m + travelled_m(watched.a) + travelled_m(watched.b);
+            match self.only_mover(watched) {
+                Some(link) => self.waiting[link].push(reach_m, pair),
+                None => self.watches[pair].reach_m = reach_m,
+            }
+        }
+        self.candidates.clear();
     }
 
     /// Measures one pair, unless it is measured already at this instant.
     pub fn measure(&mut self, pair: usize) -> f64 {
         let watch = &mut self.watches[pair];
-        if !watch.is_current {
+        if watch.measured_at != self.instant {
             let Pair { a, b } = watch.pair;
             watch.a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
             watch.exact_m = self.hulls[a].distance_m(&self.hulls[b], &watch.a_from_b);
-            watch.lower_bound_m = watch.exact_m;
-            watch.is_current = true;
+            watch.measured_at = self.instant;
         }
         watch.exact_m
+    }
+
+    /// The distance of one pair if it is below `threshold_m`; it is measured only if its bound does not decide that.
+    pub fn measure_below(&mut self, pair: usize, threshold_m: f64) -> Option<f64> {
+        if self.bound_m(&self.watches[pair]) >= threshold_m {
+            return None;
+        }
+        Some(self.measure(pair)).filter(|&distance_m| distance_m < threshold_m)
     }
 
     /// Measures one pair with negative depths for overlaps.
@@ -250,52 +368,6 @@ fn largest_shift_m(before: &Isometry3<f64>, after: &Isometry3<f64>, radius_m: f6
     // vector part of the turn's unit quaternion has length sin(t / 2).
     let half_turn: Vector3<f64> = before.rotation.rotation_to(&after.rotation).imag();
     shift_m + 2.0 * radius_m * half_turn.norm()
-}
-
-/// The pairs that [`Clearance::new`] watches among so many obstacles, without their hulls.
-pub fn measured_pairs(description: &RobotDescription, obstacles: usize, choice: PairChoice) -> Vec<Pair> {
-    let links = description.robot.links();
-    let is_empty =
-        |geometry: &Geometry| matches!(geometry, Geometry::Mesh(mesh) if mesh.triangles.is_empty());
-    let has_shape = |link: &Link| link.collisions.iter().any(|shape| !is_empty(&shape.geometry));
-    let is_solid = |subject: usize| links.get(subject).is_none_or(has_shape);
-    pairs(description, (links.len() + obstacles, is_solid), choice)
-}
-
-/// Pairs among so many subjects, links first, of which some are solid.
-fn pairs(
-    description: &RobotDescription,
-    (subjects, is_solid): (usize, impl Fn(usize) -> bool),
-    choice: PairChoice,
-) -> Vec<Pair> {
-    let robot = &description.robot;
-    let links: Vec<LinkIndex> = robot.link_indices().collect();
-    let body = |subject: usize| links.get(subject).map_or(robot.root(), |&link| robot.body(link));
-    let solid: Vec<usize> = (0..subjects).filter(|&subject| is_solid(subject)).collect();
-    let is_watched = |a: usize, b: usize| {
-        let (body_a, body_b) = (body(a), body(b));
-        // Obstacles stand still, as the root body does.
-        if body_a == body_b {
-            return false;
-        }
-        let (Some(&a), Some(&b)) = (links.get(a), links.get(b)) else { return true };
-        choice == PairChoice::All
-            || !(are_neighbours(robot, body_a, body_b) || description.disabled_collisions.contains(&(a, b)))
-    };
-    let of_link = |&a: &usize| a < links.len();
-    let all = solid
-        .iter()
-        .filter(|a| of_link(a))
-        .flat_map(|&a| solid.iter().filter(move |&&b| b > a).map(move |&b| Pair { a, b }));
-    all.filter(|pair| is_watched(pair.a, pair.b)).collect()
-}
-
-/// Whether one joint connects the two bodies.
-fn are_neighbours(robot: &Robot, a: LinkIndex, b: LinkIndex) -> bool {
-    let hangs_on = |lower: LinkIndex, upper: LinkIndex| {
-        robot.parent_joint(lower).is_some_and(|joint| robot.body(robot.joint(joint).parent) == upper)
-    };
-    hangs_on(a, b) || hangs_on(b, a)
 }
 
 #[cfg(test)]

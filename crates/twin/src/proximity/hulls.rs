@@ -27,9 +27,21 @@ pub enum ProximityError {
 /// The collision shapes of one link or obstacle, ready for distance queries.
 #[derive(Clone)]
 pub struct Hulls {
-    shapes: Vec<(Pose, SharedShape)>,
+    shapes: Vec<Hull>,
     radius_m: f64,
 }
+
+/// One convex shape.
+#[derive(Clone)]
+struct Hull {
+    link_from_local: Pose,
+    form: SharedShape,
+    /// Radius of a ball about its own origin that contains it.
+    radius_m: f64,
+}
+
+/// No distance is off by more than that. See `DISTANCE_SLACK_M` in `clearance.rs`.
+const SOLVER_STOP_M: f64 = 1e-7;
 
 impl std::fmt::Debug for Hulls {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -48,9 +60,9 @@ impl Hulls {
             let Some(Convex { shape_from_local, form, radius_m }) = convex(subject, &shape.geometry)? else {
                 continue;
             };
-            let link_from_hull = pose(&shape.link_from_shape) * shape_from_local;
-            hulls.radius_m = hulls.radius_m.max(link_from_hull.translation.length() + radius_m);
-            hulls.shapes.push((link_from_hull, form));
+            let link_from_local = pose(&shape.link_from_shape) * shape_from_local;
+            hulls.radius_m = hulls.radius_m.max(link_from_local.translation.length() + radius_m);
+            hulls.shapes.push(Hull { link_from_local, form, radius_m });
         }
         Ok(hulls)
     }
@@ -96,10 +108,14 @@ impl Hulls {
     ) -> f64 {
         let self_from_other = pose(self_from_other);
         let mut smallest = f64::INFINITY;
-        for (self_from_a, a) in &self.shapes {
-            for (other_from_b, b) in &other.shapes {
-                let a_from_b = self_from_a.inv_mul(&(self_from_other * *other_from_b));
-                let apart = distance(&a_from_b, &**a, &**b)
+        for a in &self.shapes {
+            for b in &other.shapes {
+                let a_from_b = a.link_from_local.inv_mul(&(self_from_other * b.link_from_local));
+                // Two balls that are farther apart than what is known decide without an exact distance.
+                if a_from_b.translation.length() - a.radius_m - b.radius_m > smallest + SOLVER_STOP_M {
+                    continue;
+                }
+                let apart = distance(&a_from_b, &*a.form, &*b.form)
                     .expect("parry answers for every pair of boxes, balls, cylinders and hulls");
                 smallest = smallest.min(apart);
             }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use congruent_description::{Geometry, Joint, JointKind, JointParts, Link};
+use congruent_description::{Geometry, Joint, JointKind, JointParts, Link, LinkIndex, Robot};
 use nalgebra::{Translation3, UnitQuaternion};
 use proptest::prelude::*;
 
@@ -204,6 +204,87 @@ proptest! {
         let moved_m = (after * point - before * point).norm();
         prop_assert!(moved_m <= largest_shift_m(&before, &after, point.coords.norm()) + 1e-12);
     }
+}
+
+/// Boxes and balls in rings around the robot, the first `at_m` away and each further ring 0.3 m more.
+fn rings(count: u32, at_m: f64) -> Vec<Obstacle> {
+    let place = |index: u32| {
+        let (ring, angle) = (f64::from(index / 20), f64::from(index) * 0.7);
+        let (radius_m, height_m) = (at_m + 0.3 * ring, 0.3 * f64::from(index % 5) - 0.6);
+        Obstacle {
+            name: format!("obstacle_{index}"),
+            world_from_obstacle: Isometry3::new(
+                Vector3::new(radius_m * angle.cos(), radius_m * angle.sin(), height_m),
+                Vector3::new(0.3, angle, -0.4),
+            ),
+            geometry: match index % 2 {
+                0 => Geometry::Box { size_m: Vector3::new(0.1, 0.2, 0.3) },
+                _ => Geometry::Sphere { radius_m: 0.1 },
+            },
+        }
+    };
+    (0..count).map(place).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    /// All that is near is found among many obstacles, near and far, with the distances of fresh measurements.
+    #[test]
+    fn among_many_obstacles_no_pair_is_missed((_, steps) in walk(), limit_m in 0.05..0.6_f64) {
+        let obstacles = rings(60, 0.9);
+        let among = || Clearance::new(&description(), &obstacles, PairChoice::All).unwrap();
+        let mut clearance = among();
+        let mut poses = at_the_start();
+        for (number, step) in steps.iter().enumerate() {
+            stepped(&mut poses, step);
+            clearance.move_links(&poses);
+            let mut fresh = among();
+            fresh.move_links(&poses);
+            let pairs = fresh.pairs().len();
+            let all: Vec<f64> = (0..pairs).map(|pair| fresh.measure(pair)).collect();
+            // The questions of a run change from sample to sample.
+            let threshold_m = limit_m * [1.0, 0.3, 0.6][number % 3];
+            let mut found = Vec::new();
+            clearance.below(threshold_m, |_| f64::INFINITY, |pair, distance_m| found.push((pair, distance_m)));
+            let expected: Vec<(usize, f64)> =
+                all.iter().copied().enumerate().filter(|(_, distance_m)| *distance_m < threshold_m).collect();
+            prop_assert_eq!(&found, &expected);
+            let one_by_one = (0..pairs).filter_map(|pair| Some((pair, clearance.measure_below(pair, threshold_m)?)));
+            prop_assert_eq!(one_by_one.collect::<Vec<_>>(), expected);
+            if number % 2 == 0 {
+                let nearest = clearance.nearest().unwrap();
+                let expected_m = all.iter().copied().fold(f64::INFINITY, f64::min);
+                prop_assert!((nearest.distance_m - expected_m).abs() <= SAME_M);
+                prop_assert_eq!(nearest.distance_m.to_bits(), all[nearest.pair].to_bits());
+            }
+        }
+    }
+}
+
+/// Number of pairs that are looked at in each of 200 small steps, at most.
+fn looked_at(obstacles: u32) -> usize {
+    let mut clearance = Clearance::new(&description(), &rings(obstacles, 6.0), PairChoice::All).unwrap();
+    let mut poses = at_the_start();
+    let mut most = 0;
+    for step in 0..200 {
+        let step = [if step % 20 < 10 { 1e-3 } else { -1e-3 }; 36];
+        stepped(&mut poses, &step);
+        clearance.move_links(&poses);
+        let nearest = clearance.nearest().unwrap();
+        clearance.gather(nearest.distance_m);
+        // The first sample looks at all.
+        most = most.max(clearance.candidates.len());
+        clearance.let_wait();
+    }
+    most
+}
+
+#[test]
+fn far_obstacles_wait() {
+    let (ten, thousand) = (looked_at(10), looked_at(1000));
+    assert_eq!(ten, thousand, "pairs that are looked at in one step");
+    assert!(ten <= 10, "{ten} pairs of links");
 }
 
 #[test]
