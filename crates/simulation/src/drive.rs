@@ -4,7 +4,7 @@
 //! the effort limit it is linear: a spring and a damper, which rapier adds to the mass matrix and solves exactly. A servo
 //! at its effort limit is not: it becomes a constraint, which rapier's sweeps solve.
 
-use crate::actuation::{Gains, Motor};
+use crate::actuation::commands::{Gains, Motor};
 
 /// How much faster than its limit a joint may be driven, as a share of the limit.
 const SPEED_MARGIN: f64 = 1e-3;

@@ -14,7 +14,7 @@ use crate::{
     recorder::{Recorder, RecordingError},
     sample::Sample,
     setup::RunSetup,
-    source::{JointStateSource, SimulationSource, SourceError},
+    source::{ActuatorUse, JointStateSource, SimulationSource, SourceError},
     verdict::{CheckResult, Stop},
 };
 
@@ -47,6 +47,8 @@ pub struct Outcome {
     pub stopped: Option<Stop>,
     /// The result of each servo: its error at the end.
     pub servos: Vec<ServoResult>,
+    /// The use of each joint's actuator, if the source has actuators.
+    pub actuators: Vec<ActuatorUse>,
     /// SHA-256 over the true joint positions of every sample.
     pub trajectory_sha256: String,
     /// Why model and twin differ, if a check of their agreement failed and the source is the physics.
@@ -228,6 +230,7 @@ impl<'a> Run<'a> {
             checks: results,
             steps,
             servos,
+            actuators: self.source.actuators(),
             trajectory_sha256: hex(&self.hash.finalize()),
             diagnoses: Vec::new(),
         };

@@ -10,6 +10,7 @@ use crate::{
     run::{Outcome, RunError},
     scenario::Expectation,
     setup::RunSetup,
+    source::ActuatorUse,
     verdict::{CheckResult, Status, Stop, Verdict, judge},
 };
 
@@ -40,6 +41,9 @@ pub struct RunReport {
     /// The result of each `servo_tcp`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub servos: Vec<ServoResult>,
+    /// The use of each joint's actuator: its largest effort, and the shares of time that its limits held it back.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub actuators: Vec<ActuatorUse>,
     /// Why model and twin differ, if a check of their agreement failed: the diagnosis of each pair of models, as
     /// `check` gives it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -114,6 +118,7 @@ impl RunReport {
             checks,
             stopped: outcome.stopped,
             servos: outcome.servos,
+            actuators: outcome.actuators,
             diagnoses: outcome.diagnoses,
             error: error.map(ToString::to_string),
             simulation: RunClockReport {

@@ -11,7 +11,7 @@ use congruent_kinematics::move_inside_limits;
 use congruent_simulation::Obstacle;
 
 use super::{
-    actuation::{self, ControllerSetup, SensorSetup},
+    actuation::{Actuation, ControllerSetup, SensorSetup},
     clock::RunClock,
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
@@ -145,16 +145,7 @@ impl RunSetup {
         let motions_s = scenario.motion.iter().map(MotionSettings::duration_s).sum();
         let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
         let clock = found.keep(clock);
-        let step_s = scenario.simulation.step_s;
-        let at_controller = place.key("controller");
-        let controller = ControllerSetup::new(&scenario.controller, at_controller, robot, step_s);
-        let controller = keep_all(&mut found, controller);
-        let resistances = actuation::resistances(&scenario.joints, place.key("joints"), robot);
-        let resistances = keep_all(&mut found, resistances);
-        let sensors = SensorSetup::new(&scenario.sensors, place.key("sensors"), robot);
-        let sensors = keep_all(&mut found, sensors);
-        let payloads = actuation::payloads(&scenario.payload, place.key("payload"), &description);
-        let payloads = keep_all(&mut found, payloads);
+        let actuation = keep_all(&mut found, Actuation::new(&scenario, place, &description));
         let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);
         let obstacles = keep_all(&mut found, obstacles);
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
@@ -167,12 +158,9 @@ impl RunSetup {
         if needs_shapes(&scenario) {
             keep_all(&mut found, description.for_use(Use::Clearance));
         }
-        let (Some(trajectory), Some(clock), Some(controller), Some(obstacles), Some(zones)) =
-            (trajectory, clock, controller, obstacles, zones)
+        let (Some(trajectory), Some(clock), Some(actuation), Some(obstacles), Some(zones)) =
+            (trajectory, clock, actuation, obstacles, zones)
         else {
-            return Err(found.into_vec());
-        };
-        let (Some(resistances), Some(sensors), Some(payloads)) = (resistances, sensors, payloads) else {
             return Err(found.into_vec());
         };
         if found.has_error() {
@@ -182,6 +170,7 @@ impl RunSetup {
         let check_lines = (0..scenario.check.len()).map(line).collect();
         write_out_defaults(&mut scenario, &description, (&clock, &start));
         let path = None;
+        let Actuation { controller, resistances, sensors, payloads } = actuation;
         Ok(Self {
             scenario,
             path,

@@ -6,6 +6,7 @@ use congruent_simulation::{Setpoint, SimulationError, World, WorldSettings};
 use nalgebra::Isometry3;
 
 use super::{
+    actuators::{ActuatorCounts, ActuatorUse},
     carried::CarriedPayloads,
     joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError},
     sensors::JointSensors,
@@ -23,6 +24,8 @@ pub struct SimulationSource<'a> {
     reference: ReferenceGenerator<'a>,
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
+    actuators: ActuatorCounts,
+    setup: &'a RunSetup,
 }
 
 impl std::fmt::Debug for SimulationSource<'_> {
@@ -58,6 +61,8 @@ impl<'a> SimulationSource<'a> {
         Ok(Self {
             sensors,
             payloads,
+            actuators: ActuatorCounts::new(robot.dof()),
+            setup,
             world,
             controller: JointController::new(setup),
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
@@ -107,7 +112,15 @@ impl JointStateSource for SimulationSource<'_> {
         self.payloads.update(self.world.time_s(), &mut self.world);
         let stepped = self.world.step_measured(&mut self.controller, &setpoint, &measured);
         self.sensors.read(self.world.q(), self.world.qd());
+        self.actuators.observe(&self.world);
         stepped.map_err(SourceError::new)
+    }
+
+    fn actuators(&self) -> Vec<ActuatorUse> {
+        if !self.setup.controller.has_actuators() {
+            return Vec::new();
+        }
+        self.actuators.report(&self.setup.description.robot, &self.setup.largest_efforts())
     }
 
     fn finish(&mut self) -> Result<Vec<ServoResult>, SourceError> {
