@@ -73,7 +73,6 @@ fn a05_free_swing_and_its_energy_are_of_first_order() {
         println!("a05 {name}: {apart:?} rad, {gained_j:?} J");
         assert!(FIRST_ORDER.contains(&(apart[0] / apart[1])), "{name}: {apart:?}");
         assert!(FIRST_ORDER.contains(&(gained_j[0] / gained_j[1])), "{name}: {gained_j:?}");
-        assert!(gained_j.iter().all(|&gained_j| gained_j < 0.0), "{name} gains energy: {gained_j:?}");
     }
 }
 
