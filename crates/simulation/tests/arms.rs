@@ -30,7 +30,11 @@ fn free(name: &str) -> Robot {
 fn q0(robot: &Robot) -> RobotQ {
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).enumerate();
     let at = |(row, joint): (usize, &Joint)| {
-        if joint.kind.is_angular() { 0.3 + 0.1 * f64::from(u8::try_from(row).unwrap()) } else { 0.02 }
+        if joint.kind.is_angular() {
+            0.3 + 0.1 * f64::from(u8::try_from(row).expect("few joints"))
+        } else {
+            0.02
+        }
     };
     joints.map(at).collect()
 }
