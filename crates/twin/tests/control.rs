@@ -280,11 +280,11 @@ fn a_reading_is_off_by_at_most_half_a_count() {
     for step in 1..=setup.clock.steps {
         source.advance(setup.clock.time_s(step)).unwrap();
         let joints = source.joints();
-        for joint in 0..7 {
+        for (joint, before) in before.iter().enumerate().take(7) {
             let measured = joints.measured.q[joint];
             worst = worst.max((measured - joints.truth.q[joint]).abs());
             assert!((measured / resolution_rad - (measured / resolution_rad).round()).abs() < 1e-9);
-            assert!((joints.measured.qd[joint] - (measured - before[joint]) / 1e-3).abs() < 1e-9);
+            assert!((joints.measured.qd[joint] - (measured - before) / 1e-3).abs() < 1e-9);
         }
         before.copy_from_slice(joints.measured.q);
     }
@@ -329,16 +329,17 @@ fn actuators_keep_their_limits_and_the_source_says_how_long() {
         if let MotionSettings::Joints(motion) = &mut scenario.motion[0] {
             motion.duration_s = 0.05;
         }
-        let unlimited = worst_speed(&description, scenario.clone(), false);
-        let limited = worst_speed(&description, scenario, true);
+        let limited = worst_speed(&description, scenario.clone());
+        scenario.joints.enforce_limits = false;
+        let unlimited = worst_speed(&description, scenario);
         // What the other joints do to a joint may take it beyond; its own actuator does not.
         assert!(limited < 1.1 && unlimited > 2.0, "{name}: {limited} and {unlimited} of the limit");
     }
 }
 
 /// Largest speed as a part of the joint's limit; with limits, that saturation is reported.
-fn worst_speed(description: &RobotDescription, mut scenario: Scenario, enforce_limits: bool) -> f64 {
-    scenario.joints.enforce_limits = enforce_limits;
+fn worst_speed(description: &RobotDescription, scenario: Scenario) -> f64 {
+    let enforce_limits = scenario.joints.enforce_limits;
     let setup = setup(description, scenario);
     let mut source = SimulationSource::new(&setup).unwrap();
     let mut worst = 0.0_f64;
