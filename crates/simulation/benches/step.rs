@@ -41,7 +41,7 @@ fn step(bencher: Bencher<'_, '_>, kind: &str) {
 /// rapier alone: the same bodies, joints and parameters, motors as rapier has them.
 #[divan::bench(args = ["passive", "pd"])]
 fn bare_rapier(bencher: Bencher<'_, '_>, kind: &str) {
-    let start = Bare::new(&arm(), kind == "pd");
+    let start = Bare::new(&arm(), kind);
     let parameters = IntegrationParameters {
         dt: 1e-3,
         num_solver_iterations: 1,
@@ -86,7 +86,7 @@ struct Bare {
 
 impl Bare {
     /// Every joint of the arm turns about the z axis of its frame.
-    fn new(robot: &Robot, has_motors: bool) -> Self {
+    fn new(robot: &Robot, kind: &str) -> Self {
         let mut bare = Self::default();
         let mut parent = bare.bodies.insert(RigidBodyBuilder::fixed());
         let turn = Pose::from_rotation(Rotation::from_rotation_y(-std::f64::consts::FRAC_PI_2));
@@ -98,7 +98,7 @@ impl Bare {
             let mut data = GenericJoint::new(JointAxesMask::LOCKED_REVOLUTE_AXES);
             data.set_local_frame1(pose(&joint.parent_from_joint) * turn).set_local_frame2(turn);
             data.set_contacts_enabled(false);
-            if has_motors {
+            if kind == "pd" {
                 data.set_motor(JointAxis::AngX, q, 0.0, 400.0, 40.0);
                 data.set_motor_model(JointAxis::AngX, MotorModel::ForceBased);
             }
