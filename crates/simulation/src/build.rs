@@ -45,7 +45,7 @@ pub(crate) fn build(
     if settings.contacts && !settings.obstacles.is_empty() {
         add_colliders(&mut sets, &handles, robot, bodies, &settings.obstacles)?;
     }
-    let slots = slots(robot, settings.actuator_limits)?;
+    let slots = slots(robot, settings)?;
     for (slot, &index) in slots.iter().zip(robot.movable_joints()) {
         let joint = robot.joint(index);
         let (parent, child) = (bodies.links[joint.parent.get()].body, bodies.links[joint.child.get()].body);
@@ -92,10 +92,10 @@ fn add_colliders(
     Ok(())
 }
 
-fn slots(robot: &Robot, actuator_limits: bool) -> Result<Vec<EngineSlot>, SimulationError> {
+fn slots(robot: &Robot, settings: &WorldSettings) -> Result<Vec<EngineSlot>, SimulationError> {
     let mut slots =
         robot.movable_joints().iter().map(|&joint| slot(robot, joint)).collect::<Result<Vec<_>, _>>()?;
-    if !actuator_limits {
+    if !settings.actuator_limits {
         for slot in &mut slots {
             slot.capability = Capability { effort: f64::MAX, speed: f64::MAX };
         }

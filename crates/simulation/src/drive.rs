@@ -4,7 +4,7 @@
 //! the effort limit it is linear: a spring and a damper, which rapier adds to the mass matrix and solves exactly. A servo
 //! at its effort limit is not: it becomes a constraint, which rapier's sweeps solve.
 
-use crate::actuation::{Gains, Motor};
+use crate::actuation::commands::{Gains, Motor};
 
 /// How much faster than its limit a joint may be driven, as a share of the limit.
 const SPEED_MARGIN: f64 = 1e-3;
@@ -150,14 +150,14 @@ mod tests {
     const CAPABILITY: Capability = Capability { effort: 20.0, speed: 2.0 };
     const AT_REST: CoordinateState = CoordinateState { q: 0.0, qd: 0.0 };
 
-    fn servo(stiffness: f64, damping: f64, q: f64) -> Option<Motor> {
-        Some(Motor { gains: Gains { stiffness, damping }, q, qd: 0.0 })
+    fn servo(stiffness: f64, damping: f64, q: f64) -> Motor {
+        Motor { gains: Gains { stiffness, damping }, q, qd: 0.0 }
     }
 
     #[test]
     fn the_combined_servo_exerts_the_torque_as_well() {
         for gains in [(400.0, 40.0), (3.0, 40.0), (0.0, 40.0), (400.0, 0.0)] {
-            let drive = Drive { torque: 7.0, servo: servo(gains.0, gains.1, 0.01), ..Drive::default() };
+            let drive = Drive { torque: 7.0, servo: Some(servo(gains.0, gains.1, 0.01)), ..Drive::default() };
             let state = CoordinateState { q: 0.003, qd: -0.2 };
             let both = Drive { torque: 0.0, servo: drive.combined(), ..drive };
             assert!((both.effort(state) - drive.effort(state)).abs() < 1e-13, "{gains:?}");
@@ -167,7 +167,8 @@ mod tests {
     #[test]
     fn the_linear_drive_is_the_same_law() {
         for gains in [(400.0, 40.0), (1e-6, 40.0), (0.0, 40.0), (400.0, 0.0)] {
-            let mut drive = Drive { torque: 7.0, servo: servo(gains.0, gains.1, 0.01), ..Drive::default() };
+            let mut drive =
+                Drive { torque: 7.0, servo: Some(servo(gains.0, gains.1, 0.01)), ..Drive::default() };
             drive.servo.as_mut().unwrap().qd = 0.7;
             let state = CoordinateState { q: 0.003, qd: -0.2 };
             let Linear { stiffness, damping, rest, torque } = drive.linear();
@@ -196,10 +197,10 @@ mod tests {
 
     #[test]
     fn torque_and_servo_have_one_effort_limit() {
-        let drive = CAPABILITY.drive(15.0, servo(100.0, 1e3, 0.1), AT_REST, 1e-3);
+        let drive = CAPABILITY.drive(15.0, Some(servo(100.0, 1e3, 0.1)), AT_REST, 1e-3);
         assert!(drive.is_constrained);
         assert_eq!(CAPABILITY.exerted(&drive, AT_REST), (20.0, true));
-        let opposed = CAPABILITY.drive(15.0, servo(100.0, 1e3, -0.3), AT_REST, 1e-3);
+        let opposed = CAPABILITY.drive(15.0, Some(servo(100.0, 1e3, -0.3)), AT_REST, 1e-3);
         assert!(!opposed.is_constrained, "15 - 30 N m are within 20");
         assert!(CAPABILITY.drive(25.0, None, AT_REST, 1e-3).saturation.effort);
     }

@@ -9,7 +9,7 @@ use rapier3d_f64::prelude::{
 };
 
 use crate::{
-    actuation::Commands,
+    actuation::commands::Commands,
     adapter,
     build::Built,
     drive::{CoordinateState, Drive, Linear, Saturation},
@@ -137,8 +137,12 @@ impl Engine {
             *drive = slot.capability.drive(torque, servo, state, step_s);
         }
         self.step_drives();
-        // Rare: the blow of a contact, or a joint that reaches its largest speed in this step.
-        if self.correct_drives() {
+        // Rare: the blow of a contact, or a joint that reaches its largest speed in this step. Each correction may take
+        // another joint beyond a limit.
+        for _ in 0..=self.slots.len() {
+            if !self.correct_drives() {
+                break;
+            }
             self.place(q, qd);
             self.step_drives();
         }

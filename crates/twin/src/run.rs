@@ -15,7 +15,7 @@ use crate::{
     recorder::{Recorder, RecordingError},
     sample::Sample,
     setup::RunSetup,
-    source::{JointStateSource, SimulationSource, SourceError},
+    source::{ActuatorUse, JointStateSource, SimulationSource, SourceError},
     verdict::{CheckResult, Status, Stop},
 };
 
@@ -48,6 +48,8 @@ pub struct Outcome {
     pub stopped: Option<Stop>,
     /// The result of each servo: its error at the end.
     pub servos: Vec<ServoResult>,
+    /// The use of each joint's actuator, if the source has actuators.
+    pub actuators: Vec<ActuatorUse>,
     /// SHA-256 over the true joint positions of every sample.
     pub trajectory_sha256: String,
     /// Why model and twin differ, if a check of their agreement failed and the source is the physics.
@@ -236,6 +238,7 @@ impl<'a> Run<'a> {
             checks: results,
             steps,
             servos,
+            actuators: self.source.actuators(),
             trajectory_sha256: hex(&self.hash.finalize()),
             diagnoses: Vec::new(),
         };

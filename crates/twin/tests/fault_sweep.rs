@@ -136,7 +136,7 @@ fn scenario(fault: Option<FaultSettings>, description: &RobotDescription, draw: 
         let profile = Profile::Quintic;
         MotionSettings::Joints(JointMotion { move_joints_rad, duration_s, profile, ..JointMotion::default() })
     };
-    let motions = vec![motion(1.0), motion(1.0)];
+    let motions = vec![motion(Some(1.0)), motion(Some(1.0))];
     let is_late = matches!(fault, Some(FaultSettings::Latency(_)));
     let start = names.iter().cloned().zip(middle.iter().copied()).collect();
     let mut scenario = Scenario {
@@ -146,8 +146,9 @@ fn scenario(fault: Option<FaultSettings>, description: &RobotDescription, draw: 
         controller: ControllerSettings {
             // A stiff servo is unstable with late readings.
             kind: if is_late { "kinematic" } else { "gravity_compensation" }.to_owned(),
-            stiffness: 2000.0,
-            damping: 120.0,
+            stiffness: 2000.0.into(),
+            damping: 120.0.into(),
+            ..ControllerSettings::default()
         },
         motion: motions,
         fault: fault.into_iter().collect(),

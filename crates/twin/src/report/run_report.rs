@@ -12,6 +12,7 @@ use crate::{
     run::{Outcome, RunError},
     scenario::Expectation,
     setup::RunSetup,
+    source::ActuatorUse,
     verdict::{CheckResult, Status, Stop, Verdict, judge},
 };
 
@@ -42,6 +43,9 @@ pub struct RunReport {
     /// The result of each `servo_tcp`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub servos: Vec<ServoResult>,
+    /// The use of each joint's actuator: its largest effort, and the shares of time that its limits held it back.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub actuators: Vec<ActuatorUse>,
     /// Why model and twin differ, if a check of their agreement failed: the diagnosis of each pair of models, as
     /// `check` gives it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -123,6 +127,7 @@ impl RunReport {
             checks,
             stopped: outcome.stopped,
             servos: outcome.servos,
+            actuators: outcome.actuators,
             diagnoses: outcome.diagnoses,
             faults: setup.faults.iter().map(|fault| fault.described().clone()).collect(),
             diagnosis: outcome.diagnosis,

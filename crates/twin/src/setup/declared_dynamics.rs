@@ -45,8 +45,9 @@ impl<'a> DeclaredDynamics<'a> {
         if has_changed {
             let loaded = self.loaded(time_s);
             let inertias: Vec<_> = (0..loaded.dof()).map(|joint| loaded.inertia_in_link(joint)).collect();
-            let tree = self.tree.clone().with_inertias_in_links(&inertias);
-            self.tree = tree.expect("the same robot has as many bodies");
+            if let Ok(tree) = self.tree.clone().with_inertias_in_links(&inertias) {
+                self.tree = tree; // always: the same robot has as many bodies
+            }
         }
         (&self.tree, &mut self.buffer)
     }

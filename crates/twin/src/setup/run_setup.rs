@@ -11,7 +11,7 @@ use congruent_kinematics::move_inside_limits;
 use congruent_simulation::Obstacle;
 
 use super::{
-    actuation::{self, ControllerSetup, SensorSetup},
+    actuation::{Actuation, ControllerSetup, SensorSetup},
     clock::RunClock,
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
@@ -153,7 +153,7 @@ impl RunSetup {
         let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
         let clock = found.keep(clock);
         found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
-        let driven = DrivenRobot::new(&scenario, place, &description, &mut found);
+        let actuation = keep_all(&mut found, Actuation::new(&scenario, place, &description));
         let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);
         let obstacles = keep_all(&mut found, obstacles);
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
@@ -170,12 +170,9 @@ impl RunSetup {
         if needs_shapes(&scenario) {
             keep_all(&mut found, description.for_use(Use::Clearance));
         }
-        let (Some(trajectory), Some(clock), Some(obstacles), Some(zones), Some(faults)) =
-            (trajectory, clock, obstacles, zones, faults)
+        let (Some(trajectory), Some(clock), Some(actuation), Some(obstacles), Some(zones), Some(faults)) =
+            (trajectory, clock, actuation, obstacles, zones, faults)
         else {
-            return Err(found.into_vec());
-        };
-        let Some(DrivenRobot { controller, resistances, sensors, payloads }) = driven else {
             return Err(found.into_vec());
         };
         if found.has_error() {
@@ -186,6 +183,7 @@ impl RunSetup {
         write_out_defaults(&mut scenario, &description, (&clock, &start));
         write_out_paths(&mut scenario, folder);
         let path = None;
+        let Actuation { controller, resistances, sensors, payloads } = actuation;
         Ok(Self {
             scenario,
             path,
@@ -236,39 +234,6 @@ impl RunSetup {
         let has_limits = self.scenario.joints.enforce_limits;
         let effort = |joint: &Joint| joint.limit?.effort.filter(|&effort| has_limits && effort > 0.0);
         joints.map(|joint| effort(joint).unwrap_or(f64::MAX)).collect()
-    }
-}
-
-/// What moves the robot and what it carries.
-struct DrivenRobot {
-    controller: ControllerSetup,
-    resistances: Vec<JointResistance>,
-    sensors: SensorSetup,
-    payloads: Vec<Payload>,
-}
-
-impl DrivenRobot {
-    fn new(
-        scenario: &Scenario,
-        place: FilePlace<'_>,
-        description: &RobotDescription,
-        found: &mut Diagnostics,
-    ) -> Option<Self> {
-        let robot = &description.robot;
-        let step_s = scenario.simulation.step_s;
-        let controller = ControllerSetup::new(&scenario.controller, place.key("controller"), robot, step_s);
-        let controller = keep_all(found, controller);
-        let resistances = actuation::resistances(&scenario.joints, place.key("joints"), robot);
-        let resistances = keep_all(found, resistances);
-        let sensors = keep_all(found, SensorSetup::new(&scenario.sensors, place.key("sensors"), robot));
-        let payloads = actuation::payloads(&scenario.payload, place.key("payload"), description);
-        let payloads = keep_all(found, payloads);
-        Some(Self {
-            controller: controller?,
-            resistances: resistances?,
-            sensors: sensors?,
-            payloads: payloads?,
-        })
     }
 }
 

@@ -3,6 +3,7 @@
 use congruent_description::RobotQ;
 use nalgebra::Isometry3;
 
+use super::actuators::ActuatorUse;
 use crate::motion::ServoResult;
 
 /// Positions, velocities and efforts of all movable joints of a robot at one instant.
@@ -56,6 +57,11 @@ pub trait JointStateSource {
     /// # Errors
     /// [`SourceError`] if there is no usable sample.
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError>;
+
+    /// How far actuators were used so far, for a source that has them.
+    fn actuators(&self) -> Vec<ActuatorUse> {
+        Vec::new()
+    }
 
     /// The results of the servos, for a source that drives the robot.
     ///

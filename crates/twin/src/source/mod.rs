@@ -1,5 +1,6 @@
 //! Sources of link poses, of dynamics and of joint states. A run takes any source of joint states.
 
+mod actuators;
 mod carried;
 mod joint_states;
 mod sensors;
@@ -7,6 +8,7 @@ mod simulated_dynamics;
 mod simulated_poses;
 mod simulation;
 
+pub use actuators::ActuatorUse;
 pub use joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError};
 pub use simulated_dynamics::SimulatedDynamics;
 pub use simulated_poses::SimulatedPoses;

@@ -6,6 +6,7 @@ use congruent_simulation::{Setpoint, SimulationError, World, WorldSettings, Worl
 use nalgebra::Isometry3;
 
 use super::{
+    actuators::{ActuatorCounts, ActuatorUse},
     carried::CarriedPayloads,
     joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError},
     sensors::JointSensors,
@@ -27,6 +28,8 @@ pub struct SimulationSource<'a> {
     is_placed: bool,
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
+    actuators: ActuatorCounts,
+    setup: &'a RunSetup,
 }
 
 /// The whole state of a [`SimulationSource`] at one moment.
@@ -37,6 +40,7 @@ pub struct SimulationSnapshot<'a> {
     faults: InjectedFaults<'a>,
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
+    actuators: ActuatorCounts,
 }
 
 impl std::fmt::Debug for SimulationSnapshot<'_> {
@@ -82,6 +86,8 @@ impl<'a> SimulationSource<'a> {
             faults,
             is_placed: kind == "kinematic",
             payloads,
+            actuators: ActuatorCounts::new(robot.dof()),
+            setup,
             world,
             controller: JointController::new(setup),
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
@@ -98,6 +104,7 @@ impl<'a> SimulationSource<'a> {
             faults: self.faults.clone(),
             sensors: self.sensors.clone(),
             payloads: self.payloads.clone(),
+            actuators: self.actuators.clone(),
         }
     }
 
@@ -112,6 +119,7 @@ impl<'a> SimulationSource<'a> {
         self.faults.clone_from(&snapshot.faults);
         self.sensors.clone_from(&snapshot.sensors);
         self.payloads.clone_from(&snapshot.payloads);
+        self.actuators.clone_from(&snapshot.actuators);
     }
 }
 
@@ -166,10 +174,18 @@ impl JointStateSource for SimulationSource<'_> {
         self.payloads.update(self.world.time_s(), &mut self.world);
         let stepped = self.world.step_measured(&mut self.controller, &setpoint, &measured);
         stepped.map_err(SourceError::new)?;
+        self.actuators.observe(&self.world);
         self.faults.advance(self.world.step_count(), &mut self.world).map_err(SourceError::new)?;
         let arrived = self.faults.measured();
         self.sensors.read(arrived.q, arrived.qd);
         Ok(())
+    }
+
+    fn actuators(&self) -> Vec<ActuatorUse> {
+        if !self.setup.controller.has_actuators() {
+            return Vec::new();
+        }
+        self.actuators.report(&self.setup.description.robot, &self.setup.largest_efforts())
     }
 
     fn finish(&mut self) -> Result<Vec<ServoResult>, SourceError> {

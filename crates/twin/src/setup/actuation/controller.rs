@@ -43,6 +43,11 @@ const MOST_DELAYED: f64 = 1e5;
 const MOST_BYTES: u64 = 64 << 20;
 
 impl ControllerSetup {
+    /// Whether the controller drives the robot by efforts.
+    pub(crate) fn has_actuators(&self) -> bool {
+        !matches!(self.kind, ControllerKind::Passive | ControllerKind::Kinematic)
+    }
+
     pub(in crate::setup) fn new(
         settings: &ControllerSettings,
         place: FilePlace<'_>,

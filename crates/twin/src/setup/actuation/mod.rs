@@ -1,5 +1,6 @@
 //! What the scenario says of controllers and actuators, checked against its robot.
 
+mod all;
 mod controller;
 mod joint_numbers;
 mod payloads;
@@ -7,9 +8,8 @@ mod resistances;
 mod sensors;
 mod torque_table;
 
+pub(super) use all::Actuation;
 pub use controller::ControllerSetup;
 pub(crate) use controller::Sampling;
-pub(super) use payloads::payloads;
-pub(super) use resistances::resistances;
 pub use sensors::SensorSetup;
 pub use torque_table::TorqueTable;

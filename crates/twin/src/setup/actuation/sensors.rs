@@ -25,8 +25,63 @@ pub(crate) struct Encoder {
     pub(crate) velocity_noise: f64,
 }
 
-/// Which value of an encoder a key gives.
-type Field = fn(&mut Encoder) -> &mut f64;
+/// A key of `[sensors]` that gives one value of the encoders.
+struct EncoderKey<'a> {
+    numbers: Option<&'a JointNumbers>,
+    name: &'static str,
+    of_angles: bool,
+    to_si: fn(f64) -> f64,
+    field: fn(&mut Encoder) -> &mut f64,
+}
+
+fn keys(settings: &SensorSettings) -> [EncoderKey<'_>; 11] {
+    let resolution: fn(&mut Encoder) -> &mut f64 = |encoder| &mut encoder.resolution;
+    let noise: fn(&mut Encoder) -> &mut f64 = |encoder| &mut encoder.noise;
+    let velocity_noise: fn(&mut Encoder) -> &mut f64 = |encoder| &mut encoder.velocity_noise;
+    let angle: fn(f64) -> f64 = |value| Unit::Angle.convert(value);
+    let length: fn(f64) -> f64 = |value| Unit::Length.convert(value);
+    let si: fn(f64) -> f64 = |value| value;
+    let of_turn: fn(f64) -> f64 = |counts| if counts > 0.0 { std::f64::consts::TAU / counts } else { 0.0 };
+    let all = [
+        (&settings.counts_per_turn, "counts_per_turn", true, of_turn, resolution),
+        (&settings.resolution_deg, "resolution_deg", true, angle, resolution),
+        (&settings.resolution_rad, "resolution_rad", true, si, resolution),
+        (&settings.resolution_m, "resolution_m", false, si, resolution),
+        (&settings.resolution_mm, "resolution_mm", false, length, resolution),
+        (&settings.noise_deg, "noise_deg", true, angle, noise),
+        (&settings.noise_rad, "noise_rad", true, si, noise),
+        (&settings.noise_m, "noise_m", false, si, noise),
+        (&settings.noise_mm, "noise_mm", false, length, noise),
+        (&settings.velocity_noise_rad_s, "velocity_noise_rad_s", true, si, velocity_noise),
+        (&settings.velocity_noise_m_s, "velocity_noise_m_s", false, si, velocity_noise),
+    ];
+    all.map(|(numbers, name, of_angles, to_si, field)| EncoderKey {
+        numbers: numbers.as_ref(),
+        name,
+        of_angles,
+        to_si,
+        field,
+    })
+}
+
+impl EncoderKey<'_> {
+    fn rule(&self) -> NumberRule<'static> {
+        let (range, unnamed) = (Range::NonNegative, Unnamed::Zero);
+        NumberRule { what: self.name, range, unnamed, of_angles: Some(self.of_angles) }
+    }
+
+    /// Puts the values into the encoders; returns whether each of them had none before.
+    fn put(&self, numbers: &[f64], encoders: &mut [Encoder]) -> bool {
+        let given = encoders.iter_mut().zip(numbers).filter(|(_, number)| **number > 0.0);
+        let mut is_first = true;
+        for (encoder, &number) in given {
+            let value = (self.field)(encoder);
+            is_first &= *value <= 0.0;
+            *value = (self.to_si)(number);
+        }
+        is_first
+    }
+}
 
 impl SensorSetup {
     pub(in crate::setup) fn new(
@@ -36,45 +91,11 @@ impl SensorSetup {
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut encoders = vec![Encoder::default(); robot.dof()];
         let mut errors = Vec::new();
-        let resolution: Field = |encoder| &mut encoder.resolution;
-        let noise: Field = |encoder| &mut encoder.noise;
-        let velocity_noise: Field = |encoder| &mut encoder.velocity_noise;
-        let angle = |value| Unit::Angle.convert(value);
-        let length = |value| Unit::Length.convert(value);
-        let si = |value| value;
-        let of_turn = |counts: f64| if counts > 0.0 { std::f64::consts::TAU / counts } else { 0.0 };
-        let keys: [(&Option<JointNumbers>, &str, bool, fn(f64) -> f64, Field); 11] = [
-            (&settings.counts_per_turn, "counts_per_turn", true, of_turn, resolution),
-            (&settings.resolution_deg, "resolution_deg", true, angle, resolution),
-            (&settings.resolution_rad, "resolution_rad", true, si, resolution),
-            (&settings.resolution_m, "resolution_m", false, si, resolution),
-            (&settings.resolution_mm, "resolution_mm", false, length, resolution),
-            (&settings.noise_deg, "noise_deg", true, angle, noise),
-            (&settings.noise_rad, "noise_rad", true, si, noise),
-            (&settings.noise_m, "noise_m", false, si, noise),
-            (&settings.noise_mm, "noise_mm", false, length, noise),
-            (&settings.velocity_noise_rad_s, "velocity_noise_rad_s", true, si, velocity_noise),
-            (&settings.velocity_noise_m_s, "velocity_noise_m_s", false, si, velocity_noise),
-        ];
-        for (numbers, key, of_angles, to_si, field) in keys {
-            let Some(numbers) = numbers else { continue };
-            let rule = NumberRule {
-                what: key,
-                range: Range::NonNegative,
-                unnamed: Unnamed::Zero,
-                of_angles: Some(of_angles),
-            };
-            match resolve(numbers, rule, place.key(key), robot) {
-                Ok(numbers) => {
-                    let given = encoders.iter_mut().zip(numbers).filter(|(_, number)| *number > 0.0);
-                    for (encoder, number) in given {
-                        if *field(encoder) > 0.0 {
-                            errors.push(twice(key, place));
-                            break;
-                        }
-                        *field(encoder) = to_si(number);
-                    }
-                }
+        for key in keys(settings) {
+            let Some(numbers) = key.numbers else { continue };
+            match resolve(numbers, key.rule(), place.key(key.name), robot) {
+                Ok(numbers) if !key.put(&numbers, &mut encoders) => errors.push(twice(key.name, place)),
+                Ok(_) => {}
                 Err(found) => errors.extend(found),
             }
         }

@@ -37,7 +37,7 @@ impl TorqueTable {
                 match column {
                     Some(coordinate) => torques[*coordinate] = value,
                     None if table.times_s.last().is_none_or(|&last| last < value) => {
-                        table.times_s.push(value)
+                        table.times_s.push(value);
                     }
                     None => {
                         return Err(wrong(number, &format!("time {value} s is not after the one before")));

@@ -1,0 +1,72 @@
+//! How far the actuators of a run were used, and how long their limits held them back.
+
+use congruent_description::Robot;
+use congruent_simulation::World;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// The use of one joint's actuator in a run.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ActuatorUse {
+    /// The joint.
+    pub joint: String,
+    /// Largest effort, as a magnitude.
+    pub largest_effort: f64,
+    /// The largest that it is allowed; `None` if it has no limit.
+    pub effort_limit: Option<f64>,
+    /// `N m` or `N`.
+    pub unit: &'static str,
+    /// Share of the steps in which it asked for more than its largest effort.
+    pub at_effort_limit: f64,
+    /// Share of the steps in which it would have driven the joint faster than its largest velocity.
+    pub at_velocity_limit: f64,
+}
+
+/// Counts of all joints.
+#[derive(Debug, Clone)]
+pub(super) struct ActuatorCounts {
+    steps: u64,
+    joints: Vec<Count>,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Count {
+    largest_effort: f64,
+    at_effort_limit: u64,
+    at_velocity_limit: u64,
+}
+
+impl ActuatorCounts {
+    pub(super) fn new(dof: usize) -> Self {
+        Self { steps: 0, joints: vec![Count::default(); dof] }
+    }
+
+    /// Counts the last step.
+    pub(super) fn observe(&mut self, world: &World) {
+        self.steps += 1;
+        for ((count, effort), saturation) in
+            self.joints.iter_mut().zip(world.torque()).zip(world.saturations())
+        {
+            count.largest_effort = count.largest_effort.max(effort.abs());
+            count.at_effort_limit += u64::from(saturation.effort);
+            count.at_velocity_limit += u64::from(saturation.speed);
+        }
+    }
+
+    /// The use of every actuator; `efforts` are their limits, `f64::MAX` for none.
+    pub(super) fn report(&self, robot: &Robot, efforts: &[f64]) -> Vec<ActuatorUse> {
+        #[expect(clippy::cast_precision_loss, reason = "steps are bounded far below 2^52")]
+        let share = |count: u64| count as f64 / self.steps.max(1) as f64;
+        let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+        let rows = joints.zip(&self.joints).zip(efforts).filter(|((joint, _), _)| joint.mimic.is_none());
+        rows.map(|((joint, count), &limit)| ActuatorUse {
+            joint: joint.name.clone(),
+            largest_effort: count.largest_effort,
+            effort_limit: (limit < f64::MAX).then_some(limit),
+            unit: if joint.kind.is_angular() { "N m" } else { "N" },
+            at_effort_limit: share(count.at_effort_limit),
+            at_velocity_limit: share(count.at_velocity_limit),
+        })
+        .collect()
+    }
+}
