@@ -238,9 +238,11 @@ fn most_random_faults_are_diagnosed() {
     let counts = sweep(&[UR5E, PANDA], 3, 1);
     for (kind, count) in &counts {
         show(&format!("{kind}: {count:?}"));
-        assert!(count.wrong <= 1 && count.nothing <= 1, "{kind}: {count:?}");
+        assert!(count.wrong + count.nothing <= 2, "{kind}: {count:?}");
         assert!(count.right >= 4, "{kind}: {count:?}");
     }
+    let right: usize = counts.values().map(|count| count.right).sum();
+    assert!(right >= 65, "{right} of 72");
 }
 
 #[test]

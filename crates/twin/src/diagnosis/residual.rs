@@ -13,13 +13,13 @@ use crate::{proximity::Clearance, setup::Payload};
 /// 1 rad in 0.6 s.
 const STEP_PART: f64 = 0.02;
 /// The same for the largest effort of any joint, whose motion the others feel.
-const COUPLED_PART: f64 = 2e-4;
+const COUPLED_PART: f64 = 1e-3;
 /// What a step is off by is what changes in it: this many times the change of the needed effort.
 const CHANGES: f64 = 3.0;
 /// Rounding of second differences, N m: 1e-15 rad over 1e-6 s^2, times 10 kg m^2.
 const SMALLEST: f64 = 1e-6;
-/// Fewer residuals that are off are an impact, not a fault.
-const FEWEST: usize = 10;
+/// Fewer residuals that are off are the ringing after an impact, not a fault.
+const FEWEST: usize = 40;
 
 /// When residuals are off: a range of them, and the samples in which the fault that makes them is there.
 #[derive(Debug, Clone, Copy)]
@@ -75,15 +75,25 @@ pub(super) struct Residual {
     change: Vec<f64>,
 }
 
-impl Residual {
-    /// Of a group of samples, the first has no change: groups are shorter than any fault that they show.
-    fn compare_with(&mut self, before: &Self) {
-        if self.sample != before.sample + 1 {
-            return;
+/// The mean change of the needed effort from residual to residual in a neighbourhood, which a single zero does not hide.
+fn find_changes(residuals: &mut [Residual], dof: usize) {
+    /// Residuals on either side.
+    const NEAR: usize = 20;
+    let needed = |of: &Residual, joint: usize| of.residual[joint] + of.effort[joint];
+    for joint in 0..dof {
+        let steps: Vec<f64> = residuals
+            .windows(2)
+            .map(|pair| match pair[0].sample + 1 == pair[1].sample {
+                true => (needed(&pair[1], joint) - needed(&pair[0], joint)).abs(),
+                false => 0.0,
+            })
+            .collect();
+        for (index, residual) in residuals.iter_mut().enumerate() {
+            let near = &steps[index.saturating_sub(NEAR)..(index + NEAR).min(steps.len())];
+            #[expect(clippy::cast_precision_loss, reason = "they are few")]
+            let mean = near.iter().sum::<f64>() / near.len().max(1) as f64;
+            residual.change[joint] = mean;
         }
-        let needed = |of: &Self, joint: usize| of.residual[joint] + of.effort[joint];
-        let change = |joint| (needed(self, joint) - needed(before, joint)).abs();
-        self.change = (0..self.change.len()).map(change).collect();
     }
 }
 
@@ -113,12 +123,9 @@ pub(super) fn residuals(
             tree = loaded(&plain, robot, loads)?;
             carried = now;
         }
-        let mut residual = residual(observed, sample, &tree, &mut buffer)?;
-        if let Some(before) = found.last() {
-            residual.compare_with(before);
-        }
-        found.push(residual);
+        found.push(residual(observed, sample, &tree, &mut buffer)?);
     }
+    find_changes(&mut found, robot.dof());
     let is_driven = found.iter().any(|residual| residual.effort.iter().any(|effort| effort.abs() > 0.0));
     Ok(if is_driven { found } else { Vec::new() })
 }
@@ -138,7 +145,14 @@ fn residual(
     let qdd: Vec<f64> = qd[0].iter().zip(&qd[1]).map(|(before, after)| (after - before) / step_s).collect();
     let q: RobotQ = position(sample - 1).collect();
     let mut residual = vec![0.0; q.len()];
-    tree.inverse_into(&JointMotion { q: &q, qd: &qd[0], qdd: &qdd }, buffer, &mut residual)?;
+    // The engine takes velocity products half from before the step and half from after it, and what resists a joint from
+    // after it.
+    let mean: Vec<f64> =
+        qd[0].iter().zip(&qd[1]).map(|(before, after)| f64::midpoint(*before, *after)).collect();
+    tree.inverse_into(&JointMotion { q: &q, qd: &mean, qdd: &qdd }, buffer, &mut residual)?;
+    for (joint, resistance) in tree.resistances().iter().enumerate() {
+        residual[joint] += resistance.damping * (qd[1][joint] - mean[joint]);
+    }
     let effort = observed.store.sample(sample).effort.to_vec();
     let change = vec![0.0; q.len()];
     residual.iter_mut().zip(&effort).for_each(|(residual, effort)| *residual -= effort);
