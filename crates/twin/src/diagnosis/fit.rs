@@ -71,6 +71,8 @@ pub(super) fn rms(values: impl Iterator<Item = f64>) -> f64 {
 
 /// The parameters `p` that bring `columns p` nearest to `values`, and what they leave of it, as a part.
 pub(super) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<(Vec<f64>, f64)> {
+    /// Directions of the parameters that change nothing are left at zero.
+    const SINGULAR: f64 = 1e-9;
     let whole = rms(values.iter().copied());
     if values.is_empty() || whole <= 0.0 {
         return None;
@@ -85,8 +87,6 @@ pub(super) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<(Vec
         columns.iter().zip(&scales).map(|(column, scale)| column / *scale).collect();
     let matrix = DMatrix::from_columns(&scaled);
     let values = DVector::from_column_slice(values);
-    /// Directions of the parameters that change nothing are left at zero.
-    const SINGULAR: f64 = 1e-9;
     let solved = matrix.clone().svd(true, true).solve(&values, SINGULAR).ok()?;
     let left = &values - &matrix * &solved;
     let parameters = solved.iter().zip(&scales).map(|(value, scale)| value / scale).collect();

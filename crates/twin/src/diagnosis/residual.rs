@@ -81,13 +81,10 @@ fn find_changes(residuals: &mut [Residual], dof: usize) {
     const NEAR: usize = 20;
     let needed = |of: &Residual, joint: usize| of.residual[joint] + of.effort[joint];
     for joint in 0..dof {
-        let steps: Vec<f64> = residuals
-            .windows(2)
-            .map(|pair| match pair[0].sample + 1 == pair[1].sample {
-                true => (needed(&pair[1], joint) - needed(&pair[0], joint)).abs(),
-                false => 0.0,
-            })
-            .collect();
+        let follows = |pair: &[Residual]| pair[0].sample + 1 == pair[1].sample;
+        let step = |pair: &[Residual]| (needed(&pair[1], joint) - needed(&pair[0], joint)).abs();
+        let pairs = residuals.windows(2);
+        let steps: Vec<f64> = pairs.map(|pair| if follows(pair) { step(pair) } else { 0.0 }).collect();
         for (index, residual) in residuals.iter_mut().enumerate() {
             let near = &steps[index.saturating_sub(NEAR)..(index + NEAR).min(steps.len())];
             #[expect(clippy::cast_precision_loss, reason = "they are few")]
