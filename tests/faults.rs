@@ -22,7 +22,7 @@ fn scenarios() -> Vec<String> {
 fn every_scenario_goes_as_it_expects() {
     let (out, names) = (tempfile::tempdir().unwrap(), scenarios());
     let mut call = vec!["run", "--no-recording", "--out"];
-    let folder = text(&out);
+    let folder = text(out.path());
     call.push(&folder);
     call.extend(names.iter().map(String::as_str));
     let answer = congruent_json(&call);
@@ -113,7 +113,7 @@ fn refused(controller: &str, fault: &str, code: &str, place: &str, help: &str) {
     let folder = tempfile::tempdir().unwrap();
     let rest = format!("[[fault]]\n{fault}\n[[check]]\nkind = \"limits\"\n");
     let path = written(folder.path(), controller, &rest);
-    let answer = congruent_json(&["run", &path, "--no-recording", "--out", &text(&folder)]);
+    let answer = congruent_json(&["run", &path, "--no-recording", "--out", &text(folder.path())]);
     assert_eq!(answer.code, 2, "{}{}", answer.stdout, answer.stderr);
     let finding = &answer.json()["findings"][0];
     assert_eq!(finding["code"], code, "{finding}");
