@@ -310,7 +310,7 @@ impl World {
         self.engine.read(q, qd);
         self.engine.exerted(&self.commands, q, qd, torque);
         asked.copy_from_slice(torque);
-        if delivered.iter().any(|&share| share < 1.0 || share > 1.0) {
+        if delivered.iter().any(|share| (share - 1.0).abs() > 0.0) {
             self.engine.exerted(&self.asked, q, qd, asked);
         }
         self.check_finite("position", &self.state.q)?;
