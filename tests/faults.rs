@@ -120,7 +120,7 @@ fn refused(controller: &str, fault: &str, code: &str, place: &str, help: &str) {
     assert!(finding["help"].as_str().unwrap_or_default().contains(help), "{finding}");
     let written = fs::read_to_string(&path).unwrap();
     let line = 1 + written[..written.find(place).unwrap()].matches('\n').count();
-    assert_eq!(finding["place"]["line"], line, "{finding}");
+    assert_eq!(finding["line"], line, "{finding}");
 }
 
 #[test]
