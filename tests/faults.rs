@@ -145,8 +145,8 @@ fn a_wrong_fault_is_refused_at_its_place() {
     let ended = format!("{offset}value_deg = 1\nat_s = 0.1\nuntil_s = 0.1");
     refused("kinematic", &ended, "scenario::fault_time", "until_s", "");
     let lost = "kind = \"lost_torque\"\njoint = \"elbow_joint\"";
-    refused("kinematic", lost, "scenario::fault_no_effect", "[[fault]]", "pd");
-    refused("passive", lost, "scenario::fault_no_effect", "[[fault]]", "pd");
+    refused("kinematic", lost, "scenario::fault_no_effect", "lost_torque", "pd");
+    refused("passive", lost, "scenario::fault_no_effect", "lost_torque", "pd");
     let share = "kind = \"dropped_samples\"\nshare = 1.5";
     refused("kinematic", share, "scenario::fault_value", "share", "");
     let same = "kind = \"swapped_joints\"\njoints = [\"elbow_joint\", \"elbow_joint\"]";

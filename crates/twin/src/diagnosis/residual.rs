@@ -30,7 +30,7 @@ pub(super) struct OffWindow {
 
 impl OffWindow {
     /// From the first to the last of `usable` residuals of a joint that are more than the length of a step makes them. If
-    /// that is the very last, the fault lasts to the end of the run as far as is known.
+    /// hardly any follow, the fault lasts to the end of the run as far as is known.
     pub(super) fn of(usable: &[Residual], samples: usize, joint: usize) -> Option<Self> {
         let largest =
             |joint: usize| usable.iter().map(|residual| residual.effort[joint].abs()).fold(0.0, f64::max);
@@ -45,7 +45,8 @@ impl OffWindow {
         if residuals.samples().filter(|&index| is_off(index)).count() < FEWEST {
             return None;
         }
-        let end = usable.get(residuals.end).map_or(samples, |next| next.sample);
+        let lasts = usable.len() - residuals.end < FEWEST;
+        let end = if lasts { samples } else { usable[residuals.end].sample };
         // An effort acts in the step before the sample that shows it.
         let first = usable[residuals.first].sample - 1;
         Some(Self { residuals, samples: Window { first, end } })

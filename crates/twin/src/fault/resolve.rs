@@ -30,7 +30,7 @@ pub(crate) fn resolve(
         let place = place.item(index);
         let resolver = Resolver { description, clock, place };
         match resolver.planned(fault, controller) {
-            Ok(fault) => match excluded(&fault, &planned, description) {
+            Ok(fault) => match excluded(&fault, &planned) {
                 Some(error) => errors.push(place.mark(error)),
                 None => planned.push(fault),
             },
@@ -41,18 +41,14 @@ pub(crate) fn resolve(
 }
 
 /// Two faults that set the same thing at the same time.
-fn excluded(
-    fault: &PlannedFault,
-    before: &[PlannedFault],
-    description: &RobotDescription,
-) -> Option<Diagnostic> {
+fn excluded(fault: &PlannedFault, before: &[PlannedFault]) -> Option<Diagnostic> {
     let slots = fault.action.slots();
     let other = before.iter().find(|other| {
         other.overlaps(fault) && other.action.slots().iter().any(|slot| slots.contains(slot))
     })?;
     let line = other.line.map_or(String::new(), |line| format!(" of line {line}"));
     let (kind, known) = (fault.described.kind, other.described.kind);
-    let message = format!("{kind} excludes {known}{line} at the same time on robot \"{}\"", description.name);
+    let message = format!("{kind} excludes {known}{line} at the same time");
     let help = "let one end (`until_s`) before the other begins (`at_s`), or leave one out";
     Some(Diagnostic::error("scenario::faults_exclude", message).with_help(help))
 }
