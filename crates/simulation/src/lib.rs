@@ -6,6 +6,7 @@
 mod actuation;
 mod adapter;
 mod build;
+mod carried;
 mod changes;
 mod contact;
 mod engine;
@@ -19,7 +20,7 @@ pub use actuation::{
     Commands, Controller, DriveConnection, Gains, JointsView, MeasuredState, Motor, Setpoint, controller,
     controller_names,
 };
-pub use changes::CarriedBody;
+pub use carried::CarriedBody;
 pub use error::SimulationError;
 pub use settings::{Obstacle, WorldSettings};
 pub use world::{World, WorldSnapshot};

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Isometry3};
 use crate::{
     actuation::{Commands, Controller, JointsView, MeasuredState, Motor, Setpoint, connection::Connections},
     build,
-    changes::CarriedBody,
+    carried::CarriedBody,
     engine::{Engine, UnknownLoad},
     error::SimulationError,
     lumping::{Bodies, LinkOnBody},

@@ -32,7 +32,7 @@ impl Draw {
 
     fn either(&mut self, low: f64, high: f64) -> f64 {
         let size = self.between(low, high);
-        if self.0.next_u32() % 2 == 0 { size } else { -size }
+        if self.0.next_u32().is_multiple_of(2) { size } else { -size }
     }
 
     fn below(&mut self, count: usize) -> usize {
@@ -129,7 +129,7 @@ fn scenario(fault: Option<FaultSettings>, description: &RobotDescription, draw: 
         .iter()
         .map(|name| {
             let range = robot.joint(robot.find_joint(name).unwrap()).position_range();
-            let middle = range.map_or(0.0, |(lower, upper)| (lower + upper) / 2.0);
+            let middle = range.map_or(0.0, |(lower, upper)| f64::midpoint(lower, upper));
             middle + draw.between(-0.5, 0.5)
         })
         .collect();

@@ -38,8 +38,8 @@ impl OffWindow {
         let of_any = (0..joints).map(largest).fold(0.0, f64::max);
         let threshold = SMALLEST.max(STEP_PART * largest(joint)).max(COUPLED_PART * of_any);
         let is_off = |index: usize| {
-            let Residual { residual, change, .. } = &usable[index];
-            residual[joint].abs() > threshold + CHANGES * change[joint]
+            let Residual { missing, change, .. } = &usable[index];
+            missing[joint].abs() > threshold + CHANGES * change[joint]
         };
         let residuals = Window::of(usable.len(), is_off)?;
         if residuals.samples().filter(|&index| is_off(index)).count() < FEWEST {
@@ -71,7 +71,7 @@ pub(super) struct Residual {
     pub(super) qdd: Vec<f64>,
     pub(super) effort: Vec<f64>,
     /// Needed minus reported, by joint.
-    pub(super) residual: Vec<f64>,
+    pub(super) missing: Vec<f64>,
     /// How much the needed effort has changed since the residual before, by joint.
     change: Vec<f64>,
 }
@@ -80,7 +80,7 @@ pub(super) struct Residual {
 fn find_changes(residuals: &mut [Residual], dof: usize) {
     /// Residuals on either side.
     const NEAR: usize = 20;
-    let needed = |of: &Residual, joint: usize| of.residual[joint] + of.effort[joint];
+    let needed = |of: &Residual, joint: usize| of.missing[joint] + of.effort[joint];
     for joint in 0..dof {
         let follows = |pair: &[Residual]| pair[0].sample + 1 == pair[1].sample;
         let step = |pair: &[Residual]| (needed(&pair[1], joint) - needed(&pair[0], joint)).abs();
@@ -154,7 +154,7 @@ fn residual(
     let effort = observed.store.sample(sample).effort.to_vec();
     let change = vec![0.0; q.len()];
     residual.iter_mut().zip(&effort).for_each(|(residual, effort)| *residual -= effort);
-    Ok(Residual { sample, q, qd, qdd, effort, residual, change })
+    Ok(Residual { sample, q, qd, qdd, effort, missing: residual, change })
 }
 
 /// The robot with what its links carry.
