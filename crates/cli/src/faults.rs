@@ -56,10 +56,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         document.write(&table.markdown())?;
     }
     printer.result(&table, text)?;
-    Ok(match &table {
-        table if !table.broken.is_empty() => BROKEN,
-        table if table.is_sound() => 0,
-        _ => FAILED,
+    Ok(match (table.broken.is_empty(), table.is_sound()) {
+        (false, _) => BROKEN,
+        (true, true) => 0,
+        (true, false) => FAILED,
     })
 }
 

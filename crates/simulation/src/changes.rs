@@ -1,17 +1,8 @@
 //! Changes of a robot while it runs: what resists a joint, what an actuator delivers, what a link carries.
 
-use congruent_description::{Inertia, LinkIndex};
+use congruent_description::Inertia;
 
-use crate::{actuation::DriveConnection, error::SimulationError, world::World};
-
-/// A body that a link carries from now on, in addition to its own mass.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CarriedBody {
-    /// The link that carries it.
-    pub link: LinkIndex,
-    /// Its inertia, in the frame of the link.
-    pub inertia: Inertia,
-}
+use crate::{actuation::DriveConnection, carried::CarriedBody, error::SimulationError, world::World};
 
 impl World {
     /// Sets the viscous damping of a joint, N m s/rad or N s/m. It is integrated implicitly, so that any value is

@@ -6,6 +6,7 @@
 mod actuation;
 mod adapter;
 mod build;
+mod carried;
 mod changes;
 mod contact;
 mod drive;
@@ -20,7 +21,7 @@ pub use actuation::{
     Commands, Controller, DriveConnection, Gains, JointsView, Kinematic, MeasuredState, Motor, Passive, Pd,
     Setpoint, Torque,
 };
-pub use changes::CarriedBody;
+pub use carried::CarriedBody;
 pub use drive::Saturation;
 pub use error::SimulationError;
 pub use settings::{Obstacle, WorldSettings};

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Isometry3};
 use crate::{
     actuation::{Commands, Controller, JointsView, MeasuredState, Motor, Setpoint, connection::Connections},
     build,
-    changes::CarriedBody,
+    carried::CarriedBody,
     drive::Saturation,
     engine::Engine,
     error::SimulationError,
@@ -314,7 +314,7 @@ impl World {
         self.engine.read(q, qd);
         self.engine.exerted(q, qd, torque, saturations);
         asked.copy_from_slice(torque);
-        if delivered.iter().any(|&share| share < 1.0 || share > 1.0) {
+        if delivered.iter().any(|share| (share - 1.0).abs() > 0.0) {
             self.engine.asked(&self.asked, q, qd, asked);
         }
         self.check_finite("position", &self.state.q)?;

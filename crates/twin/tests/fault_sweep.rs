@@ -32,7 +32,7 @@ impl Draw {
 
     fn either(&mut self, low: f64, high: f64) -> f64 {
         let size = self.between(low, high);
-        if self.0.next_u32() % 2 == 0 { size } else { -size }
+        if self.0.next_u32().is_multiple_of(2) { size } else { -size }
     }
 
     fn below(&mut self, count: usize) -> usize {
@@ -59,21 +59,41 @@ fn fault(kind: FaultKind, robot: &Robot, draw: &mut Draw) -> FaultSettings {
     let (at_s, until_s) = ((draw.between(0.15, 0.9) * 1000.0).round() / 1000.0, None);
     let plain = JointFault { joint: joint.clone(), at_s, until_s };
     match kind {
-        FaultKind::EncoderOffset => FaultSettings::EncoderOffset(EncoderOffsetFault {
-            joint,
-            value_deg: Some(draw.either(0.01, 3.0)),
-            at_s,
-            ..EncoderOffsetFault::default()
-        }),
-        FaultKind::EncoderDrift => FaultSettings::EncoderDrift(EncoderDriftFault {
-            joint,
-            rate_deg_per_s: Some(draw.either(0.01, 2.0)),
-            at_s,
-            ..EncoderDriftFault::default()
-        }),
         FaultKind::FlippedAxis => FaultSettings::FlippedAxis(plain),
         FaultKind::StuckJoint => FaultSettings::StuckJoint(plain),
         FaultKind::LostTorque => FaultSettings::LostTorque(plain),
+        FaultKind::SwappedJoints => {
+            let first = draw.below(names.len());
+            let second = (first + 1 + draw.below(names.len() - 1)) % names.len();
+            let joints = [names[first].clone(), names[second].clone()];
+            FaultSettings::SwappedJoints(SwappedJointsFault { joints, at_s, until_s })
+        }
+        FaultKind::Latency => {
+            let time_s = (draw.between(0.002, 0.03) * 1000.0).round() / 1000.0;
+            FaultSettings::Latency(LatencyFault { time_s, at_s, until_s })
+        }
+        FaultKind::DroppedSamples => {
+            let share = draw.between(0.1, 0.6);
+            FaultSettings::DroppedSamples(DroppedSamplesFault { share, at_s, until_s })
+        }
+        _ => sized(kind, plain, robot, draw),
+    }
+}
+
+/// A fault that has a size.
+fn sized(kind: FaultKind, plain: JointFault, robot: &Robot, draw: &mut Draw) -> FaultSettings {
+    let JointFault { joint, at_s, until_s } = plain;
+    match kind {
+        FaultKind::EncoderOffset => {
+            let value_deg = Some(draw.either(0.01, 3.0));
+            let fault = EncoderOffsetFault { joint, value_deg, at_s, ..EncoderOffsetFault::default() };
+            FaultSettings::EncoderOffset(fault)
+        }
+        FaultKind::EncoderDrift => {
+            let rate_deg_per_s = Some(draw.either(0.01, 2.0));
+            let fault = EncoderDriftFault { joint, rate_deg_per_s, at_s, ..EncoderDriftFault::default() };
+            FaultSettings::EncoderDrift(fault)
+        }
         FaultKind::ScaledTorque => {
             let share = draw.between(0.3, 0.9);
             FaultSettings::ScaledTorque(ScaledTorqueFault { joint, share, at_s, until_s })
@@ -92,26 +112,12 @@ fn fault(kind: FaultKind, robot: &Robot, draw: &mut Draw) -> FaultSettings {
             let mass_kg = draw.between(0.3, 3.0);
             FaultSettings::WrongPayload(WrongPayloadFault { mass_kg, com_m, at_s, until_s })
         }
-        FaultKind::ShiftedTool => FaultSettings::ShiftedTool(ShiftedToolFault {
+        _ => FaultSettings::ShiftedTool(ShiftedToolFault {
             xyz_mm: Some([draw.either(0.1, 20.0), draw.either(0.1, 20.0), draw.either(0.1, 20.0)]),
             rpy_deg: Some([draw.either(0.0, 3.0), draw.either(0.0, 3.0), draw.either(0.0, 3.0)]),
             at_s,
             ..ShiftedToolFault::default()
         }),
-        FaultKind::SwappedJoints => {
-            let first = draw.below(names.len());
-            let second = (first + 1 + draw.below(names.len() - 1)) % names.len();
-            let joints = [names[first].clone(), names[second].clone()];
-            FaultSettings::SwappedJoints(SwappedJointsFault { joints, at_s, until_s })
-        }
-        FaultKind::Latency => {
-            let time_s = (draw.between(0.002, 0.03) * 1000.0).round() / 1000.0;
-            FaultSettings::Latency(LatencyFault { time_s, at_s, until_s })
-        }
-        FaultKind::DroppedSamples => {
-            let share = draw.between(0.1, 0.6);
-            FaultSettings::DroppedSamples(DroppedSamplesFault { share, at_s, until_s })
-        }
     }
 }
 
@@ -123,7 +129,7 @@ fn scenario(fault: Option<FaultSettings>, description: &RobotDescription, draw: 
         .iter()
         .map(|name| {
             let range = robot.joint(robot.find_joint(name).unwrap()).position_range();
-            let middle = range.map_or(0.0, |(lower, upper)| (lower + upper) / 2.0);
+            let middle = range.map_or(0.0, |(lower, upper)| f64::midpoint(lower, upper));
             middle + draw.between(-0.5, 0.5)
         })
         .collect();
@@ -233,9 +239,11 @@ fn most_random_faults_are_diagnosed() {
     let counts = sweep(&[UR5E, PANDA], 3, 1);
     for (kind, count) in &counts {
         show(&format!("{kind}: {count:?}"));
-        assert!(count.wrong <= 1 && count.nothing <= 1, "{kind}: {count:?}");
+        assert!(count.wrong + count.nothing <= 2, "{kind}: {count:?}");
         assert!(count.right >= 4, "{kind}: {count:?}");
     }
+    let right: usize = counts.values().map(|count| count.right).sum();
+    assert!(right >= 65, "{right} of 72");
 }
 
 #[test]

@@ -23,7 +23,7 @@ pub(super) fn fault(
     OffWindow { residuals: window, samples }: OffWindow,
 ) -> Option<Fit> {
     let of_window = &residuals[window.samples()];
-    let left: Vec<f64> = of_window.iter().map(|residual| residual.residual[joint]).collect();
+    let left: Vec<f64> = of_window.iter().map(|residual| residual.missing[joint]).collect();
     let effort: Vec<f64> = of_window.iter().map(|residual| residual.effort[joint]).collect();
     let make = |kind: FaultKind, values: Vec<FaultQuantity>| {
         let (from_s, mut until_s) = observed.times(samples);
@@ -71,7 +71,7 @@ fn friction(joint: usize, residuals: &[Residual], unit: &'static str) -> Vec<(Ve
     let fastest = residuals.iter().map(|residual| speed(residual).abs()).fold(0.0, f64::max);
     let sliding: Vec<&Residual> =
         residuals.iter().filter(|residual| speed(residual).abs() > SLIDING_PART * fastest).collect();
-    let left: Vec<f64> = sliding.iter().map(|residual| residual.residual[joint]).collect();
+    let left: Vec<f64> = sliding.iter().map(|residual| residual.missing[joint]).collect();
     let dry: Vec<f64> = sliding.iter().map(|residual| -speed(residual).signum()).collect();
     let viscous: Vec<f64> = sliding.iter().map(|residual| -speed(residual)).collect();
     let mut fits = Vec::new();

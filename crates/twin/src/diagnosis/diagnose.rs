@@ -5,11 +5,11 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
-    actuator, contact, encoder,
+    actuator, encoder,
     fit::Fit,
     observed::Observed,
     payload,
-    residual::{OffWindow, Residual, residuals},
+    residual::{OffWindow, Residual, first_contact, residuals},
     store::SampleStore,
     stuck, tool, transport,
 };
@@ -63,7 +63,7 @@ pub(crate) fn diagnose(
     let mut search = Search { observed: &observed, open: observed.independent_joints(), found: Vec::new() };
     search.poses();
     let unexplained = search.unexplained();
-    let first_contact = contact::first(&observed, clearance);
+    let first_contact = first_contact(&observed, clearance);
     search.efforts(setup, first_contact).ok()?;
     let mut faults = search.found;
     faults.sort_by(|a, b| a.fault.from_s.total_cmp(&b.fault.from_s));

@@ -60,7 +60,9 @@ fn noise(series: &[f64]) -> f64 {
     if (turns as f64) < SELDOM * changes.len() as f64 {
         return 0.0;
     }
-    changes.iter_mut().for_each(|change| *change = change.abs());
+    for change in &mut changes {
+        *change = change.abs();
+    }
     changes.sort_by(f64::total_cmp);
     DEVIATIONS * changes[changes.len() / 2]
 }

@@ -6,7 +6,6 @@
 //! file a family; [`fit`] decides between them.
 
 mod actuator;
-mod contact;
 mod diagnose;
 mod encoder;
 mod fit;

@@ -151,13 +151,11 @@ fn expected_motion(joint: &Joint, q: f64) -> Isometry3<f64> {
 /// The position of a joint, an angle in (-pi, pi].
 fn shown(joint: &Joint, motion: &Isometry3<f64>) -> f64 {
     let axis = joint.axis_in_joint;
-    match joint.kind {
-        JointKind::Prismatic => motion.translation.vector.dot(&axis),
-        _ => {
-            let half = motion.rotation.imag().dot(&axis).atan2(motion.rotation.scalar());
-            nearest_turn(2.0 * half, 0.0)
-        }
+    if joint.kind == JointKind::Prismatic {
+        return motion.translation.vector.dot(&axis);
     }
+    let half = motion.rotation.imag().dot(&axis).atan2(motion.rotation.scalar());
+    nearest_turn(2.0 * half, 0.0)
 }
 
 /// The angle that differs from this one by whole turns and is nearest to `near`.

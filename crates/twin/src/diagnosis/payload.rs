@@ -41,7 +41,7 @@ pub(super) fn fault(
         tree.regressor_into(&motion, &mut buffer, &mut regressor)?;
         for &joint in joints {
             // The effort that is missing is what the load needs, with the other sign.
-            left.push(-residual.residual[joint]);
+            left.push(-residual.missing[joint]);
             for (parameter, column) in columns.iter_mut().enumerate() {
                 column.push(regressor[(joint, PARAMETERS * body + parameter)]);
             }

@@ -6,20 +6,20 @@ use congruent_kinematics::Pose;
 use nalgebra::Isometry3;
 
 use super::{fit::Window, observed::Observed};
-use crate::setup::Payload;
+use crate::{proximity::Clearance, setup::Payload};
 
 /// Residuals below this part of the largest effort of the joint are the difference of the engine's step from its limit, which
-/// is proportional to its length. Worst seen without fault 0.004 in steps of 1 ms, in moves of UR5e, Panda and iiwa14 of
-/// 1 rad in 0.6 s.
+/// is proportional to its length. Worst seen without fault, beyond what `CHANGES` takes: 0.0018, in steps of 1 ms, on UR5e and
+/// Panda in random moves of 1 rad in 1 s.
 const STEP_PART: f64 = 0.02;
-/// The same for the largest effort of any joint, whose motion the others feel.
-const COUPLED_PART: f64 = 2e-4;
+/// The same for the largest effort of any joint, whose motion the others feel. Worst seen 1.6e-4.
+const COUPLED_PART: f64 = 1e-3;
 /// What a step is off by is what changes in it: this many times the change of the needed effort.
 const CHANGES: f64 = 3.0;
 /// Rounding of second differences, N m: 1e-15 rad over 1e-6 s^2, times 10 kg m^2.
 const SMALLEST: f64 = 1e-6;
-/// Fewer residuals that are off are an impact, not a fault.
-const FEWEST: usize = 10;
+/// Fewer residuals that are off are the ringing after an impact, not a fault.
+const FEWEST: usize = 40;
 
 /// When residuals are off: a range of them, and the samples in which the fault that makes them is there.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +30,7 @@ pub(super) struct OffWindow {
 
 impl OffWindow {
     /// From the first to the last of `usable` residuals of a joint that are more than the length of a step makes them. If
-    /// that is the very last, the fault lasts to the end of the run as far as is known.
+    /// hardly any follow, the fault lasts to the end of the run as far as is known.
     pub(super) fn of(usable: &[Residual], samples: usize, joint: usize) -> Option<Self> {
         let largest =
             |joint: usize| usable.iter().map(|residual| residual.effort[joint].abs()).fold(0.0, f64::max);
@@ -38,14 +38,15 @@ impl OffWindow {
         let of_any = (0..joints).map(largest).fold(0.0, f64::max);
         let threshold = SMALLEST.max(STEP_PART * largest(joint)).max(COUPLED_PART * of_any);
         let is_off = |index: usize| {
-            let Residual { residual, change, .. } = &usable[index];
-            residual[joint].abs() > threshold + CHANGES * change[joint]
+            let Residual { missing, change, .. } = &usable[index];
+            missing[joint].abs() > threshold + CHANGES * change[joint]
         };
         let residuals = Window::of(usable.len(), is_off)?;
         if residuals.samples().filter(|&index| is_off(index)).count() < FEWEST {
             return None;
         }
-        let end = usable.get(residuals.end).map_or(samples, |next| next.sample);
+        let lasts = usable.len() - residuals.end < FEWEST;
+        let end = if lasts { samples } else { usable[residuals.end].sample };
         // An effort acts in the step before the sample that shows it.
         let first = usable[residuals.first].sample - 1;
         Some(Self { residuals, samples: Window { first, end } })
@@ -70,20 +71,27 @@ pub(super) struct Residual {
     pub(super) qdd: Vec<f64>,
     pub(super) effort: Vec<f64>,
     /// Needed minus reported, by joint.
-    pub(super) residual: Vec<f64>,
+    pub(super) missing: Vec<f64>,
     /// How much the needed effort has changed since the residual before, by joint.
     change: Vec<f64>,
 }
 
-impl Residual {
-    /// Of a group of samples, the first has no change: groups are shorter than any fault that they show.
-    fn compare_with(&mut self, before: &Self) {
-        if self.sample != before.sample + 1 {
-            return;
+/// The mean change of the needed effort from residual to residual in a neighbourhood, which a single zero does not hide.
+fn find_changes(residuals: &mut [Residual], dof: usize) {
+    /// Residuals on either side.
+    const NEAR: usize = 20;
+    let needed = |of: &Residual, joint: usize| of.missing[joint] + of.effort[joint];
+    for joint in 0..dof {
+        let follows = |pair: &[Residual]| pair[0].sample + 1 == pair[1].sample;
+        let step = |pair: &[Residual]| (needed(&pair[1], joint) - needed(&pair[0], joint)).abs();
+        let pairs = residuals.windows(2);
+        let steps: Vec<f64> = pairs.map(|pair| if follows(pair) { step(pair) } else { 0.0 }).collect();
+        for (index, residual) in residuals.iter_mut().enumerate() {
+            let near = &steps[index.saturating_sub(NEAR)..(index + NEAR).min(steps.len())];
+            #[expect(clippy::cast_precision_loss, reason = "they are few")]
+            let mean = near.iter().sum::<f64>() / near.len().max(1) as f64;
+            residual.change[joint] = mean;
         }
-        let needed = |of: &Self, joint: usize| of.residual[joint] + of.effort[joint];
-        let change = |joint| (needed(self, joint) - needed(before, joint)).abs();
-        self.change = (0..self.change.len()).map(change).collect();
     }
 }
 
@@ -113,12 +121,9 @@ pub(super) fn residuals(
             tree = loaded(&plain, robot, loads)?;
             carried = now;
         }
-        let mut residual = residual(observed, sample, &tree, &mut buffer)?;
-        if let Some(before) = found.last() {
-            residual.compare_with(before);
-        }
-        found.push(residual);
+        found.push(residual(observed, sample, &tree, &mut buffer)?);
     }
+    find_changes(&mut found, robot.dof());
     let is_driven = found.iter().any(|residual| residual.effort.iter().any(|effort| effort.abs() > 0.0));
     Ok(if is_driven { found } else { Vec::new() })
 }
@@ -138,11 +143,18 @@ fn residual(
     let qdd: Vec<f64> = qd[0].iter().zip(&qd[1]).map(|(before, after)| (after - before) / step_s).collect();
     let q: RobotQ = position(sample - 1).collect();
     let mut residual = vec![0.0; q.len()];
-    tree.inverse_into(&JointMotion { q: &q, qd: &qd[0], qdd: &qdd }, buffer, &mut residual)?;
+    // The engine takes velocity products half from before the step and half from after it, and what resists a joint from
+    // after it.
+    let mean: Vec<f64> =
+        qd[0].iter().zip(&qd[1]).map(|(before, after)| f64::midpoint(*before, *after)).collect();
+    tree.inverse_into(&JointMotion { q: &q, qd: &mean, qdd: &qdd }, buffer, &mut residual)?;
+    for (joint, resistance) in tree.resistances().iter().enumerate() {
+        residual[joint] += resistance.damping * (qd[1][joint] - mean[joint]);
+    }
     let effort = observed.store.sample(sample).effort.to_vec();
     let change = vec![0.0; q.len()];
     residual.iter_mut().zip(&effort).for_each(|(residual, effort)| *residual -= effort);
-    Ok(Residual { sample, q, qd, qdd, effort, residual, change })
+    Ok(Residual { sample, q, qd, qdd, effort, missing: residual, change })
 }
 
 /// The robot with what its links carry.
@@ -175,4 +187,25 @@ pub(super) fn body_of(robot: &Robot, mut link: LinkIndex) -> (LinkIndex, Isometr
         link = joint.parent;
     }
     (link, body_from_link)
+}
+
+/// Nearer than this counts as touching: a link at 2 m/s goes so far in a step of 1 ms.
+const TOUCHING_M: f64 = 2e-3;
+
+/// The first kept sample in which a link touches an obstacle: from then on efforts are not those of its motion alone.
+pub(super) fn first_contact(observed: &Observed<'_>, clearance: &mut Clearance) -> Option<usize> {
+    let links = observed.robot.links().len();
+    let with_obstacle: Vec<usize> = clearance
+        .pairs()
+        .enumerate()
+        .filter(|(_, pair)| pair.a.max(pair.b) >= links)
+        .map(|(index, _)| index)
+        .collect();
+    if with_obstacle.is_empty() {
+        return None;
+    }
+    (0..observed.samples()).find(|&sample| {
+        clearance.move_links(observed.store.sample(sample).root_from_links);
+        with_obstacle.iter().any(|&pair| clearance.measure_below(pair, TOUCHING_M).is_some())
+    })
 }

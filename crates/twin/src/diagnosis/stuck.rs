@@ -16,7 +16,7 @@ pub(super) fn fault(observed: &Observed<'_>, joint: usize, window: Window) -> Op
     let after = (window.first + 2).min(window.end)..window.end;
     let commanded = spread(&observed.setpoint[joint][after.clone()]);
     let moved = spread(&observed.q[joint][after]);
-    if !(commanded > ROUNDING) || moved > STANDING_PART * commanded {
+    if commanded <= ROUNDING || moved > STANDING_PART * commanded {
         return None;
     }
     let (from_s, until_s) = observed.times(window);

@@ -4,9 +4,14 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::run_fault::{FaultQuantity, RunFault};
+use crate::scenario::FaultKind;
 
 /// How far a found value may be from the true one, as a part of the largest value of the fault in the same unit.
 const OFF_BY_PART: f64 = 0.05;
+
+/// How far the share of lost readings may be from the probability of a loss: three standard deviations of 1400 readings, of
+/// which every second is lost.
+const SHARE_OFF_BY: f64 = 0.04;
 
 /// How near a diagnosis is to the truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
@@ -49,7 +54,9 @@ fn values_are_near(injected: &RunFault, found: &RunFault) -> bool {
     let near = |known: &FaultQuantity| {
         let of_unit = injected.values.iter().filter(|value| value.unit == known.unit);
         let scale = of_unit.map(|value| value.value.abs()).fold(known.value.abs(), f64::max);
-        (value(injected, known.quantity) - value(found, known.quantity)).abs() <= OFF_BY_PART * scale
+        let allowed =
+            if injected.kind == FaultKind::DroppedSamples { SHARE_OFF_BY } else { OFF_BY_PART * scale };
+        (value(injected, known.quantity) - value(found, known.quantity)).abs() <= allowed
     };
     injected.values.iter().chain(&found.values).all(near)
 }

@@ -30,7 +30,7 @@ pub(crate) fn resolve(
         let place = place.item(index);
         let resolver = Resolver { description, clock, place };
         match resolver.planned(fault, controller) {
-            Ok(fault) => match excluded(&fault, &planned, description) {
+            Ok(fault) => match excluded(&fault, &planned) {
                 Some(error) => errors.push(place.mark(error)),
                 None => planned.push(fault),
             },
@@ -41,18 +41,14 @@ pub(crate) fn resolve(
 }
 
 /// Two faults that set the same thing at the same time.
-fn excluded(
-    fault: &PlannedFault,
-    before: &[PlannedFault],
-    description: &RobotDescription,
-) -> Option<Diagnostic> {
+fn excluded(fault: &PlannedFault, before: &[PlannedFault]) -> Option<Diagnostic> {
     let slots = fault.action.slots();
     let other = before.iter().find(|other| {
         other.overlaps(fault) && other.action.slots().iter().any(|slot| slots.contains(slot))
     })?;
     let line = other.line.map_or(String::new(), |line| format!(" of line {line}"));
     let (kind, known) = (fault.described.kind, other.described.kind);
-    let message = format!("{kind} excludes {known}{line} at the same time on robot \"{}\"", description.name);
+    let message = format!("{kind} excludes {known}{line} at the same time");
     let help = "let one end (`until_s`) before the other begins (`at_s`), or leave one out";
     Some(Diagnostic::error("scenario::faults_exclude", message).with_help(help))
 }
@@ -121,7 +117,7 @@ impl Resolver<'_> {
             FaultSettings::ScaledTorque(fault) => {
                 let joint = self.joint(&fault.joint)?;
                 let is_sound =
-                    fault.share > 0.0 && fault.share <= LARGEST_SHARE && (fault.share - 1.0).abs() > 0.0;
+                    |share: f64| share > 0.0 && share <= LARGEST_SHARE && (share - 1.0).abs() > 0.0;
                 let range = "a share above 0 and at most 10 that is not 1 (`lost_torque` is 0)";
                 self.within("share", fault.share, is_sound, range)?;
                 FaultAction::ScaledTorque { joint, share: fault.share }
@@ -132,13 +128,13 @@ impl Resolver<'_> {
             FaultSettings::SwappedJoints(fault) => self.swapped(&fault.joints)?,
             FaultSettings::Latency(fault) => {
                 let step_s = self.clock.step_s;
-                let is_sound = fault.time_s >= step_s / 2.0 && fault.time_s < self.clock.duration_s();
+                let is_sound = |time_s| time_s >= step_s / 2.0 && time_s < self.clock.duration_s();
                 self.within("time_s", fault.time_s, is_sound, "at least half a step, and less than the run")?;
                 let steps = usize::try_from(nearest_step(fault.time_s, step_s)).unwrap_or(usize::MAX);
                 FaultAction::Latency { steps: steps.max(1) }
             }
             FaultSettings::DroppedSamples(fault) => {
-                let is_sound = fault.share > 0.0 && fault.share < 1.0;
+                let is_sound = |share| share > 0.0 && share < 1.0;
                 self.within("share", fault.share, is_sound, "a share above 0 and below 1")?;
                 FaultAction::DroppedSamples { share: fault.share }
             }
@@ -174,7 +170,8 @@ impl Resolver<'_> {
             let error = Diagnostic::error("scenario::joint_unit", message).with_help(help);
             return Err(self.place.key(key).mark(error));
         }
-        self.within(key, value, value.is_finite() && value.abs() > 0.0, "a finite number that is not 0")?;
+        let is_sound = |value: f64| value.is_finite() && value.abs() > 0.0;
+        self.within(key, value, is_sound, "a finite number that is not 0")?;
         Ok(match index {
             1 => Unit::Angle.convert(value),
             3 => Unit::Length.convert(value),
@@ -182,8 +179,14 @@ impl Resolver<'_> {
         })
     }
 
-    fn within(&self, key: &str, value: f64, is_sound: bool, range: &str) -> Result<(), Diagnostic> {
-        if is_sound {
+    fn within(
+        &self,
+        key: &str,
+        value: f64,
+        is_sound: impl Fn(f64) -> bool,
+        range: &str,
+    ) -> Result<(), Diagnostic> {
+        if is_sound(value) {
             return Ok(());
         }
         let message = format!("{key} = {value}: expected {range}");
@@ -203,7 +206,8 @@ impl Resolver<'_> {
         }
         for (key, value) in fitting {
             let value = value.unwrap_or(0.0);
-            self.within(key, value, value.is_finite() && value >= 0.0, "a finite number, 0 or above")?;
+            let is_sound = |value: f64| value.is_finite() && value >= 0.0;
+            self.within(key, value, is_sound, "a finite number, 0 or above")?;
         }
         let [dry, viscous] = fitting.map(|(_, value)| value.unwrap_or(0.0));
         if dry + viscous <= 0.0 {
@@ -215,11 +219,11 @@ impl Resolver<'_> {
 
     fn payload(&self, fault: &WrongPayloadFault) -> Result<FaultAction, Diagnostic> {
         let RobotDescription { tip, tip_from_tcp, robot, .. } = self.description;
-        let is_sound = fault.mass_kg.is_finite() && fault.mass_kg > 0.0;
+        let is_sound = |mass_kg: f64| mass_kg.is_finite() && mass_kg > 0.0;
         self.within("mass_kg", fault.mass_kg, is_sound, "a finite number above 0")?;
         let com_in_tcp = fault.com_m.unwrap_or_default();
         for value in com_in_tcp {
-            self.within("com_m", value, value.is_finite(), "three finite numbers")?;
+            self.within("com_m", value, f64::is_finite, "three finite numbers")?;
         }
         if robot.body(*tip) == robot.root() {
             let error = Diagnostic::error("scenario::fault_no_effect", "the tool does not move");

@@ -1,6 +1,6 @@
 //! A fault of a run in names and units: an injected one, or one that the diagnosis has found.
 
-use congruent_description::display::{length, number, quantity};
+use congruent_description::display::{number, position, quantity};
 use nalgebra::{Isometry3, Vector3};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -110,7 +110,10 @@ impl RunFault {
             }
             FaultKind::AddedFriction => format!("added friction, {}", self.listed()),
             FaultKind::WrongPayload => {
-                let place = self.values[1..].iter().map(|value| length(value.value)).collect::<Vec<_>>();
+                let place = self.values[1..]
+                    .iter()
+                    .map(|value| position(value.value, value.unit))
+                    .collect::<Vec<_>>();
                 format!("carries {} that nobody knows of, at ({})", shown("mass"), place.join(", "))
             }
             FaultKind::ShiftedTool => format!("stands elsewhere, by {}", self.listed()),

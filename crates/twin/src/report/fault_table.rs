@@ -97,21 +97,19 @@ impl FaultTable {
 
     /// What is not as it should be, in sentences.
     pub fn remarks(&self) -> Vec<String> {
-        let remark = |names: Vec<&str>, what: &str| {
-            (!names.is_empty()).then(|| format!("{what}: {}", names.join(", ")))
+        let remark =
+            |names: &[&str], what: &str| (!names.is_empty()).then(|| format!("{what}: {}", names.join(", ")));
+        let scenarios = |found: &[String], what: &str| {
+            let names: Vec<&str> = found.iter().map(String::as_str).collect();
+            remark(&names, what)
         };
-        let names = |names: &'_ [String]| names.to_vec();
-        let scenario = |found: &[String], what: &str| {
-            let found = names(found);
-            remark(found.iter().map(String::as_str).collect(), what)
-        };
-        let blind = self.blind_checks.iter().map(|kind| kind.word()).collect();
+        let blind: Vec<&str> = self.blind_checks.iter().map(|kind| kind.word()).collect();
         [
-            scenario(&self.broken, "the simulation failed"),
-            scenario(&self.unseen, "seen by no check"),
-            scenario(&self.false_alarms, "a check fails or the diagnosis finds something without a fault"),
-            scenario(&self.not_diagnosed, "the diagnosis is not right"),
-            remark(blind, "checks that see none of these faults"),
+            scenarios(&self.broken, "the simulation failed"),
+            scenarios(&self.unseen, "seen by no check"),
+            scenarios(&self.false_alarms, "a check fails or the diagnosis finds something without a fault"),
+            scenarios(&self.not_diagnosed, "the diagnosis is not right"),
+            remark(&blind, "checks that see none of these faults"),
         ]
         .into_iter()
         .flatten()
