@@ -1,8 +1,9 @@
 //! Changes of a robot while it runs: what resists a joint, what an actuator delivers, what a link carries.
 
 use congruent_description::{Inertia, LinkIndex};
+use nalgebra::Isometry3;
 
-use crate::{error::SimulationError, world::World};
+use crate::{error::SimulationError, settings::Touches, world::World};
 
 /// A body that a link carries from now on, in addition to its own mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,6 +86,12 @@ impl World {
             self.engine.set_inertia(body, &whole);
         }
         self.engine.update_jacobians();
+    }
+
+    /// Moves one of the moving obstacles of the settings: to this pose at the end of the next step if it touches links
+    /// and did so before, at once otherwise.
+    pub fn move_obstacle(&mut self, obstacle: usize, world_from_obstacle: &Isometry3<f64>, touches: Touches) {
+        self.engine.move_obstacle(obstacle, world_from_obstacle, touches);
     }
 
     fn check_resistance(

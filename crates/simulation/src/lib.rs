@@ -20,7 +20,7 @@ pub use actuation::{
 };
 pub use changes::CarriedBody;
 pub use error::SimulationError;
-pub use settings::{Obstacle, WorldSettings};
+pub use settings::{Obstacle, Touches, WorldSettings};
 pub use world::{World, WorldSnapshot};
 
 /// Name and version of the physics engine, as reports give it; a test of the workspace compares it

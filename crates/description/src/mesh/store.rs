@@ -1,6 +1,10 @@
 //! The meshes of one robot: each file is read once for each scale and shared.
 
-use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use nalgebra::{Point3, Vector3};
 
@@ -13,6 +17,7 @@ use crate::{
     file::read_bytes,
     model::Mesh,
     packages::{Packages, Resolved},
+    ros_packages::RosPackages,
 };
 
 /// The largest mesh file that is read.
@@ -79,6 +84,22 @@ impl<'a> MeshStore<'a> {
         }
         warnings
     }
+}
+
+/// The mesh that another file in `folder` names, scaled; nothing outside of the project folder is opened.
+///
+/// # Errors
+/// The file cannot be found or read, is outside of the project folder, or is no mesh.
+pub fn read_mesh(folder: &Path, uri: &str, scale: Vector3<f64>) -> Result<Arc<Mesh>, Diagnostic> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let mut packages = Packages::new(folder, BTreeMap::new(), RosPackages::default()).map_err(|error| {
+        Diagnostic::error("file::unreadable", format!("{} cannot be read: {error}", folder.display()))
+    })?;
+    let found = MeshStore::new(&mut packages).find(uri, scale)?;
+    if found.mesh.triangles.is_empty() {
+        return Err(Diagnostic::error("mesh::empty", format!("mesh \"{uri}\": the scene is empty")));
+    }
+    Ok(found.mesh)
 }
 
 fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Result<Mesh, MeshError> {

@@ -290,7 +290,7 @@ fn a_move_above_a_velocity_limit_is_refused_or_slowed() {
     refused(
         fast(0.5),
         "scenario::over_limit",
-        &["elbow_joint", "450 deg/s", "250 ms", "180 deg/s", "1.25 s"],
+        &["elbow_joint", "450 deg/s", "0.25 s", "180 deg/s", "1.25 s"],
     );
     let slow = LimitSettings { over_limit: OverLimit::Slow, ..LimitSettings::default() };
     let setup = setup(fast(0.5), slow).unwrap();
@@ -302,11 +302,11 @@ fn a_move_above_a_velocity_limit_is_refused_or_slowed() {
 #[test]
 fn a_path_beyond_reach_says_where() {
     let from = start();
-    let away = from + Vector3::new(-0.5, -0.9, 0.0);
+    let away = from + Vector3::new(0.9, 0.0, 0.0);
     refused(
         vec![line(away.into(), 0.1, 0.0)],
         "scenario::path_reach",
-        &["cannot go on", "along the path of 1030 mm", "left at best"],
+        &["cannot go on", "along the path of 900 mm", "left at best"],
     );
 }
 
@@ -389,13 +389,12 @@ fn a_table_is_played_back() {
     let found = instants(&planned(motion));
     for now in &found {
         let (elbow_deg, pan) = wave(now.time_s);
-        // A cubic spline: 5/384 h^4 times the fourth derivative of 320 deg/s^4; the ends a little more.
-        assert!(
-            (now.q[2].to_degrees() - elbow_deg).abs() < 5e-4,
-            "{} at {}",
-            now.q[2].to_degrees(),
-            now.time_s
-        );
+        // A cubic spline: 5/384 h^4 times the fourth derivative of 320 deg/s^4. Near the ends the slope of the parabola
+        // counts: 4/81 h^3 times the third derivative of 160 deg/s^3.
+        let is_near_end = !(0.5..1.5).contains(&now.time_s);
+        let most_deg = if is_near_end { 1.2e-3 } else { 4e-5 };
+        let off_deg = (now.q[2].to_degrees() - elbow_deg).abs();
+        assert!(off_deg < most_deg, "{off_deg} at {}", now.time_s);
         assert!((now.q[0] - pan).abs() < 2e-5);
     }
     let (_folder, motion) = playback(&text, Between::Linear);
@@ -417,7 +416,7 @@ fn tables_that_cannot_be_played_are_refused_with_their_line() {
         (
             format!("{head}0.01,100\n"),
             "scenario::playback_jump",
-            vec!["line 3", "elbow_joint", "10 deg in 10 ms", "1000 deg/s", "180 deg/s"],
+            vec!["line 3", "elbow_joint", "10 deg in 0.01 s", "1000 deg/s", "180 deg/s"],
         ),
         (
             "time_s,elbow_joint_deg\n0,80\n1,81\n".to_owned(),

@@ -43,9 +43,24 @@ pub enum PairChoice {
     All,
 }
 
+/// How an obstacle moves, as far as that decides which pairs are measured.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum ObstacleMobility {
+    /// Not at all: with links that can move.
+    #[default]
+    Still,
+    /// Along a path: with all links.
+    Moves,
+    /// These links carry it at times: with links that can move, but for these and their neighbours; while it is carried
+    /// with all other links and with the other obstacles as well.
+    Carried(Vec<LinkIndex>),
+}
+
 #[derive(Debug, Clone, Copy)]
 struct WatchedPair {
     pair: Pair,
+    /// Whether it counts only while one of the two is carried.
+    while_carried: bool,
     /// Relative pose at the last exact distance.
     a_from_b: Isometry3<f64>,
     exact_m: f64,
@@ -59,6 +74,7 @@ impl WatchedPair {
     fn new(pair: Pair) -> Self {
         Self {
             pair,
+            while_carried: false,
             a_from_b: Isometry3::identity(),
             exact_m: f64::NAN,
             lower_bound_m: f64::NEG_INFINITY,
@@ -72,8 +88,10 @@ impl WatchedPair {
 pub struct Clearance {
     subjects: Vec<String>,
     hulls: Vec<Hulls>,
-    /// Links come first, in the robot's order, then obstacles or zones with their constant pose.
+    /// Links come first, in the robot's order, then obstacles or zones.
     root_from_subjects: Vec<Isometry3<f64>>,
+    /// Whether a link carries the subject now.
+    is_carried: Vec<bool>,
     links: usize,
     watches: Vec<WatchedPair>,
 }
@@ -88,6 +106,18 @@ impl Clearance {
         obstacles: &[Obstacle],
         choice: PairChoice,
     ) -> Result<Self, ProximityError> {
+        Self::with_moving(description, (obstacles, &vec![ObstacleMobility::Still; obstacles.len()]), choice)
+    }
+
+    /// The same if some of the obstacles move; each has an entry.
+    ///
+    /// # Errors
+    /// As [`Clearance::new`].
+    pub fn with_moving(
+        description: &RobotDescription,
+        (obstacles, mobility): (&[Obstacle], &[ObstacleMobility]),
+        choice: PairChoice,
+    ) -> Result<Self, ProximityError> {
         let robot = &description.robot;
         let links = robot.links().len();
         let hulls = |link: &Link| Hulls::new(&format!("link \"{}\"", link.name), &link.collisions);
@@ -95,6 +125,7 @@ impl Clearance {
             subjects: robot.links().iter().map(|link| link.name.clone()).collect(),
             hulls: robot.links().iter().map(hulls).collect::<Result<_, _>>()?,
             root_from_subjects: vec![Isometry3::identity(); links],
+            is_carried: vec![false; links],
             links,
             watches: Vec::new(),
         };
@@ -102,8 +133,11 @@ impl Clearance {
             clearance.add(obstacle)?;
         }
         let is_solid = |subject: usize| !clearance.hulls[subject].is_empty();
-        let pairs = pairs(description, (clearance.hulls.len(), is_solid), choice);
-        clearance.watches = pairs.into_iter().map(WatchedPair::new).collect();
+        let pairs = pairs(description, (mobility, is_solid), choice);
+        let only_if_carried = |pair: &Pair| while_carried(robot, mobility, pair);
+        let watched =
+            |pair: Pair| WatchedPair { while_carried: only_if_carried(&pair), ..WatchedPair::new(pair) };
+        clearance.watches = pairs.into_iter().map(watched).collect();
         Ok(clearance)
     }
 
@@ -117,6 +151,7 @@ impl Clearance {
             subjects: self.subjects[..self.links].to_vec(),
             hulls: self.hulls[..self.links].to_vec(),
             root_from_subjects: self.root_from_subjects[..self.links].to_vec(),
+            is_carried: vec![false; self.links],
             links: self.links,
             watches: Vec::new(),
         };
@@ -140,6 +175,7 @@ impl Clearance {
         self.hulls.push(Hulls::new(&format!("\"{}\"", standing.name), &[shape])?);
         self.subjects.push(standing.name.clone());
         self.root_from_subjects.push(standing.world_from_obstacle);
+        self.is_carried.push(false);
         Ok(self.subjects.len() - 1)
     }
 
@@ -165,16 +201,33 @@ impl Clearance {
         watch.is_current.then_some(watch.exact_m)
     }
 
+    /// Moves an obstacle, by its number; takes effect with [`Clearance::move_links`].
+    pub fn move_obstacle(
+        &mut self,
+        obstacle: usize,
+        root_from_obstacle: &Isometry3<f64>,
+        is_carried: Carried,
+    ) {
+        let subject = self.links + obstacle;
+        self.root_from_subjects[subject] = *root_from_obstacle;
+        self.is_carried[subject] = is_carried == Carried::Yes;
+    }
+
     /// Moves the links to new poses (root link's frame, the robot's order) and lowers the bounds
     /// by how far each pair can have come closer.
     pub fn move_links(&mut self, root_from_links: &[Isometry3<f64>]) {
         self.root_from_subjects[..self.links].copy_from_slice(root_from_links);
         for watch in &mut self.watches {
             watch.is_current = false;
-            if watch.exact_m.is_nan() {
+            let Pair { a, b } = watch.pair;
+            if watch.while_carried && !self.is_carried[a] && !self.is_carried[b] {
+                (watch.lower_bound_m, watch.exact_m) = (f64::INFINITY, f64::NAN);
                 continue;
             }
-            let Pair { a, b } = watch.pair;
+            if watch.exact_m.is_nan() {
+                watch.lower_bound_m = f64::NEG_INFINITY;
+                continue;
+            }
             let a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
             let approach_m = largest_shift_m(&watch.a_from_b, &a_from_b, self.hulls[b].radius_m());
             watch.lower_bound_m = watch.exact_m - approach_m - DISTANCE_SLACK_M;
@@ -207,7 +260,8 @@ impl Clearance {
     pub fn nearest(&mut self) -> Option<Nearest> {
         // Starting with the pair that was closest last time, the fewest pairs need measuring.
         let first = (0..self.watches.len())
-            .min_by(|&a, &b| self.watches[a].lower_bound_m.total_cmp(&self.watches[b].lower_bound_m))?;
+            .min_by(|&a, &b| self.watches[a].lower_bound_m.total_cmp(&self.watches[b].lower_bound_m))
+            .filter(|&first| self.watches[first].lower_bound_m < f64::INFINITY)?;
         let mut nearest = Nearest { distance_m: self.measure(first), pair: first };
         while let Some(closer) = self.nearest_unmeasured_below(nearest.distance_m) {
             let distance_m = self.measure(closer);
@@ -252,28 +306,68 @@ fn largest_shift_m(before: &Isometry3<f64>, after: &Isometry3<f64>, radius_m: f6
     shift_m + 2.0 * radius_m * half_turn.norm()
 }
 
-/// The pairs that [`Clearance::new`] watches among so many obstacles, without their hulls.
-pub fn measured_pairs(description: &RobotDescription, obstacles: usize, choice: PairChoice) -> Vec<Pair> {
+/// Whether a link carries an obstacle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carried {
+    /// A link carries it.
+    Yes,
+    /// It stands, or moves along its path.
+    No,
+}
+
+/// The pairs that [`Clearance::with_moving`] watches among these obstacles, without their hulls.
+pub fn measured_pairs(
+    description: &RobotDescription,
+    mobility: &[ObstacleMobility],
+    choice: PairChoice,
+) -> Vec<Pair> {
     let links = description.robot.links();
     let is_empty =
         |geometry: &Geometry| matches!(geometry, Geometry::Mesh(mesh) if mesh.triangles.is_empty());
     let has_shape = |link: &Link| link.collisions.iter().any(|shape| !is_empty(&shape.geometry));
     let is_solid = |subject: usize| links.get(subject).is_none_or(has_shape);
-    pairs(description, (links.len() + obstacles, is_solid), choice)
+    pairs(description, (mobility, is_solid), choice)
 }
 
-/// Pairs among so many subjects, links first, of which some are solid.
+/// Whether a pair that is watched counts only while one of the two is carried: both stand still otherwise.
+fn while_carried(robot: &Robot, mobility: &[ObstacleMobility], pair: &Pair) -> bool {
+    let links = robot.links().len();
+    let is_held_at_times = |subject: usize| {
+        subject >= links && matches!(mobility[subject - links], ObstacleMobility::Carried(_))
+    };
+    match robot.link_indices().nth(pair.a) {
+        Some(link) => robot.body(link) == robot.root() && is_held_at_times(pair.b),
+        None => true,
+    }
+}
+
+/// Pairs among links and obstacles, links first, of which some are solid.
 fn pairs(
     description: &RobotDescription,
-    (subjects, is_solid): (usize, impl Fn(usize) -> bool),
+    (mobility, is_solid): (&[ObstacleMobility], impl Fn(usize) -> bool),
     choice: PairChoice,
 ) -> Vec<Pair> {
     let robot = &description.robot;
     let links: Vec<LinkIndex> = robot.link_indices().collect();
     let body = |subject: usize| links.get(subject).map_or(robot.root(), |&link| robot.body(link));
-    let solid: Vec<usize> = (0..subjects).filter(|&subject| is_solid(subject)).collect();
+    let solid: Vec<usize> = (0..links.len() + mobility.len()).filter(|&subject| is_solid(subject)).collect();
     let is_watched = |a: usize, b: usize| {
         let (body_a, body_b) = (body(a), body(b));
+        let moves = |subject: usize| subject.checked_sub(links.len()).map(|obstacle| &mobility[obstacle]);
+        match (moves(a), moves(b)) {
+            (None, Some(ObstacleMobility::Moves)) => return true,
+            (None, Some(ObstacleMobility::Carried(by))) => {
+                let near = |link: &LinkIndex| {
+                    let body = robot.body(*link);
+                    body == body_a || are_neighbours(robot, body, body_a)
+                };
+                return !by.iter().any(near);
+            }
+            (Some(a), Some(b)) => {
+                return [a, b].iter().any(|each| matches!(each, ObstacleMobility::Carried(_)));
+            }
+            _ => {}
+        }
         // Obstacles stand still, as the root body does.
         if body_a == body_b {
             return false;
@@ -282,11 +376,7 @@ fn pairs(
         choice == PairChoice::All
             || !(are_neighbours(robot, body_a, body_b) || description.disabled_collisions.contains(&(a, b)))
     };
-    let of_link = |&a: &usize| a < links.len();
-    let all = solid
-        .iter()
-        .filter(|a| of_link(a))
-        .flat_map(|&a| solid.iter().filter(move |&&b| b > a).map(move |&b| Pair { a, b }));
+    let all = solid.iter().flat_map(|&a| solid.iter().filter(move |&&b| b > a).map(move |&b| Pair { a, b }));
     all.filter(|pair| is_watched(pair.a, pair.b)).collect()
 }
 

@@ -5,7 +5,7 @@ mod distances;
 mod hulls;
 mod pair_names;
 
-pub use clearance::{Clearance, Nearest, Pair, PairChoice, measured_pairs};
+pub use clearance::{Carried, Clearance, Nearest, ObstacleMobility, Pair, PairChoice, measured_pairs};
 pub use distances::{
     BelowLimit, DistanceError, DistanceOptions, DistanceReport, Distances, Overlap, distances,
 };

@@ -10,5 +10,5 @@ mod test_suite;
 pub(crate) use causes::explain;
 pub use files::{OutputError, OutputFolder, write_whole};
 pub use junit::{Clock, Reason, TestCase, TestResult, TestSuite, write_junit};
-pub use run_report::{LinkSource, RunClockReport, RunReport, Versions};
+pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
 pub use sentence::{lines, sentence_at};

@@ -1,5 +1,6 @@
 //! A scenario checked against its robot: nothing later validates again.
 
+mod bodies;
 mod clock;
 mod joint_targets;
 mod motion_limits;
@@ -7,6 +8,7 @@ mod numbers;
 mod payload;
 mod run_setup;
 mod spaces;
+mod written_out;
 mod zones;
 
 pub use clock::RunClock;

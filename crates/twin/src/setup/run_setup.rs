@@ -3,25 +3,29 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::{
-    Diagnostic, Diagnostics, JointKind, Robot, RobotDescription, RobotQ, RosPackages, Use, load_robot_with,
+    Diagnostic, Diagnostics, Robot, RobotDescription, RobotQ, RosPackages, Use, load_robot_with,
 };
 use congruent_kinematics::move_inside_limits;
 use congruent_simulation::{Gains, Obstacle, controller_names};
 
 use super::{
+    bodies,
     clock::RunClock,
     joint_targets::JointTargets,
     motion_limits, numbers,
     payload::Payload,
     spaces,
+    written_out::{write_out_defaults, write_out_paths},
     zones::{self, Zone},
 };
 use crate::{
-    monitor::{AT_THE_LIMIT, RunningCheck},
+    bodies::{BodyCourse, MovingBody},
+    monitor::RunningCheck,
     motion::{MotionInput, Trajectory},
+    proximity::ObstacleMobility,
     scenario::{
-        Check, CheckKind, Expectation, FilePlace, MotionSettings, Override, SCHEMA_VERSION, Scenario,
-        ScenarioFile, StartSettings,
+        Check, CheckKind, Expectation, FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile,
+        StartSettings,
     },
 };
 
@@ -48,6 +52,8 @@ pub struct RunSetup {
     pub obstacles: Vec<Obstacle>,
     /// Space that named links may not enter, in the root link's frame.
     pub zones: Vec<Zone>,
+    /// Obstacles that move.
+    pub bodies: Vec<MovingBody>,
     /// What links carry for a time, in addition to their own masses: known to controllers and checks.
     pub payloads: Vec<Payload>,
     /// What is suspicious in the scenario; the robot's own warnings are in its description.
@@ -135,12 +141,24 @@ impl RunSetup {
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
         let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
         let clock = found.keep(clock);
-        let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);
-        let obstacles = keep_all(&mut found, obstacles);
+        let kind = (&spaces::OBSTACLE, folder);
+        let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), kind, robot);
+        let mut obstacles = keep_all(&mut found, obstacles);
+        let (mut moving, mut payloads) = (Vec::new(), Vec::new());
+        if let Some(obstacles) = &mut obstacles {
+            let paths = bodies::paths(&scenario.obstacle, place.key("obstacle"), obstacles);
+            moving = keep_all(&mut found, paths).unwrap_or_default();
+        }
+        if let (Some(obstacles), Some(trajectory)) = (&obstacles, &trajectory) {
+            let around = (obstacles.as_slice(), &mut moving);
+            let held = bodies::grasps(&scenario, place.key("grasp"), (&description, trajectory), around);
+            payloads = keep_all(&mut found, held).unwrap_or_default();
+        }
+        let mobility = mobility(&moving, scenario.obstacle.len());
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
         found.keep(zones::paired_with_checks(&scenario.zone, &scenario.check, place));
         for (index, check) in scenario.check.iter().enumerate() {
-            let around = (&description, scenario.obstacle.as_slice());
+            let around = (&description, scenario.obstacle.as_slice(), mobility.as_slice());
             found.keep(RunningCheck::examine(check, place.key("check").item(index), around));
         }
         found.extend(unexpected(&scenario, place.key("expect")));
@@ -170,7 +188,8 @@ impl RunSetup {
             trajectory,
             obstacles,
             zones,
-            payloads: Vec::new(),
+            bodies: moving,
+            payloads,
             warnings,
             check_lines,
         })
@@ -191,11 +210,30 @@ impl RunSetup {
         checks.map(|(check, &line)| RunningCheck::new(check, line, &self.description)).collect()
     }
 
+    /// How each obstacle moves.
+    pub fn mobility(&self) -> Vec<ObstacleMobility> {
+        mobility(&self.bodies, self.obstacles.len())
+    }
+
     /// The gains of the controller.
     pub fn gains(&self) -> Gains {
         let controller = &self.scenario.controller;
         Gains { stiffness: controller.stiffness, damping: controller.damping }
     }
+}
+
+/// How each of so many obstacles moves.
+fn mobility(bodies: &[MovingBody], obstacles: usize) -> Vec<ObstacleMobility> {
+    let mut mobility = vec![ObstacleMobility::Still; obstacles];
+    for body in bodies {
+        mobility[body.obstacle] = match &body.course {
+            BodyCourse::Path(_) => ObstacleMobility::Moves,
+            BodyCourse::Grasps(grasps) => {
+                ObstacleMobility::Carried(grasps.iter().map(|grasp| grasp.link).collect())
+            }
+        };
+    }
+    mobility
 }
 
 /// The time of the motions as far as the scenario says it; a second for each that does not.
@@ -294,63 +332,4 @@ fn unexpected<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator
             .with_help(format!("add a [[check]] with kind = \"{word}\""));
         Some(place.key("checks").item(index).mark(error))
     })
-}
-
-/// Fills in what was left out: the duration, the whole start, limits, and the robot's absolute path.
-fn write_out_defaults(
-    scenario: &mut Scenario,
-    description: &RobotDescription,
-    (clock, start): (&RunClock, &RobotQ),
-) {
-    let path = &description.path;
-    let whole = path.canonicalize().or_else(|_| std::path::absolute(path));
-    scenario.robot = whole.unwrap_or_else(|_| path.clone()).display().to_string();
-    scenario.simulation.duration_s = Some(clock.duration_s());
-    scenario.start = written_start(&description.robot, start);
-    for motion in &mut scenario.motion {
-        if let MotionSettings::Servo(servo) = motion {
-            servo.gain_per_s.get_or_insert(crate::motion::DEFAULT_GAIN_PER_S);
-        }
-    }
-    for check in &mut scenario.check {
-        match check {
-            Check::Agreement(check) => {
-                check.position_m.get_or_insert(description.tolerance.position_m);
-                check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
-            }
-            Check::Limits(check) => {
-                check.tolerance_rad =
-                    check.tolerance_rad.or(check.tolerance_deg.is_none().then_some(AT_THE_LIMIT));
-                check.tolerance_m =
-                    check.tolerance_m.or(check.tolerance_mm.is_none().then_some(AT_THE_LIMIT));
-            }
-            Check::Clearance(_) | Check::Goal(_) | Check::Zone(_) => {}
-        }
-    }
-}
-
-/// Makes the paths of other files absolute.
-fn write_out_paths(scenario: &mut Scenario, folder: &Path) {
-    for motion in &mut scenario.motion {
-        if let MotionSettings::Playback(playback) = motion {
-            let path = folder.join(&playback.play_csv);
-            playback.play_csv = path.canonicalize().unwrap_or(path).display().to_string();
-        }
-    }
-}
-
-/// Positions of all joints that follow no other, by name, in radians and metres.
-fn written_start(robot: &Robot, q: &RobotQ) -> StartSettings {
-    let mut start = StartSettings::default();
-    for (&joint, &position) in robot.movable_joints().iter().zip(q) {
-        let joint = robot.joint(joint);
-        if joint.mimic.is_none() {
-            let group = match joint.kind {
-                JointKind::Prismatic => &mut start.joints_m,
-                _ => &mut start.joints_rad,
-            };
-            group.insert(joint.name.clone(), position);
-        }
-    }
-    start
 }

@@ -1,7 +1,7 @@
 //! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
 use congruent_description::{Diagnostic, Use};
-use congruent_simulation::{Controller, Setpoint, World, WorldSettings, controller};
+use congruent_simulation::{Controller, Setpoint, Touches, World, WorldSettings, controller};
 use nalgebra::Isometry3;
 
 use super::{
@@ -10,6 +10,7 @@ use super::{
     sensors::JointSensors,
 };
 use crate::{
+    bodies::MovingBodies,
     motion::{ReferenceGenerator, ServoResult},
     setup::RunSetup,
 };
@@ -21,6 +22,7 @@ pub struct SimulationSource<'a> {
     reference: ReferenceGenerator<'a>,
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
+    bodies: MovingBodies<'a>,
 }
 
 impl std::fmt::Debug for SimulationSource<'_> {
@@ -43,6 +45,7 @@ impl<'a> SimulationSource<'a> {
             step_s: setup.clock.step_s,
             gravity_in_world: setup.clock.gravity_in_world,
             obstacles: setup.obstacles.clone(),
+            moving_obstacles: setup.bodies.iter().map(|body| body.obstacle).collect(),
             contacts: true,
         };
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
@@ -53,12 +56,26 @@ impl<'a> SimulationSource<'a> {
         let mut payloads = CarriedPayloads::new(&setup.payloads);
         payloads.update(0.0, &mut world);
         Ok(Self {
+            bodies: MovingBodies::new(&setup.bodies, &setup.obstacles),
             sensors,
             payloads,
             world,
             controller: controller(kind, setup.gains()).map_err(SourceError::new)?,
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
         })
+    }
+}
+
+impl SimulationSource<'_> {
+    /// Moves obstacles to where they are at the end of the step. What a link carries touches nothing; it is left where the
+    /// link is at the beginning of the step.
+    fn move_bodies(&mut self, time_s: f64) {
+        let world = &mut self.world;
+        self.bodies.advance(time_s, |link| world.root_from_link(link));
+        for (obstacle, pose, is_carried) in self.bodies.poses() {
+            let touches = if is_carried { Touches::Nothing } else { Touches::Links };
+            world.move_obstacle(obstacle, pose, touches);
+        }
     }
 }
 
@@ -87,6 +104,7 @@ impl JointStateSource for SimulationSource<'_> {
     }
 
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
+        self.move_bodies(time_s);
         let measured = self.sensors.measured();
         self.reference.advance(time_s, measured.q).map_err(SourceError::new)?;
         let (q, qd, qdd) = (self.reference.q(), self.reference.qd(), self.reference.qdd());

@@ -69,6 +69,23 @@ impl JointSpline {
         spline
     }
 
+    /// Splines one after another, each beginning where the one before ends; velocity may jump there.
+    ///
+    /// # Panics
+    /// If there is none.
+    #[must_use]
+    pub fn joined(parts: Vec<Self>) -> Self {
+        let mut parts = parts.into_iter();
+        let mut whole = parts.next().expect("at least one spline");
+        // The knot between is there twice; no value of the parameter is in the interval without length.
+        for part in parts {
+            whole.knots.extend(part.knots);
+            whole.q.extend(part.q);
+            whole.second.extend(part.second);
+        }
+        whole
+    }
+
     /// The values of the parameter at its knots.
     pub fn knots(&self) -> &[f64] {
         &self.knots

@@ -29,6 +29,9 @@ const ACCELERATION_M_S2: f64 = 1.2;
 /// In which the acceleration is reached if no jerk is given.
 const TO_ACCELERATION_S: f64 = 0.1;
 
+/// A tool that has no further to go, m and rad, is there.
+const THERE: f64 = 1e-6;
+
 /// One line or arc with how it is driven.
 struct Leg<'a> {
     segment: Segment,
@@ -267,7 +270,7 @@ fn check(legs: &[Leg<'_>]) -> Result<(), Diagnostic> {
         let refused = |message: String, help: &'static str| {
             Err(leg.place.mark(Diagnostic::error("scenario::path", message).with_help(help)))
         };
-        if leg.segment.length_m() == 0.0 {
+        if leg.segment.is_turn_alone() && leg.segment.length_m() < THERE {
             return refused("the tool is there already".to_owned(), "leave the motion out");
         }
         if leg.segment.is_turn_alone() && matches!(leg.drive, Drive::Speed(_)) {

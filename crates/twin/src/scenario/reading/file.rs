@@ -50,8 +50,8 @@ struct Top {
 }
 
 /// The sections of a file besides its top.
-const SECTIONS: [&str; 9] =
-    ["simulation", "start", "controller", "limits", "motion", "obstacle", "zone", "check", "expect"];
+const SECTIONS: [&str; 10] =
+    ["simulation", "start", "controller", "limits", "motion", "obstacle", "grasp", "zone", "check", "expect"];
 
 impl ScenarioFile {
     /// Reads a file; `overrides` replace its values.
@@ -161,6 +161,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         keep_all(findings, section.require_table("cylinder").map_err(Into::into));
         section.read_into(findings)
     });
+    let grasp = all(&mut document, "grasp", findings, Section::read_into);
     let zone = all(&mut document, "zone", findings, |section, findings| {
         keep_all(findings, section.require_table("cylinder").map_err(Into::into));
         section.read_into(findings)
@@ -184,6 +185,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         limits: limits?,
         motion: motion?,
         obstacle: obstacle?,
+        grasp: grasp?,
         zone: zone?,
         check: check?,
         expect: expect?,
