@@ -122,7 +122,6 @@ fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Result<Mesh, Me
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ros_packages::RosPackages;
 
     const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 

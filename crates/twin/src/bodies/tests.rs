@@ -89,9 +89,12 @@ impl Recorder for Seen {
 
 fn seen(scenario: Scenario) -> Seen {
     let (_folder, description) = lift();
-    let setup = RunSetup::new(scenario, description).unwrap_or_else(|found| panic!("{found:#?}"));
+    watched(&RunSetup::new(scenario, description).unwrap_or_else(|found| panic!("{found:#?}")))
+}
+
+fn watched(setup: &RunSetup) -> Seen {
     let mut seen = Seen(Vec::new());
-    let (_, result) = Run::new(&setup).unwrap().finish(&mut setup.checks(), &mut seen, |_| ());
+    let (_, result) = Run::new(setup).unwrap().finish(&mut setup.checks(), &mut seen, |_| ());
     result.unwrap();
     seen
 }
@@ -199,4 +202,53 @@ fn what_cannot_move_so_is_refused() {
     refused(one(moving, vec![grasp(None)]), "scenario::grasp", "moves along a path");
     let no_body = GraspSettings { inertia_kg_m2: Some([1.0, 1.0, 3.0]), ..grasp(Some(1.0)) };
     refused(one(part(), vec![no_body]), "scenario::grasp_inertia", "of no body");
+}
+
+/// A cube of 200 mm around the origin, as text of an STL file in millimetres.
+fn cube() -> String {
+    let corner = |index: usize| [0, 1, 2].map(|bit| if index >> bit & 1 == 0 { -100 } else { 100 });
+    let sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let triangles = sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
+    let facet = |corners: [usize; 3]| {
+        let vertices = corners.map(|index| {
+            let [x, y, z] = corner(index);
+            format!("vertex {x} {y} {z}\n")
+        });
+        format!("facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n", vertices.concat())
+    };
+    format!("solid cube\n{}endsolid cube\n", triangles.map(facet).collect::<String>())
+}
+
+#[test]
+fn files_beside_the_scenario_are_found_and_others_are_not() {
+    let (folder, _) = lift();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("cube.stl", &cube());
+    write("up.csv", "time_s,slide_mm\n0,0\n1,250\n2,500\n");
+    let scenario = |mesh: &str| {
+        format!(
+            "schema_version = 1\nname = \"files\"\nrobot = \"lift.urdf\"\n[controller]\nkind = \"kinematic\"\n\
+             [[motion]]\nplay_csv = \"up.csv\"\nbetween = \"linear\"\n\
+             [[obstacle]]\nname = \"cube\"\nmesh = \"{mesh}\"\nscale = [0.001, 0.001, 0.002]\nxyz_m = [0.5, 0, 0]\n"
+        )
+    };
+    write("scenario.toml", &scenario("cube.stl"));
+    let path = folder.path().join("scenario.toml");
+    let setup = RunSetup::load(&path, &[]).unwrap_or_else(|found| panic!("{found:#?}"));
+    for (time_s, distances, q, _) in watched(&setup).0 {
+        assert!((q - 0.25 * time_s).abs() < 1e-12, "{q} at {time_s}");
+        // To a side at x = 0.4, which ends at z = 0.2.
+        let expected = (0.16 + (q - 0.2).max(0.0).powi(2)).sqrt() - 0.1;
+        assert!((distances["ball--cube"] - expected).abs() < 1e-7, "{distances:?} at {time_s}");
+    }
+    for (mesh, code) in
+        [("../../../cube.stl", "mesh::outside"), ("tube.stl", "mesh::not_found"), ("up.csv", "mesh::invalid")]
+    {
+        write("scenario.toml", &scenario(mesh));
+        let found = RunSetup::load(&path, &[]).map(|_| ()).unwrap_err();
+        assert!(
+            found[0].code == code && found[0].line_column().is_some_and(|(line, _)| line == 11),
+            "{found:#?}"
+        );
+    }
 }

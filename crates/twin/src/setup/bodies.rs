@@ -1,6 +1,10 @@
 //! `[[obstacle]] path` and `[[grasp]]` as moving bodies, and what carried bodies weigh as payloads.
 
-use congruent_description::{Diagnostic, Geometry, Inertia, LinkIndex, RobotDescription, known_names};
+use std::path::Path;
+
+use congruent_description::{
+    Diagnostic, Diagnostics, Geometry, Inertia, LinkIndex, RobotDescription, known_names,
+};
 use congruent_kinematics::UrdfTree;
 use congruent_simulation::{CarriedBody, Obstacle};
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
@@ -9,11 +13,62 @@ use super::{payload::Payload, spaces};
 use crate::{
     bodies::{BodyCourse, Grasp, MovingBody, PathPose},
     motion::Trajectory,
+    proximity::ObstacleMobility,
     scenario::{FilePlace, GraspSettings, ObstacleSettings, PoseSettings, Scenario},
 };
 
+/// The bodies around the robot.
+pub(super) struct Surroundings {
+    /// `None` if one of them is wrong.
+    pub(super) obstacles: Option<Vec<Obstacle>>,
+    /// Those of them that move.
+    pub(super) moving: Vec<MovingBody>,
+    /// What those that are carried weigh.
+    pub(super) payloads: Vec<Payload>,
+}
+
+impl Surroundings {
+    /// Builds all; their faults are kept in `found`.
+    pub(super) fn new(
+        scenario: &Scenario,
+        (place, folder): (FilePlace<'_>, &Path),
+        (description, trajectory): (&RobotDescription, Option<&Trajectory>),
+        found: &mut Diagnostics,
+    ) -> Self {
+        let places = place.key("obstacle");
+        let kind = (&spaces::OBSTACLE, folder);
+        let (mut moving, mut payloads) = (Vec::new(), Vec::new());
+        let built = spaces::build(&scenario.obstacle, places, kind, &description.robot);
+        let mut obstacles = built.map_err(|errors| found.extend(errors)).ok();
+        if let Some(obstacles) = &mut obstacles {
+            let paths = paths(&scenario.obstacle, places, obstacles);
+            moving = paths.map_err(|errors| found.extend(errors)).unwrap_or_default();
+        }
+        if let (Some(obstacles), Some(trajectory)) = (&obstacles, trajectory) {
+            let planned = (description, trajectory);
+            let held = grasps(scenario, place.key("grasp"), planned, (obstacles.as_slice(), &mut moving));
+            payloads = held.map_err(|errors| found.extend(errors)).unwrap_or_default();
+        }
+        Self { obstacles, moving, payloads }
+    }
+}
+
+/// How each of so many obstacles moves.
+pub(super) fn mobility(bodies: &[MovingBody], obstacles: usize) -> Vec<ObstacleMobility> {
+    let mut mobility = vec![ObstacleMobility::Still; obstacles];
+    for body in bodies {
+        mobility[body.obstacle] = match &body.course {
+            BodyCourse::Path(_) => ObstacleMobility::Moves,
+            BodyCourse::Grasps(grasps) => {
+                ObstacleMobility::Carried(grasps.iter().map(|grasp| grasp.link).collect())
+            }
+        };
+    }
+    mobility
+}
+
 /// Builds the paths of obstacles; each stands at first at the beginning of its path.
-pub(super) fn paths(
+fn paths(
     all: &[ObstacleSettings],
     places: FilePlace<'_>,
     obstacles: &mut [Obstacle],
@@ -66,7 +121,7 @@ fn path(settings: &ObstacleSettings, place: FilePlace<'_>) -> Result<Vec<PathPos
 }
 
 /// Builds the grasps of obstacles, beside those that move along a path, and their payloads.
-pub(super) fn grasps(
+fn grasps(
     scenario: &Scenario,
     places: FilePlace<'_>,
     (description, trajectory): (&RobotDescription, &Trajectory),

@@ -9,17 +9,16 @@ use congruent_kinematics::move_inside_limits;
 use congruent_simulation::{Gains, Obstacle, controller_names};
 
 use super::{
-    bodies,
+    bodies::{Surroundings, mobility},
     clock::RunClock,
     joint_targets::JointTargets,
     motion_limits, numbers,
     payload::Payload,
-    spaces,
     written_out::{write_out_defaults, write_out_paths},
     zones::{self, Zone},
 };
 use crate::{
-    bodies::{BodyCourse, MovingBody},
+    bodies::MovingBody,
     monitor::RunningCheck,
     motion::{MotionInput, Trajectory},
     proximity::ObstacleMobility,
@@ -133,27 +132,17 @@ impl RunSetup {
         move_inside_limits(&mut start, robot);
         let limits = motion_limits::build(&scenario.limits, place.key("limits"), robot);
         let trajectory = keep_all(&mut found, limits).and_then(|limits| {
-            let (motions, places) = (scenario.motion.as_slice(), place.key("motion"));
-            let input = MotionInput { motions, places, limits: &limits, folder };
+            let places = place.key("motion");
+            let input = MotionInput { motions: &scenario.motion, places, limits: &limits, folder };
             keep_all(&mut found, Trajectory::new(input, &description, &start, &mut warnings))
         });
         // Motions that cannot be planned are no fault of the clock.
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
-        let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
-        let clock = found.keep(clock);
-        let kind = (&spaces::OBSTACLE, folder);
-        let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), kind, robot);
-        let mut obstacles = keep_all(&mut found, obstacles);
-        let (mut moving, mut payloads) = (Vec::new(), Vec::new());
-        if let Some(obstacles) = &mut obstacles {
-            let paths = bodies::paths(&scenario.obstacle, place.key("obstacle"), obstacles);
-            moving = keep_all(&mut found, paths).unwrap_or_default();
-        }
-        if let (Some(obstacles), Some(trajectory)) = (&obstacles, &trajectory) {
-            let around = (obstacles.as_slice(), &mut moving);
-            let held = bodies::grasps(&scenario, place.key("grasp"), (&description, trajectory), around);
-            payloads = keep_all(&mut found, held).unwrap_or_default();
-        }
+        let clock = place.key("simulation");
+        let clock = found.keep(RunClock::new(&scenario.simulation, clock, motions_s, &mut warnings));
+        let planned = (&description, trajectory.as_ref());
+        let Surroundings { obstacles, moving, payloads } =
+            Surroundings::new(&scenario, (place, folder), planned, &mut found);
         let mobility = mobility(&moving, scenario.obstacle.len());
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
         found.keep(zones::paired_with_checks(&scenario.zone, &scenario.check, place));
@@ -173,14 +162,13 @@ impl RunSetup {
         if found.has_error() {
             return Err(found.into_vec());
         }
-        let line = |index| place.key("check").item(index).line();
-        let check_lines = (0..scenario.check.len()).map(line).collect();
+        let lines = (0..scenario.check.len()).map(|index| place.key("check").item(index).line());
+        let check_lines = lines.collect();
         write_out_defaults(&mut scenario, &description, (&clock, &start));
         write_out_paths(&mut scenario, folder);
-        let path = None;
         Ok(Self {
             scenario,
-            path,
+            path: None,
             overrides: Vec::new(),
             description,
             clock,
@@ -220,20 +208,6 @@ impl RunSetup {
         let controller = &self.scenario.controller;
         Gains { stiffness: controller.stiffness, damping: controller.damping }
     }
-}
-
-/// How each of so many obstacles moves.
-fn mobility(bodies: &[MovingBody], obstacles: usize) -> Vec<ObstacleMobility> {
-    let mut mobility = vec![ObstacleMobility::Still; obstacles];
-    for body in bodies {
-        mobility[body.obstacle] = match &body.course {
-            BodyCourse::Path(_) => ObstacleMobility::Moves,
-            BodyCourse::Grasps(grasps) => {
-                ObstacleMobility::Carried(grasps.iter().map(|grasp| grasp.link).collect())
-            }
-        };
-    }
-    mobility
 }
 
 /// The time of the motions as far as the scenario says it; a second for each that does not.
