@@ -95,7 +95,12 @@ pub fn read_mesh(folder: &Path, uri: &str, scale: Vector3<f64>) -> Result<Arc<Me
     let mut packages = Packages::new(folder, BTreeMap::new(), RosPackages::default()).map_err(|error| {
         Diagnostic::error("file::unreadable", format!("{} cannot be read: {error}", folder.display()))
     })?;
-    let found = MeshStore::new(&mut packages).find(uri, scale)?;
+    let found = MeshStore::new(&mut packages).find(uri, scale).map_err(|fault| match fault.code {
+        "mesh::outside" => {
+            fault.with_help("put the mesh into the project folder, which is the only one that is read")
+        }
+        _ => fault,
+    })?;
     if found.mesh.triangles.is_empty() {
         return Err(Diagnostic::error("mesh::empty", format!("mesh \"{uri}\": the scene is empty")));
     }

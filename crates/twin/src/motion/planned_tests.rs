@@ -466,7 +466,7 @@ fn motions_after_a_servo_start_where_it_ended() {
     let (step, said) = failed.unwrap();
     assert_eq!(step, 1000);
     assert!(
-        said.starts_with("motion 2 cannot start where the servo_tcp") && said.contains("cannot go on"),
+        said.starts_with("motion 2, after a servo_tcp, cannot be planned") && said.contains("cannot go on"),
         "{said}"
     );
 }

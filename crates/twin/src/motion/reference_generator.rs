@@ -22,7 +22,7 @@ pub enum MotionError {
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
     /// A motion after a servo cannot be planned from where the servo has brought the arm.
-    #[error("motion {motion} cannot start where the servo_tcp before it has ended: {}{}", .finding.message, help(.finding))]
+    #[error("motion {motion}, after a servo_tcp, cannot be planned from where the arm is: {}{}", .finding.message, help(.finding))]
     Planning {
         /// Its number in the scenario, from 1.
         motion: usize,

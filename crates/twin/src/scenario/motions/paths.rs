@@ -9,6 +9,7 @@ use super::profile::Profile;
 use crate::scenario::{
     number::{non_negative, optional_positive, positive},
     pose::PoseSettings,
+    text::variant,
 };
 
 /// The TCP goes along a straight line in the world, turning evenly on the way; it keeps its orientation if no rotation
@@ -138,6 +139,6 @@ pub struct PlaybackMotion {
     /// A CSV file, relative to the scenario: a column `time_s`, and columns `JOINT_deg`, `_rad`, `_m` or `_mm`.
     pub play_csv: String,
     /// What joints do between its rows.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "variant")]
     pub between: Between,
 }
