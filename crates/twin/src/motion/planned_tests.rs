@@ -10,8 +10,8 @@ use super::reference_generator::ReferenceGenerator;
 use crate::{
     scenario::{
         ArcMotion, ArcSettings, Between, ControllerSettings, JointMotion, JointPathMotion, LimitSettings,
-        LineMotion, MotionSettings, OverLimit, PlaybackMotion, PoseSettings, Profile, Scenario, ServoMotion,
-        StartSettings, TcpPathMotion,
+        LineMotion, MotionSettings, OverLimit, PlaybackMotion, PoseSettings, Profile, Scenario, ServoMethod,
+        ServoMotion, StartSettings, TcpPathMotion,
     },
     setup::RunSetup,
 };
@@ -149,7 +149,7 @@ fn a_line_is_straight_at_its_speed_and_keeps_the_orientation() {
     let setup = planned(vec![line(to.into(), 0.2, 0.0)]);
     let instants = instants(&setup);
     let direction = (to - from).normalize();
-    let mut at_speed = 0;
+    let mut at_speed = 0_u32;
     for (at, pair) in instants.windows(2).enumerate() {
         let way = tcp(&instants, at) - from;
         assert!((way - direction * way.dot(&direction)).norm() < PATH_M, "at {}", pair[0].time_s);
@@ -157,7 +157,7 @@ fn a_line_is_straight_at_its_speed_and_keeps_the_orientation() {
         assert!(turned < 1e-6, "{turned}");
         let speed = (tcp(&instants, at + 1) - tcp(&instants, at)).norm() * 1e3;
         assert!(speed < 0.2 + 1e-6, "{speed}");
-        at_speed += usize::from((speed - 0.2).abs() < 1e-6);
+        at_speed += u32::from((speed - 0.2).abs() < 1e-6);
     }
     let last = instants.len() - 1;
     assert!((tcp(&instants, last) - to).norm() < PATH_M);
@@ -166,7 +166,7 @@ fn a_line_is_straight_at_its_speed_and_keeps_the_orientation() {
     let (length, ramp_s) = ((to - from).norm(), 0.2 / 1.2 + 0.1);
     assert!((setup.trajectory.duration_s() - (length / 0.2 + ramp_s)).abs() < 1e-9);
     let expected = (length / 0.2 - ramp_s) * 1e3;
-    assert!((at_speed as f64 - expected).abs() < 4.0, "{at_speed} ms at speed, expected {expected}");
+    assert!((f64::from(at_speed) - expected).abs() < 4.0, "{at_speed} ms at speed, expected {expected}");
     assert_derivatives(&instants, 0.1);
 }
 
@@ -175,7 +175,7 @@ fn an_arc_keeps_its_radius() {
     let from = start();
     let centre = from + Vector3::new(0.0, 0.1, 0.0);
     let (via, to) = (centre + Vector3::new(0.1, 0.0, 0.0), centre + Vector3::new(0.0, 0.1, 0.0));
-    let arc_tcp = ArcSettings { via: pose(via.into()), to: pose(to.into()) };
+    let arc_tcp = Box::new(ArcSettings { via: pose(via.into()), to: pose(to.into()) });
     let arc = ArcMotion { arc_tcp, speed_m_s: Some(0.15), ..ArcMotion::default() };
     let setup = planned(vec![MotionSettings::Arc(arc)]);
     let instants = instants(&setup);
@@ -193,7 +193,7 @@ fn an_arc_keeps_its_radius() {
 fn a_narrow_arc_is_slower_and_says_so() {
     let from = start();
     let (via, to) = (from + Vector3::new(0.01, 0.01, 0.0), from + Vector3::new(0.0, 0.02, 0.0));
-    let arc_tcp = ArcSettings { via: pose(via.into()), to: pose(to.into()) };
+    let arc_tcp = Box::new(ArcSettings { via: pose(via.into()), to: pose(to.into()) });
     let arc = ArcMotion { arc_tcp, speed_m_s: Some(0.5), ..ArcMotion::default() };
     let setup = planned(vec![MotionSettings::Arc(arc)]);
     let warning = setup.warnings.iter().find(|warning| warning.code == "scenario::arc_speed").unwrap();
@@ -323,7 +323,7 @@ fn paths_that_cannot_be_driven_are_refused() {
     refused(vec![line(at(0.0), 0.1, 0.0)], "scenario::path", &["there already"]);
     let timeless = LineMotion { line_tcp: pose(at(0.1)), ..LineMotion::default() };
     refused(vec![MotionSettings::Line(timeless)], "scenario::path_speed", &["speed_m_s", "duration_s"]);
-    let arc_tcp = ArcSettings { via: pose(at(0.1)), to: pose(at(0.2)) };
+    let arc_tcp = Box::new(ArcSettings { via: pose(at(0.1)), to: pose(at(0.2)) });
     let arc = ArcMotion { arc_tcp, speed_m_s: Some(0.1), ..ArcMotion::default() };
     refused(vec![MotionSettings::Arc(arc)], "scenario::arc", &["straight line"]);
 }
@@ -436,7 +436,7 @@ fn motions_after_a_servo_start_where_it_ended() {
     let (servo, down) = (from + Vector3::new(0.05, 0.05, 0.0), Vector3::new(0.0, 0.0, -0.1));
     let servo_tcp = pose(servo.into());
     let drive =
-        ServoMotion { servo_tcp, method: Default::default(), gain_per_s: Some(20.0), duration_s: 1.0 };
+        ServoMotion { servo_tcp, method: ServoMethod::default(), gain_per_s: Some(20.0), duration_s: 1.0 };
     let away =
         LineMotion { line_tcp: pose((servo + down).into()), duration_s: Some(0.5), ..LineMotion::default() };
     let back = move_to("shoulder_pan_joint", 0.0, Some(0.5), Profile::Quintic);

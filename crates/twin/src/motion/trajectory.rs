@@ -8,9 +8,9 @@ use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 use super::{
     course::{Course, Motion, SetpointMut},
     joints::{joint_move, joint_path, playback},
-    pace::MotionLimits,
     planning::Planning,
     tcp::{path, tcp_move, tcp_servo},
+    timing::MotionLimits,
 };
 use crate::scenario::{FilePlace, MotionSettings};
 

@@ -8,9 +8,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
-    clearance::{Clearance, PairChoice},
+    clearance::Clearance,
     hulls::ProximityError,
     pair_names::{PairFault, PairNames},
+    pairs::PairChoice,
 };
 
 /// Distances at one configuration, in the order of the report's pairs.

@@ -4,11 +4,14 @@ mod clearance;
 mod distances;
 mod hulls;
 mod pair_names;
+mod pairs;
+mod travel;
 
-pub use clearance::{Carried, Clearance, Nearest, ObstacleMobility, Pair, PairChoice, measured_pairs};
+pub use clearance::{Clearance, Nearest};
 pub use distances::{
     BelowLimit, DistanceError, DistanceOptions, DistanceReport, Distances, Overlap, distances,
 };
 pub use hulls::{Hulls, ProximityError};
 pub(crate) use pair_names::matches;
 pub use pair_names::{PairFault, PairNames};
+pub use pairs::{Carried, ObstacleMobility, Pair, PairChoice, measured_pairs};

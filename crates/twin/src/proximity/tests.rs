@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use congruent_description::{Geometry, Joint, JointKind, JointParts, Link};
-use nalgebra::{Translation3, UnitQuaternion};
+use congruent_description::{Geometry, Joint, JointKind, JointParts, LinkIndex, Robot};
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
 use super::*;

@@ -72,36 +72,37 @@ impl Reader<'_> {
     /// One quantity under its four keys: in degrees, radians, metres and millimetres. Infinity for what is not given.
     fn given(&mut self, keys: [(&str, &BTreeMap<String, f64>); 4]) -> Vec<f64> {
         let mut values = vec![f64::INFINITY; self.robot.dof()];
-        let mut is_named = vec![false; self.robot.dof()];
-        let units = [Some(Unit::Angle), None, None, Some(Unit::Length)];
-        for (index, (key, by_joint)) in keys.into_iter().enumerate() {
-            let place = self.place.key(key);
-            for (name, &value) in by_joint {
-                let at_name = |error| crate::scenario::mark(error, place.key_span(name));
-                let value = units[index].map_or(value, |unit| unit.convert(value));
-                if !(value.is_finite() && value > 0.0) {
-                    let message = format!("{key}: expected a finite number above 0 for \"{name}\"");
-                    self.errors.push(at_name(Diagnostic::error("scenario::number", message)));
-                    continue;
-                }
-                match self.coordinates(name, index < 2) {
-                    Ok(coordinates) => {
-                        for coordinate in coordinates {
-                            if name != EVERY || !is_named[coordinate] {
-                                values[coordinate] = value;
-                            }
-                            is_named[coordinate] |= name != EVERY;
-                        }
-                    }
-                    Err(error) => self.errors.push(at_name(error)),
+        let units = [Unit::Angle, Unit::Angle, Unit::Length, Unit::Length];
+        let is_handy = [true, false, false, true];
+        // Named joints come after all others, so that they keep their own value.
+        for every in [true, false] {
+            for (index, (key, by_joint)) in keys.into_iter().enumerate() {
+                let place = self.place.key(key);
+                for (name, &value) in by_joint.iter().filter(|(name, _)| (*name == EVERY) == every) {
+                    let value = if is_handy[index] { units[index].convert(value) } else { value };
+                    let set = self.set(&mut values, (name, value), units[index]);
+                    let at_name = |error| crate::scenario::mark(error, place.key_span(name));
+                    self.errors.extend(set.map_err(at_name).err());
                 }
             }
         }
         values
     }
 
+    fn set(&self, values: &mut [f64], (name, value): (&str, f64), unit: Unit) -> Result<(), Diagnostic> {
+        if !(value.is_finite() && value > 0.0) {
+            let message = format!("limit of \"{name}\": expected a finite number above 0");
+            return Err(Diagnostic::error("scenario::number", message));
+        }
+        for coordinate in self.coordinates(name, unit)? {
+            values[coordinate] = value;
+        }
+        Ok(())
+    }
+
     /// The coordinates that a name means, of joints that turn or of joints that slide.
-    fn coordinates(&self, name: &str, turning: bool) -> Result<Vec<usize>, Diagnostic> {
+    fn coordinates(&self, name: &str, unit: Unit) -> Result<Vec<usize>, Diagnostic> {
+        let turning = matches!(unit, Unit::Angle);
         let of_kind = |joint: &Joint| joint.kind.is_angular() == turning;
         let joints = || self.robot.movable_joints().iter().map(|&joint| self.robot.joint(joint)).enumerate();
         if name == EVERY {

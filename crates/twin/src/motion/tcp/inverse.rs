@@ -16,7 +16,7 @@ const KNOT_M: f64 = 2e-3;
 const KNOT_RAD: f64 = 5e-3;
 /// At least so many intervals between two stops, and at most so many times the first number of intervals.
 const LEAST_INTERVALS: f64 = 32.0;
-const MOST_HALVINGS: i32 = 4;
+const MOST_HALVINGS: u32 = 4;
 /// Longest path, in intervals at first.
 const MOST_INTERVALS: f64 = 40_000.0;
 /// How far the tool may be from the path, between knots too.
@@ -59,7 +59,7 @@ pub(super) fn along(
     };
     let finest = (MOST_INTERVALS / follower.intervals(0, path.ends_m().len())).max(1.0);
     for halvings in 0..=MOST_HALVINGS {
-        let spline = follower.spline(f64::from(2_i32.pow(halvings.unsigned_abs())).min(finest), from)?;
+        let spline = follower.spline(f64::from(2_u32.pow(halvings)).min(finest), from)?;
         match follower.furthest(&spline)? {
             None => return Ok(spline),
             Some((at_m, joint)) if halvings == MOST_HALVINGS => return Err(Stop::Singular { at_m, joint }),

@@ -16,10 +16,10 @@ use super::{
 };
 use crate::{
     motion::{
-        course::{Course, Motion, PlannedMove, SetpointMut, Way},
-        joints::JointSpline,
-        pace::{Pace, RateLimits, SpeedProfile, Stretch},
+        course::{Course, Motion, PlannedMove, Way},
+        joints::{JointSpline, SplineValues},
         planning::Planning,
+        timing::{Pace, RateLimits, SpeedProfile, Stretch},
     },
     scenario::{ArcMotion, FilePlace, LineMotion, MotionSettings, PoseSettings, Profile, TcpPathMotion},
 };
@@ -133,8 +133,7 @@ fn split(
 
 fn end_of(spline: &JointSpline, share: f64, dof: usize) -> RobotQ {
     let (mut q, mut first, mut second) = (RobotQ::zeros(dof), vec![0.0; dof], vec![0.0; dof]);
-    let SetpointMut { q: values, qd, qdd } = SetpointMut { q: &mut q, qd: &mut first, qdd: &mut second };
-    spline.at(share, crate::motion::joints::SplineValues { q: values, first: qd, second: qdd });
+    spline.at(share, SplineValues { q: &mut q, first: &mut first, second: &mut second });
     q
 }
 

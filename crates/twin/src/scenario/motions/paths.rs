@@ -54,7 +54,7 @@ pub struct ArcSettings {
 #[serde(deny_unknown_fields)]
 pub struct ArcMotion {
     /// Where it goes.
-    pub arc_tcp: ArcSettings,
+    pub arc_tcp: Box<ArcSettings>,
     /// Speed of the TCP; it starts and ends at rest, unless a blend leads on.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub speed_m_s: Option<f64>,
