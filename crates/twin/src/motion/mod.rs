@@ -15,6 +15,7 @@ mod trajectory;
 pub use course::{Course, Motion, PlannedMove, TcpServo, Way};
 pub use joints::{JointSpline, JointTable, SplineEnds};
 pub use reference_generator::{MotionError, ReferenceGenerator};
+pub(crate) use tcp::drive::{ACCELERATION_M_S2, default_jerk_m_s3};
 pub(crate) use tcp::tcp_servo::DEFAULT_GAIN_PER_S;
 pub use tcp::tcp_servo::ServoResult;
 pub use timing::{MotionLimits, Pace, RateLimits, SpeedProfile, Stretch};

@@ -7,6 +7,7 @@ use congruent_description::{JointKind, Robot, RobotDescription, RobotQ};
 use super::clock::RunClock;
 use crate::{
     monitor::AT_THE_LIMIT,
+    motion::{ACCELERATION_M_S2, DEFAULT_GAIN_PER_S, default_jerk_m_s3},
     scenario::{Check, MotionSettings, Scenario, StartSettings},
 };
 
@@ -22,9 +23,26 @@ pub(super) fn write_out_defaults(
     scenario.simulation.duration_s = Some(clock.duration_s());
     scenario.start = written_start(&description.robot, start);
     for motion in &mut scenario.motion {
-        if let MotionSettings::Servo(servo) = motion {
-            servo.gain_per_s.get_or_insert(crate::motion::DEFAULT_GAIN_PER_S);
-        }
+        let rates = match motion {
+            MotionSettings::Servo(servo) => {
+                servo.gain_per_s.get_or_insert(DEFAULT_GAIN_PER_S);
+                continue;
+            }
+            MotionSettings::Line(line) if line.speed_m_s.is_some() => {
+                (&mut line.acceleration_m_s2, &mut line.jerk_m_s3)
+            }
+            MotionSettings::Arc(arc) if arc.speed_m_s.is_some() => {
+                (&mut arc.acceleration_m_s2, &mut arc.jerk_m_s3)
+            }
+            MotionSettings::TcpPath(path) => (&mut path.acceleration_m_s2, &mut path.jerk_m_s3),
+            _ => continue,
+        };
+        let acceleration_m_s2 = *rates.0.get_or_insert(ACCELERATION_M_S2);
+        rates.1.get_or_insert_with(|| default_jerk_m_s3(acceleration_m_s2));
+    }
+    for grasp in &mut scenario.grasp {
+        let tip = || description.robot.link(description.tip).name.clone();
+        grasp.link.get_or_insert_with(tip);
     }
     for check in &mut scenario.check {
         match check {
