@@ -14,6 +14,9 @@ const TO_VELOCITY_S: f64 = 0.25;
 /// In which a joint reaches its acceleration limit if no jerk limit is given.
 const TO_ACCELERATION_S: f64 = 0.1;
 
+/// A value of a file in the unit of the program.
+type ToSi = fn(Unit, f64) -> f64;
+
 /// The name that stands for every joint of a kind.
 const EVERY: &str = "*";
 
@@ -72,30 +75,41 @@ impl Reader<'_> {
     /// One quantity under its four keys: in degrees, radians, metres and millimetres. Infinity for what is not given.
     fn given(&mut self, keys: [(&str, &BTreeMap<String, f64>); 4]) -> Vec<f64> {
         let mut values = vec![f64::INFINITY; self.robot.dof()];
-        let units = [Unit::Angle, Unit::Angle, Unit::Length, Unit::Length];
-        let is_handy = [true, false, false, true];
+        let as_it_is: ToSi = |_, value| value;
+        let units: [(Unit, ToSi); 4] = [
+            (Unit::Angle, Unit::convert),
+            (Unit::Angle, as_it_is),
+            (Unit::Length, as_it_is),
+            (Unit::Length, Unit::convert),
+        ];
         // Named joints come after all others, so that they keep their own value.
-        for every in [true, false] {
-            for (index, (key, by_joint)) in keys.into_iter().enumerate() {
+        for is_every in [true, false] {
+            for ((key, by_joint), unit) in keys.into_iter().zip(units) {
+                let chosen = by_joint.iter().filter(|(name, _)| (*name == EVERY) == is_every);
                 let place = self.place.key(key);
-                for (name, &value) in by_joint.iter().filter(|(name, _)| (*name == EVERY) == every) {
-                    let value = if is_handy[index] { units[index].convert(value) } else { value };
-                    let set = self.set(&mut values, (name, value), units[index]);
-                    let at_name = |error| crate::scenario::mark(error, place.key_span(name));
-                    self.errors.extend(set.map_err(at_name).err());
-                }
+                let set = chosen.filter_map(|(name, &value)| {
+                    let found = self.set(&mut values, (name, value), unit);
+                    found.map_err(|error| crate::scenario::mark(error, place.key_span(name))).err()
+                });
+                let errors: Vec<Diagnostic> = set.collect();
+                self.errors.extend(errors);
             }
         }
         values
     }
 
-    fn set(&self, values: &mut [f64], (name, value): (&str, f64), unit: Unit) -> Result<(), Diagnostic> {
+    fn set(
+        &self,
+        values: &mut [f64],
+        (name, value): (&str, f64),
+        (unit, to_si): (Unit, ToSi),
+    ) -> Result<(), Diagnostic> {
         if !(value.is_finite() && value > 0.0) {
             let message = format!("limit of \"{name}\": expected a finite number above 0");
             return Err(Diagnostic::error("scenario::number", message));
         }
         for coordinate in self.coordinates(name, unit)? {
-            values[coordinate] = value;
+            values[coordinate] = to_si(unit, value);
         }
         Ok(())
     }
