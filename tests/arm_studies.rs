@@ -356,7 +356,7 @@ fn a_motion_goes_to_a_pose_of_the_tool_and_a_pose_out_of_reach_has_its_line() {
             "schema_version = 1\nname = \"tcp\"\nrobot = \"{robot}\"\n\
              [start]\njoints_deg = {{ shoulder_lift_joint = -90, elbow_joint = 90 }}\n\
              [controller]\nkind = \"kinematic\"\n\
-             [[motion]]\nmove_tcp = {{ xyz_m = [{x_m}, 0.1, 0.3], rpy_deg = [180, 0, 0] }}\nduration_s = 0.2\n\
+             [[motion]]\nmove_tcp = {{ xyz_m = [{x_m}, 0.1, 0.3], rpy_deg = [180, 0, 0] }}\nduration_s = 2.0\n\
              [[check]]\nkind = \"agreement\"\n"
         );
         std::fs::write(&path, scenario).unwrap();

@@ -26,7 +26,7 @@ robot = {robot:?}
 [controller]
 kind = "kinematic"
 [[motion]]
-move_joints_deg = {{ joint_1 = 10 }}
+move_joints_deg = {{ joint_1 = 0.5 }}
 duration_s = 0.01
 {more}"#
     );
@@ -314,7 +314,7 @@ fn a_target_out_of_reach_is_the_only_finding() {
     let input = scenario(&bench, "far", AGREEMENT);
     let far = fs::read_to_string(&input)
         .unwrap()
-        .replace("move_joints_deg = { joint_1 = 10 }", "move_tcp = { xyz_m = [3, 0, 0] }");
+        .replace("move_joints_deg = { joint_1 = 0.5 }", "move_tcp = { xyz_m = [3, 0, 0] }");
     bench.write("far.toml", &far);
     let (code, document, _, _) = run(&bench, &[&input]);
     let codes: Vec<&Value> =

@@ -58,6 +58,12 @@ fn ur5e_pick_passes() {
 }
 
 #[test]
+fn ur5e_grasp_and_ur5e_weld_pass() {
+    passes("ur5e_grasp");
+    passes("ur5e_weld");
+}
+
+#[test]
 fn panda_reach_passes() {
     passes("panda_reach");
 }

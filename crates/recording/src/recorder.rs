@@ -92,7 +92,7 @@ impl RerunRecorder {
             bodies,
             tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
             stride: stride(setup.clock.step_s),
-            batch: SampleBatch::new(names),
+            batch: SampleBatch::new(names, moving_names(setup)),
             disagreement: DisagreementSeries::new(names.links.len(), limits),
             clearance: ClearanceSeries::default(),
             robot_box: BoundingBox::empty(),
@@ -164,6 +164,11 @@ impl RecordingFormat for RerunFormat {
         let recorder = RerunRecorder::create(path, run.setup(), run.names(), run.model().sources())?;
         Ok(Box::new(recorder))
     }
+}
+
+/// Names of the obstacles that move.
+fn moving_names(setup: &RunSetup) -> Vec<String> {
+    setup.bodies.iter().map(|body| setup.obstacles[body.obstacle].name.clone()).collect()
 }
 
 /// Steps between two recorded samples.

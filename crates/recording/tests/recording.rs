@@ -59,7 +59,7 @@ fn scenario(folder: &Folder, robot: &str) -> RunSetup {
         kind = "kinematic"
         [[motion]]
         move_joints_deg = {{ shoulder_pan_joint = 20.0 }}
-        duration_s = 0.2
+        duration_s = 0.21
         [[obstacle]]
         name = "table"
         box_m = [0.8, 1.1, 0.04]

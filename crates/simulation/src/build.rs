@@ -4,7 +4,10 @@
 //! Insertion order is row order, so body `i + 1`, multibody link `i + 1` and coordinate `i` are
 //! one and the same joint throughout the crate.
 
+use std::collections::BTreeMap;
+
 use congruent_description::{Inertia, Joint, JointIndex, Mimic, Robot};
+use nalgebra::Isometry3;
 use rapier3d_f64::{
     dynamics::MultibodyDofCoupling,
     prelude::{
@@ -26,6 +29,8 @@ pub(crate) struct Built {
     pub sets: EngineSets,
     pub handles: Vec<RigidBodyHandle>,
     pub slots: Vec<EngineSlot>,
+    /// The bodies of obstacles that may move, by the number of the obstacle.
+    pub moving: BTreeMap<usize, RigidBodyHandle>,
     /// `None` for a robot without a movable joint, for which rapier makes no multibody.
     pub multibody: Option<MultibodyIndex>,
 }
@@ -42,8 +47,10 @@ pub(crate) fn build(
         .enumerate()
         .map(|(body, inertia)| sets.bodies.insert(rigid_body(body, inertia)))
         .collect();
+    let mut moving = BTreeMap::new();
     if settings.contacts && !settings.obstacles.is_empty() {
-        add_colliders(&mut sets, &handles, robot, bodies, &settings.obstacles)?;
+        add_colliders(&mut sets, &handles, robot, bodies)?;
+        moving = add_obstacles(&mut sets, settings)?;
     }
     let slots = slots(robot, settings)?;
     for (slot, &index) in slots.iter().zip(robot.movable_joints()) {
@@ -63,7 +70,7 @@ pub(crate) fn build(
     if let Some(index) = multibody {
         finish_multibody(&mut sets, index, robot, &slots);
     }
-    Ok(Built { sets, handles, slots, multibody })
+    Ok(Built { sets, handles, slots, moving, multibody })
 }
 
 fn rigid_body(body: usize, inertia: &Inertia) -> RigidBodyBuilder {
@@ -79,17 +86,32 @@ fn add_colliders(
     handles: &[RigidBodyHandle],
     robot: &Robot,
     bodies: &Bodies,
-    obstacles: &[Obstacle],
 ) -> Result<(), SimulationError> {
     for (body, collider) in contact::of_links(robot, bodies)? {
         sets.colliders.insert_with_parent(collider, handles[body], &mut sets.bodies);
     }
-    for obstacle in obstacles {
-        if let Some(collider) = contact::of_obstacle(obstacle)? {
+    Ok(())
+}
+
+/// Obstacles that stand still are colliders alone; those that may move hang on bodies whose poses are given.
+fn add_obstacles(
+    sets: &mut EngineSets,
+    settings: &WorldSettings,
+) -> Result<BTreeMap<usize, RigidBodyHandle>, SimulationError> {
+    let mut moving = BTreeMap::new();
+    for (index, obstacle) in settings.obstacles.iter().enumerate() {
+        if settings.moving_obstacles.contains(&index) {
+            let at_origin = Obstacle { world_from_obstacle: Isometry3::identity(), ..obstacle.clone() };
+            let Some(collider) = contact::of_obstacle(&at_origin)? else { continue };
+            let pose = adapter::pose(&obstacle.world_from_obstacle);
+            let body = sets.bodies.insert(RigidBodyBuilder::kinematic_position_based().pose(pose));
+            sets.colliders.insert_with_parent(collider, body, &mut sets.bodies);
+            moving.insert(index, body);
+        } else if let Some(collider) = contact::of_obstacle(obstacle)? {
             sets.colliders.insert(collider);
         }
     }
-    Ok(())
+    Ok(moving)
 }
 
 fn slots(robot: &Robot, settings: &WorldSettings) -> Result<Vec<EngineSlot>, SimulationError> {
@@ -152,10 +174,8 @@ fn generic_joint(joint: &Joint, bodies: &Bodies, slot: &EngineSlot) -> GenericJo
         JointAxis::AngX => JointAxesMask::LOCKED_REVOLUTE_AXES,
         _ => JointAxesMask::LOCKED_PRISMATIC_AXES,
     };
-    let x_onto_axis = nalgebra::Isometry3::from_parts(
-        nalgebra::Translation3::identity(),
-        adapter::x_onto(&joint.axis_in_joint),
-    );
+    let x_onto_axis =
+        Isometry3::from_parts(nalgebra::Translation3::identity(), adapter::x_onto(&joint.axis_in_joint));
     let parent = bodies.links[joint.parent.get()];
     let body_from_joint = adapter::pose(&parent.body_from_link) * adapter::pose(&joint.parent_from_joint);
     let turn: Pose = adapter::pose(&x_onto_axis);

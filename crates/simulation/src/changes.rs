@@ -1,8 +1,11 @@
 //! Changes of a robot while it runs: what resists a joint, what an actuator delivers, what a link carries.
 
 use congruent_description::Inertia;
+use nalgebra::Isometry3;
 
-use crate::{actuation::DriveConnection, carried::CarriedBody, error::SimulationError, world::World};
+use crate::{
+    actuation::DriveConnection, carried::CarriedBody, error::SimulationError, settings::Touches, world::World,
+};
 
 impl World {
     /// Sets the viscous damping of a joint, N m s/rad or N s/m. It is integrated implicitly, so that any value is
@@ -110,6 +113,12 @@ impl World {
             self.engine.set_inertia(body, &whole);
         }
         self.engine.update_jacobians();
+    }
+
+    /// Moves one of the moving obstacles of the settings: to this pose at the end of the next step if it touches links
+    /// and did so before, at once otherwise.
+    pub fn move_obstacle(&mut self, obstacle: usize, world_from_obstacle: &Isometry3<f64>, touches: Touches) {
+        self.engine.move_obstacle(obstacle, world_from_obstacle, touches);
     }
 
     fn check_resistance(

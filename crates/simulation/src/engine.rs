@@ -1,6 +1,8 @@
 //! The robot in rapier: sets states and forces, steps, reads states. It has coordinates only; names of links
 //! and joints are in `world.rs`.
 
+use std::collections::BTreeMap;
+
 use congruent_description::Inertia;
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::{
@@ -14,7 +16,7 @@ use crate::{
     build::Built,
     drive::{CoordinateState, Drive, Linear, Saturation},
     sets::{EngineSets, EngineSlot},
-    settings::WorldSettings,
+    settings::{Touches, WorldSettings},
 };
 
 /// Sweeps of the constraint solver in a step. Dry friction that holds a six-joint arm creeps in 5 s
@@ -36,6 +38,8 @@ pub(crate) struct Engine {
     sets: EngineSets,
     handles: Vec<RigidBodyHandle>,
     slots: Vec<EngineSlot>,
+    /// Bodies of obstacles that may move.
+    moving: BTreeMap<usize, RigidBodyHandle>,
     multibody: Option<MultibodyIndex>,
     pipeline: PhysicsPipeline,
     parameters: IntegrationParameters,
@@ -57,11 +61,22 @@ impl Engine {
             normalized_max_linear_velocity: f64::MAX,
             ..IntegrationParameters::default()
         };
-        let Built { sets, handles, slots, multibody } = built;
+        let Built { sets, handles, slots, moving, multibody } = built;
         let gravity = adapter::vector(&settings.gravity_in_world);
         let pipeline = new_pipeline();
         let drives = vec![Drive::default(); slots.len()];
-        Self { sets, handles, slots, multibody, pipeline, parameters, gravity, drives, is_forced: false }
+        Self {
+            sets,
+            handles,
+            slots,
+            moving,
+            multibody,
+            pipeline,
+            parameters,
+            gravity,
+            drives,
+            is_forced: false,
+        }
     }
 
     pub(crate) fn step_s(&self) -> f64 {
@@ -212,6 +227,29 @@ impl Engine {
         let body = sets.bodies.get_mut(self.handles[body]).expect("the body exists");
         body.set_additional_mass_properties(adapter::mass_properties(inertia), false);
         body.recompute_mass_properties_from_colliders(&sets.colliders);
+    }
+
+    /// Moves an obstacle to a pose at the end of the next step, or puts it there; without contacts nothing is moved.
+    pub(crate) fn move_obstacle(&mut self, obstacle: usize, pose: &Isometry3<f64>, touches: Touches) {
+        let Some(&handle) = self.moving.get(&obstacle) else { return };
+        let sets = &mut self.sets;
+        let body = sets.bodies.get_mut(handle).expect("the body exists");
+        let pose = adapter::pose(pose);
+        let was_enabled = body.is_enabled();
+        match touches {
+            Touches::Links => {
+                body.set_enabled(true);
+                if was_enabled {
+                    body.set_next_kinematic_position(pose);
+                } else {
+                    body.set_position(pose, true);
+                }
+            }
+            Touches::Nothing => {
+                body.set_enabled(false);
+                body.set_position(pose, true);
+            }
+        }
     }
 
     /// To be called after inertias have changed: Jacobians are those of the centres of mass.

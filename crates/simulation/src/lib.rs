@@ -24,7 +24,7 @@ pub use actuation::{
 pub use carried::CarriedBody;
 pub use drive::Saturation;
 pub use error::SimulationError;
-pub use settings::{Obstacle, WorldSettings};
+pub use settings::{Obstacle, Touches, WorldSettings};
 pub use world::{World, WorldSnapshot};
 
 /// Name and version of the physics engine, as reports give it; a test of the workspace compares it

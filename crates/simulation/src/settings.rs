@@ -12,8 +12,10 @@ pub struct WorldSettings {
     pub step_s: f64,
     /// Acceleration of free fall, m/s^2.
     pub gravity_in_world: Vector3<f64>,
-    /// Bodies that stand still.
+    /// Bodies around the robot.
     pub obstacles: Vec<Obstacle>,
+    /// Numbers of the obstacles that [`World::move_obstacle`](crate::World::move_obstacle) may move.
+    pub moving_obstacles: Vec<usize>,
     /// Whether links touch obstacles; links never touch each other.
     pub contacts: bool,
     /// Whether actuators keep the limits of effort and velocity that the description gives.
@@ -27,18 +29,28 @@ impl Default for WorldSettings {
             step_s: 1e-3,
             gravity_in_world: Vector3::new(0.0, 0.0, -9.81),
             obstacles: Vec::new(),
+            moving_obstacles: Vec::new(),
             contacts: false,
             actuator_limits: true,
         }
     }
 }
 
-/// A body that stands still in the world.
+/// What an obstacle touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Touches {
+    /// The links of the robot.
+    Links,
+    /// Nothing: a link carries it.
+    Nothing,
+}
+
+/// A body around the robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Obstacle {
     /// Name, as in the scenario.
     pub name: String,
-    /// Pose of the shape's frame in the world, m.
+    /// Pose of the shape's frame in the world at first, m.
     pub world_from_obstacle: Isometry3<f64>,
     /// The shape, m; of a mesh, the convex hull has contacts.
     pub geometry: Geometry,

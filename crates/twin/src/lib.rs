@@ -4,6 +4,7 @@
 //! [`scenario`] is a scenario as plain data, [`setup`] checks it against its robot, [`Run`] is the loop over a
 //! [`source`] of joint states, [`monitor`] holds the checks, and [`execute`] does all of it for one scenario.
 
+pub mod bodies;
 pub mod comparison;
 mod control;
 pub mod diagnosis;

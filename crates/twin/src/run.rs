@@ -8,10 +8,11 @@ use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
 
 use crate::{
+    bodies::MovingBodies,
     diagnosis::{RunDiagnosis, SampleStore, diagnose},
     monitor::{Names, RunningCheck},
     motion::ServoResult,
-    proximity::{Clearance, PairChoice, ProximityError},
+    proximity::{Carried, Clearance, PairChoice, ProximityError},
     recorder::{Recorder, RecordingError},
     sample::Sample,
     setup::RunSetup,
@@ -67,6 +68,7 @@ pub struct Run<'a> {
     /// Computes the poses of the links for a source that has joint states only.
     tree: UrdfTree,
     clearance: Clearance,
+    bodies: MovingBodies<'a>,
     zones: Clearance,
     names: Names,
     root_from_links: Vec<Isometry3<f64>>,
@@ -104,7 +106,9 @@ impl<'a> Run<'a> {
     ) -> Result<Self, RunError> {
         let robot = &setup.description.robot;
         let links = robot.links().len();
-        let clearance = Clearance::new(&setup.description, &setup.obstacles, PairChoice::Usual)?;
+        let mobility = setup.mobility();
+        let obstacles = (setup.obstacles.as_slice(), mobility.as_slice());
+        let clearance = Clearance::with_moving(&setup.description, obstacles, PairChoice::Usual)?;
         let zones = clearance.before_zones(&setup.zones)?;
         Ok(Self {
             setup,
@@ -113,6 +117,7 @@ impl<'a> Run<'a> {
             tree: UrdfTree::new(robot),
             names: Names::new(robot, &clearance, &zones),
             clearance,
+            bodies: MovingBodies::new(&setup.bodies, &setup.obstacles),
             zones,
             root_from_links: vec![Isometry3::identity(); links],
             by_tree: vec![Pose::identity(); links],
@@ -175,9 +180,14 @@ impl<'a> Run<'a> {
         checks: &mut [RunningCheck],
         recorder: &mut dyn Recorder,
     ) -> Result<Option<usize>, RunError> {
+        let step = self.source.step_count();
+        self.bodies.advance(self.setup.clock.time_s(step), |link| self.root_from_links[link.get()]);
+        for (obstacle, pose, is_carried) in self.bodies.poses() {
+            let carried = if is_carried { Carried::Yes } else { Carried::No };
+            self.clearance.move_obstacle(obstacle, pose, carried);
+        }
         self.clearance.move_links(&self.root_from_links);
         self.zones.move_links(&self.root_from_links);
-        let step = self.source.step_count();
         let joints = self.source.joints();
         let mut sample = Sample {
             step,
@@ -188,6 +198,7 @@ impl<'a> Run<'a> {
             twin: &self.root_from_links,
             errors: &self.errors,
             clearance: &mut self.clearance,
+            bodies: &self.bodies,
             zones: &mut self.zones,
         };
         for check in checks.iter_mut() {

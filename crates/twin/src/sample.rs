@@ -3,7 +3,7 @@
 use congruent_kinematics::{Pose, PoseError};
 use nalgebra::Isometry3;
 
-use crate::{proximity::Clearance, source::JointSample};
+use crate::{bodies::MovingBodies, proximity::Clearance, source::JointSample};
 
 /// One instant: borrowed from the run loop, nothing is copied.
 #[derive(Debug)]
@@ -26,6 +26,8 @@ pub struct Sample<'a> {
     pub errors: &'a [PoseError],
     /// Distances between links and to obstacles, measured when a monitor needs them.
     pub clearance: &'a mut Clearance,
+    /// The obstacles that move.
+    pub bodies: &'a MovingBodies<'a>,
     /// Distances from links to the zones that are forbidden to them, likewise.
     pub zones: &'a mut Clearance,
 }

@@ -8,4 +8,5 @@ mod obj;
 mod stl;
 mod store;
 
+pub use store::read_mesh;
 pub(crate) use store::{FindMesh, FoundMesh, MeshStore};

@@ -1,6 +1,10 @@
 //! The meshes of one robot: each file is read once for each scale and shared.
 
-use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use nalgebra::{Point3, Vector3};
 
@@ -13,6 +17,7 @@ use crate::{
     file::read_bytes,
     model::Mesh,
     packages::{Packages, Resolved},
+    ros_packages::RosPackages,
 };
 
 /// The largest mesh file that is read.
@@ -81,6 +86,27 @@ impl<'a> MeshStore<'a> {
     }
 }
 
+/// The mesh that another file in `folder` names, scaled; nothing outside of the project folder is opened.
+///
+/// # Errors
+/// The file cannot be found or read, is outside of the project folder, or is no mesh.
+pub fn read_mesh(folder: &Path, uri: &str, scale: Vector3<f64>) -> Result<Arc<Mesh>, Diagnostic> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let mut packages = Packages::new(folder, BTreeMap::new(), RosPackages::default()).map_err(|error| {
+        Diagnostic::error("file::unreadable", format!("{} cannot be read: {error}", folder.display()))
+    })?;
+    let found = MeshStore::new(&mut packages).find(uri, scale).map_err(|fault| match fault.code {
+        "mesh::outside" => {
+            fault.with_help("put the mesh into the project folder, which is the only one that is read")
+        }
+        _ => fault,
+    })?;
+    if found.mesh.triangles.is_empty() {
+        return Err(Diagnostic::error("mesh::empty", format!("mesh \"{uri}\": the scene is empty")));
+    }
+    Ok(found.mesh)
+}
+
 fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Result<Mesh, MeshError> {
     let vertices_m: Vec<_> =
         mesh.vertices_m.iter().map(|vertex| Point3::from(vertex.coords.component_mul(&scale))).collect();
@@ -101,7 +127,6 @@ fn scaled(path: PathBuf, mesh: MeshFile, scale: Vector3<f64>) -> Result<Mesh, Me
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ros_packages::RosPackages;
 
     const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 

@@ -3,6 +3,7 @@
 use congruent_description::{Link, Robot, Shape};
 use congruent_simulation::Obstacle;
 use congruent_twin::{RunSetup, recorder::RecordingError};
+use nalgebra::Isometry3;
 use re_log_types::{EntityPath, TimePoint};
 use re_sdk_types::{
     archetypes::{LineStrips3D, ViewCoordinates},
@@ -44,6 +45,10 @@ pub(crate) fn write(
         write_body(writer, &model, &paths::model(&link.name), Some(Coloring::Uniform(palette::MODEL)))?;
     }
     for (index, obstacle) in setup.obstacles.iter().enumerate() {
+        // The pose of one that moves is recorded over time.
+        let moves = setup.bodies.iter().any(|body| body.obstacle == index);
+        let at_origin = Obstacle { world_from_obstacle: Isometry3::identity(), ..obstacle.clone() };
+        let obstacle = if moves { &at_origin } else { obstacle };
         write_obstacle(writer, obstacle, &paths::obstacle(&obstacle.name), palette::obstacle(index))?;
     }
     for zone in &setup.zones {

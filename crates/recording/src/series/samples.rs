@@ -42,6 +42,9 @@ pub(crate) struct SampleBatch {
     times: SampleTimes,
     twin: Vec<RerunPose>,
     model: Vec<RerunPose>,
+    /// Poses of the obstacles that move, and their names.
+    moving: Vec<RerunPose>,
+    moving_names: Vec<String>,
     errors: Vec<PoseError>,
     q: Vec<f64>,
     joints: JointSeries,
@@ -53,12 +56,14 @@ pub(crate) struct SampleBatch {
 
 impl SampleBatch {
     /// An empty batch for a robot with these names.
-    pub(crate) fn new(names: &Names) -> Self {
+    pub(crate) fn new(names: &Names, moving_names: Vec<String>) -> Self {
         let poses = MAX_ROWS * names.links.len();
         Self {
             times: SampleTimes::with_capacity(MAX_ROWS),
             twin: Vec::with_capacity(poses),
             model: Vec::with_capacity(poses),
+            moving: Vec::with_capacity(MAX_ROWS * moving_names.len()),
+            moving_names,
             errors: Vec::with_capacity(poses),
             q: Vec::with_capacity(MAX_ROWS * names.joints.len()),
             joints: JointSeries::default(),
@@ -78,6 +83,7 @@ impl SampleBatch {
         self.times.push(time);
         self.twin.extend(sample.twin.iter().map(RerunPose::from));
         self.model.extend(sample.model.iter().map(|pose: &Pose| RerunPose::from(&pose.to_isometry())));
+        self.moving.extend(sample.bodies.poses().map(|(_, pose, _)| RerunPose::from(pose)));
         self.errors.extend_from_slice(sample.errors);
         self.q.extend_from_slice(sample.joints.truth.q);
         self.joints.push(sample);
@@ -103,6 +109,10 @@ impl SampleBatch {
             write_scalars(writer, &paths::position_error(link), &times, positions)?;
             let orientations = errors().map(|error| error.orientation_rad);
             write_scalars(writer, &paths::orientation_error(link), &times, orientations)?;
+        }
+        for (index, name) in self.moving_names.iter().enumerate() {
+            let poses = self.moving.iter().skip(index).step_by(self.moving_names.len());
+            writer.columns(&paths::obstacle(name), &times, transforms(poses)?)?;
         }
         self.write_worst(writer, &times, links)?;
         for (index, joint) in names.joints.iter().enumerate() {
@@ -147,6 +157,7 @@ impl SampleBatch {
         self.times.clear();
         self.twin.clear();
         self.model.clear();
+        self.moving.clear();
         self.errors.clear();
         self.q.clear();
         self.tool.clear();

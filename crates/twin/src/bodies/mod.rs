@@ -2,6 +2,8 @@
 
 mod moving_bodies;
 mod moving_body;
+#[cfg(test)]
+mod tests;
 
 pub use moving_bodies::MovingBodies;
 pub use moving_body::{BodyCourse, Grasp, MovingBody, PathPose};

@@ -50,7 +50,12 @@ impl<'a> MovingBodies<'a> {
 }
 
 impl State {
-    fn follow(&mut self, grasps: &[Grasp], time_s: f64, root_from_link: &impl Fn(LinkIndex) -> Isometry3<f64>) {
+    fn follow(
+        &mut self,
+        grasps: &[Grasp],
+        time_s: f64,
+        root_from_link: &impl Fn(LinkIndex) -> Isometry3<f64>,
+    ) {
         // Until it is left it goes along, so that it is left where the link is then.
         if let Some((grasp, link_from_obstacle)) = self.held {
             self.world_from_obstacle = root_from_link(grasp.link) * link_from_obstacle;

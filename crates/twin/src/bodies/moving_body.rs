@@ -67,12 +67,20 @@ mod tests {
             world_from_obstacle: Isometry3::new(Vector3::new(x, 0.0, 0.0), Vector3::z() * turn_rad),
         };
         let path = [pose(1.0, 0.0, 0.0), pose(2.0, 1.0, 1.0), pose(4.0, 1.0, -1.0)];
-        for (time_s, x, turn_rad) in
-            [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.25, 0.25, 0.25), (2.0, 1.0, 1.0), (3.0, 1.0, 0.0), (9.0, 1.0, -1.0)]
-        {
+        for (time_s, x, turn_rad) in [
+            (0.0, 0.0, 0.0),
+            (1.0, 0.0, 0.0),
+            (1.25, 0.25, 0.25),
+            (2.0, 1.0, 1.0),
+            (3.0, 1.0, 0.0),
+            (9.0, 1.0, -1.0),
+        ] {
             let found = on_path(&path, time_s);
             let turn = UnitQuaternion::from_scaled_axis(Vector3::z() * turn_rad);
-            assert!((found.translation.vector.x - x).abs() < 1e-15 && found.rotation.angle_to(&turn) < 1e-7, "{time_s}");
+            assert!(
+                (found.translation.vector.x - x).abs() < 1e-15 && found.rotation.angle_to(&turn) < 1e-7,
+                "{time_s}"
+            );
         }
     }
 }

@@ -9,7 +9,7 @@ use super::{
     watch::Watch,
 };
 use crate::{
-    proximity::{Clearance, Nearest, PairChoice, PairNames, measured_pairs},
+    proximity::{Clearance, Nearest, ObstacleMobility, PairChoice, PairNames, measured_pairs},
     sample::Sample,
     scenario::{ClearanceCheck, FilePlace, ObstacleSettings},
     verdict::Bound,
@@ -43,11 +43,11 @@ struct LookedAt {
 pub(super) fn examine(
     check: &ClearanceCheck,
     place: FilePlace<'_>,
-    (description, obstacles): (&RobotDescription, &[ObstacleSettings]),
+    (description, obstacles, mobility): (&RobotDescription, &[ObstacleSettings], &[ObstacleMobility]),
 ) -> Result<(), Diagnostic> {
     let links = description.robot.links().iter().map(|link| link.name.as_str());
     let subjects: Vec<&str> = links.chain(obstacles.iter().map(|obstacle| obstacle.name.as_str())).collect();
-    let pairs = measured_pairs(description, obstacles.len(), PairChoice::Usual);
+    let pairs = measured_pairs(description, mobility, PairChoice::Usual);
     let measured: Vec<(&str, &str)> = pairs.iter().map(|pair| (subjects[pair.a], subjects[pair.b])).collect();
     let refused = names(check).examine(&subjects, &measured);
     refused.map_err(|fault| place.key(fault.key).item(fault.entry).mark(fault.diagnostic))

@@ -13,6 +13,7 @@ use super::{
     zone::ZoneMonitor,
 };
 use crate::{
+    proximity::ObstacleMobility,
     scenario::{Check, CheckKind, FilePlace, ObstacleSettings, OnViolation},
     verdict::{CheckResult, Status},
 };
@@ -46,7 +47,7 @@ impl RunningCheck {
     pub fn examine(
         check: &Check,
         place: FilePlace<'_>,
-        around: (&RobotDescription, &[ObstacleSettings]),
+        around: (&RobotDescription, &[ObstacleSettings], &[ObstacleMobility]),
     ) -> Result<(), Diagnostic> {
         match check {
             Check::Clearance(check) => clearance::examine(check, place, around),

@@ -7,7 +7,7 @@ use congruent_kinematics::IkTarget;
 
 use super::{
     joints::{JointSpline, SplineValues},
-    pace::Pace,
+    timing::Pace,
 };
 use crate::scenario::{MotionSettings, ServoMethod};
 

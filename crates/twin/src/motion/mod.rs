@@ -2,7 +2,6 @@
 
 mod course;
 mod joints;
-mod pace;
 #[cfg(test)]
 mod planned_tests;
 mod planning;
@@ -10,13 +9,15 @@ mod reference_generator;
 mod tcp;
 #[cfg(test)]
 mod tests;
+mod timing;
 mod trajectory;
 
 pub use course::{Course, Motion, PlannedMove, TcpServo, Way};
 pub use joints::{JointSpline, JointTable, SplineEnds};
-pub use pace::{MotionLimits, Pace, RateLimits, SpeedProfile, Stretch};
 pub use reference_generator::{MotionError, ReferenceGenerator};
+pub(crate) use tcp::drive::{ACCELERATION_M_S2, default_jerk_m_s3};
 pub(crate) use tcp::tcp_servo::DEFAULT_GAIN_PER_S;
 pub use tcp::tcp_servo::ServoResult;
+pub use timing::{MotionLimits, Pace, RateLimits, SpeedProfile, Stretch};
 pub(crate) use trajectory::MotionInput;
 pub use trajectory::Trajectory;

@@ -6,7 +6,7 @@ use congruent_description::{Diagnostic, RobotDescription, RobotQ, display::quant
 
 use super::{
     course::{PlannedMove, SetpointMut, Way},
-    pace::MotionLimits,
+    timing::MotionLimits,
 };
 use crate::scenario::{FilePlace, OverLimit};
 

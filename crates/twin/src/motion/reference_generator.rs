@@ -7,9 +7,9 @@ use congruent_kinematics::KinematicsError;
 
 use super::{
     course::{Course, PlannedMove, SetpointMut},
-    pace::MotionLimits,
     planning::Planning,
     tcp::tcp_servo::{ServoController, ServoResult, StepInterval},
+    timing::MotionLimits,
     trajectory::{Trajectory, plan},
 };
 use crate::scenario::{FilePlace, MotionSettings, OverLimit};
@@ -22,7 +22,7 @@ pub enum MotionError {
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
     /// A motion after a servo cannot be planned from where the servo has brought the arm.
-    #[error("motion {motion} cannot start where the servo_tcp before it has ended: {}{}", .finding.message, help(.finding))]
+    #[error("motion {motion}, after a servo_tcp, cannot be planned from where the arm is: {}{}", .finding.message, help(.finding))]
     Planning {
         /// Its number in the scenario, from 1.
         motion: usize,
@@ -125,8 +125,10 @@ impl<'a> ReferenceGenerator<'a> {
                 planned.at(time_s - starts_s, setpoint(&mut self.q, &mut self.qd, &mut self.qdd));
             }
             Course::Open(_) => {
-                let planned = self.planned.as_ref().expect("it was planned when the motion began");
-                planned.at(time_s - starts_s, setpoint(&mut self.q, &mut self.qd, &mut self.qdd));
+                // It was planned when the motion began.
+                if let Some(planned) = &self.planned {
+                    planned.at(time_s - starts_s, setpoint(&mut self.q, &mut self.qd, &mut self.qdd));
+                }
             }
             Course::Servo(servo) => {
                 self.qdd.fill(0.0);

@@ -6,8 +6,8 @@ use congruent_description::load_robot;
 
 use super::{
     course::{Course, Motion, PlannedMove, Way},
-    pace::{MotionLimits, Pace},
     reference_generator::ReferenceGenerator,
+    timing::{MotionLimits, Pace},
     trajectory::Trajectory,
 };
 use crate::scenario::{OverLimit, Profile};

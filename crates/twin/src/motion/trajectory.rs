@@ -6,11 +6,11 @@ use std::path::Path;
 use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 
 use super::{
-    course::{Course, Motion},
+    course::{Course, Motion, SetpointMut},
     joints::{joint_move, joint_path, playback},
-    pace::MotionLimits,
     planning::Planning,
     tcp::{path, tcp_move, tcp_servo},
+    timing::MotionLimits,
 };
 use crate::scenario::{FilePlace, MotionSettings};
 
@@ -75,12 +75,30 @@ impl Trajectory {
         &self.motions
     }
 
+    /// When each motion begins, and how long it takes.
+    pub fn times(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.starts_s.iter().zip(&self.motions).map(|(&starts_s, motion)| (starts_s, motion.duration_s))
+    }
+
     /// When the last motion ends.
     pub fn duration_s(&self) -> f64 {
         match (self.starts_s.last(), self.motions.last()) {
             (Some(start_s), Some(motion)) => start_s + motion.duration_s,
             _ => 0.0,
         }
+    }
+
+    /// The planned positions at a time; `None` from the beginning of a servo on.
+    pub(crate) fn planned_at(&self, time_s: f64) -> Option<RobotQ> {
+        let Some((index, starts_s)) = self.under_way(time_s) else { return Some(self.start.clone()) };
+        if self.motions[..=index].iter().any(|motion| !matches!(motion.course, Course::Planned(_))) {
+            return None;
+        }
+        let Course::Planned(planned) = &self.motions[index].course else { return None };
+        let mut q = self.start.clone();
+        let (mut qd, mut qdd) = (vec![0.0; q.len()], vec![0.0; q.len()]);
+        planned.at(time_s - starts_s, SetpointMut { q: &mut q, qd: &mut qd, qdd: &mut qdd });
+        Some(q)
     }
 
     /// Whether a motion is computed in the run.

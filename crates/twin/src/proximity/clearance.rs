@@ -8,11 +8,12 @@
 
 use congruent_description::{Link, RobotDescription, Shape};
 use congruent_simulation::Obstacle;
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::Isometry3;
 
 use super::{
     hulls::{Hulls, ProximityError},
-    pairs::{Pair, PairChoice, pairs},
+    pairs::{Carried, ObstacleMobility, Pair, PairChoice, WatchedPair, pairs, while_carried},
+    travel::largest_shift_m,
     waiting::WaitingPairs,
 };
 use crate::setup::Zone;
@@ -30,27 +31,6 @@ pub struct Nearest {
     pub pair: usize,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct WatchedPair {
-    pair: Pair,
-    /// Relative pose at the last exact distance.
-    a_from_b: Isometry3<f64>,
-    /// NaN before the first.
-    exact_m: f64,
-    /// The instant of the last exact distance.
-    measured_at: u64,
-    /// The distance is at least this less what the two have travelled in total.
-    reach_m: f64,
-}
-
-impl WatchedPair {
-    /// A pair that was not measured yet.
-    fn new(pair: Pair) -> Self {
-        let a_from_b = Isometry3::identity();
-        Self { pair, a_from_b, exact_m: f64::NAN, measured_at: 0, reach_m: f64::NEG_INFINITY }
-    }
-}
-
 /// A pair that may be near, with a lower bound of its distance at this instant.
 #[derive(Debug, Clone, Copy)]
 struct Candidate {
@@ -63,15 +43,19 @@ struct Candidate {
 pub struct Clearance {
     subjects: Vec<String>,
     hulls: Vec<Hulls>,
-    /// Links come first, in the robot's order, then obstacles or zones with their constant pose.
+    /// Links come first, in the robot's order, then obstacles or zones.
     root_from_subjects: Vec<Isometry3<f64>>,
+    /// Whether a link carries the subject now.
+    is_carried: Vec<bool>,
+    /// Whether the subject can move; of links all count as such.
+    can_move: Vec<bool>,
     links: usize,
     watches: Vec<WatchedPair>,
-    /// Pairs of two links, both of which move.
-    of_links: Vec<usize>,
+    /// Pairs of which both can move.
+    of_movers: Vec<usize>,
     /// For each link, its pairs with bodies that stand still, but for the present candidates.
     waiting: Vec<WaitingPairs>,
-    /// The way that the points of each link have gone so far, at most.
+    /// The way that the points of each subject have gone so far, at most.
     travelled_m: Vec<f64>,
     /// Number of the present instant, from 1.
     instant: u64,
@@ -90,18 +74,35 @@ impl Clearance {
         obstacles: &[Obstacle],
         choice: PairChoice,
     ) -> Result<Self, ProximityError> {
+        Self::with_moving(description, (obstacles, &vec![ObstacleMobility::Still; obstacles.len()]), choice)
+    }
+
+    /// The same if some of the obstacles move; each has an entry.
+    ///
+    /// # Errors
+    /// As [`Clearance::new`].
+    pub fn with_moving(
+        description: &RobotDescription,
+        (obstacles, mobility): (&[Obstacle], &[ObstacleMobility]),
+        choice: PairChoice,
+    ) -> Result<Self, ProximityError> {
         let robot = &description.robot;
         let hulls = |link: &Link| Hulls::new(&format!("link \"{}\"", link.name), &link.collisions);
         let mut clearance = Self::of_links(
             robot.links().iter().map(|link| link.name.clone()).collect(),
             robot.links().iter().map(hulls).collect::<Result<_, _>>()?,
         );
-        for obstacle in obstacles {
-            clearance.add(obstacle)?;
+        for (obstacle, mobility) in obstacles.iter().zip(mobility) {
+            let subject = clearance.add(obstacle)?;
+            clearance.can_move[subject] = *mobility != ObstacleMobility::Still;
         }
         let is_solid = |subject: usize| !clearance.hulls[subject].is_empty();
-        let pairs = pairs(description, (clearance.hulls.len(), is_solid), choice);
-        clearance.watch(pairs);
+        let pairs = pairs(description, (mobility, is_solid), choice);
+        let watched = |pair: Pair| WatchedPair {
+            while_carried: while_carried(robot, mobility, &pair),
+            ..WatchedPair::new(pair)
+        };
+        clearance.watch(pairs.into_iter().map(watched));
         Ok(clearance)
     }
 
@@ -118,7 +119,7 @@ impl Clearance {
             // Links are second: what a bound loses by a turn is proportional to the second's size,
             // and zones are large.
             let pairs = zone.links.iter().map(|link| Pair { a, b: link.get() });
-            clearance.watch(pairs);
+            clearance.watch(pairs.map(WatchedPair::new));
         }
         Ok(clearance)
     }
@@ -130,9 +131,11 @@ impl Clearance {
             subjects,
             hulls,
             root_from_subjects: vec![Isometry3::identity(); links],
+            is_carried: vec![false; links],
+            can_move: vec![true; links],
             links,
             watches: Vec::new(),
-            of_links: Vec::new(),
+            of_movers: Vec::new(),
             waiting: vec![WaitingPairs::default(); links],
             travelled_m: vec![0.0; links],
             instant: 1,
@@ -142,26 +145,32 @@ impl Clearance {
     }
 
     /// Watches more pairs.
-    fn watch(&mut self, pairs: impl IntoIterator<Item = Pair>) {
-        for pair in pairs {
+    fn watch(&mut self, watches: impl IntoIterator<Item = WatchedPair>) {
+        for watch in watches {
             let index = self.watches.len();
-            self.watches.push(WatchedPair::new(pair));
-            match self.only_mover(pair) {
+            self.watches.push(watch);
+            match self.only_mover(watch.pair) {
                 Some(link) => self.waiting[link].push(f64::NEG_INFINITY, index),
-                None => self.of_links.push(index),
+                None => self.of_movers.push(index),
             }
         }
         // Room for all, so that no later sample allocates.
         self.candidates.reserve(self.watches.len());
     }
 
-    /// The one link of a pair whose other body stands still; `None` of two links.
+    /// The one link of a pair whose other body stands still; `None` if both can move.
     fn only_mover(&self, Pair { a, b }: Pair) -> Option<usize> {
-        match (a < self.links, b < self.links) {
-            (true, true) => None,
+        match (self.can_move[a], self.can_move[b]) {
             (true, false) => Some(a),
-            _ => Some(b),
+            (false, true) if b < self.links => Some(b),
+            _ => None,
         }
+    }
+
+    /// Whether a pair is looked at now.
+    fn counts(&self, watch: &WatchedPair) -> bool {
+        let Pair { a, b } = watch.pair;
+        !watch.while_carried || self.is_carried[a] || self.is_carried[b]
     }
 
     /// Adds a body that stands still; returns its index among the subjects.
@@ -174,6 +183,9 @@ impl Clearance {
         self.hulls.push(Hulls::new(&format!("\"{}\"", standing.name), &[shape])?);
         self.subjects.push(standing.name.clone());
         self.root_from_subjects.push(standing.world_from_obstacle);
+        self.is_carried.push(false);
+        self.can_move.push(false);
+        self.travelled_m.push(0.0);
         Ok(self.subjects.len() - 1)
     }
 
@@ -199,17 +211,33 @@ impl Clearance {
         (watch.measured_at == self.instant).then_some(watch.exact_m)
     }
 
+    /// Moves an obstacle, by its number; takes effect with [`Clearance::move_links`].
+    pub fn move_obstacle(
+        &mut self,
+        obstacle: usize,
+        root_from_obstacle: &Isometry3<f64>,
+        is_carried: Carried,
+    ) {
+        let subject = self.links + obstacle;
+        self.move_subject(subject, root_from_obstacle);
+        self.is_carried[subject] = is_carried == Carried::Yes;
+    }
+
     /// Moves the links to new poses (root link's frame, the robot's order).
     pub fn move_links(&mut self, root_from_links: &[Isometry3<f64>]) {
         self.instant += 1;
         for (link, after) in root_from_links.iter().enumerate() {
-            let before = std::mem::replace(&mut self.root_from_subjects[link], *after);
-            if before != *after {
-                let travelled_m = &mut self.travelled_m[link];
-                *travelled_m += largest_shift_m(&before, after, self.hulls[link].radius_m());
-                // A sum of many small steps may be rounded, but not down.
-                *travelled_m += *travelled_m * f64::EPSILON;
-            }
+            self.move_subject(link, after);
+        }
+    }
+
+    fn move_subject(&mut self, subject: usize, after: &Isometry3<f64>) {
+        let before = std::mem::replace(&mut self.root_from_subjects[subject], *after);
+        if before != *after {
+            let travelled_m = &mut self.travelled_m[subject];
+            *travelled_m += largest_shift_m(&before, after, self.hulls[subject].radius_m());
+            // A sum of many small steps may be rounded, but not down.
+            *travelled_m += *travelled_m * f64::EPSILON;
         }
     }
 
@@ -239,7 +267,8 @@ impl Clearance {
     /// The smallest distance of this instant; `None` if there is no pair.
     pub fn nearest(&mut self) -> Option<Nearest> {
         // With the pair that was nearest last time for a start, the fewest pairs need measuring.
-        let first_m = self.nearest.map_or(f64::INFINITY, |pair| self.measure(pair));
+        let first = self.nearest.filter(|&pair| self.counts(&self.watches[pair]));
+        let first_m = first.map_or(f64::INFINITY, |pair| self.measure(pair));
         // That pair itself is found again, or one before it at the same distance.
         let nearest = self.nearest_below(first_m.next_up());
         self.nearest = nearest.map(|nearest| nearest.pair);
@@ -282,10 +311,12 @@ impl Clearance {
     /// Makes candidates of all pairs that can be nearer than `threshold_m`.
     fn gather(&mut self, threshold_m: f64) {
         self.candidates.clear();
-        for at in 0..self.of_links.len() {
-            let pair = self.of_links[at];
-            let WatchedPair { pair: Pair { a, b }, reach_m, .. } = self.watches[pair];
-            if reach_m - self.travelled_m[a] - self.travelled_m[b] < threshold_m {
+        for at in 0..self.of_movers.len() {
+            let pair = self.of_movers[at];
+            let watch = &self.watches[pair];
+            let Pair { a, b } = watch.pair;
+            let bound_m = watch.reach_m - self.travelled_m[a] - self.travelled_m[b];
+            if bound_m < threshold_m && self.counts(watch) {
                 self.make_candidate(pair);
             }
         }
@@ -323,8 +354,7 @@ impl Clearance {
             let Candidate { bound_m, pair } = self.candidates[at];
             let known_m = self.current_m(pair).map_or(bound_m, |exact_m| exact_m - DISTANCE_SLACK_M);
             let watched = self.watches[pair].pair;
-            let travelled_m = |subject: usize| self.travelled_m.get(subject).copied().unwrap_or_default();
-            let reach_m = known_m + travelled_m(watched.a) + travelled_m(watched.b);
+            let reach_m = known_m + self.travelled_m[watched.a] + self.travelled_m[watched.b];
             match self.only_mover(watched) {
                 Some(link) => self.waiting[link].push(reach_m, pair),
                 None => self.watches[pair].reach_m = reach_m,
@@ -347,7 +377,7 @@ impl Clearance {
 
     /// The distance of one pair if it is below `threshold_m`; it is measured only if its bound does not decide that.
     pub fn measure_below(&mut self, pair: usize, threshold_m: f64) -> Option<f64> {
-        if self.bound_m(&self.watches[pair]) >= threshold_m {
+        if self.bound_m(&self.watches[pair]) >= threshold_m || !self.counts(&self.watches[pair]) {
             return None;
         }
         Some(self.measure(pair)).filter(|&distance_m| distance_m < threshold_m)
@@ -359,15 +389,6 @@ impl Clearance {
         let a_from_b = self.root_from_subjects[a].inv_mul(&self.root_from_subjects[b]);
         self.hulls[a].signed_distance_m(&self.hulls[b], &a_from_b)
     }
-}
-
-/// How far a point within `radius_m` of b's origin has moved in a's frame, at most.
-fn largest_shift_m(before: &Isometry3<f64>, after: &Isometry3<f64>, radius_m: f64) -> f64 {
-    let shift_m = (after.translation.vector - before.translation.vector).norm();
-    // A turn by an angle t moves a point at radius r along a chord of 2 r sin(t / 2), and the
-    // vector part of the turn's unit quaternion has length sin(t / 2).
-    let half_turn: Vector3<f64> = before.rotation.rotation_to(&after.rotation).imag();
-    shift_m + 2.0 * radius_m * half_turn.norm()
 }
 
 #[cfg(test)]

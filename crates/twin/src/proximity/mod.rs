@@ -5,6 +5,7 @@ mod distances;
 mod hulls;
 mod pair_names;
 mod pairs;
+mod travel;
 mod waiting;
 
 pub use clearance::{Clearance, Nearest};
@@ -14,4 +15,4 @@ pub use distances::{
 pub use hulls::{Hulls, ProximityError};
 pub(crate) use pair_names::matches;
 pub use pair_names::{PairFault, PairNames};
-pub use pairs::{Pair, PairChoice, measured_pairs};
+pub use pairs::{Carried, ObstacleMobility, Pair, PairChoice, measured_pairs};

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use congruent_description::{Geometry, Joint, JointKind, JointParts, Link, LinkIndex, Robot};
-use nalgebra::{Translation3, UnitQuaternion};
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
 use super::*;

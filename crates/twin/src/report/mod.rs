@@ -12,5 +12,5 @@ pub(crate) use causes::explain;
 pub use fault_table::{FaultRow, FaultTable, SeenBy};
 pub use files::{OutputError, OutputFolder, write_whole};
 pub use junit::{Clock, Reason, TestCase, TestResult, TestSuite, write_junit};
-pub use run_report::{LinkSource, RunClockReport, RunReport, Versions};
+pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
 pub use sentence::{lines, sentence_at};

@@ -10,7 +10,7 @@ use crate::{
     fault::RunFault,
     motion::ServoResult,
     run::{Outcome, RunError},
-    scenario::Expectation,
+    scenario::{Expectation, MotionSettings},
     setup::RunSetup,
     source::ActuatorUse,
     verdict::{CheckResult, Status, Stop, Verdict, judge},
@@ -40,6 +40,9 @@ pub struct RunReport {
     pub checks: Vec<CheckResult>,
     /// The check that ended the run early, and when: later steps were neither taken nor checked.
     pub stopped: Option<Stop>,
+    /// The motions, one after another.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub motions: Vec<MotionTimes>,
     /// The result of each `servo_tcp`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub servos: Vec<ServoResult>,
@@ -84,6 +87,17 @@ pub struct RunClockReport {
     pub duration_s: f64,
 }
 
+/// When a motion of the scenario begins, and how long it takes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct MotionTimes {
+    /// The key that tells its kind, without a unit.
+    pub kind: &'static str,
+    /// When it begins.
+    pub starts_s: f64,
+    /// How long it takes.
+    pub duration_s: f64,
+}
+
 /// A link with the origin of its pose in the model.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LinkSource {
@@ -100,6 +114,12 @@ pub struct Versions {
     pub congruent: &'static str,
     /// The physics engine.
     pub physics: &'static str,
+}
+
+fn motions(setup: &RunSetup) -> Vec<MotionTimes> {
+    let kinds = setup.scenario.motion.iter().map(MotionSettings::kind);
+    let times = |(kind, (starts_s, duration_s))| MotionTimes { kind, starts_s, duration_s };
+    kinds.zip(setup.trajectory.times()).map(times).collect()
 }
 
 impl RunReport {
@@ -126,6 +146,7 @@ impl RunReport {
             expected: setup.scenario.expect.clone(),
             checks,
             stopped: outcome.stopped,
+            motions: motions(setup),
             servos: outcome.servos,
             actuators: outcome.actuators,
             diagnoses: outcome.diagnoses,

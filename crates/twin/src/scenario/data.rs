@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    bodies::GraspSettings,
     checks::{Check, CheckKind},
     faults::FaultSettings,
     joints::StartSettings,
@@ -67,9 +68,12 @@ pub struct Scenario {
     /// Motions, one after another.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub motion: Vec<MotionSettings>,
-    /// Bodies that stand around the robot.
+    /// Bodies around the robot, which stand still or move.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacle: Vec<ObstacleSettings>,
+    /// Obstacles that a link carries for a time.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub grasp: Vec<GraspSettings>,
     /// Space that links may not enter.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub zone: Vec<ZoneSettings>,
@@ -103,6 +107,7 @@ impl Default for Scenario {
             payload: Vec::new(),
             motion: Vec::new(),
             obstacle: Vec::new(),
+            grasp: Vec::new(),
             zone: Vec::new(),
             fault: Vec::new(),
             check: Vec::new(),

@@ -1,6 +1,7 @@
 //! A scenario as plain data: read from a file or made in code, changed key by key, and written back.
 //! `setup/` checks it against its robot.
 
+mod bodies;
 mod checks;
 mod data;
 mod faults;
@@ -16,6 +17,7 @@ mod robot;
 mod spaces;
 mod text;
 
+pub use bodies::{GraspSettings, PathPoseSettings};
 pub use checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck};
 pub use data::{Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
 pub(crate) use faults::FaultTime;

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    bodies::PathPoseSettings,
     number::{optional_array, optional_positive, optional_positive_array, positive},
     text::strings,
 };
@@ -20,7 +21,7 @@ pub struct CylinderSettings {
     pub length_m: f64,
 }
 
-/// A body that stands still; exactly one of `box_m`, `sphere_radius_m` and `cylinder` is given.
+/// A body around the robot; exactly one of `box_m`, `sphere_radius_m`, `cylinder` and `mesh` is given.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObstacleSettings {
@@ -35,6 +36,13 @@ pub struct ObstacleSettings {
     /// A cylinder.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cylinder: Option<CylinderSettings>,
+    /// A mesh file (STL, OBJ, COLLADA), relative to the scenario, of which the convex hull counts; nothing outside of
+    /// the project folder (the nearest at or above the scenario with .git, package.xml or robot.toml) is opened.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<String>,
+    /// Factors for the coordinates of the mesh, 0.001 for one in millimetres.
+    #[serde(default, deserialize_with = "optional_positive_array", skip_serializing_if = "Option::is_none")]
+    pub scale: Option<[f64; 3]>,
     /// Position in metres.
     #[serde(default, deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
     pub xyz_m: Option<[f64; 3]>,
@@ -47,6 +55,9 @@ pub struct ObstacleSettings {
     /// Turns about the fixed axes x, then y, then z, in radians.
     #[serde(default, deserialize_with = "optional_array", skip_serializing_if = "Option::is_none")]
     pub rpy_rad: Option<[f64; 3]>,
+    /// Poses at times: the obstacle moves from one to the next, instead of standing still.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub path: Vec<PathPoseSettings>,
 }
 
 /// Space that is forbidden to some links; shaped and placed as an obstacle.
@@ -94,6 +105,7 @@ impl ZoneSettings {
             xyz_mm: *xyz_mm,
             rpy_deg: *rpy_deg,
             rpy_rad: *rpy_rad,
+            ..ObstacleSettings::default()
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A scenario checked against its robot: nothing later validates again.
 
 pub(crate) mod actuation;
+mod bodies;
 mod clock;
 mod declared_dynamics;
 mod joint_targets;
@@ -10,6 +11,7 @@ mod output;
 mod payload;
 mod run_setup;
 mod spaces;
+mod written_out;
 mod zones;
 
 pub(crate) use actuation::Sampling;

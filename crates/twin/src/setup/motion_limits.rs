@@ -14,6 +14,9 @@ const TO_VELOCITY_S: f64 = 0.25;
 /// In which a joint reaches its acceleration limit if no jerk limit is given.
 const TO_ACCELERATION_S: f64 = 0.1;
 
+/// A value of a file in the unit of the program.
+type ToSi = fn(Unit, f64) -> f64;
+
 /// The name that stands for every joint of a kind.
 const EVERY: &str = "*";
 
@@ -72,36 +75,48 @@ impl Reader<'_> {
     /// One quantity under its four keys: in degrees, radians, metres and millimetres. Infinity for what is not given.
     fn given(&mut self, keys: [(&str, &BTreeMap<String, f64>); 4]) -> Vec<f64> {
         let mut values = vec![f64::INFINITY; self.robot.dof()];
-        let mut is_named = vec![false; self.robot.dof()];
-        let units = [Some(Unit::Angle), None, None, Some(Unit::Length)];
-        for (index, (key, by_joint)) in keys.into_iter().enumerate() {
-            let place = self.place.key(key);
-            for (name, &value) in by_joint {
-                let at_name = |error| crate::scenario::mark(error, place.key_span(name));
-                let value = units[index].map_or(value, |unit| unit.convert(value));
-                if !(value.is_finite() && value > 0.0) {
-                    let message = format!("{key}: expected a finite number above 0 for \"{name}\"");
-                    self.errors.push(at_name(Diagnostic::error("scenario::number", message)));
-                    continue;
-                }
-                match self.coordinates(name, index < 2) {
-                    Ok(coordinates) => {
-                        for coordinate in coordinates {
-                            if name != EVERY || !is_named[coordinate] {
-                                values[coordinate] = value;
-                            }
-                            is_named[coordinate] |= name != EVERY;
-                        }
-                    }
-                    Err(error) => self.errors.push(at_name(error)),
-                }
+        let as_it_is: ToSi = |_, value| value;
+        let units: [(Unit, ToSi); 4] = [
+            (Unit::Angle, Unit::convert),
+            (Unit::Angle, as_it_is),
+            (Unit::Length, as_it_is),
+            (Unit::Length, Unit::convert),
+        ];
+        // Named joints come after all others, so that they keep their own value.
+        for is_every in [true, false] {
+            for ((key, by_joint), unit) in keys.into_iter().zip(units) {
+                let chosen = by_joint.iter().filter(|(name, _)| (*name == EVERY) == is_every);
+                let place = self.place.key(key);
+                let set = chosen.filter_map(|(name, &value)| {
+                    let found = self.set(&mut values, (name, value), unit);
+                    found.map_err(|error| crate::scenario::mark(error, place.key_span(name))).err()
+                });
+                let errors: Vec<Diagnostic> = set.collect();
+                self.errors.extend(errors);
             }
         }
         values
     }
 
+    fn set(
+        &self,
+        values: &mut [f64],
+        (name, value): (&str, f64),
+        (unit, to_si): (Unit, ToSi),
+    ) -> Result<(), Diagnostic> {
+        if !(value.is_finite() && value > 0.0) {
+            let message = format!("limit of \"{name}\": expected a finite number above 0");
+            return Err(Diagnostic::error("scenario::number", message));
+        }
+        for coordinate in self.coordinates(name, unit)? {
+            values[coordinate] = to_si(unit, value);
+        }
+        Ok(())
+    }
+
     /// The coordinates that a name means, of joints that turn or of joints that slide.
-    fn coordinates(&self, name: &str, turning: bool) -> Result<Vec<usize>, Diagnostic> {
+    fn coordinates(&self, name: &str, unit: Unit) -> Result<Vec<usize>, Diagnostic> {
+        let turning = matches!(unit, Unit::Angle);
         let of_kind = |joint: &Joint| joint.kind.is_angular() == turning;
         let joints = || self.robot.movable_joints().iter().map(|&joint| self.robot.joint(joint)).enumerate();
         if name == EVERY {

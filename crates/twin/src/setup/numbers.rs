@@ -30,6 +30,20 @@ pub(super) fn check(scenario: &Scenario) -> Vec<Diagnostic> {
     }
     for obstacle in &scenario.obstacle {
         numbers.shape("obstacle", obstacle);
+        obstacle
+            .scale
+            .iter()
+            .flatten()
+            .for_each(|&value| numbers.one("obstacle.scale", value, Range::Positive));
+        let times = obstacle.path.iter().map(|pose| pose.at_s);
+        times.for_each(|at_s| numbers.one("obstacle.path.at_s", at_s, Range::NonNegative));
+    }
+    for grasp in &scenario.grasp {
+        numbers.one("grasp.from_s", grasp.from_s, Range::NonNegative);
+        numbers.maybe("grasp.until_s", grasp.until_s, Range::Positive);
+        numbers.maybe("grasp.mass_kg", grasp.mass_kg, Range::Positive);
+        let inertia = grasp.inertia_kg_m2.iter().flatten();
+        inertia.for_each(|&value| numbers.one("grasp.inertia_kg_m2", value, Range::Positive));
     }
     for zone in scenario.zone.iter().map(ZoneSettings::space) {
         numbers.shape("zone", &zone);

@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::{
-    Diagnostic, Diagnostics, Joint, JointKind, Robot, RobotDescription, RobotQ, RosPackages, Use,
-    load_robot_with,
+    Diagnostic, Diagnostics, Joint, Robot, RobotDescription, RobotQ, RosPackages, Use, load_robot_with,
 };
 use congruent_dynamics::JointResistance;
 use congruent_kinematics::move_inside_limits;
@@ -12,21 +11,24 @@ use congruent_simulation::Obstacle;
 
 use super::{
     actuation::{Actuation, ControllerSetup, SensorSetup},
+    bodies::{Surroundings, mobility},
     clock::RunClock,
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
     motion_limits, numbers, output,
     payload::Payload,
-    spaces,
+    written_out::{write_out_defaults, write_out_paths},
     zones::{self, Zone},
 };
 use crate::{
+    bodies::MovingBody,
     fault::{PlannedFault, resolve},
-    monitor::{AT_THE_LIMIT, RunningCheck},
+    monitor::RunningCheck,
     motion::{MotionInput, Trajectory},
+    proximity::ObstacleMobility,
     scenario::{
-        Check, CheckKind, Expectation, FilePlace, MotionSettings, Override, SCHEMA_VERSION, Scenario,
-        ScenarioFile, StartSettings,
+        Check, CheckKind, Expectation, FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile,
+        StartSettings,
     },
 };
 
@@ -55,6 +57,8 @@ pub struct RunSetup {
     pub obstacles: Vec<Obstacle>,
     /// Space that named links may not enter, in the root link's frame.
     pub zones: Vec<Zone>,
+    /// Obstacles that move.
+    pub bodies: Vec<MovingBody>,
     /// What links carry for a time, in addition to their own masses: known to controllers and checks.
     pub payloads: Vec<Payload>,
     /// What resists each moving joint: known to controllers and checks.
@@ -144,22 +148,24 @@ impl RunSetup {
         move_inside_limits(&mut start, robot);
         let limits = motion_limits::build(&scenario.limits, place.key("limits"), robot);
         let trajectory = keep_all(&mut found, limits).and_then(|limits| {
-            let (motions, places) = (scenario.motion.as_slice(), place.key("motion"));
-            let input = MotionInput { motions, places, limits: &limits, folder };
+            let places = place.key("motion");
+            let input = MotionInput { motions: &scenario.motion, places, limits: &limits, folder };
             keep_all(&mut found, Trajectory::new(input, &description, &start, &mut warnings))
         });
         // Motions that cannot be planned are no fault of the clock.
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
-        let clock = RunClock::new(&scenario.simulation, place.key("simulation"), motions_s, &mut warnings);
-        let clock = found.keep(clock);
+        let at_simulation = place.key("simulation");
+        let clock = found.keep(RunClock::new(&scenario.simulation, at_simulation, motions_s, &mut warnings));
         found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
         let actuation = keep_all(&mut found, Actuation::new(&scenario, place, &description));
-        let obstacles = spaces::build(&scenario.obstacle, place.key("obstacle"), &spaces::OBSTACLE, robot);
-        let obstacles = keep_all(&mut found, obstacles);
+        let planned = (&description, trajectory.as_ref());
+        let Surroundings { obstacles, moving, payloads: held } =
+            Surroundings::new(&scenario, (place, folder), planned, &mut found);
+        let mobility = mobility(&moving, scenario.obstacle.len());
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
         found.keep(zones::paired_with_checks(&scenario.zone, &scenario.check, place));
         for (index, check) in scenario.check.iter().enumerate() {
-            let around = (&description, scenario.obstacle.as_slice());
+            let around = (&description, scenario.obstacle.as_slice(), mobility.as_slice());
             found.keep(RunningCheck::examine(check, place.key("check").item(index), around));
         }
         let faults = clock.as_ref().and_then(|clock| {
@@ -178,15 +184,15 @@ impl RunSetup {
         if found.has_error() {
             return Err(found.into_vec());
         }
-        let line = |index| place.key("check").item(index).line();
-        let check_lines = (0..scenario.check.len()).map(line).collect();
+        let lines = (0..scenario.check.len()).map(|index| place.key("check").item(index).line());
+        let check_lines = lines.collect();
         write_out_defaults(&mut scenario, &description, (&clock, &start));
         write_out_paths(&mut scenario, folder);
-        let path = None;
-        let Actuation { controller, resistances, sensors, payloads } = actuation;
+        let Actuation { controller, resistances, sensors, mut payloads } = actuation;
+        payloads.extend(held);
         Ok(Self {
             scenario,
-            path,
+            path: None,
             overrides: Vec::new(),
             description,
             clock,
@@ -195,6 +201,7 @@ impl RunSetup {
             controller,
             obstacles,
             zones,
+            bodies: moving,
             payloads,
             sensors,
             resistances,
@@ -217,6 +224,11 @@ impl RunSetup {
     pub fn checks(&self) -> Vec<RunningCheck> {
         let checks = self.scenario.check.iter().zip(&self.check_lines);
         checks.map(|(check, &line)| RunningCheck::new(check, line, &self.description)).collect()
+    }
+
+    /// How each obstacle moves.
+    pub fn mobility(&self) -> Vec<ObstacleMobility> {
+        mobility(&self.bodies, self.obstacles.len())
     }
 
     /// The declared dynamics: resistances, gravity and payloads are those of the scenario, whatever a fault changes in
@@ -329,63 +341,4 @@ fn unexpected<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator
             .with_help(format!("add a [[check]] with kind = \"{word}\""));
         Some(place.key("checks").item(index).mark(error))
     })
-}
-
-/// Fills in what was left out: the duration, the whole start, limits, and the robot's absolute path.
-fn write_out_defaults(
-    scenario: &mut Scenario,
-    description: &RobotDescription,
-    (clock, start): (&RunClock, &RobotQ),
-) {
-    let path = &description.path;
-    let whole = path.canonicalize().or_else(|_| std::path::absolute(path));
-    scenario.robot = whole.unwrap_or_else(|_| path.clone()).display().to_string();
-    scenario.simulation.duration_s = Some(clock.duration_s());
-    scenario.start = written_start(&description.robot, start);
-    for motion in &mut scenario.motion {
-        if let MotionSettings::Servo(servo) = motion {
-            servo.gain_per_s.get_or_insert(crate::motion::DEFAULT_GAIN_PER_S);
-        }
-    }
-    for check in &mut scenario.check {
-        match check {
-            Check::Agreement(check) => {
-                check.position_m.get_or_insert(description.tolerance.position_m);
-                check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
-            }
-            Check::Limits(check) => {
-                check.tolerance_rad =
-                    check.tolerance_rad.or(check.tolerance_deg.is_none().then_some(AT_THE_LIMIT));
-                check.tolerance_m =
-                    check.tolerance_m.or(check.tolerance_mm.is_none().then_some(AT_THE_LIMIT));
-            }
-            Check::Clearance(_) | Check::Goal(_) | Check::Zone(_) => {}
-        }
-    }
-}
-
-/// Makes the paths of other files absolute.
-fn write_out_paths(scenario: &mut Scenario, folder: &Path) {
-    for motion in &mut scenario.motion {
-        if let MotionSettings::Playback(playback) = motion {
-            let path = folder.join(&playback.play_csv);
-            playback.play_csv = path.canonicalize().unwrap_or(path).display().to_string();
-        }
-    }
-}
-
-/// Positions of all joints that follow no other, by name, in radians and metres.
-fn written_start(robot: &Robot, q: &RobotQ) -> StartSettings {
-    let mut start = StartSettings::default();
-    for (&joint, &position) in robot.movable_joints().iter().zip(q) {
-        let joint = robot.joint(joint);
-        if joint.mimic.is_none() {
-            let group = match joint.kind {
-                JointKind::Prismatic => &mut start.joints_m,
-                _ => &mut start.joints_rad,
-            };
-            group.insert(joint.name.clone(), position);
-        }
-    }
-    start
 }

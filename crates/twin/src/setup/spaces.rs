@@ -1,6 +1,8 @@
-//! `[[obstacle]]` and `[[zone]]` as bodies that stand around the robot, in the root link's frame.
+//! `[[obstacle]]` and `[[zone]]` as bodies around the robot, in the root link's frame.
 
-use congruent_description::{Diagnostic, Geometry, Robot};
+use std::path::Path;
+
+use congruent_description::{Diagnostic, Geometry, Robot, read_mesh};
 use congruent_simulation::Obstacle;
 use nalgebra::Vector3;
 
@@ -8,7 +10,7 @@ use crate::scenario::{CylinderSettings, FilePlace, ObstacleSettings, PoseSetting
 
 /// Largest size and coordinate of an obstacle or zone: beyond it, rounding is no longer small against the
 /// accuracy of distances, and far beyond it products overflow.
-const LARGEST_M: f64 = 1e5;
+pub(super) const LARGEST_M: f64 = 1e5;
 
 /// What a section describes: its word in messages, and the codes of its faults.
 pub(super) struct SpaceKind {
@@ -18,6 +20,8 @@ pub(super) struct SpaceKind {
     size: &'static str,
     name: &'static str,
     shape: &'static str,
+    /// The help if there is not exactly one shape.
+    shapes: &'static str,
 }
 
 /// `[[obstacle]]`.
@@ -28,6 +32,7 @@ pub(super) const OBSTACLE: SpaceKind = SpaceKind {
     size: "scenario::obstacle_size",
     name: "scenario::obstacle_name",
     shape: "scenario::obstacle_shape",
+    shapes: "give one of `box_m`, `sphere_radius_m`, `cylinder`, `mesh`",
 };
 
 /// `[[zone]]`.
@@ -38,20 +43,21 @@ pub(super) const ZONE: SpaceKind = SpaceKind {
     size: "scenario::zone_size",
     name: "scenario::zone_name",
     shape: "scenario::zone_shape",
+    shapes: "give one of `box_m`, `sphere_radius_m`, `cylinder`",
 };
 
 /// Builds all of one kind; no other of that kind and no link of the robot has its name.
 pub(super) fn build(
     all: &[ObstacleSettings],
     places: FilePlace<'_>,
-    kind: &SpaceKind,
+    (kind, folder): (&SpaceKind, &Path),
     robot: &Robot,
 ) -> Result<Vec<Obstacle>, Vec<Diagnostic>> {
     let mut obstacles: Vec<Obstacle> = Vec::new();
     let mut errors = Vec::new();
     for (index, settings) in all.iter().enumerate() {
         let place = places.item(index);
-        match obstacle(settings, place, kind) {
+        match obstacle(settings, place, (kind, folder)) {
             Ok(obstacle) if obstacles.iter().any(|known| known.name == obstacle.name) => {
                 let message = format!("two {}s are named \"{}\"", kind.word, obstacle.name);
                 errors.push(place.mark(Diagnostic::error(kind.twice, message)));
@@ -70,7 +76,7 @@ pub(super) fn build(
 fn obstacle(
     settings: &ObstacleSettings,
     place: FilePlace<'_>,
-    kind: &SpaceKind,
+    (kind, folder): (&SpaceKind, &Path),
 ) -> Result<Obstacle, Diagnostic> {
     if settings.name.trim().is_empty() {
         return Err(place.key("name").mark(
@@ -78,18 +84,28 @@ fn obstacle(
                 .with_help("reports name it if something comes too close"),
         ));
     }
-    let geometry = match (settings.box_m, settings.sphere_radius_m, settings.cylinder) {
-        (Some(size), None, None) => Geometry::Box { size_m: Vector3::from(size) },
-        (None, Some(radius_m), None) => Geometry::Sphere { radius_m },
-        (None, None, Some(CylinderSettings { radius_m, length_m })) => {
+    if settings.scale.is_some() && settings.mesh.is_none() {
+        let message = format!("{} \"{}\" has a `scale`, but no mesh", kind.word, settings.name);
+        return Err(place.key("scale").mark(Diagnostic::error(kind.shape, message)));
+    }
+    let geometry = match (settings.box_m, settings.sphere_radius_m, settings.cylinder, &settings.mesh) {
+        (Some(size), None, None, None) => Geometry::Box { size_m: Vector3::from(size) },
+        (None, Some(radius_m), None, None) => Geometry::Sphere { radius_m },
+        (None, None, Some(CylinderSettings { radius_m, length_m }), None) => {
             Geometry::Cylinder { radius_m, length_m }
+        }
+        (None, None, None, Some(mesh)) => {
+            let scale = Vector3::from(settings.scale.unwrap_or([1.0; 3]));
+            let read = read_mesh(folder, mesh, scale);
+            let mesh =
+                read.map_err(
+                    |fault| if fault.source.is_none() { place.key("mesh").mark(fault) } else { fault },
+                )?;
+            Geometry::Mesh(mesh)
         }
         _ => {
             let message = format!("{} \"{}\" has not exactly one shape", kind.word, settings.name);
-            return Err(place.mark(
-                Diagnostic::error(kind.shape, message)
-                    .with_help("give one of `box_m`, `sphere_radius_m`, `cylinder`"),
-            ));
+            return Err(place.mark(Diagnostic::error(kind.shape, message).with_help(kind.shapes)));
         }
     };
     let ObstacleSettings { xyz_m, xyz_mm, rpy_deg, rpy_rad, .. } = *settings;
@@ -111,6 +127,6 @@ fn largest_size_m(geometry: &Geometry) -> f64 {
         Geometry::Box { size_m } => size_m.amax(),
         Geometry::Cylinder { radius_m, length_m } => radius_m.max(*length_m),
         Geometry::Sphere { radius_m } => *radius_m,
-        Geometry::Mesh(_) => unreachable!("scenarios have no meshes of their own"),
+        Geometry::Mesh(mesh) => mesh.vertices_m.iter().map(|vertex| vertex.coords.amax()).fold(0.0, f64::max),
     }
 }

@@ -1,6 +1,8 @@
 //! `[[zone]]`: space that links are forbidden to enter, in the root link's frame. A zone is not a body:
 //! only the check `zone` uses it, not the physics.
 
+use std::path::Path;
+
 use congruent_description::{Diagnostic, Geometry, Link, LinkIndex, Robot, known_names};
 use congruent_simulation::Obstacle;
 
@@ -39,7 +41,8 @@ pub(super) fn build(
         }
     }
     let spaces: Vec<ObstacleSettings> = all.iter().map(ZoneSettings::space).collect();
-    let spaces = spaces::build(&spaces, places, &spaces::ZONE, robot).map_err(|found| errors.extend(found));
+    let spaces = spaces::build(&spaces, places, (&spaces::ZONE, Path::new("")), robot)
+        .map_err(|found| errors.extend(found));
     match spaces {
         Ok(spaces) if errors.is_empty() => {
             Ok(spaces.into_iter().zip(links).map(|(space, links)| Zone { space, links }).collect())

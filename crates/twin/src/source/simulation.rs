@@ -2,7 +2,7 @@
 
 use congruent_description::{Diagnostic, Use};
 use congruent_dynamics::JointResistance;
-use congruent_simulation::{Setpoint, SimulationError, World, WorldSettings, WorldSnapshot};
+use congruent_simulation::{Setpoint, SimulationError, Touches, World, WorldSettings, WorldSnapshot};
 use nalgebra::Isometry3;
 
 use super::{
@@ -12,6 +12,7 @@ use super::{
     sensors::JointSensors,
 };
 use crate::{
+    bodies::MovingBodies,
     control::JointController,
     fault::InjectedFaults,
     motion::{ReferenceGenerator, ServoResult},
@@ -29,6 +30,7 @@ pub struct SimulationSource<'a> {
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
     actuators: ActuatorCounts,
+    bodies: MovingBodies<'a>,
     setup: &'a RunSetup,
 }
 
@@ -41,6 +43,7 @@ pub struct SimulationSnapshot<'a> {
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
     actuators: ActuatorCounts,
+    bodies: MovingBodies<'a>,
 }
 
 impl std::fmt::Debug for SimulationSnapshot<'_> {
@@ -69,6 +72,7 @@ impl<'a> SimulationSource<'a> {
             step_s: setup.clock.step_s,
             gravity_in_world: setup.clock.gravity_in_world,
             obstacles: setup.obstacles.clone(),
+            moving_obstacles: setup.bodies.iter().map(|body| body.obstacle).collect(),
             contacts: true,
             actuator_limits: setup.scenario.joints.enforce_limits,
         };
@@ -82,6 +86,7 @@ impl<'a> SimulationSource<'a> {
         let mut payloads = CarriedPayloads::new(&setup.payloads);
         payloads.update(0.0, &mut world);
         Ok(Self {
+            bodies: MovingBodies::new(&setup.bodies, &setup.obstacles),
             sensors,
             faults,
             is_placed: kind == "kinematic",
@@ -105,6 +110,7 @@ impl<'a> SimulationSource<'a> {
             sensors: self.sensors.clone(),
             payloads: self.payloads.clone(),
             actuators: self.actuators.clone(),
+            bodies: self.bodies.clone(),
         }
     }
 
@@ -120,6 +126,7 @@ impl<'a> SimulationSource<'a> {
         self.sensors.clone_from(&snapshot.sensors);
         self.payloads.clone_from(&snapshot.payloads);
         self.actuators.clone_from(&snapshot.actuators);
+        self.bodies.clone_from(&snapshot.bodies);
     }
 }
 
@@ -131,6 +138,19 @@ fn resist(world: &mut World, resistances: &[JointResistance]) -> Result<(), Simu
         world.set_armature(coordinate, resistance.armature)?;
     }
     Ok(())
+}
+
+impl SimulationSource<'_> {
+    /// Moves obstacles to where they are at the end of the step. What a link carries touches nothing; it is left where the
+    /// link is at the beginning of the step.
+    fn move_bodies(&mut self, time_s: f64) {
+        let world = &mut self.world;
+        self.bodies.advance(time_s, |link| world.root_from_link(link));
+        for (obstacle, pose, is_carried) in self.bodies.poses() {
+            let touches = if is_carried { Touches::Nothing } else { Touches::Links };
+            world.move_obstacle(obstacle, pose, touches);
+        }
+    }
 }
 
 impl JointStateSource for SimulationSource<'_> {
@@ -163,6 +183,7 @@ impl JointStateSource for SimulationSource<'_> {
     }
 
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
+        self.move_bodies(time_s);
         let measured = self.sensors.measured();
         self.reference.advance(time_s, measured.q).map_err(SourceError::new)?;
         let mut setpoint =

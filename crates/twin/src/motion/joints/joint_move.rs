@@ -5,8 +5,8 @@ use congruent_description::{Diagnostic, RobotQ};
 use crate::{
     motion::{
         course::{Course, Motion, PlannedMove, Way},
-        pace::{Pace, least_time},
         planning::{Planning, no_velocity_limit, nothing_moves},
+        timing::{Pace, least_time},
     },
     scenario::{JointMotion, Profile, mark},
     setup::JointTargets,

@@ -8,8 +8,8 @@ use super::spline::{JointSpline, SplineEnds, SplineValues};
 use crate::{
     motion::{
         course::{Course, Motion, PlannedMove, Way},
-        pace::Pace,
         planning::{Planning, no_velocity_limit, nothing_moves},
+        timing::Pace,
     },
     scenario::{JointPathMotion, Profile, mark},
     setup::JointTargets,

@@ -11,8 +11,8 @@ use super::{
 use crate::{
     motion::{
         course::{Course, Motion, PlannedMove, Way},
-        pace::Pace,
         planning::Planning,
+        timing::Pace,
     },
     scenario::{Between, PlaybackMotion, Profile},
 };

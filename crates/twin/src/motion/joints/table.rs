@@ -7,7 +7,7 @@ use congruent_description::{
     Diagnostic, Robot, RobotQ, SourceFile, display::quantity, known_names, read_regular_text, units::Unit,
 };
 
-use crate::motion::pace::MotionLimits;
+use crate::motion::timing::MotionLimits;
 
 /// Largest table that is read.
 const MOST_BYTES: u64 = 256 << 20;

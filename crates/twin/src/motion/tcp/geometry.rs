@@ -36,8 +36,14 @@ impl TcpPath {
         &self.ends_m
     }
 
-    pub(super) fn turn_rad(&self) -> f64 {
-        self.segments.iter().map(Segment::turn_rad).sum()
+    /// The turn of each segment.
+    pub(super) fn turns_rad(&self) -> impl Iterator<Item = f64> + '_ {
+        self.segments.iter().map(Segment::turn_rad)
+    }
+
+    /// Whether the tool stops at the end of a segment.
+    pub(super) fn stops_after(&self, segment: usize) -> bool {
+        self.blends_m[segment] == 0.0
     }
 
     /// The segment at a length of the path.
@@ -120,8 +126,8 @@ mod tests {
             assert!(bend < 75.0 * h && change < 200.0 * h, "{bend} {change} at {at}");
             let second = (velocity(at + h) - velocity(at)) / h;
             let next = (velocity(at + 2.0 * h) - velocity(at + h)) / h;
-            // A jump of curvature would be 5 and more; its slope in the blends is below 5e3.
-            assert!((second - next).norm() < 5e3 * h, "{} at {at}", (second - next).norm());
+            // A jump of curvature would be 5 and more; its slope is 1.5 / r^2 times sqrt(2) at most.
+            assert!((second - next).norm() < 5.5e3 * h, "{} at {at}", (second - next).norm());
             at += h;
         }
     }

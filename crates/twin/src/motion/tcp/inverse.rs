@@ -14,8 +14,11 @@ use crate::motion::joints::{JointSpline, SplineEnds, SplineValues};
 const KNOT_M: f64 = 2e-3;
 /// Likewise, of the turn.
 const KNOT_RAD: f64 = 5e-3;
-/// At least so many knots, and at most.
-const KNOTS: (f64, f64) = (64.0, 40_000.0);
+/// At least so many intervals between two stops, and at most so many times the first number of intervals.
+const LEAST_INTERVALS: f64 = 32.0;
+const MOST_HALVINGS: u32 = 4;
+/// Longest path, in intervals at first.
+const MOST_INTERVALS: f64 = 40_000.0;
 /// How far the tool may be from the path, between knots too.
 const PATH_M: f64 = 1e-6;
 /// Likewise, its orientation.
@@ -54,16 +57,16 @@ pub(super) fn along(
         path,
         base_from_world: *base_from_world,
     };
-    let (least, most) = KNOTS;
-    let mut intervals = (path.length_m() / KNOT_M).max(path.turn_rad() / KNOT_RAD).ceil().clamp(least, most);
-    loop {
-        let spline = follower.spline(intervals, from)?;
+    let finest = (MOST_INTERVALS / follower.intervals(0, path.ends_m().len())).max(1.0);
+    for halvings in 0..=MOST_HALVINGS {
+        let spline = follower.spline(f64::from(2_u32.pow(halvings)).min(finest), from)?;
         match follower.furthest(&spline)? {
             None => return Ok(spline),
-            Some(_) if 2.0 * intervals <= most => intervals *= 2.0,
-            Some((at_m, joint)) => return Err(Stop::Singular { at_m, joint }),
+            Some((at_m, joint)) if halvings == MOST_HALVINGS => return Err(Stop::Singular { at_m, joint }),
+            Some(_) => {}
         }
     }
+    unreachable!("the last round returns")
 }
 
 struct Follower<'a> {
@@ -86,8 +89,39 @@ impl Follower<'_> {
         robot.joint(self.arm.joints()[arm_joint].joint).name.clone()
     }
 
-    /// The spline through so many knots at equal distances.
-    fn spline(&mut self, intervals: f64, from: &RobotQ) -> Result<JointSpline, Stop> {
+    /// Intervals over some segments, at first.
+    fn intervals(&self, first: usize, end: usize) -> f64 {
+        let start_m = if first == 0 { 0.0 } else { self.path.ends_m()[first - 1] };
+        let length_m = self.path.ends_m()[end - 1] - start_m;
+        let turn_rad: f64 = self.path.turns_rad().skip(first).take(end - first).sum();
+        (length_m / KNOT_M).max(turn_rad / KNOT_RAD).ceil().max(LEAST_INTERVALS)
+    }
+
+    /// The spline through knots so many times denser than at first. Where the tool stops the path has a corner, and one
+    /// spline ends and another begins.
+    fn spline(&mut self, denser: f64, from: &RobotQ) -> Result<JointSpline, Stop> {
+        let (mut parts, mut start, mut first) = (Vec::new(), (0.0, from.clone()), 0);
+        for end in 1..=self.path.ends_m().len() {
+            if end < self.path.ends_m().len() && !self.path.stops_after(end - 1) {
+                continue;
+            }
+            let intervals = (self.intervals(first, end) * denser).ceil();
+            let until = self.path.ends_m()[end - 1] / self.path.length_m();
+            let (knots, points) = self.solve((start.0, until), intervals, &start.1)?;
+            start = (until, points[points.len() - 1].clone());
+            parts.push(JointSpline::new(&knots, &points, SplineEnds::Parabola));
+            first = end;
+        }
+        Ok(JointSpline::joined(parts))
+    }
+
+    /// Configurations at equal distances from one share of the path to another.
+    fn solve(
+        &mut self,
+        (start, until): (f64, f64),
+        intervals: f64,
+        from: &RobotQ,
+    ) -> Result<(Vec<f64>, Vec<RobotQ>), Stop> {
         // From one knot to the next a few steps converge; a restart would find another solution.
         let options = IkOptions {
             method: IkMethod::LevenbergMarquardt,
@@ -96,12 +130,11 @@ impl Follower<'_> {
             max_iterations: 40,
             ..IkOptions::default()
         };
-        let robot = &self.description.robot;
         let mut before: ArmQ = self.arm.from_robot(from);
-        let (mut knots, mut points) = (vec![0.0], vec![from.clone()]);
+        let (mut knots, mut points) = (vec![start], vec![from.clone()]);
         let mut knot = 1.0;
         while knot <= intervals {
-            let share = knot / intervals;
+            let share = if knot < intervals { start + (until - start) * knot / intervals } else { until };
             let at_m = share * self.path.length_m();
             let target = self.target(share);
             let found = self.solver.solve(&target, &before, &options, || true)?;
@@ -120,13 +153,13 @@ impl Follower<'_> {
             }
             let mut q = from.clone();
             self.arm.write_to_robot(&now, &mut q);
-            robot.apply_mimic(&mut q);
+            self.description.robot.apply_mimic(&mut q);
             knots.push(share);
             points.push(q);
             before = now;
             knot += 1.0;
         }
-        Ok(JointSpline::new(&knots, &points, SplineEnds::Parabola))
+        Ok((knots, points))
     }
 
     /// Where between knots the tool is furthest from the path, if it is too far, with the joint that moves most there.

@@ -1,5 +1,6 @@
 //! Motions of the tool centre point: to a pose by moving the joints, along lines and arcs, by a servo.
 
+pub(super) mod drive;
 mod geometry;
 mod inverse;
 pub(super) mod path;

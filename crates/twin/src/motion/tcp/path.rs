@@ -10,24 +10,23 @@ use congruent_kinematics::{Arm, Pose, UrdfTree};
 use nalgebra::Isometry3;
 
 use super::{
+    drive::{Drive, blend_rates, drive, rates},
     geometry::TcpPath,
     inverse::{Stop, along},
     segment::Segment,
 };
 use crate::{
     motion::{
-        course::{Course, Motion, PlannedMove, SetpointMut, Way},
-        joints::JointSpline,
-        pace::{Pace, RateLimits, SpeedProfile, Stretch},
+        course::{Course, Motion, PlannedMove, Way},
+        joints::{JointSpline, SplineValues},
         planning::Planning,
+        timing::{Pace, RateLimits, SpeedProfile, Stretch},
     },
-    scenario::{ArcMotion, FilePlace, LineMotion, MotionSettings, PoseSettings, Profile, TcpPathMotion},
+    scenario::{ArcMotion, FilePlace, LineMotion, MotionSettings, PoseSettings, TcpPathMotion},
 };
 
-/// Acceleration if none is given, as arms in industry have it by default.
-const ACCELERATION_M_S2: f64 = 1.2;
-/// In which the acceleration is reached if no jerk is given.
-const TO_ACCELERATION_S: f64 = 0.1;
+/// A tool that has no further to go, m and rad, is there.
+const THERE: f64 = 1e-6;
 
 /// One line or arc with how it is driven.
 struct Leg<'a> {
@@ -37,13 +36,6 @@ struct Leg<'a> {
     blend_m: f64,
     drive: Drive,
     place: FilePlace<'a>,
-}
-
-/// How the tool goes along a leg.
-#[derive(Clone, Copy)]
-enum Drive {
-    Speed(RateLimits),
-    Duration { duration_s: f64, profile: Profile },
 }
 
 /// How many motions from here on are one path; 0 if the first is no line or arc.
@@ -130,8 +122,7 @@ fn split(
 
 fn end_of(spline: &JointSpline, share: f64, dof: usize) -> RobotQ {
     let (mut q, mut first, mut second) = (RobotQ::zeros(dof), vec![0.0; dof], vec![0.0; dof]);
-    let SetpointMut { q: values, qd, qdd } = SetpointMut { q: &mut q, qd: &mut first, qdd: &mut second };
-    spline.at(share, crate::motion::joints::SplineValues { q: values, first: qd, second: qdd });
+    spline.at(share, SplineValues { q: &mut q, first: &mut first, second: &mut second });
     q
 }
 
@@ -233,33 +224,6 @@ fn path_drive(path: &TcpPathMotion) -> Drive {
     Drive::Speed(rates(path.speed_m_s, path.acceleration_m_s2, path.jerk_m_s3))
 }
 
-fn drive(
-    (speed_m_s, duration_s, profile): (Option<f64>, Option<f64>, Profile),
-    (acceleration_m_s2, jerk_m_s3): (Option<f64>, Option<f64>),
-    place: FilePlace<'_>,
-) -> Result<Drive, Diagnostic> {
-    match (speed_m_s, duration_s) {
-        (Some(speed_m_s), None) => Ok(Drive::Speed(rates(speed_m_s, acceleration_m_s2, jerk_m_s3))),
-        (None, Some(duration_s)) => Ok(Drive::Duration { duration_s, profile }),
-        (None, None) => Err(place.mark(
-            Diagnostic::error("scenario::path_speed", "the motion has no speed")
-                .with_help("give `speed_m_s`, or `duration_s`"),
-        )),
-        (Some(_), Some(_)) => Err(place.key("duration_s").mark(
-            Diagnostic::error(
-                "scenario::path_speed",
-                "`speed_m_s` and `duration_s` both say how fast the tool is",
-            )
-            .with_help("give one of them"),
-        )),
-    }
-}
-
-fn rates(velocity: f64, acceleration: Option<f64>, jerk: Option<f64>) -> RateLimits {
-    let acceleration = acceleration.unwrap_or(ACCELERATION_M_S2);
-    RateLimits { velocity, acceleration, jerk: jerk.unwrap_or(acceleration / TO_ACCELERATION_S) }
-}
-
 /// Refuses blends that do not fit, and lines that cannot be driven as they say.
 fn check(legs: &[Leg<'_>]) -> Result<(), Diagnostic> {
     for (index, leg) in legs.iter().enumerate() {
@@ -267,7 +231,7 @@ fn check(legs: &[Leg<'_>]) -> Result<(), Diagnostic> {
         let refused = |message: String, help: &'static str| {
             Err(leg.place.mark(Diagnostic::error("scenario::path", message).with_help(help)))
         };
-        if leg.segment.length_m() == 0.0 {
+        if leg.segment.is_turn_alone() && leg.segment.length_m() < THERE {
             return refused("the tool is there already".to_owned(), "leave the motion out");
         }
         if leg.segment.is_turn_alone() && matches!(leg.drive, Drive::Speed(_)) {
@@ -351,18 +315,6 @@ impl Leg<'_> {
             quantity(rates.acceleration, "m/s2")
         );
         Some(self.place.mark(Diagnostic::warning("scenario::arc_speed", message).with_help(help)))
-    }
-}
-
-/// The lower of both sides, and slower if the blend's acceleration would exceed the limit: at most
-/// `3/4 v^2 |t2 - t1| / r`.
-fn blend_rates(before: &RateLimits, after: &RateLimits, corner_per_m: f64) -> RateLimits {
-    let acceleration = before.acceleration.min(after.acceleration);
-    let fastest = (acceleration / (0.75 * corner_per_m)).sqrt();
-    RateLimits {
-        velocity: before.velocity.min(after.velocity).min(fastest),
-        acceleration,
-        jerk: before.jerk.min(after.jerk),
     }
 }
 

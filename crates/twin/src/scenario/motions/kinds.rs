@@ -38,6 +38,20 @@ pub enum MotionSettings {
 }
 
 impl MotionSettings {
+    /// The key that tells its kind, without a unit.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Joints(_) => "move_joints",
+            Self::Tcp(_) => TCP_KEY,
+            Self::Line(_) => LINE_KEY,
+            Self::Arc(_) => ARC_KEY,
+            Self::TcpPath(_) => TCP_PATH_KEY,
+            Self::JointPath(_) => "path_joints",
+            Self::Playback(_) => PLAYBACK_KEY,
+            Self::Servo(_) => SERVO_KEY,
+        }
+    }
+
     /// How long it takes, if the scenario says so.
     pub fn duration_s(&self) -> Option<f64> {
         match self {

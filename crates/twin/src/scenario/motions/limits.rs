@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::scenario::text::variant;
+
 /// Values by joint; `*` stands for every joint of this kind (turning or sliding) that is not named.
 type ByJoint = BTreeMap<String, f64>;
 
@@ -15,7 +17,7 @@ type ByJoint = BTreeMap<String, f64>;
 #[serde(deny_unknown_fields)]
 pub struct LimitSettings {
     /// What happens to a move that breaks a velocity limit: `refuse` or `slow`.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "variant")]
     pub over_limit: OverLimit,
     /// Velocities by joint, in degrees per second.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]

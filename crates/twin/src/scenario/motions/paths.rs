@@ -9,6 +9,7 @@ use super::profile::Profile;
 use crate::scenario::{
     number::{non_negative, optional_positive, positive},
     pose::PoseSettings,
+    text::variant,
 };
 
 /// The TCP goes along a straight line in the world, turning evenly on the way; it keeps its orientation if no rotation
@@ -53,7 +54,7 @@ pub struct ArcSettings {
 #[serde(deny_unknown_fields)]
 pub struct ArcMotion {
     /// Where it goes.
-    pub arc_tcp: ArcSettings,
+    pub arc_tcp: Box<ArcSettings>,
     /// Speed of the TCP; it starts and ends at rest, unless a blend leads on.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub speed_m_s: Option<f64>,
@@ -138,6 +139,6 @@ pub struct PlaybackMotion {
     /// A CSV file, relative to the scenario: a column `time_s`, and columns `JOINT_deg`, `_rad`, `_m` or `_mm`.
     pub play_csv: String,
     /// What joints do between its rows.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "variant")]
     pub between: Between,
 }

@@ -50,7 +50,7 @@ struct Top {
 }
 
 /// The sections of a file besides its top.
-const SECTIONS: [&str; 14] = [
+const SECTIONS: [&str; 15] = [
     "simulation",
     "start",
     "controller",
@@ -60,6 +60,7 @@ const SECTIONS: [&str; 14] = [
     "limits",
     "motion",
     "obstacle",
+    "grasp",
     "zone",
     "fault",
     "check",
@@ -181,6 +182,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         keep_all(findings, section.require_table("cylinder").map_err(Into::into));
         section.read_into(findings)
     });
+    let grasp = all(&mut document, "grasp", findings, Section::read_into);
     let zone = all(&mut document, "zone", findings, |section, findings| {
         keep_all(findings, section.require_table("cylinder").map_err(Into::into));
         section.read_into(findings)
@@ -209,6 +211,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         payload: payload?,
         motion: motion?,
         obstacle: obstacle?,
+        grasp: grasp?,
         zone: zone?,
         fault: fault?,
         check: check?,

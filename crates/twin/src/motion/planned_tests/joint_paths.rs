@@ -1,0 +1,157 @@
+//! Paths of many points, playback, and motions after a servo.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+
+use super::{assert_derivatives, instants, move_to, planned, pose, refused, start, tcp};
+use crate::{
+    motion::reference_generator::ReferenceGenerator,
+    scenario::{
+        Between, JointPathMotion, LineMotion, MotionSettings, PlaybackMotion, Profile, ServoMethod,
+        ServoMotion,
+    },
+};
+
+fn joint_path(points: &[f64]) -> JointPathMotion {
+    let point = |deg: &f64| BTreeMap::from([("shoulder_pan_joint".to_owned(), *deg)]);
+    JointPathMotion { path_joints_deg: points.iter().map(point).collect(), ..JointPathMotion::default() }
+}
+
+#[test]
+fn a_joint_path_goes_through_its_points_at_its_times() {
+    let path = JointPathMotion { at_s: vec![0.5, 1.0, 2.5], ..joint_path(&[20.0, -10.0, 60.0]) };
+    let found = instants(&planned(vec![MotionSettings::JointPath(path)]));
+    for (at, deg) in [(0, 0.0), (500, 20.0), (1000, -10.0), (2500, 60.0)] {
+        assert!((found[at].q[0].to_degrees() - deg).abs() < 1e-9, "{}", found[at].q[0].to_degrees());
+    }
+    assert!(found[500].qd[0].abs() > 0.01, "it does not stop at its points");
+    assert!(found[1].qdd[0].abs() < 0.2 && found[2500].qd[0].abs() < 1e-9);
+    assert_derivatives(&found, 0.2);
+    let path = JointPathMotion { at_s: vec![0.5, 0.5], ..joint_path(&[20.0, -10.0]) };
+    refused(vec![MotionSettings::JointPath(path)], "scenario::path_times", &["time 2", "not after"]);
+    let path = JointPathMotion { at_s: vec![0.5], ..joint_path(&[20.0, -10.0]) };
+    refused(vec![MotionSettings::JointPath(path)], "scenario::path_times", &["1 times for 2 points"]);
+}
+
+#[test]
+fn a_joint_path_without_times_takes_its_least_time() {
+    let found = instants(&planned(vec![MotionSettings::JointPath(joint_path(&[20.0, -10.0, 60.0]))]));
+    // The UR5e's 180 deg/s in 0.25 s, and that in 0.1 s.
+    let (velocity, acceleration, jerk) = (180.0, 720.0, 7200.0);
+    let mut peaks = [0.0_f64; 3];
+    for pair in found.windows(2) {
+        let third = (pair[1].qdd[0] - pair[0].qdd[0]) * 1e3;
+        let shares = [pair[1].qd[0] / velocity, pair[1].qdd[0] / acceleration, third / jerk];
+        for (peak, share) in peaks.iter_mut().zip(shares) {
+            *peak = peak.max(share.to_degrees().abs());
+        }
+    }
+    assert!(peaks.iter().all(|peak| *peak < 1.0 + 1e-6), "{peaks:?}");
+    assert!(peaks.iter().any(|peak| *peak > 0.98), "{peaks:?}");
+}
+
+fn playback(text: &str, between: Between) -> (tempfile::TempDir, Vec<MotionSettings>) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("moves.csv");
+    std::fs::write(&file, text).unwrap();
+    let play_csv = file.display().to_string();
+    (folder, vec![MotionSettings::Playback(PlaybackMotion { play_csv, between })])
+}
+
+#[test]
+fn a_table_is_played_back() {
+    let head = "# from a log\ntime_s,elbow_joint_deg,shoulder_pan_joint.q_rad,shoulder_pan_joint.qd_rad_s\n";
+    let wave = |time_s: f64| (90.0 + 20.0 * (1.0 - (2.0 * time_s).cos()), 0.3 * time_s.sin().powi(2));
+    let row = |step| {
+        let time_s = f64::from(step) * 0.05;
+        let (elbow_deg, pan) = wave(time_s);
+        format!("{},{elbow_deg},{pan},7\n", time_s + 5.0)
+    };
+    let rows: Vec<String> = (0..=40).map(row).collect();
+    let text = format!("{head}{}", rows.concat());
+    let (_folder, motion) = playback(&text, Between::Spline);
+    let found = instants(&planned(motion));
+    for now in &found {
+        let (elbow_deg, pan) = wave(now.time_s);
+        // A cubic spline: 5/384 h^4 times the fourth derivative of 320 deg/s^4. Near the ends the slope of the parabola
+        // counts: 4/81 h^3 times the third derivative of 160 deg/s^3.
+        let is_near_end = !(0.5..1.5).contains(&now.time_s);
+        let most_deg = if is_near_end { 1.2e-3 } else { 4e-5 };
+        let off_deg = (now.q[2].to_degrees() - elbow_deg).abs();
+        assert!(off_deg < most_deg, "{off_deg} at {}", now.time_s);
+        assert!((now.q[0] - pan).abs() < 2e-5);
+    }
+    let (_folder, motion) = playback(&text, Between::Linear);
+    let found = instants(&planned(motion));
+    let between = f64::midpoint(wave(0.5).0, wave(0.55).0);
+    assert!((found[525].q[2].to_degrees() - between).abs() < 1e-9);
+}
+
+#[test]
+fn tables_that_cannot_be_played_are_refused_with_their_line() {
+    let head = "time_s,elbow_joint_deg\n0,90\n";
+    for (text, code, words) in [
+        ("elbow_joint_deg\n90\n".to_owned(), "scenario::playback", vec!["no column time_s"]),
+        ("time_s,elbow\n0,90\n".to_owned(), "scenario::playback", vec!["column \"elbow\"", "elbow_joint"]),
+        ("time_s,elbow_joint_m\n0,90\n".to_owned(), "scenario::playback", vec!["_deg or _rad"]),
+        (format!("{head}1,x\n"), "scenario::playback", vec!["line 3", "\"x\" is not a finite number"]),
+        (format!("{head}1,91\n1,92\n"), "scenario::playback", vec!["line 4", "not after 1 s"]),
+        (format!("{head}1,91,5\n"), "scenario::playback", vec!["line 3", "3 cells, the header has 2"]),
+        (
+            format!("{head}0.01,100\n"),
+            "scenario::playback_jump",
+            vec!["line 3", "elbow_joint", "10 deg in 0.01 s", "1000 deg/s", "180 deg/s"],
+        ),
+        (
+            "time_s,elbow_joint_deg\n0,80\n1,81\n".to_owned(),
+            "scenario::playback_start",
+            vec!["80 deg", "90 deg"],
+        ),
+        (head.to_owned(), "scenario::playback", vec!["less than two rows"]),
+    ] {
+        let (_folder, motion) = playback(&text, Between::Spline);
+        refused(motion, code, &words);
+    }
+}
+
+#[test]
+fn motions_after_a_servo_start_where_it_ended() {
+    let from = start();
+    let (servo, down) = (from + Vector3::new(0.05, 0.05, 0.0), Vector3::new(0.0, 0.0, -0.1));
+    let servo_tcp = pose(servo.into());
+    let drive =
+        ServoMotion { servo_tcp, method: ServoMethod::default(), gain_per_s: Some(20.0), duration_s: 1.0 };
+    let away =
+        LineMotion { line_tcp: pose((servo + down).into()), duration_s: Some(0.5), ..LineMotion::default() };
+    let back = move_to("shoulder_pan_joint", 0.0, Some(0.5), Profile::Quintic);
+    let setup = planned(vec![MotionSettings::Servo(drive.clone()), MotionSettings::Line(away), back]);
+    let found = instants(&setup);
+    assert!((tcp(&found, 1000) - servo).norm() < 1e-6);
+    assert!((tcp(&found, 1250) - (servo + down / 2.0)).norm() < 1e-5, "{}", tcp(&found, 1250));
+    assert!((tcp(&found, 1500) - (servo + down)).norm() < 1e-5);
+    assert!(found[2000].q[0].abs() < 1e-12);
+    for pair in found.windows(2) {
+        assert!(pair[0].q.iter().zip(&pair[1].q).all(|(before, after)| (before - after).abs() < 5e-3));
+    }
+    let timeless = move_to("shoulder_pan_joint", 0.0, None, Profile::Quintic);
+    refused(vec![MotionSettings::Servo(drive.clone()), timeless], "scenario::after_servo", &["duration_s"]);
+    // What cannot be planned is known only in the run.
+    let far = LineMotion { line_tcp: pose([3.0, 0.0, 0.0]), duration_s: Some(0.5), ..LineMotion::default() };
+    let setup = planned(vec![MotionSettings::Servo(drive), MotionSettings::Line(far)]);
+    let mut reference = ReferenceGenerator::new(&setup.trajectory, &setup.description).unwrap();
+    let mut failed = None;
+    for step in 1..=setup.clock.steps {
+        let measured = reference.q().clone();
+        if let Err(error) = reference.advance(setup.clock.time_s(step), &measured) {
+            failed = Some((step, error.to_string()));
+            break;
+        }
+    }
+    let (step, said) = failed.unwrap();
+    assert_eq!(step, 1000);
+    assert!(
+        said.starts_with("motion 2, after a servo_tcp, cannot be planned") && said.contains("cannot go on"),
+        "{said}"
+    );
+}

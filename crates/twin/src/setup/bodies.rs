@@ -1,0 +1,289 @@
+//! `[[obstacle]] path` and `[[grasp]]` as moving bodies, and what carried bodies weigh as payloads.
+
+use std::path::Path;
+
+use congruent_description::{
+    Diagnostic, Diagnostics, Geometry, Inertia, LinkIndex, RobotDescription, known_names,
+};
+use congruent_kinematics::UrdfTree;
+use congruent_simulation::{CarriedBody, Obstacle};
+use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
+
+use super::{payload::Payload, spaces};
+use crate::{
+    bodies::{BodyCourse, Grasp, MovingBody, PathPose},
+    motion::Trajectory,
+    proximity::ObstacleMobility,
+    scenario::{FilePlace, GraspSettings, ObstacleSettings, PoseSettings, Scenario},
+};
+
+/// The bodies around the robot.
+pub(super) struct Surroundings {
+    /// `None` if one of them is wrong.
+    pub(super) obstacles: Option<Vec<Obstacle>>,
+    /// Those of them that move.
+    pub(super) moving: Vec<MovingBody>,
+    /// What those that are carried weigh.
+    pub(super) payloads: Vec<Payload>,
+}
+
+impl Surroundings {
+    /// Builds all; their faults are kept in `found`.
+    pub(super) fn new(
+        scenario: &Scenario,
+        (place, folder): (FilePlace<'_>, &Path),
+        (description, trajectory): (&RobotDescription, Option<&Trajectory>),
+        found: &mut Diagnostics,
+    ) -> Self {
+        let places = place.key("obstacle");
+        let kind = (&spaces::OBSTACLE, folder);
+        let (mut moving, mut payloads) = (Vec::new(), Vec::new());
+        let built = spaces::build(&scenario.obstacle, places, kind, &description.robot);
+        let mut obstacles = built.map_err(|errors| found.extend(errors)).ok();
+        if let Some(obstacles) = &mut obstacles {
+            let paths = paths(&scenario.obstacle, places, obstacles);
+            moving = paths.map_err(|errors| found.extend(errors)).unwrap_or_default();
+        }
+        if let (Some(obstacles), Some(trajectory)) = (&obstacles, trajectory) {
+            let planned = (description, trajectory);
+            let held = grasps(scenario, place.key("grasp"), planned, (obstacles.as_slice(), &mut moving));
+            payloads = held.map_err(|errors| found.extend(errors)).unwrap_or_default();
+        }
+        Self { obstacles, moving, payloads }
+    }
+}
+
+/// How each of so many obstacles moves.
+pub(super) fn mobility(bodies: &[MovingBody], obstacles: usize) -> Vec<ObstacleMobility> {
+    let mut mobility = vec![ObstacleMobility::Still; obstacles];
+    for body in bodies {
+        mobility[body.obstacle] = match &body.course {
+            BodyCourse::Path(_) => ObstacleMobility::Moves,
+            BodyCourse::Grasps(grasps) => {
+                ObstacleMobility::Carried(grasps.iter().map(|grasp| grasp.link).collect())
+            }
+        };
+    }
+    mobility
+}
+
+/// Builds the paths of obstacles; each stands at first at the beginning of its path.
+fn paths(
+    all: &[ObstacleSettings],
+    places: FilePlace<'_>,
+    obstacles: &mut [Obstacle],
+) -> Result<Vec<MovingBody>, Vec<Diagnostic>> {
+    let (mut bodies, mut errors) = (Vec::new(), Vec::new());
+    for (index, settings) in all.iter().enumerate().filter(|(_, settings)| !settings.path.is_empty()) {
+        match path(settings, places.item(index)) {
+            Ok(path) => {
+                obstacles[index].world_from_obstacle = path[0].world_from_obstacle;
+                bodies.push(MovingBody { obstacle: index, course: BodyCourse::Path(path) });
+            }
+            Err(error) => errors.push(error),
+        }
+    }
+    if errors.is_empty() { Ok(bodies) } else { Err(errors) }
+}
+
+fn path(settings: &ObstacleSettings, place: FilePlace<'_>) -> Result<Vec<PathPose>, Diagnostic> {
+    let refused = |place: FilePlace<'_>, message: String, help: &'static str| {
+        Err(place.mark(Diagnostic::error("scenario::obstacle_path", message).with_help(help)))
+    };
+    let name = &settings.name;
+    let stands = settings.xyz_m.is_some() || settings.xyz_mm.is_some();
+    if stands || settings.rpy_deg.is_some() || settings.rpy_rad.is_some() {
+        let message = format!("obstacle \"{name}\" has a pose of its own and a path");
+        return refused(
+            place,
+            message,
+            "leave the pose out: it stands at the first of its path until that time",
+        );
+    }
+    let mut path: Vec<PathPose> = Vec::with_capacity(settings.path.len());
+    for (index, written) in settings.path.iter().enumerate() {
+        let place = place.key("path").item(index);
+        if let Some(before) = path.last().filter(|before| written.at_s <= before.at_s) {
+            let message = format!("obstacle \"{name}\": {} s is not after {} s", written.at_s, before.at_s);
+            return refused(place.key("at_s"), message, "each pose of a path is later than the one before");
+        }
+        let (xyz_m, xyz_mm, rpy_deg, rpy_rad) =
+            (written.xyz_m, written.xyz_mm, written.rpy_deg, written.rpy_rad);
+        let pose = PoseSettings { xyz_m, xyz_mm, rpy_rad, rpy_deg, ..PoseSettings::default() };
+        let world_from_obstacle = pose.isometry(place)?;
+        if world_from_obstacle.translation.vector.amax() > spaces::LARGEST_M {
+            let message = format!("obstacle \"{name}\" goes further than {} m", spaces::LARGEST_M);
+            return refused(place, message, "give its path in metres, or under `xyz_mm`");
+        }
+        path.push(PathPose { at_s: written.at_s, world_from_obstacle });
+    }
+    Ok(path)
+}
+
+/// Builds the grasps of obstacles, beside those that move along a path, and their payloads.
+fn grasps(
+    scenario: &Scenario,
+    places: FilePlace<'_>,
+    (description, trajectory): (&RobotDescription, &Trajectory),
+    (obstacles, bodies): (&[Obstacle], &mut Vec<MovingBody>),
+) -> Result<Vec<Payload>, Vec<Diagnostic>> {
+    let (mut payloads, mut errors) = (Vec::new(), Vec::new());
+    let mut held: Vec<Held<'_>> = Vec::new();
+    for (index, settings) in scenario.grasp.iter().enumerate() {
+        let place = places.item(index);
+        match grasp(settings, place, (description, obstacles)) {
+            Ok((obstacle, _)) if bodies.iter().any(|body| body.obstacle == obstacle) => {
+                let message =
+                    format!("obstacle \"{}\" moves along a path, so nothing can carry it", settings.body);
+                errors.push(place.key("body").mark(Diagnostic::error("scenario::grasp", message)));
+            }
+            Ok((obstacle, grasp)) => held.push(Held { obstacle, grasp, settings, place }),
+            Err(error) => errors.push(error),
+        }
+    }
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    held.sort_by(|a, b| a.obstacle.cmp(&b.obstacle).then(a.grasp.from_s.total_cmp(&b.grasp.from_s)));
+    for of_body in held.chunk_by(|a, b| a.obstacle == b.obstacle) {
+        match of_one_body(of_body, (description, trajectory), &obstacles[of_body[0].obstacle]) {
+            Ok(found) => payloads.extend(found),
+            Err(error) => errors.push(error),
+        }
+        let grasps = of_body.iter().map(|held| held.grasp).collect();
+        bodies.push(MovingBody { obstacle: of_body[0].obstacle, course: BodyCourse::Grasps(grasps) });
+    }
+    if errors.is_empty() { Ok(payloads) } else { Err(errors) }
+}
+
+/// A grasp with its place in the file.
+struct Held<'a> {
+    obstacle: usize,
+    grasp: Grasp,
+    settings: &'a GraspSettings,
+    place: FilePlace<'a>,
+}
+
+fn grasp(
+    settings: &GraspSettings,
+    place: FilePlace<'_>,
+    (description, obstacles): (&RobotDescription, &[Obstacle]),
+) -> Result<(usize, Grasp), Diagnostic> {
+    let unknown = |key: &str, message: String, known: String| {
+        place.key(key).mark(Diagnostic::error("scenario::grasp", message).with_help(known))
+    };
+    let names = || obstacles.iter().map(|obstacle| obstacle.name.as_str());
+    let obstacle = names().position(|name| name == settings.body).ok_or_else(|| {
+        let message = format!("there is no obstacle \"{}\"", settings.body);
+        unknown("body", message, known_names(&settings.body, "obstacles", names()))
+    })?;
+    let robot = &description.robot;
+    let link = match &settings.link {
+        None => description.tip,
+        Some(name) => robot.find_link(name).ok_or_else(|| {
+            let links = robot.links().iter().map(|link| link.name.as_str());
+            let message = format!("robot \"{}\" has no link \"{name}\"", robot.name());
+            unknown("link", message, known_names(name, "links", links))
+        })?,
+    };
+    let (from_s, until_s) = (settings.from_s, settings.until_s.unwrap_or(f64::INFINITY));
+    if until_s <= from_s {
+        let message =
+            format!("\"{}\" is left at {until_s} s, before it is taken at {from_s} s", settings.body);
+        return Err(place.key("until_s").mark(Diagnostic::error("scenario::grasp", message)));
+    }
+    Ok((obstacle, Grasp { link, from_s, until_s }))
+}
+
+/// Follows one body along the planned motions: its pose in the link is that of the plan, in which the arm is exactly where
+/// it is told to be. Clearance and recording have it where the arm really takes it.
+fn of_one_body(
+    held: &[Held<'_>],
+    (description, trajectory): (&RobotDescription, &Trajectory),
+    obstacle: &Obstacle,
+) -> Result<Vec<Payload>, Diagnostic> {
+    let overlap = held.windows(2).find(|pair| pair[1].grasp.from_s < pair[0].grasp.until_s);
+    if let Some(pair) = overlap {
+        let message = format!(
+            "\"{}\" is taken at {} s, but carried until {} s already",
+            obstacle.name, pair[1].grasp.from_s, pair[0].grasp.until_s
+        );
+        let error =
+            Diagnostic::error("scenario::grasp", message).with_help("one link carries a body at a time");
+        return Err(pair[1].place.key("from_s").mark(error));
+    }
+    if held.iter().all(|held| held.settings.mass_kg.is_none()) {
+        return Ok(Vec::new());
+    }
+    let tree = UrdfTree::new(&description.robot);
+    let link_at = |link: LinkIndex,
+                   time_s: f64,
+                   place: FilePlace<'_>|
+     -> Result<Isometry3<f64>, Diagnostic> {
+        let q = trajectory.planned_at(time_s).ok_or_else(|| {
+            let message =
+                format!("at {time_s} s a servo_tcp has begun, so that only the run tells how the mass lies in the link");
+            let help = "take the body before the servo_tcp, or leave `mass_kg` out";
+            place.key("from_s").mark(Diagnostic::error("scenario::grasp", message).with_help(help))
+        })?;
+        let pose = tree.root_from_link(&q, link);
+        pose.map(|pose| pose.to_isometry())
+            .map_err(|error| place.mark(Diagnostic::error("scenario::grasp", error.to_string())))
+    };
+    let mut world_from_obstacle = obstacle.world_from_obstacle;
+    let mut payloads = Vec::new();
+    for (index, Held { grasp, settings, place, .. }) in held.iter().enumerate() {
+        let link_from_obstacle = link_at(grasp.link, grasp.from_s, *place)?.inv_mul(&world_from_obstacle);
+        if let Some(mass_kg) = settings.mass_kg {
+            let inertia =
+                inertia(settings, mass_kg, &obstacle.geometry).map_err(|error| place.mark(error))?;
+            let link_from_inertial = link_from_obstacle * inertia.link_from_inertial;
+            let carried =
+                CarriedBody { link: grasp.link, inertia: Inertia { link_from_inertial, ..inertia } };
+            let (from_s, until_s) = (grasp.from_s, grasp.until_s);
+            payloads.push(Payload { name: obstacle.name.clone(), carried, from_s, until_s });
+        }
+        if index + 1 < held.len() {
+            world_from_obstacle = link_at(grasp.link, grasp.until_s, *place)? * link_from_obstacle;
+        }
+    }
+    Ok(payloads)
+}
+
+/// The inertia in the frame of the obstacle.
+fn inertia(settings: &GraspSettings, mass_kg: f64, geometry: &Geometry) -> Result<Inertia, Diagnostic> {
+    let refused = |message: &str, help: &str| {
+        Err(Diagnostic::error("scenario::grasp_inertia", message).with_help(help.to_owned()))
+    };
+    let diagonal = if let Some(given) = settings.inertia_kg_m2 {
+        let sum: f64 = given.iter().sum();
+        if given.iter().any(|&moment| 2.0 * moment > sum * (1.0 + 1e-9)) {
+            let help = "none of the three may be larger than the sum of the others";
+            return refused("`inertia_kg_m2` is of no body", help);
+        }
+        Vector3::from(given)
+    } else {
+        match geometry {
+            Geometry::Box { size_m } => {
+                let squares = size_m.component_mul(size_m);
+                (Vector3::repeat(squares.sum()) - squares) * (mass_kg / 12.0)
+            }
+            Geometry::Sphere { radius_m } => Vector3::repeat(0.4 * mass_kg * radius_m * radius_m),
+            Geometry::Cylinder { radius_m, length_m } => {
+                let across = mass_kg * (3.0 * radius_m * radius_m + length_m * length_m) / 12.0;
+                Vector3::new(across, across, mass_kg * radius_m * radius_m / 2.0)
+            }
+            Geometry::Mesh(_) => {
+                let help = "give `inertia_kg_m2`, and `com_m` if it is not at the origin of the mesh";
+                return refused("the inertia of a mesh is not known", help);
+            }
+        }
+    };
+    let com = Vector3::from(settings.com_m.unwrap_or_default());
+    if !com.iter().all(|entry| entry.is_finite()) {
+        return refused("`com_m` is not finite", "give three lengths");
+    }
+    let link_from_inertial =
+        Isometry3::from_parts(Translation3::from(com), nalgebra::UnitQuaternion::identity());
+    Ok(Inertia { mass_kg, link_from_inertial, tensor_kg_m2: Matrix3::from_diagonal(&diagonal) })
+}

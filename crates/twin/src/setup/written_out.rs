@@ -1,0 +1,96 @@
+//! Writes the defaults of a scenario out, so that it says by itself what was run.
+
+use std::path::Path;
+
+use congruent_description::{JointKind, Robot, RobotDescription, RobotQ};
+
+use super::clock::RunClock;
+use crate::{
+    monitor::AT_THE_LIMIT,
+    motion::{ACCELERATION_M_S2, DEFAULT_GAIN_PER_S, default_jerk_m_s3},
+    scenario::{Check, MotionSettings, Scenario, StartSettings},
+};
+
+/// Fills in what was left out: the duration, the whole start, limits, and the robot's absolute path.
+pub(super) fn write_out_defaults(
+    scenario: &mut Scenario,
+    description: &RobotDescription,
+    (clock, start): (&RunClock, &RobotQ),
+) {
+    let path = &description.path;
+    let whole = path.canonicalize().or_else(|_| std::path::absolute(path));
+    scenario.robot = whole.unwrap_or_else(|_| path.clone()).display().to_string();
+    scenario.simulation.duration_s = Some(clock.duration_s());
+    scenario.start = written_start(&description.robot, start);
+    for motion in &mut scenario.motion {
+        let rates = match motion {
+            MotionSettings::Servo(servo) => {
+                servo.gain_per_s.get_or_insert(DEFAULT_GAIN_PER_S);
+                continue;
+            }
+            MotionSettings::Line(line) if line.speed_m_s.is_some() => {
+                (&mut line.acceleration_m_s2, &mut line.jerk_m_s3)
+            }
+            MotionSettings::Arc(arc) if arc.speed_m_s.is_some() => {
+                (&mut arc.acceleration_m_s2, &mut arc.jerk_m_s3)
+            }
+            MotionSettings::TcpPath(path) => (&mut path.acceleration_m_s2, &mut path.jerk_m_s3),
+            _ => continue,
+        };
+        let acceleration_m_s2 = *rates.0.get_or_insert(ACCELERATION_M_S2);
+        rates.1.get_or_insert_with(|| default_jerk_m_s3(acceleration_m_s2));
+    }
+    for grasp in &mut scenario.grasp {
+        let tip = || description.robot.link(description.tip).name.clone();
+        grasp.link.get_or_insert_with(tip);
+    }
+    for check in &mut scenario.check {
+        match check {
+            Check::Agreement(check) => {
+                check.position_m.get_or_insert(description.tolerance.position_m);
+                check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
+            }
+            Check::Limits(check) => {
+                check.tolerance_rad =
+                    check.tolerance_rad.or(check.tolerance_deg.is_none().then_some(AT_THE_LIMIT));
+                check.tolerance_m =
+                    check.tolerance_m.or(check.tolerance_mm.is_none().then_some(AT_THE_LIMIT));
+            }
+            Check::Clearance(_) | Check::Goal(_) | Check::Zone(_) => {}
+        }
+    }
+}
+
+/// Makes the paths of other files absolute.
+pub(super) fn write_out_paths(scenario: &mut Scenario, folder: &Path) {
+    for mesh in scenario.obstacle.iter_mut().filter_map(|obstacle| obstacle.mesh.as_mut()) {
+        let path = folder.join(&*mesh);
+        *mesh = path.canonicalize().unwrap_or(path).display().to_string();
+    }
+    if let Some(torques) = &mut scenario.controller.torque_file {
+        let path = Path::new(&*torques);
+        *torques = path.canonicalize().unwrap_or_else(|_| path.to_owned()).display().to_string();
+    }
+    for motion in &mut scenario.motion {
+        if let MotionSettings::Playback(playback) = motion {
+            let path = folder.join(&playback.play_csv);
+            playback.play_csv = path.canonicalize().unwrap_or(path).display().to_string();
+        }
+    }
+}
+
+/// Positions of all joints that follow no other, by name, in radians and metres.
+fn written_start(robot: &Robot, q: &RobotQ) -> StartSettings {
+    let mut start = StartSettings::default();
+    for (&joint, &position) in robot.movable_joints().iter().zip(q) {
+        let joint = robot.joint(joint);
+        if joint.mimic.is_none() {
+            let group = match joint.kind {
+                JointKind::Prismatic => &mut start.joints_m,
+                _ => &mut start.joints_rad,
+            };
+            group.insert(joint.name.clone(), position);
+        }
+    }
+    start
+}
