@@ -41,6 +41,8 @@ pub(crate) struct Engine {
     gravity: Vector,
     /// Whether some body carries a force of the step before: rapier's forces persist.
     is_forced: bool,
+    /// Whether a joint was beyond its limits at the beginning of the last step, which brings it back.
+    is_beyond_limits: bool,
 }
 
 impl Engine {
@@ -57,7 +59,17 @@ impl Engine {
         let Built { sets, handles, slots, multibody } = built;
         let gravity = adapter::vector(&settings.gravity_in_world);
         let pipeline = new_pipeline();
-        Self { sets, handles, slots, multibody, pipeline, parameters, gravity, is_forced: false }
+        Self {
+            sets,
+            handles,
+            slots,
+            multibody,
+            pipeline,
+            parameters,
+            gravity,
+            is_forced: false,
+            is_beyond_limits: false,
+        }
     }
 
     pub(crate) fn step_s(&self) -> f64 {
@@ -218,6 +230,7 @@ impl Engine {
         let Some(index) = self.multibody else { return };
         let step_s = self.parameters.dt;
         let multibody = self.sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
+        self.is_beyond_limits = false;
         for (coordinate, (link, slot)) in multibody.links_mut().skip(1).zip(&self.slots).enumerate() {
             let q = link.joint.coords()[slot.axis as usize];
             let data = &mut link.joint.data;
@@ -225,6 +238,7 @@ impl Engine {
             data.limit_axes.remove(slot.axis.into());
             if let Some(limits) = passed {
                 data.set_limits(slot.axis, limits);
+                self.is_beyond_limits = true;
             }
             let Some(motor) = &mut commands.motors[coordinate] else {
                 data.motor_axes.remove(slot.axis.into());
@@ -241,6 +255,12 @@ impl Engine {
             data.set_motor_model(slot.axis, MotorModel::ForceBased);
             data.set_motor_max_force(slot.axis, slot.servo_effort(commands.torque[coordinate]));
         }
+    }
+
+    /// Whether contact or the stop of a joint acted in the last step.
+    pub(crate) fn constraint_forces_act(&self) -> bool {
+        let mut pairs = self.sets.narrow_phase.contact_pairs();
+        self.is_beyond_limits || pairs.any(|pair| pair.has_any_active_contact())
     }
 
     /// The first coordinate for which this step had no solution: rapier found no pivot in its mass

@@ -26,7 +26,7 @@ struct Stages {
     observe: bool,
 }
 
-fn run(setup: &RunSetup, checks: &mut [RunningCheck], recorder: &mut dyn Recorder, stages: Stages) {
+fn run(setup: &RunSetup, checks: &mut [RunningCheck<'_>], recorder: &mut dyn Recorder, stages: Stages) {
     let mut run = Run::new(setup).expect("the scenario runs");
     for _ in 0..setup.clock.steps {
         run.step().expect("the physics holds");
@@ -39,15 +39,15 @@ fn run(setup: &RunSetup, checks: &mut [RunningCheck], recorder: &mut dyn Recorde
     }
 }
 
-fn bench(bencher: divan::Bencher<'_, '_>, stages: Stages, checks: fn(&RunningCheck) -> bool) {
+fn bench(bencher: divan::Bencher<'_, '_>, stages: Stages, checks: fn(&RunningCheck<'_>) -> bool) {
+    let setup = setup();
     bencher
         .with_inputs(|| {
-            let setup = setup();
             let mut kept = setup.checks();
             kept.retain(checks);
-            (setup, kept)
+            kept
         })
-        .bench_local_values(|(setup, mut checks)| run(&setup, &mut checks, &mut NoRecorder, stages));
+        .bench_local_values(|mut checks| run(&setup, &mut checks, &mut NoRecorder, stages));
 }
 
 #[divan::bench]

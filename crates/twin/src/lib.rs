@@ -15,6 +15,7 @@ mod sample;
 pub mod scenario;
 pub mod setup;
 pub mod source;
+mod stopping;
 pub mod verdict;
 
 pub use execute::{ExecuteError, Options, Recording, RecordingFormat, execute};

@@ -6,7 +6,6 @@ mod data;
 mod joints;
 mod motions;
 mod number;
-mod on_violation;
 mod place;
 mod pose;
 mod profile;
@@ -14,12 +13,14 @@ mod reading;
 mod spaces;
 mod text;
 
-pub use checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck};
+pub use checks::{
+    AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, CycleTimeCheck, DynamicsCheck, GoalCheck,
+    InvariantsCheck, LimitsCheck, OnViolation, PowerCheck, TrackingCheck, TwistCheck, ZoneCheck,
+};
 pub use data::{ControllerSettings, Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
 pub use joints::StartSettings;
 pub use motions::{JointMotion, MotionSettings, ServoMethod, ServoMotion, TcpMotion};
 pub(crate) use number::Range;
-pub use on_violation::OnViolation;
 pub use place::FilePlace;
 pub(crate) use place::mark;
 pub use pose::PoseSettings;

@@ -1,6 +1,7 @@
 //! A scenario checked against its robot: nothing later validates again.
 
 mod clock;
+mod declared_dynamics;
 mod joint_targets;
 mod numbers;
 mod payload;
@@ -9,6 +10,7 @@ mod spaces;
 mod zones;
 
 pub use clock::RunClock;
+pub use declared_dynamics::DeclaredDynamics;
 pub(crate) use joint_targets::JointTargets;
 pub use payload::Payload;
 pub use run_setup::RunSetup;

@@ -3,13 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::{
-    Diagnostic, Diagnostics, JointKind, Robot, RobotDescription, RobotQ, RosPackages, Use, load_robot_with,
+    Diagnostic, Diagnostics, Joint, JointKind, Robot, RobotDescription, RobotQ, RosPackages, Use,
+    load_robot_with,
 };
+use congruent_dynamics::JointResistance;
 use congruent_kinematics::move_inside_limits;
 use congruent_simulation::{Gains, Obstacle, controller_names};
 
 use super::{
     clock::RunClock,
+    declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
     numbers,
     payload::Payload,
@@ -17,7 +20,7 @@ use super::{
     zones::{self, Zone},
 };
 use crate::{
-    monitor::{AT_THE_LIMIT, RunningCheck},
+    monitor::{CheckContext, RunningCheck, write_out_limits},
     motion::Trajectory,
     scenario::{
         Check, CheckKind, Expectation, FilePlace, MotionSettings, Override, SCHEMA_VERSION, Scenario,
@@ -50,6 +53,8 @@ pub struct RunSetup {
     pub zones: Vec<Zone>,
     /// What links carry for a time, in addition to their own masses: known to controllers and checks.
     pub payloads: Vec<Payload>,
+    /// What resists each moving joint: known to controllers and checks.
+    pub resistances: Vec<JointResistance>,
     /// What is suspicious in the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
     check_lines: Vec<Option<usize>>,
@@ -155,6 +160,14 @@ impl RunSetup {
         let check_lines = (0..scenario.check.len()).map(line).collect();
         write_out_defaults(&mut scenario, &description, (&clock, &start));
         let path = None;
+        let robot = &description.robot;
+        let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+        let resistance = |joint: &Joint| JointResistance {
+            damping: joint.damping,
+            friction: joint.friction,
+            armature: 0.0,
+        };
+        let resistances = joints.map(resistance).collect();
         Ok(Self {
             scenario,
             path,
@@ -166,6 +179,7 @@ impl RunSetup {
             obstacles,
             zones,
             payloads: Vec::new(),
+            resistances,
             warnings,
             check_lines,
         })
@@ -181,9 +195,23 @@ impl RunSetup {
     }
 
     /// The checks, each before its first sample.
-    pub fn checks(&self) -> Vec<RunningCheck> {
+    pub fn checks(&self) -> Vec<RunningCheck<'_>> {
         let checks = self.scenario.check.iter().zip(&self.check_lines);
-        checks.map(|(check, &line)| RunningCheck::new(check, line, &self.description)).collect()
+        let context = CheckContext {
+            description: &self.description,
+            clock: &self.clock,
+            motions_s: self.trajectory.duration_s(),
+            payloads: &self.payloads,
+            dynamics: self.declared_dynamics(),
+        };
+        checks.map(|(check, &line)| RunningCheck::new(check, line, &context)).collect()
+    }
+
+    /// The declared dynamics: resistances, gravity and payloads are those of the scenario, whatever a fault changes in
+    /// the physics.
+    pub fn declared_dynamics(&self) -> DeclaredDynamics<'_> {
+        let gravity = self.clock.gravity_in_world;
+        DeclaredDynamics::new(&self.description.robot, &self.payloads, &self.resistances, gravity)
     }
 
     /// The gains of the controller.
@@ -195,7 +223,8 @@ impl RunSetup {
 
 /// Whether distances or contacts decide something: without obstacles nothing can be touched.
 fn needs_shapes(scenario: &Scenario) -> bool {
-    let measures = |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Zone);
+    let measures =
+        |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Contact | CheckKind::Zone);
     !scenario.obstacle.is_empty() || scenario.check.iter().any(measures)
 }
 
@@ -303,19 +332,7 @@ fn write_out_defaults(
         }
     }
     for check in &mut scenario.check {
-        match check {
-            Check::Agreement(check) => {
-                check.position_m.get_or_insert(description.tolerance.position_m);
-                check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
-            }
-            Check::Limits(check) => {
-                check.tolerance_rad =
-                    check.tolerance_rad.or(check.tolerance_deg.is_none().then_some(AT_THE_LIMIT));
-                check.tolerance_m =
-                    check.tolerance_m.or(check.tolerance_mm.is_none().then_some(AT_THE_LIMIT));
-            }
-            Check::Clearance(_) | Check::Goal(_) | Check::Zone(_) => {}
-        }
+        write_out_limits(check, description, clock.step_s);
     }
 }
 

@@ -36,6 +36,17 @@ pub struct JointSample<'a> {
     pub setpoint: Option<SetpointView<'a>>,
 }
 
+/// What acted on the joints in the step that led to the present instant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepForces {
+    /// The source does not know: it has no dynamics, or was placed where it stands.
+    Unknown,
+    /// The efforts of the sample, gravity, and what resists the joints: nothing else.
+    Declared,
+    /// Contact with a body or the stop of a joint besides.
+    Constrained,
+}
+
 /// A source of joint states: sample after sample, each later than the one before.
 pub trait JointStateSource {
     /// The joints at the present instant.
@@ -54,6 +65,17 @@ pub trait JointStateSource {
     /// # Errors
     /// [`SourceError`] if there is no usable sample.
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError>;
+
+    /// What acted in the step that led to the present instant; a source knows it if it is a simulation.
+    fn step_forces(&self) -> StepForces {
+        StepForces::Unknown
+    }
+
+    /// Brings the robot to rest from the present instant on, within its limits: the setpoint slows down and stays. Returns
+    /// whether the source can do so; one that drives nothing cannot.
+    fn begin_stop(&mut self) -> bool {
+        false
+    }
 
     /// The results of the servos, for a source that drives the robot.
     ///

@@ -1,5 +1,6 @@
 //! Sources of link poses, of dynamics and of joint states. A run takes any source of joint states.
 
+mod braking;
 mod carried;
 mod joint_states;
 mod sensors;
@@ -7,7 +8,9 @@ mod simulated_dynamics;
 mod simulated_poses;
 mod simulation;
 
-pub use joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError};
+pub use joint_states::{
+    JointSample, JointStateSource, JointStateView, SetpointView, SourceError, StepForces,
+};
 pub use simulated_dynamics::SimulatedDynamics;
 pub use simulated_poses::SimulatedPoses;
 pub use simulation::SimulationSource;

@@ -1,12 +1,13 @@
 //! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
-use congruent_description::{Diagnostic, Use};
+use congruent_description::{Diagnostic, Robot, RobotQ, Use};
 use congruent_simulation::{Controller, Setpoint, World, WorldSettings, controller};
 use nalgebra::Isometry3;
 
 use super::{
+    braking::{Braking, stop_accelerations},
     carried::CarriedPayloads,
-    joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError},
+    joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError, StepForces},
     sensors::JointSensors,
 };
 use crate::{
@@ -21,6 +22,9 @@ pub struct SimulationSource<'a> {
     reference: ReferenceGenerator<'a>,
     sensors: JointSensors,
     payloads: CarriedPayloads<'a>,
+    robot: &'a Robot,
+    /// Takes the place of the motions if a check stops the run.
+    braking: Option<Braking>,
 }
 
 impl std::fmt::Debug for SimulationSource<'_> {
@@ -55,6 +59,8 @@ impl<'a> SimulationSource<'a> {
         Ok(Self {
             sensors,
             payloads,
+            robot,
+            braking: None,
             world,
             controller: controller(kind, setup.gains()).map_err(SourceError::new)?,
             reference: ReferenceGenerator::new(&setup.trajectory, description).map_err(SourceError::new)?,
@@ -62,14 +68,25 @@ impl<'a> SimulationSource<'a> {
     }
 }
 
+impl SimulationSource<'_> {
+    /// The commanded positions and velocities.
+    fn commanded(&self) -> (&RobotQ, &[f64]) {
+        match &self.braking {
+            Some(braking) => (braking.q(), braking.qd()),
+            None => (self.reference.q(), self.reference.qd()),
+        }
+    }
+}
+
 impl JointStateSource for SimulationSource<'_> {
     fn joints(&self) -> JointSample<'_> {
         let (qd, effort) = (self.world.qd(), self.world.torque());
         let measured = self.sensors.measured();
+        let (commanded_q, commanded_qd) = self.commanded();
         JointSample {
             truth: JointStateView { q: self.world.q(), qd, effort },
             measured: JointStateView { q: measured.q, qd: measured.qd, effort },
-            setpoint: Some(SetpointView { q: self.reference.q(), qd: self.reference.qd() }),
+            setpoint: Some(SetpointView { q: commanded_q, qd: commanded_qd }),
         }
     }
 
@@ -82,15 +99,39 @@ impl JointStateSource for SimulationSource<'_> {
         true
     }
 
+    fn step_forces(&self) -> StepForces {
+        if self.world.was_placed() {
+            StepForces::Unknown
+        } else if self.world.constraint_forces_act() {
+            StepForces::Constrained
+        } else {
+            StepForces::Declared
+        }
+    }
+
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
         let measured = self.sensors.measured();
-        self.reference.advance(time_s, measured.q).map_err(SourceError::new)?;
-        let setpoint = Setpoint { q: self.reference.q(), qd: self.reference.qd() };
+        match &mut self.braking {
+            Some(braking) => braking.advance(time_s),
+            None => self.reference.advance(time_s, measured.q).map_err(SourceError::new)?,
+        }
+        let (commanded_q, commanded_qd) = match &self.braking {
+            Some(braking) => (braking.q(), braking.qd()),
+            None => (self.reference.q(), self.reference.qd()),
+        };
+        let setpoint = Setpoint { q: commanded_q, qd: commanded_qd };
         // A payload that comes at the start of the step acts in the whole of it.
         self.payloads.update(self.world.time_s(), &mut self.world);
         let stepped = self.world.step_measured(&mut *self.controller, &setpoint, &measured);
         self.sensors.read(self.world.q(), self.world.qd());
         stepped.map_err(SourceError::new)
+    }
+
+    fn begin_stop(&mut self) -> bool {
+        let accelerations = stop_accelerations(self.robot);
+        let commanded = (self.reference.q(), self.reference.qd());
+        self.braking = Some(Braking::new(commanded, self.world.time_s(), self.robot, &accelerations));
+        true
     }
 
     fn finish(&mut self) -> Result<Vec<ServoResult>, SourceError> {
