@@ -139,7 +139,7 @@ fn beyond_joint_limit(value: f64, measure: &Measure) -> String {
 }
 
 fn words(quantity: &str) -> String {
-    quantity.replace('_', " ")
+    quantity.replace('_', " ").replace("tcp", "TCP")
 }
 
 #[cfg(test)]

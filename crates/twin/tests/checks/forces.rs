@@ -133,5 +133,5 @@ fn dry_friction_that_holds_is_left_out_at_its_joint_alone() {
     let result = result(&setup(check, &sticky));
     passes(&result);
     notes(&result, "dry friction holds a joint");
-    assert_eq!(result.samples, 1200);
+    assert!(result.samples > 1000, "the other joint is compared: {result:#?}");
 }

@@ -61,10 +61,6 @@ fn a_depth_that_is_allowed_is_no_violation() {
 
 #[test]
 fn an_arm_that_touches_nothing_passes_with_its_distance() {
-    let ignored =
-        ContactCheck { ignore: vec![["finger".to_owned(), "block".to_owned()]], ..ContactCheck::default() };
-    let result = result(&slid(ignored));
-    assert_eq!(result.status, Status::Skipped, "no other pair has a shape: {result:#?}");
     let mut scenario = scenario(controlled("kinematic", 0.0, 0.0), Check::Contact(ContactCheck::default()));
     scenario.obstacle = vec![ObstacleSettings {
         name: "far".to_owned(),
@@ -75,4 +71,12 @@ fn an_arm_that_touches_nothing_passes_with_its_distance() {
     let far = crate::support::result(&setup(scenario, &arm(&[])));
     passes(&far);
     assert!(far.contacts.is_empty());
+}
+
+/// The finger is the only link with a shape.
+#[test]
+fn without_a_pair_there_is_nothing_to_check() {
+    let check = Check::Contact(ContactCheck::default());
+    let alone = result(&setup(scenario(controlled("kinematic", 0.0, 0.0), check), &arm(&[])));
+    assert_eq!(alone.status, Status::Skipped, "{alone:#?}");
 }

@@ -228,7 +228,7 @@ impl JointStateSource for Distorted<'_> {
         let joints = self.physics.joints();
         self.said.time_s = time_s;
         self.said.measured_q.copy_from_slice(joints.measured.q);
-        self.said.measured_qd.copy_from_slice(joints.measured.qd);
+        self.said.measured_qd = joints.measured.qd.to_vec();
         self.said.true_q.copy_from_slice(joints.truth.q);
         self.physics.root_from_links_into(&mut self.said.root_from_links[..5]);
         (self.distort)(&mut self.said);

@@ -79,9 +79,10 @@ impl<'a> DynamicsMonitor<'a> {
         }
     }
 
-    /// Fills the accelerations by analysis, the torques without acceleration, and the mass matrix.
-    fn analyse(&mut self, effort: &[f64]) -> Option<()> {
-        let StateBefore { time_s, q, qd, .. } = &self.before;
+    /// Fills the accelerations by analysis, the torques without acceleration, and the mass matrix. Forces that depend on the
+    /// velocity are those of the end of the step, as in the physics, which integrates them implicitly.
+    fn analyse(&mut self, effort: &[f64], qd: &[f64]) -> Option<()> {
+        let StateBefore { time_s, q, .. } = &self.before;
         let (tree, buffer) = self.dynamics.at(*time_s);
         let state = DrivenState { q, qd, tau: effort };
         tree.forward_into(&state, buffer, &mut self.qdd).ok()?;
@@ -108,7 +109,7 @@ impl<'a> DynamicsMonitor<'a> {
 
     fn compare(&mut self, sample: &Sample<'_>) {
         let truth = sample.joints.truth;
-        if self.analyse(truth.effort).is_none() {
+        if self.analyse(truth.effort, truth.qd).is_none() {
             self.left_out.refused += 1;
             return;
         }

@@ -9,6 +9,7 @@ use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
     sample::Sample,
     scenario::{FilePlace, LimitsCheck},
+    source::StepForces,
     verdict::Bound,
 };
 
@@ -150,6 +151,10 @@ impl LimitsMonitor {
         }
         if let (Some(limit), Some(effort)) = (limits.effort, truth.effort.get(coordinate)) {
             let share = effort.abs() / limit;
+            // A robot that was placed has exerted nothing: that is no effort within the limit.
+            if share == 0.0 && sample.forces == StepForces::Unknown {
+                return;
+            }
             limits.saturated += u64::from(share >= 1.0 - ROUNDING);
             self.effort.observe(share, coordinate, sample);
         }
@@ -200,7 +205,10 @@ impl CoordinateLimits {
         let drive = self.drive.as_ref().map(|Drive { time_s, setpoint_outside, is_commanded }| {
             let why = match setpoint_outside {
                 Some(outside) => format!("its setpoint is {} outside", shown(*outside)),
-                None if *is_commanded => "its setpoint is inside, but it goes on outwards".to_owned(),
+                None if *is_commanded => format!(
+                    "its setpoint is inside, but it goes on outwards, or deeper into its stop than {}",
+                    shown(ON_THE_STOP)
+                ),
                 None => "its setpoint is not known".to_owned(),
             };
             format!("{name} is driven beyond its limit from {} on: {why}", quantity(*time_s, "s"))

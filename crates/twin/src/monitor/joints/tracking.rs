@@ -146,7 +146,8 @@ impl TrackingMonitor {
             }
             let band = bands[usize::from(turns)];
             // Not a number is outside of every band.
-            if band.is_some_and(|band| !((true_q - reference).abs() <= band)) {
+            let error = (true_q - reference).abs();
+            if band.is_some_and(|band| error.is_nan() || error > band) {
                 unsettled = Some(joint);
             }
         }

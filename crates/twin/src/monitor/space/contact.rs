@@ -26,10 +26,19 @@ pub(crate) struct ContactMonitor {
     samples: u64,
 }
 
-/// A pair, and its number in the list of contacts while it touches.
+/// A pair, and whether it touches now.
 struct LookedAt {
     pair: usize,
-    touch: Option<Option<usize>>,
+    touch: TouchNow,
+}
+
+#[derive(Clone, Copy)]
+enum TouchNow {
+    None,
+    /// With its number in the list of contacts.
+    Listed(usize),
+    /// The list was full.
+    Unlisted,
 }
 
 /// A contact of a pair.
@@ -61,25 +70,25 @@ impl ContactMonitor {
         let all = 0..clearance.pairs().len();
         self.measured = all.clone().map(|pair| owned(clearance.names(pair))).collect();
         let chosen = all.filter(|&pair| self.names.look_at(clearance.names(pair)));
-        self.pairs = chosen.map(|pair| LookedAt { pair, touch: None }).collect();
+        self.pairs = chosen.map(|pair| LookedAt { pair, touch: TouchNow::None }).collect();
     }
 
     /// Begins or continues the contact of a pair.
     fn touches(&mut self, at: usize, depth_m: f64, time_s: f64) {
         let LookedAt { pair, touch } = &mut self.pairs[at];
-        match touch {
-            Some(None) => {}
-            Some(Some(number)) => {
-                let contact = &mut self.contacts[*number];
+        match *touch {
+            TouchNow::Unlisted => {}
+            TouchNow::Listed(number) => {
+                let contact = &mut self.contacts[number];
                 contact.until_s = time_s;
                 contact.depth_m = contact.depth_m.max(depth_m);
             }
-            None if self.contacts.len() == MOST_CONTACTS => {
-                *touch = Some(None);
+            TouchNow::None if self.contacts.len() == MOST_CONTACTS => {
+                *touch = TouchNow::Unlisted;
                 self.more_contacts += 1;
             }
-            None => {
-                *touch = Some(Some(self.contacts.len()));
+            TouchNow::None => {
+                *touch = TouchNow::Listed(self.contacts.len());
                 self.contacts.push(Touch { pair: *pair, from_s: time_s, until_s: time_s, depth_m });
             }
         }
@@ -98,14 +107,14 @@ impl Monitor for ContactMonitor {
         for at in 0..self.pairs.len() {
             let pair = self.pairs[at].pair;
             let Some(distance_m) = sample.clearance.measure_below(pair, threshold_m) else {
-                self.pairs[at].touch = None;
+                self.pairs[at].touch = TouchNow::None;
                 continue;
             };
             let signed_m = if distance_m > 0.0 { distance_m } else { sample.clearance.measure_signed(pair) };
             self.distance.observe(signed_m, pair, sample);
             threshold_m = threshold_m.min(distance_m.max(f64::MIN_POSITIVE));
             if distance_m > 0.0 {
-                self.pairs[at].touch = None;
+                self.pairs[at].touch = TouchNow::None;
             } else {
                 self.touches(at, -signed_m, sample.time_s);
             }

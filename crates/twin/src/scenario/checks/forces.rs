@@ -23,7 +23,7 @@ pub struct DynamicsCheck {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PowerCheck {
-    /// Largest difference, relative to the energy that the actuators have moved. Proportional to the length of a step if it is
+    /// Largest difference, relative to the energy that actuators and gravity have moved. Proportional to the length of a step if it is
     /// left out: the physics integrates to first order.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub relative: Option<f64>,
