@@ -36,7 +36,7 @@ fn loaded(check: Check) -> RunSetup {
 
 #[test]
 fn the_physics_moves_as_its_robot_would() {
-    for controller in [servo(), controlled("pd", 3000.0, 150.0), controlled("passive", 0.0, 0.0)] {
+    for controller in [servo(), controlled("pd", 3000.0, 150.0)] {
         let dynamics = result(&setup(scenario(controller.clone(), dynamics()), &arm(&[])));
         passes(&dynamics);
         let power = result(&setup(scenario(controller, power()), &arm(&[])));

@@ -21,7 +21,7 @@ use crate::{
 };
 
 /// The limit of a check that gives none, for each second of a step. Kind: truncation, of first order in the step. Worst
-/// seen in the scenarios: 14.2 (UR5e at 0.73 of its velocity limit), 3.5 (Panda), 1.3 (course arm), by steps of 1 ms and
+/// seen in the scenarios: 14.4 (UR5e at 0.73 of its velocity limit), 4.8 (Panda), 1.8 (course arm), by steps of 1 ms and
 /// of 0.25 ms alike; x2.
 pub(crate) const RELATIVE_PER_S: f64 = 30.0;
 /// The torques that act at a joint count at least as much as this acceleration of the joint alone takes, rad/s^2 and

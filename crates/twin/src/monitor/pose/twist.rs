@@ -13,6 +13,7 @@ use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
     sample::Sample,
     scenario::TwistCheck,
+    source::StepForces,
     verdict::Bound,
 };
 
@@ -39,6 +40,8 @@ pub(crate) struct TwistMonitor {
     linear: Watch,
     angular: Watch,
     samples: u64,
+    /// Samples with contact or a joint at its stop: the physics moves bodies apart without a velocity.
+    constrained: u64,
     has_velocities: bool,
 }
 
@@ -89,6 +92,7 @@ impl TwistMonitor {
             linear: watch("velocity", "m/s", linear.unwrap_or(linear_m_s)),
             angular: watch("angular_velocity", "rad/s", angular.unwrap_or(angular_rad_s)),
             samples: 0,
+            constrained: 0,
             has_velocities: true,
         }
     }
@@ -125,6 +129,10 @@ impl Monitor for TwistMonitor {
         if !before.is_set {
             return;
         }
+        if sample.forces == StepForces::Constrained {
+            self.constrained += 1;
+            return;
+        }
         let moved = change(&before.root_from_tcp, &now.root_from_tcp, now.time_s - before.time_s);
         let of_the_step = mean(before.times(&now.qd), now.times(&now.qd));
         let of_the_step_before = mean(before.times(&before.qd), now.times(&before.qd));
@@ -142,8 +150,17 @@ impl Monitor for TwistMonitor {
     fn finish(&self, names: &Names) -> Observed {
         let link = |link: usize| names.links[link].clone();
         let measures = [&self.linear, &self.angular].map(|watch| watch.measure(&names.joints, link)).into();
-        let note = "the source of joint states has no velocities";
-        let notes = if self.has_velocities { Vec::new() } else { vec![note.to_owned()] };
+        let mut notes = Vec::new();
+        if !self.has_velocities {
+            notes.push("the source of joint states has no velocities".to_owned());
+        }
+        if self.constrained > 0 {
+            let all = self.samples + self.constrained;
+            notes.push(format!(
+                "{} of {all} samples are left out: contact or the stop of a joint acts",
+                self.constrained
+            ));
+        }
         Observed { samples: self.samples, measures, notes, ..Observed::default() }
     }
 
