@@ -4,8 +4,8 @@
 use congruent_description::Inertia;
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::{
-    IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint, MultibodyLink,
-    PhysicsPipeline, RigidBodyHandle, Vector,
+    ContactPair, IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint,
+    MultibodyLink, PhysicsPipeline, RigidBodyHandle, Vector,
 };
 
 use crate::{
@@ -260,7 +260,7 @@ impl Engine {
     /// Whether contact or the stop of a joint acted in the last step.
     pub(crate) fn constraint_forces_act(&self) -> bool {
         let mut pairs = self.sets.narrow_phase.contact_pairs();
-        self.is_beyond_limits || pairs.any(|pair| pair.has_any_active_contact())
+        self.is_beyond_limits || pairs.any(ContactPair::has_any_active_contact)
     }
 
     /// The first coordinate for which this step had no solution: rapier found no pivot in its mass

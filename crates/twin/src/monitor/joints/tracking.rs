@@ -195,14 +195,15 @@ impl TcpOfSetpoint {
 impl Standstill {
     /// Takes the setpoint of a sample; says since when it stands.
     fn take(&mut self, q: &RobotQ, time_s: f64) -> Option<f64> {
-        let is_still = !self.has_begun || self.q[..] == q[..];
+        let is_still = !self.has_begun || self.q == *q;
         if !is_still {
             if self.since_s.is_some() {
                 self.way.fill(0.0);
             }
             for (way, (now, before)) in self.way.iter_mut().zip(q.iter().zip(&self.q)) {
-                if now != before {
-                    *way = (now - before).signum();
+                let step = now - before;
+                if step.abs() > 0.0 {
+                    *way = step.signum();
                 }
             }
         }
