@@ -173,24 +173,29 @@ impl<'a> Run<'a> {
         self.clearance.move_links(&self.root_from_links);
         self.zones.move_links(&self.root_from_links);
         let is_end = self.source.step_count() >= self.setup.clock.steps;
-        let mut sample = self.sample(is_end && self.stopping.is_none());
+        let is_last = is_end && self.stopping.is_none();
+        let mut sample = self.sample();
+        sample.is_last = is_last;
         for check in checks.iter_mut() {
             check.monitor.observe(&mut sample);
         }
-        let ends = self.ends(checks, is_end);
+        let ends = self.ends(checks);
         for q in self.source.joints().truth.q {
             self.hash.update(q.to_le_bytes());
         }
-        recorder.record(&mut self.sample(ends))?;
+        let mut sample = self.sample();
+        sample.is_last = ends;
+        recorder.record(&mut sample)?;
         Ok(ends)
     }
 
-    fn sample(&mut self, is_last: bool) -> Sample<'_> {
+    /// This instant, as if more followed.
+    fn sample(&mut self) -> Sample<'_> {
         let step = self.source.step_count();
         Sample {
             step,
             time_s: self.setup.clock.time_s(step),
-            is_last,
+            is_last: false,
             joints: self.source.joints(),
             forces: self.source.step_forces(),
             model: self.model.latest(),
@@ -203,7 +208,7 @@ impl<'a> Run<'a> {
 
     /// Whether the run ends here: at its end, or where the arm is at rest after a violation. The first violation of a check
     /// that stops the run begins the way to rest.
-    fn ends(&mut self, checks: &[RunningCheck<'_>], is_end: bool) -> bool {
+    fn ends(&mut self, checks: &[RunningCheck<'_>]) -> bool {
         let step = self.source.step_count();
         let time_s = self.setup.clock.time_s(step);
         let description = &self.setup.description;
@@ -211,10 +216,13 @@ impl<'a> Run<'a> {
         let root_from_tcp = description.tip_from_tcp.map_or(root_from_tip, |tcp| root_from_tip * tcp);
         let tcp_in_root = root_from_tcp.translation.vector;
         if self.stopping.is_none() {
-            let Some(check) = checks.iter().position(RunningCheck::stops) else { return is_end };
+            let Some(check) = checks.iter().position(RunningCheck::stops) else {
+                return step >= self.setup.clock.steps;
+            };
             let q = self.source.joints().truth.q.clone();
-            let can_stop = self.source.begin_stop();
-            self.stopping = Some(Stopping::new(check, (step, time_s), (q, tcp_in_root), can_stop));
+            let mut stopping = Stopping::new(check, (step, time_s), (q, tcp_in_root));
+            stopping.can_stop = self.source.begin_stop();
+            self.stopping = Some(stopping);
         }
         let joints = self.source.joints();
         self.stopping.as_mut().is_none_or(|stopping| stopping.ends(time_s, &joints, tcp_in_root))

@@ -24,7 +24,7 @@ pub(crate) struct Stopping {
     time_s: f64,
     from: RobotQ,
     /// Whether the source can be brought to rest.
-    can_stop: bool,
+    pub(crate) can_stop: bool,
     is_at_rest: bool,
     duration_s: f64,
     q: RobotQ,
@@ -38,14 +38,13 @@ impl Stopping {
         check: usize,
         (step, time_s): (u64, f64),
         (q, tcp_in_root): (RobotQ, Vector3<f64>),
-        can_stop: bool,
     ) -> Self {
         Self {
             check,
             step,
             time_s,
             from: q.clone(),
-            can_stop,
+            can_stop: false,
             is_at_rest: false,
             duration_s: 0.0,
             q,
@@ -74,21 +73,14 @@ impl Stopping {
 
     /// In words, as a remark on the check.
     pub(crate) fn note(&self, steps: u64) -> String {
-        let mut note = format!(
-            "stopped the run at {}, after {} of {steps} steps",
-            quantity(self.time_s, "s"),
-            self.step
-        );
-        if self.can_stop {
-            let duration = quantity(self.duration_s, "s");
-            let way = length(self.tcp_path_m);
-            note += &if self.is_at_rest {
-                format!("; the arm is at rest {duration} later, its TCP {way} further")
-            } else {
-                format!("; the arm is not at rest {duration} later, its TCP {way} further")
-            };
+        let (time, step) = (quantity(self.time_s, "s"), self.step);
+        let note = format!("stopped the run at {time}, after {step} of {steps} steps");
+        if !self.can_stop {
+            return note;
         }
-        note
+        let (duration, way) = (quantity(self.duration_s, "s"), length(self.tcp_path_m));
+        let rest = if self.is_at_rest { "at rest" } else { "not at rest" };
+        format!("{note}; the arm is {rest} {duration} later, its TCP {way} further")
     }
 
     /// For the report.

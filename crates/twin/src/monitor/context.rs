@@ -1,6 +1,6 @@
 //! What checks know of a run before its first sample.
 
-use congruent_description::RobotDescription;
+use congruent_description::{JointKind, RobotDescription};
 
 use crate::setup::{DeclaredDynamics, Payload, RunClock};
 
@@ -25,9 +25,9 @@ impl CheckContext<'_> {
         self.description.robot.dof()
     }
 
-    /// Whether each movable joint turns.
-    pub(super) fn turning(&self) -> Vec<bool> {
+    /// How each movable joint moves.
+    pub(super) fn joint_kinds(&self) -> Vec<JointKind> {
         let robot = &self.description.robot;
-        robot.movable_joints().iter().map(|&joint| robot.joint(joint).kind.is_angular()).collect()
+        robot.movable_joints().iter().map(|&joint| robot.joint(joint).kind).collect()
     }
 }

@@ -36,6 +36,9 @@ impl<'a> DeclaredDynamics<'a> {
     /// The equations of motion at a time, with memory for them.
     ///
     /// The payloads are those that a step from this time on carries. Nothing is allocated unless one comes or goes.
+    ///
+    /// # Panics
+    /// Never: the same robot has as many bodies.
     pub fn at(&mut self, time_s: f64) -> (&BodyTree, &mut DynamicsBuffer) {
         let mut has_changed = false;
         for (payload, is_carried) in self.payloads.iter().zip(&mut self.is_carried) {

@@ -1,5 +1,7 @@
 //! Cycle time: since when the arm is at rest at the end of the last motion.
 
+use congruent_description::JointKind;
+
 use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
     sample::Sample,
@@ -15,7 +17,7 @@ pub(crate) const AT_THE_END: f64 = 1e-3;
 const AT_REST: f64 = 1e-3;
 
 pub(crate) struct CycleTimeMonitor {
-    is_turning: Vec<bool>,
+    kinds: Vec<JointKind>,
     /// Of joints that slide, of joints that turn.
     tolerances: [f64; 2],
     motions_s: f64,
@@ -32,7 +34,7 @@ impl CycleTimeMonitor {
     pub(crate) fn new(check: &CycleTimeCheck, context: &CheckContext<'_>) -> Self {
         let [turning, sliding] = check.unit_keys().map(|keys| keys.value().unwrap_or(AT_THE_END));
         Self {
-            is_turning: context.turning(),
+            kinds: context.joint_kinds(),
             tolerances: [sliding, turning],
             motions_s: context.motions_s,
             slack_s: context.clock.step_s / 2.0,
@@ -48,7 +50,7 @@ impl CycleTimeMonitor {
         let (truth, setpoint) = (sample.joints.truth, sample.joints.setpoint?);
         let is_under_way = sample.time_s < self.motions_s - self.slack_s;
         let is_there = |joint: usize| {
-            let tolerance = self.tolerances[usize::from(self.is_turning[joint])];
+            let tolerance = self.tolerances[usize::from(self.kinds[joint].is_angular())];
             let speed = truth.qd.get(joint).copied().unwrap_or(0.0);
             (truth.q[joint] - setpoint.q[joint]).abs() <= tolerance && speed.abs() <= AT_REST
         };
@@ -78,7 +80,7 @@ impl Monitor for CycleTimeMonitor {
         if sample.is_last {
             self.time.observe(
                 self.since_s.unwrap_or(f64::INFINITY),
-                unfinished.unwrap_or(self.is_turning.len()),
+                unfinished.unwrap_or(self.kinds.len()),
                 sample,
             );
         }

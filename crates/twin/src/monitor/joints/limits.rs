@@ -3,7 +3,7 @@
 //! A joint that rests on its stop, because it was commanded there or sags onto it, is a little beyond its limit: a stop
 //! yields. It is told apart from one that is driven beyond: by a setpoint outside, or because it goes on outwards.
 
-use congruent_description::{Diagnostic, RobotDescription, display::quantity};
+use congruent_description::{Diagnostic, JointKind, RobotDescription, display::quantity};
 
 use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
@@ -31,7 +31,7 @@ pub(crate) const SHIFT_BEYOND_LIMIT: &str = "shift_beyond_limit";
 /// The limits of one coordinate, and what has become of it at its stop.
 struct CoordinateLimits {
     coordinate: usize,
-    is_angular: bool,
+    kind: JointKind,
     range: Option<(f64, f64)>,
     velocity: Option<f64>,
     effort: Option<f64>,
@@ -114,23 +114,23 @@ impl LimitsMonitor {
         let limits = &mut self.coordinates[at];
         let Some((lower, upper)) = limits.range else { return };
         let outside = |q: f64| (lower - q).max(q - upper);
-        let (coordinate, is_angular) = (limits.coordinate, limits.is_angular);
+        let (coordinate, kind) = (limits.coordinate, limits.kind);
         let q = sample.joints.truth.q[coordinate];
         // Of a number that is none, `max` would drop the other one.
         let beyond = if q.is_nan() { q } else { outside(q) };
-        let margin = self.margins[usize::from(!is_angular)];
+        let margin = self.margins[usize::from(!kind.is_angular())];
         let setpoint = sample.joints.setpoint.map(|setpoint| outside(setpoint.q[coordinate]));
         let grows = limits.beyond_before > 0.0 && beyond > limits.beyond_before;
         let is_commanded_inside = setpoint.is_some_and(|outside| outside <= AT_THE_LIMIT);
         let rests = margin == 0.0 && is_commanded_inside && !grows && beyond <= ON_THE_STOP;
         limits.beyond_before = beyond;
-        let tolerance = self.beyond.of(is_angular).limit();
+        let tolerance = self.beyond.of(kind).limit();
         if rests && beyond > tolerance {
             limits.rest.get_or_insert(Rest {
                 time_s: sample.time_s,
                 setpoint_inside: -setpoint.unwrap_or_default(),
             });
-            self.on_stop.of(is_angular).observe(beyond, coordinate, sample);
+            self.on_stop.of(kind).observe(beyond, coordinate, sample);
             return;
         }
         if beyond > tolerance {
@@ -140,7 +140,7 @@ impl LimitsMonitor {
                 is_commanded: setpoint.is_some(),
             });
         }
-        self.beyond.of(is_angular).observe(beyond + margin, coordinate, sample);
+        self.beyond.of(kind).observe(beyond + margin, coordinate, sample);
     }
 
     fn observe_shares(&mut self, at: usize, sample: &Sample<'_>) {
@@ -184,8 +184,8 @@ impl LimitsMonitor {
 }
 
 impl ByKind {
-    fn of(&mut self, is_angular: bool) -> &mut Watch {
-        if is_angular { &mut self.angular } else { &mut self.linear }
+    fn of(&mut self, kind: JointKind) -> &mut Watch {
+        if kind.is_angular() { &mut self.angular } else { &mut self.linear }
     }
 }
 
@@ -193,7 +193,7 @@ impl CoordinateLimits {
     /// What has become of the joint at its stop and at its effort limit.
     fn notes(&self, joints: &[String]) -> Vec<String> {
         let name = &joints[self.coordinate];
-        let shown = |value: f64| quantity(value, if self.is_angular { "rad" } else { "m" });
+        let shown = |value: f64| quantity(value, if self.kind.is_angular() { "rad" } else { "m" });
         let rest = self.rest.as_ref().map(|Rest { time_s, setpoint_inside }| {
             let why = if *setpoint_inside <= AT_THE_LIMIT {
                 "it is commanded to its limit".to_owned()
@@ -247,7 +247,7 @@ fn coordinates(description: &RobotDescription) -> Vec<CoordinateLimits> {
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     let limits = joints.enumerate().map(|(coordinate, joint)| CoordinateLimits {
         coordinate,
-        is_angular: joint.kind.is_angular(),
+        kind: joint.kind,
         range: joint.position_range(),
         velocity: stated(joint.limit.and_then(|limit| limit.velocity)),
         effort: stated(joint.limit.and_then(|limit| limit.effort)),

@@ -1,7 +1,7 @@
 //! The twin against its setpoint: the error on the way and at the end of the run, and wherever the setpoint stands still
 //! the time until the joints stay there and how far they go beyond.
 
-use congruent_description::{Diagnostic, LinkIndex, Robot, RobotQ};
+use congruent_description::{Diagnostic, JointKind, LinkIndex, Robot, RobotQ};
 use congruent_kinematics::UrdfTree;
 use nalgebra::{Isometry3, Vector3};
 
@@ -20,7 +20,7 @@ struct Errors {
 }
 
 pub(crate) struct TrackingMonitor {
-    is_turning: Vec<bool>,
+    kinds: Vec<JointKind>,
     tcp: TcpOfSetpoint,
     path: Errors,
     goal: Errors,
@@ -95,7 +95,7 @@ impl TrackingMonitor {
         let limits = check.unit_keys().map(|keys| keys.value());
         let [path_rad, path_m, path_tcp_m, goal_rad, goal_m, goal_tcp_m, overshoot_rad, overshoot_m] = limits;
         Self {
-            is_turning: context.turning(),
+            kinds: context.joint_kinds(),
             tcp: TcpOfSetpoint {
                 tree: UrdfTree::new(&description.robot),
                 tip: description.tip,
@@ -139,12 +139,12 @@ impl TrackingMonitor {
         let bands = [&self.goal.sliding, &self.goal.turning].map(|goal| goal.as_ref().map(Watch::limit));
         let mut unsettled = None;
         for (joint, (reference, true_q)) in q.iter().zip(sample.joints.truth.q).enumerate() {
-            let turns = self.is_turning[joint];
+            let kind = self.kinds[joint];
             let beyond = (true_q - reference) * self.standstill.way[joint];
-            if let Some(watch) = self.overshoot.of(turns).filter(|_| self.standstill.way[joint] != 0.0) {
+            if let Some(watch) = self.overshoot.of(kind).filter(|_| self.standstill.way[joint] != 0.0) {
                 watch.observe(beyond.max(0.0) + 0.0 * beyond, joint, sample);
             }
-            let band = bands[usize::from(turns)];
+            let band = bands[usize::from(kind.is_angular())];
             // Not a number is outside of every band.
             let error = (true_q - reference).abs();
             if band.is_some_and(|band| error.is_nan() || error > band) {
@@ -159,19 +159,19 @@ impl TrackingMonitor {
 }
 
 impl Errors {
-    fn of(&mut self, turns: bool) -> Option<&mut Watch> {
-        if turns { self.turning.as_mut() } else { self.sliding.as_mut() }
+    fn of(&mut self, kind: JointKind) -> Option<&mut Watch> {
+        if kind.is_angular() { self.turning.as_mut() } else { self.sliding.as_mut() }
     }
 
     fn observe(
         &mut self,
-        is_turning: &[bool],
+        kinds: &[JointKind],
         (q, tcp_error_m): (&RobotQ, f64),
         tip: LinkIndex,
         sample: &Sample<'_>,
     ) {
         for (joint, (reference, true_q)) in q.iter().zip(sample.joints.truth.q).enumerate() {
-            if let Some(watch) = self.of(is_turning[joint]) {
+            if let Some(watch) = self.of(kinds[joint]) {
                 watch.observe((true_q - reference).abs(), joint, sample);
             }
         }
@@ -223,13 +223,13 @@ impl Monitor for TrackingMonitor {
         self.samples += 1;
         let needs_tcp = self.path.tcp.is_some() || self.goal.tcp.is_some();
         let tcp_error_m = if needs_tcp { self.tcp.error_m(setpoint.q, sample) } else { 0.0 };
-        self.path.observe(&self.is_turning, (setpoint.q, tcp_error_m), self.tcp.tip, sample);
+        self.path.observe(&self.kinds, (setpoint.q, tcp_error_m), self.tcp.tip, sample);
         let since_s = self.standstill.take(setpoint.q, sample.time_s);
         if let Some(since_s) = since_s {
             self.observe_standstill(since_s, setpoint.q, sample);
         }
         if sample.is_last {
-            self.goal.observe(&self.is_turning, (setpoint.q, tcp_error_m), self.tcp.tip, sample);
+            self.goal.observe(&self.kinds, (setpoint.q, tcp_error_m), self.tcp.tip, sample);
         }
     }
 

@@ -21,10 +21,6 @@ pub(crate) use unit_keys::UnitKeys;
 /// One check.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a scenario has a handful of checks, and a box would be in the way"
-)]
 pub enum Check {
     /// Model against twin: position and orientation of every link, at every sample.
     Agreement(AgreementCheck),
