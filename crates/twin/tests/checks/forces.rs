@@ -26,7 +26,7 @@ fn power() -> Check {
 /// The arm takes 3 kg with its finger from 0.3 s to 0.6 s.
 fn loaded(check: Check) -> RunSetup {
     let mut setup = setup(scenario(servo(), check), &arm(&[]));
-    let link = setup.description.robot.find_link("finger").unwrap();
+    let link = setup.description.robot.find_link("finger").expect("the arm has a finger");
     let link_from_inertial = Isometry3::translation(0.05, 0.0, 0.0);
     let inertia = Inertia { mass_kg: 3.0, link_from_inertial, tensor_kg_m2: Matrix3::identity() * 0.002 };
     let carried = CarriedBody { link, inertia };

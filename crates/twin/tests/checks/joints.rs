@@ -116,8 +116,8 @@ fn a_share_is_at_most_the_whole() {
     assert!(refused(Check::Limits(check)).starts_with("scenario::number: check.margin_m: expected a finite"));
 }
 
-fn tracked(tracking: TrackingCheck, controller: congruent_twin::scenario::ControllerSettings) -> RunSetup {
-    setup(scenario(controller, Check::Tracking(tracking)), &arm(&[]))
+fn tracked(tracking: &TrackingCheck, controller: congruent_twin::scenario::ControllerSettings) -> RunSetup {
+    setup(scenario(controller, Check::Tracking(*tracking)), &arm(&[]))
 }
 
 #[test]
@@ -131,9 +131,9 @@ fn a_stiff_servo_follows_and_a_soft_one_does_not() {
         overshoot_deg: Some(0.5),
         ..TrackingCheck::default()
     };
-    let stiff = result(&tracked(tracking, servo()));
+    let stiff = result(&tracked(&tracking, servo()));
     passes(&stiff);
-    let soft = result(&tracked(tracking, controlled("pd", 300.0, 30.0)));
+    let soft = result(&tracked(&tracking, controlled("pd", 300.0, 30.0)));
     assert_eq!(soft.status, Status::Fail);
     // The shoulder carries the whole arm: it sags by gravity over stiffness, 3 deg or more.
     let goal = measure(&soft, "goal_error_of_angle").worst.as_ref().unwrap();
@@ -152,14 +152,14 @@ fn playback_follows_exactly() {
         overshoot_rad: Some(0.0),
         ..TrackingCheck::default()
     };
-    passes(&result(&tracked(tracking, controlled("kinematic", 0.0, 0.0))));
+    passes(&result(&tracked(&tracking, controlled("kinematic", 0.0, 0.0))));
 }
 
 /// A servo with little damping swings beyond the end of the motion.
 #[test]
 fn an_overshoot_is_measured_beyond_the_setpoint_that_stands() {
     let tracking = TrackingCheck { overshoot_deg: Some(0.05), ..TrackingCheck::default() };
-    let result = result(&tracked(tracking, controlled("gravity_compensation", 1000.0, 5.0)));
+    let result = result(&tracked(&tracking, controlled("gravity_compensation", 1000.0, 5.0)));
     assert_eq!(result.status, Status::Fail, "{result:#?}");
     let violation = measure(&result, "overshoot_of_angle").first_violation.as_ref().unwrap();
     assert!(violation.time_s >= 0.8, "the setpoint stands from 0.8 s on: {violation:?}");

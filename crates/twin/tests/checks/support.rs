@@ -47,7 +47,7 @@ pub(crate) fn arm(edits: &[(&str, &str)]) -> RobotDescription {
         assert!(text.contains(from), "the arm has no {from:?}");
         text = text.replacen(from, to, 1);
     }
-    let source = SourceFile { path: "small.urdf".into(), text: text.into() };
+    let source = SourceFile { path: "small.urdf".into(), text };
     let mut description = parse_robot(None, &source.into()).unwrap();
     description.tip = description.robot.find_link("finger").unwrap();
     description
@@ -189,7 +189,7 @@ impl<'a> Distorted<'a> {
             true_q: joints.truth.q.clone(),
             root_from_links: vec![Isometry3::identity(); 16],
         };
-        Self { said, physics, distort }
+        Self { physics, said, distort }
     }
 }
 
