@@ -58,21 +58,28 @@ fn check<'a>(report: &'a Value, kind: &str) -> &'a Value {
     checks.iter().find(|check| check["check"] == kind).unwrap_or_else(|| panic!("no check {kind}"))
 }
 
-/// What `kind` found first, in a run that it stopped there: all that was looked at ends with it.
+/// What `kind` found first, in a run that it stopped there. The arm slows down after it, and all that is looked at ends
+/// where it is at rest.
 #[track_caller]
 fn stopped_by<'a>(report: &'a Value, kind: &str, step: usize) -> &'a Value {
     let failed = check(report, kind);
     let violation = &failed["measures"][0]["first_violation"];
-    assert_eq!(report["simulation"]["steps"], step, "{violation:#}");
+    let steps = report["simulation"]["steps"].as_u64().unwrap();
+    let rest = &report["stopped"]["rest"];
+    assert_eq!(rest["is_at_rest"], true, "{rest:#}");
+    let slowed_steps = usize::try_from(steps).unwrap() - step;
+    let slowed_s = f64::from(u32::try_from(slowed_steps).unwrap()) * 1e-3;
+    assert!((rest["duration_s"].as_f64().unwrap() - slowed_s).abs() < 1e-9, "{rest:#}");
     assert_eq!(report["stopped"]["check"], kind);
     assert_eq!(report["stopped"]["step"], step);
     assert_eq!(report["stopped"]["line"], failed["line"]);
     assert_eq!(report["stopped"]["time_s"], violation["time_s"]);
     assert_eq!(violation["time_s"], f64::from(u32::try_from(step).unwrap()) * 1e-3, "steps take 1 ms");
     assert_eq!(failed["status"], "fail");
-    assert!(failed["notes"][0].as_str().unwrap().starts_with("stopped the run at "), "{failed:#}");
+    let notes = failed["notes"].as_array().unwrap();
+    assert!(notes.last().unwrap().as_str().unwrap().starts_with("stopped the run at "), "{failed:#}");
     for check in report["checks"].as_array().unwrap() {
-        assert_eq!(check["samples"], step + 1, "{check:#}");
+        assert_eq!(check["samples"], steps + 1, "{check:#}");
         assert!(check["check"] == kind || check["status"] == "pass", "{check:#}");
     }
     violation
@@ -184,6 +191,27 @@ fn case_13_the_first_link_in_a_forbidden_zone_stops_the_motion() {
     assert_eq!(violation["value"], 0.0);
     assert_eq!(&check(&report, "zone")["measures"][0]["worst"], violation);
     stands_at(violation, &way[step]);
+    slows_down(&report, &way[step - 1..=step], step);
+}
+
+/// One joint alone moves, by the quintic, and slows down from its velocity `v` at the violation: with the 3.14 rad/s of its
+/// limit in 0.25 s, so `v^2 / 2 a` further, and the TCP along a circle about the joint.
+fn slows_down(report: &Value, last_two: &[[f64; 6]], step: usize) {
+    /// Kind: truncation. A step ends within 1 ms of rest, at which the arm has 1e-6 rad to go.
+    const STEP_S: f64 = 1e-3;
+    let s = f64::from(u32::try_from(step).unwrap()) / 2000.0;
+    let velocity = 30.0 * (s * (1.0 - s)).powi(2) * std::f64::consts::FRAC_PI_2 / 2.0;
+    let between = (last_two[1][0] - last_two[0][0]) / STEP_S;
+    assert!((velocity - between).abs() < 2e-3, "{velocity} {between}");
+    let acceleration = std::f64::consts::PI / 0.25;
+    let rest = &report["stopped"]["rest"];
+    let duration_s = rest["duration_s"].as_f64().unwrap();
+    assert!((0.0..=STEP_S).contains(&(duration_s - velocity / acceleration)), "{rest:#}");
+    let moved_rad = rest["joints"]["shoulder_pan_joint"].as_f64().unwrap();
+    assert!((moved_rad - velocity * velocity / (2.0 * acceleration)).abs() < 1e-9, "{rest:#}");
+    // The tool is 0.5 m from the axis of the first joint, more or less.
+    let radius_m = rest["tcp_path_m"].as_f64().unwrap() / moved_rad;
+    assert!((0.4..0.6).contains(&radius_m), "{radius_m}");
 }
 
 #[test]
@@ -300,6 +328,7 @@ fn case_13_what_stopped_is_in_every_result() {
         let entities = inspected["entities"].as_array().unwrap();
         assert!(entities.iter().any(|entity| entity["path"] == "/world/zone/operator"), "{entities:#?}");
         let last_s = inspected["timelines"][0]["last"].as_f64().unwrap() * 1e-9;
-        assert!((last_s - stopped).abs() < 1e-9, "the recording ends at {last_s} s");
+        let rest_s = inspected["report"]["stopped"]["rest"]["duration_s"].as_f64().unwrap();
+        assert!((last_s - stopped - rest_s).abs() < 1e-9, "the recording ends at {last_s} s");
     }
 }

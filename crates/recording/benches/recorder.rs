@@ -20,16 +20,11 @@ fn setup() -> RunSetup {
 #[divan::bench]
 fn run_and_recording(bencher: divan::Bencher<'_, '_>) {
     let path = std::env::temp_dir().join("congruent-bench.rrd");
-    bencher
-        .with_inputs(|| {
-            let setup = setup();
-            let checks = setup.checks();
-            (setup, checks)
-        })
-        .bench_local_values(|(setup, mut checks)| {
-            let run = Run::new(&setup).expect("the scenario runs");
-            let mut recorder = RerunRecorder::create(&path, &setup, run.names(), run.model().sources())
-                .expect("a temporary file");
-            run.finish(&mut checks, &mut recorder, |_| ())
-        });
+    let setup = setup();
+    bencher.with_inputs(|| setup.checks()).bench_local_values(|mut checks| {
+        let run = Run::new(&setup).expect("the scenario runs");
+        let mut recorder = RerunRecorder::create(&path, &setup, run.names(), run.model().sources())
+            .expect("a temporary file");
+        run.finish(&mut checks, &mut recorder, |_| ())
+    });
 }

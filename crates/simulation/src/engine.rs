@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use congruent_description::Inertia;
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::{
-    IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint, MultibodyLink,
-    PhysicsPipeline, RigidBodyHandle, Vector,
+    ContactPair, IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint,
+    MultibodyLink, PhysicsPipeline, RigidBodyHandle, Vector,
 };
 
 use crate::{
@@ -48,6 +48,8 @@ pub(crate) struct Engine {
     drives: Vec<Drive>,
     /// Whether some body carries a force of the step before: rapier's forces persist.
     is_forced: bool,
+    /// Whether a joint was beyond its limits at the beginning of the last step, which brings it back.
+    is_beyond_limits: bool,
 }
 
 impl Engine {
@@ -76,6 +78,7 @@ impl Engine {
             gravity,
             drives,
             is_forced: false,
+            is_beyond_limits: false,
         }
     }
 
@@ -299,6 +302,7 @@ impl Engine {
         let Some(index) = self.multibody else { return };
         let step_s = self.parameters.dt;
         let multibody = self.sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
+        self.is_beyond_limits = false;
         for (row, (link, slot)) in multibody.links_mut().skip(1).zip(&self.slots).enumerate() {
             let q = link.joint.coords()[slot.axis as usize];
             let data = &mut link.joint.data;
@@ -306,6 +310,7 @@ impl Engine {
             data.motor_axes.remove(slot.axis.into());
             if let Some(limits) = slot.passed_limits(q, step_s) {
                 data.set_limits(slot.axis, limits);
+                self.is_beyond_limits = true;
             }
             let drive = &self.drives[row];
             let linear = if drive.is_constrained { Linear::default() } else { drive.linear() };
@@ -323,6 +328,12 @@ impl Engine {
             let servo = drive.servo.filter(|_| !drive.is_constrained);
             multibody.damping_mut()[row] = own + servo.map_or(0.0, |servo| servo.gains.damping);
         }
+    }
+
+    /// Whether contact or the stop of a joint acted in the last step.
+    pub(crate) fn constraint_forces_act(&self) -> bool {
+        let mut pairs = self.sets.narrow_phase.contact_pairs();
+        self.is_beyond_limits || pairs.any(ContactPair::has_any_active_contact)
     }
 
     /// The first coordinate for which this step had no solution: rapier found no pivot in its mass

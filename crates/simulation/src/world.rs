@@ -181,6 +181,17 @@ impl World {
         &self.state.saturations
     }
 
+    /// Whether the last step placed the robot, without dynamics.
+    pub fn was_placed(&self) -> bool {
+        self.commands.placed
+    }
+
+    /// Whether forces act on the robot that are neither efforts nor gravity nor what resists its joints: contact with an
+    /// obstacle, or the stop of a joint in the last step.
+    pub fn constraint_forces_act(&self) -> bool {
+        self.engine.constraint_forces_act()
+    }
+
     /// Simulated time, s: the number of steps times their length.
     #[expect(clippy::cast_precision_loss, reason = "2^53 steps of 1 ms are 285 thousand years")]
     pub fn time_s(&self) -> f64 {

@@ -27,7 +27,7 @@ struct Stages {
     observe: bool,
 }
 
-fn run(setup: &RunSetup, checks: &mut [RunningCheck], recorder: &mut dyn Recorder, stages: Stages) {
+fn run(setup: &RunSetup, checks: &mut [RunningCheck<'_>], recorder: &mut dyn Recorder, stages: Stages) {
     let mut run = Run::new(setup).expect("the scenario runs");
     for _ in 0..setup.clock.steps {
         run.step().expect("the physics holds");
@@ -40,15 +40,15 @@ fn run(setup: &RunSetup, checks: &mut [RunningCheck], recorder: &mut dyn Recorde
     }
 }
 
-fn bench(bencher: divan::Bencher<'_, '_>, stages: Stages, checks: fn(&RunningCheck) -> bool) {
+fn bench(bencher: divan::Bencher<'_, '_>, stages: Stages, checks: fn(&RunningCheck<'_>) -> bool) {
+    let setup = setup();
     bencher
         .with_inputs(|| {
-            let setup = setup();
             let mut kept = setup.checks();
             kept.retain(checks);
-            (setup, kept)
+            kept
         })
-        .bench_local_values(|(setup, mut checks)| run(&setup, &mut checks, &mut NoRecorder, stages));
+        .bench_local_values(|mut checks| run(&setup, &mut checks, &mut NoRecorder, stages));
 }
 
 #[divan::bench]
@@ -70,15 +70,10 @@ fn c_and_checks_and_clearance(bencher: divan::Bencher<'_, '_>) {
 /// cost little, in physics as in clearance.
 #[divan::bench(args = [10, 1000])]
 fn d_with_far_obstacles(bencher: divan::Bencher<'_, '_>, more: u32) {
-    bencher
-        .with_inputs(|| {
-            let setup = among(more);
-            let checks = setup.checks();
-            (setup, checks)
-        })
-        .bench_local_values(|(setup, mut checks)| {
-            run(&setup, &mut checks, &mut NoRecorder, Stages { compare: true, observe: true });
-        });
+    let setup = among(more);
+    bencher.with_inputs(|| setup.checks()).bench_local_values(|mut checks| {
+        run(&setup, &mut checks, &mut NoRecorder, Stages { compare: true, observe: true });
+    });
 }
 
 /// What the physics alone costs among them, its world and its shapes included.

@@ -20,6 +20,7 @@ mod sample;
 pub mod scenario;
 pub mod setup;
 pub mod source;
+mod stopping;
 pub mod trajectory_file;
 pub mod verdict;
 

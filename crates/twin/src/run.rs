@@ -2,7 +2,6 @@
 //! sample after another. It does not know what the source is.
 
 use congruent_agreement::{compare::Model, report::ReportedDiagnosis};
-use congruent_description::display::quantity;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
@@ -17,6 +16,7 @@ use crate::{
     sample::Sample,
     setup::RunSetup,
     source::{ActuatorUse, JointStateSource, SimulationSource, SourceError},
+    stopping::Stopping,
     verdict::{CheckResult, Status, Stop},
 };
 
@@ -76,6 +76,8 @@ pub struct Run<'a> {
     errors: Vec<PoseError>,
     hash: Sha256,
     store: SampleStore,
+    /// The way to rest, from the first violation of a check that stops the run.
+    stopping: Option<Stopping>,
 }
 
 impl std::fmt::Debug for Run<'_> {
@@ -124,6 +126,7 @@ impl<'a> Run<'a> {
             errors: vec![PoseError::default(); links],
             hash: Sha256::new(),
             store: SampleStore::new(robot.dof(), links, setup.clock.steps),
+            stopping: None,
         })
     }
 
@@ -170,30 +173,59 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Passes this instant to all checks and to the recorder; returns the number of the check that ends
-    /// the run here, if one does.
+    /// Passes this instant to all checks and to the recorder; returns whether the run ends with it.
     ///
     /// # Errors
     /// [`RunError::Recording`] if the recorder cannot write.
     pub fn observe(
         &mut self,
-        checks: &mut [RunningCheck],
+        checks: &mut [RunningCheck<'_>],
         recorder: &mut dyn Recorder,
-    ) -> Result<Option<usize>, RunError> {
-        let step = self.source.step_count();
-        self.bodies.advance(self.setup.clock.time_s(step), |link| self.root_from_links[link.get()]);
+    ) -> Result<bool, RunError> {
+        self.move_bodies();
+        let is_end = self.source.step_count() >= self.setup.clock.steps;
+        let is_last = is_end && self.stopping.is_none();
+        let mut sample = self.sample();
+        sample.is_last = is_last;
+        for check in checks.iter_mut() {
+            check.monitor.observe(&mut sample);
+        }
+        let ends = self.ends(checks);
+        for q in self.source.joints().truth.q {
+            self.hash.update(q.to_le_bytes());
+        }
+        let (mut sample, store) = self.sample_and_store();
+        sample.is_last = ends;
+        store.take(&sample);
+        recorder.record(&mut sample)?;
+        Ok(ends)
+    }
+
+    /// Moves links and obstacles to where they are at this instant.
+    fn move_bodies(&mut self) {
+        let time_s = self.setup.clock.time_s(self.source.step_count());
+        self.bodies.advance(time_s, |link| self.root_from_links[link.get()]);
         for (obstacle, pose, is_carried) in self.bodies.poses() {
             let carried = if is_carried { Carried::Yes } else { Carried::No };
             self.clearance.move_obstacle(obstacle, pose, carried);
         }
         self.clearance.move_links(&self.root_from_links);
         self.zones.move_links(&self.root_from_links);
-        let joints = self.source.joints();
-        let mut sample = Sample {
+    }
+
+    fn sample(&mut self) -> Sample<'_> {
+        self.sample_and_store().0
+    }
+
+    /// This instant, as if more followed, and the store for the diagnosis.
+    fn sample_and_store(&mut self) -> (Sample<'_>, &mut SampleStore) {
+        let step = self.source.step_count();
+        let sample = Sample {
             step,
             time_s: self.setup.clock.time_s(step),
-            is_last: step >= self.setup.clock.steps,
-            joints,
+            is_last: false,
+            joints: self.source.joints(),
+            forces: self.source.step_forces(),
             model: self.model.latest(),
             twin: &self.root_from_links,
             errors: &self.errors,
@@ -201,36 +233,44 @@ impl<'a> Run<'a> {
             bodies: &self.bodies,
             zones: &mut self.zones,
         };
-        for check in checks.iter_mut() {
-            check.monitor.observe(&mut sample);
-        }
-        let stopping = checks.iter().position(RunningCheck::stops);
-        sample.is_last |= stopping.is_some();
-        for q in joints.truth.q {
-            self.hash.update(q.to_le_bytes());
-        }
-        self.store.take(&sample);
-        recorder.record(&mut sample)?;
-        Ok(stopping)
+        (sample, &mut self.store)
     }
 
-    /// Runs to the end, or to the first violation of a check that stops the run. After an error, the
+    /// Whether the run ends here: at its end, or where the arm is at rest after a violation. The first violation of a check
+    /// that stops the run begins the way to rest.
+    fn ends(&mut self, checks: &[RunningCheck<'_>]) -> bool {
+        let step = self.source.step_count();
+        let time_s = self.setup.clock.time_s(step);
+        let description = &self.setup.description;
+        let root_from_tip = self.root_from_links[description.tip.get()];
+        let root_from_tcp = description.tip_from_tcp.map_or(root_from_tip, |tcp| root_from_tip * tcp);
+        let tcp_in_root = root_from_tcp.translation.vector;
+        if self.stopping.is_none() {
+            let Some(check) = checks.iter().position(RunningCheck::stops) else {
+                return step >= self.setup.clock.steps;
+            };
+            let q = self.source.joints().truth.q.clone();
+            let mut stopping = Stopping::new(check, (step, time_s), (q, tcp_in_root));
+            stopping.can_stop = self.source.begin_stop();
+            self.stopping = Some(stopping);
+        }
+        let joints = self.source.joints();
+        self.stopping.as_mut().is_none_or(|stopping| stopping.ends(time_s, &joints, tcp_in_root))
+    }
+
+    /// Runs to the end, or to rest after the first violation of a check that stops the run. After an error, the
     /// outcome holds the results up to it.
     pub fn finish(
         mut self,
-        checks: &mut [RunningCheck],
+        checks: &mut [RunningCheck<'_>],
         recorder: &mut dyn Recorder,
         mut progress: impl FnMut(u64),
     ) -> (Outcome, Result<(), RunError>) {
-        let end = self.setup.clock.steps;
-        let mut stopping = None;
         let mut go = || -> Result<(), RunError> {
             self.compare()?;
-            stopping = self.observe(checks, recorder)?;
-            while stopping.is_none() && self.source.step_count() < end {
+            while !self.observe(checks, recorder)? {
                 self.step()?;
                 self.compare()?;
-                stopping = self.observe(checks, recorder)?;
                 progress(self.source.step_count());
             }
             Ok(())
@@ -240,14 +280,18 @@ impl<'a> Run<'a> {
             Ok(servos) => (servos, result),
             Err(error) => (Vec::new(), result.and(Err(error.into()))),
         };
-        let steps = self.source.step_count();
         let mut results: Vec<CheckResult> = checks.iter().map(|check| check.result(&self.names)).collect();
         let has_failed = results.iter().any(|check| check.status == Status::Fail);
+        let stopped = self.stopping.as_ref().map(|stopping| {
+            let result = &mut results[stopping.check()];
+            result.notes.push(stopping.note(self.setup.clock.steps));
+            stopping.report(result, &self.names.joints)
+        });
         let outcome = Outcome {
             diagnosis: has_failed.then(|| diagnose(self.setup, &self.store, &mut self.clearance)).flatten(),
-            stopped: stopping.map(|index| stopped_by(&mut results[index], self.setup, steps)),
+            stopped,
             checks: results,
-            steps,
+            steps: self.source.step_count(),
             servos,
             actuators: self.source.actuators(),
             trajectory_sha256: hex(&self.hash.finalize()),
@@ -255,14 +299,6 @@ impl<'a> Run<'a> {
         };
         (outcome, result)
     }
-}
-
-/// The end of a run by a check after `step` steps; the check's result gets a note about it.
-fn stopped_by(result: &mut CheckResult, setup: &RunSetup, step: u64) -> Stop {
-    let (time_s, steps) = (setup.clock.time_s(step), setup.clock.steps);
-    let time = quantity(time_s, "s");
-    result.notes.push(format!("stopped the run at {time}, after {step} of {steps} steps"));
-    Stop { check: result.check, line: result.line, step, time_s }
 }
 
 fn hex(bytes: &[u8]) -> String {

@@ -3,7 +3,11 @@
 use congruent_kinematics::{Pose, PoseError};
 use nalgebra::Isometry3;
 
-use crate::{bodies::MovingBodies, proximity::Clearance, source::JointSample};
+use crate::{
+    bodies::MovingBodies,
+    proximity::Clearance,
+    source::{JointSample, StepForces},
+};
 
 /// One instant: borrowed from the run loop, nothing is copied.
 #[derive(Debug)]
@@ -17,6 +21,8 @@ pub struct Sample<'a> {
     pub is_last: bool,
     /// The joints: true states, measured states and setpoints.
     pub joints: JointSample<'a>,
+    /// What acted in the step that led here.
+    pub forces: StepForces,
     /// Poses by analysis at the measured joint positions, in the root link's frame and the robot's order of
     /// links.
     pub model: &'a [Pose],

@@ -113,13 +113,29 @@ pub struct CheckResult {
     pub samples: u64,
     /// The quantities with their limits.
     pub measures: Vec<Measure>,
+    /// The pairs that touched, each from when to when, by a check `contact`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<Contact>,
     /// Remarks on the values.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
+/// Two shapes that touched for a time.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Contact {
+    /// The link, and the link or obstacle that it touched.
+    pub pair: [String; 2],
+    /// The first instant of the contact.
+    pub from_s: f64,
+    /// The last instant of the contact.
+    pub until_s: f64,
+    /// How deep their convex hulls overlapped at most; 0 if they only touched.
+    pub depth_m: f64,
+}
+
 /// The early end of a run by a check with `on_violation = "stop"`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Stop {
     /// The kind of check that was violated.
     pub check: CheckKind,
@@ -129,6 +145,24 @@ pub struct Stop {
     pub step: u64,
     /// Simulated time of the violation.
     pub time_s: f64,
+    /// Position of every movable joint at the violation, rad or m.
+    pub q: JointValues,
+    /// The way to rest; `None` if the source of joint states drives nothing, and the run ended at once.
+    pub rest: Option<WayToRest>,
+}
+
+/// How an arm came to rest: its setpoint slowed down within the acceleration limits and stayed, and the run went on until
+/// the arm was at rest.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct WayToRest {
+    /// Whether every joint is slower than 1e-3 rad/s or m/s at the end; the run does not wait for more than 5 s.
+    pub is_at_rest: bool,
+    /// Time from the violation to rest.
+    pub duration_s: f64,
+    /// How far each joint has gone in that time, rad or m.
+    pub joints: JointValues,
+    /// Length of the path of the twin's TCP in that time.
+    pub tcp_path_m: f64,
 }
 
 /// The verdict of a run over all checks.
@@ -186,7 +220,15 @@ mod tests {
     use super::*;
 
     fn result(check: CheckKind, status: Status) -> CheckResult {
-        CheckResult { check, line: Some(1), status, samples: 1, measures: Vec::new(), notes: Vec::new() }
+        CheckResult {
+            check,
+            line: Some(1),
+            status,
+            samples: 1,
+            measures: Vec::new(),
+            contacts: Vec::new(),
+            notes: Vec::new(),
+        }
     }
 
     #[track_caller]

@@ -128,7 +128,11 @@ fn write_events(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
     }
     if let Some(stop) = &report.stopped {
         let text = format!("check {} stops the run", stop.check);
-        events.push((end_s, TextLogLevel::ERROR, text));
+        events.push((stop.time_s, TextLogLevel::ERROR, text));
+        if let Some(rest) = &stop.rest {
+            let text = if rest.is_at_rest { "the arm is at rest" } else { "the arm is not at rest" };
+            events.push((end_s, TextLogLevel::INFO, text.to_owned()));
+        }
     }
     if let Some(error) = &report.error {
         events.push((end_s, TextLogLevel::CRITICAL, error.clone()));

@@ -1,7 +1,10 @@
 //! The trait of checks.
 
 use super::names::Names;
-use crate::{sample::Sample, verdict::Measure};
+use crate::{
+    sample::Sample,
+    verdict::{Contact, Measure},
+};
 
 /// A check that gets every sample of a run.
 pub trait Monitor: Send {
@@ -16,12 +19,14 @@ pub trait Monitor: Send {
 }
 
 /// The results of a monitor, without the check and the file that it belongs to.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Observed {
     /// Number of instants that were checked.
     pub samples: u64,
     /// The quantities with their limits.
     pub measures: Vec<Measure>,
+    /// The pairs that touched, each from when to when.
+    pub contacts: Vec<Contact>,
     /// Remarks on the values.
     pub notes: Vec<String>,
 }

@@ -4,6 +4,9 @@ use congruent_description::Robot;
 
 use crate::proximity::Clearance;
 
+/// The subject of a value that is no single joint's.
+pub(super) const ALL_JOINTS: &str = "all joints";
+
 /// Names for the indices in a sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Names {
@@ -34,5 +37,10 @@ impl Names {
             pairs: (0..clearance.pairs().len()).map(pair).collect(),
             zones: (0..zones.pairs().len()).map(in_zone).collect(),
         }
+    }
+
+    /// A joint by its index; all joints by the index after the last.
+    pub(super) fn joint_or_all(&self, joint: usize) -> String {
+        self.joints.get(joint).cloned().unwrap_or_else(|| ALL_JOINTS.to_owned())
     }
 }

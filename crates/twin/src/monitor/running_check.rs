@@ -1,16 +1,21 @@
-//! A check of a scenario in a run. A new kind of check is a variant of [`Check`], a file here, and a line in
-//! [`RunningCheck::new`].
+//! A check of a scenario in a run. A new kind of check is a variant of [`Check`], a file in one of the folders here, and
+//! a line in [`RunningCheck::new`].
 
 use congruent_description::{Diagnostic, RobotDescription};
 
 use super::{
-    agreement::AgreementMonitor,
-    clearance::{self, ClearanceMonitor},
-    goal::{self, GoalMonitor},
-    limits::{self, LimitsMonitor},
+    context::CheckContext,
+    forces::{DYNAMICS_RELATIVE_PER_S, DynamicsMonitor, POWER_RELATIVE_PER_S, PowerMonitor},
+    joints::{
+        AT_THE_END, AT_THE_LIMIT, CycleTimeMonitor, LimitsMonitor, TrackingMonitor, examine_limits,
+        examine_tracking,
+    },
     monitor::{Monitor, Observed},
     names::Names,
-    zone::ZoneMonitor,
+    pose::{
+        AgreementMonitor, GoalMonitor, InvariantsMonitor, ROTATION, TwistMonitor, examine_goal, twist_limits,
+    },
+    space::{ClearanceMonitor, ContactMonitor, ZoneMonitor, examine_pairs},
 };
 use crate::{
     proximity::ObstacleMobility,
@@ -19,7 +24,7 @@ use crate::{
 };
 
 /// A check with its results so far.
-pub struct RunningCheck {
+pub struct RunningCheck<'a> {
     /// The kind, as the scenario names it.
     pub kind: CheckKind,
     /// Line of its section in the scenario file, from 1.
@@ -27,10 +32,10 @@ pub struct RunningCheck {
     /// What follows its first violation.
     pub on_violation: OnViolation,
     /// The check itself.
-    pub monitor: Box<dyn Monitor>,
+    pub monitor: Box<dyn Monitor + 'a>,
 }
 
-impl std::fmt::Debug for RunningCheck {
+impl std::fmt::Debug for RunningCheck<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("RunningCheck")
             .field("kind", &self.kind)
@@ -39,7 +44,7 @@ impl std::fmt::Debug for RunningCheck {
     }
 }
 
-impl RunningCheck {
+impl<'a> RunningCheck<'a> {
     /// Whether the settings of a check are consistent, with the robot and its obstacles.
     ///
     /// # Errors
@@ -49,11 +54,21 @@ impl RunningCheck {
         place: FilePlace<'_>,
         around: (&RobotDescription, &[ObstacleSettings], &[ObstacleMobility]),
     ) -> Result<(), Diagnostic> {
+        check.unit_keys().iter().try_for_each(|keys| keys.examine(place))?;
+        let robot = &around.0.robot;
         match check {
-            Check::Clearance(check) => clearance::examine(check, place, around),
-            Check::Goal(check) => goal::examine(check, place).map(|_| ()),
-            Check::Limits(check) => limits::examine(check, place),
-            Check::Agreement(_) | Check::Zone(_) => Ok(()),
+            Check::Clearance(check) => examine_pairs((&check.pairs, &check.ignore), place, around),
+            Check::Contact(check) => examine_pairs((&check.pairs, &check.ignore), place, around),
+            Check::Goal(check) => examine_goal(check, place).map(|_| ()),
+            Check::Limits(check) => examine_limits(check, place),
+            Check::Tracking(check) => examine_tracking(check, place, robot),
+            Check::Agreement(_)
+            | Check::CycleTime(_)
+            | Check::Dynamics(_)
+            | Check::Invariants(_)
+            | Check::Power(_)
+            | Check::Twist(_)
+            | Check::Zone(_) => Ok(()),
         }
     }
 
@@ -61,12 +76,20 @@ impl RunningCheck {
     ///
     /// # Panics
     /// For settings that [`RunningCheck::examine`] rejects.
-    pub fn new(check: &Check, line: Option<usize>, description: &RobotDescription) -> Self {
-        let monitor: Box<dyn Monitor> = match check {
+    pub fn new(check: &Check, line: Option<usize>, context: &CheckContext<'a>) -> Self {
+        let description = context.description;
+        let monitor: Box<dyn Monitor + 'a> = match check {
             Check::Agreement(check) => Box::new(AgreementMonitor::new(check, description)),
             Check::Clearance(check) => Box::new(ClearanceMonitor::new(check, description)),
+            Check::Contact(check) => Box::new(ContactMonitor::new(check, context)),
+            Check::CycleTime(check) => Box::new(CycleTimeMonitor::new(check, context)),
+            Check::Dynamics(check) => Box::new(DynamicsMonitor::new(check, context)),
             Check::Goal(check) => Box::new(GoalMonitor::new(check, description)),
-            Check::Limits(check) => Box::new(LimitsMonitor::new(check, description)),
+            Check::Invariants(check) => Box::new(InvariantsMonitor::new(check, context)),
+            Check::Limits(check) => Box::new(LimitsMonitor::new(check, context)),
+            Check::Power(check) => Box::new(PowerMonitor::new(check, context)),
+            Check::Tracking(check) => Box::new(TrackingMonitor::new(check, context)),
+            Check::Twist(check) => Box::new(TwistMonitor::new(check, context)),
             Check::Zone(_) => Box::new(ZoneMonitor::new(description)),
         };
         Self { kind: check.kind(), line, on_violation: check.on_violation(), monitor }
@@ -79,13 +102,53 @@ impl RunningCheck {
 
     /// The result of the check.
     pub fn result(&self, names: &Names) -> CheckResult {
-        let Observed { samples, measures, notes } = self.monitor.finish(names);
+        let Observed { samples, measures, contacts, notes } = self.monitor.finish(names);
         let status = match samples {
             _ if self.monitor.has_failed() => Status::Fail,
             0 => Status::Skipped,
             _ if measures.iter().all(|measure| measure.worst.is_none()) => Status::Skipped,
             _ => Status::Pass,
         };
-        CheckResult { check: self.kind, line: self.line, status, samples, measures, notes }
+        CheckResult { check: self.kind, line: self.line, status, samples, measures, contacts, notes }
+    }
+}
+
+/// Writes the limits that a check leaves out.
+pub(crate) fn write_out_limits(check: &mut Check, description: &RobotDescription, step_s: f64) {
+    let fill = |si: &mut Option<f64>, engineering: Option<f64>, default: f64| {
+        if engineering.is_none() {
+            si.get_or_insert(default);
+        }
+    };
+    match check {
+        Check::Agreement(check) => {
+            check.position_m.get_or_insert(description.tolerance.position_m);
+            check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
+        }
+        Check::CycleTime(check) => {
+            fill(&mut check.tolerance_rad, check.tolerance_deg, AT_THE_END);
+            fill(&mut check.tolerance_m, check.tolerance_mm, AT_THE_END);
+        }
+        Check::Dynamics(check) => {
+            check.relative.get_or_insert(DYNAMICS_RELATIVE_PER_S * step_s);
+        }
+        Check::Invariants(check) => {
+            check.rotation.get_or_insert(ROTATION);
+        }
+        Check::Limits(check) => {
+            fill(&mut check.tolerance_rad, check.tolerance_deg, AT_THE_LIMIT);
+            fill(&mut check.tolerance_m, check.tolerance_mm, AT_THE_LIMIT);
+            check.velocity_share.get_or_insert(1.0);
+            check.effort_share.get_or_insert(1.0);
+        }
+        Check::Power(check) => {
+            check.relative.get_or_insert(POWER_RELATIVE_PER_S * step_s);
+        }
+        Check::Twist(check) => {
+            let [linear_m_s, angular_rad_s] = twist_limits(step_s);
+            fill(&mut check.linear_m_s, check.linear_mm_s, linear_m_s);
+            fill(&mut check.angular_rad_s, check.angular_deg_s, angular_rad_s);
+        }
+        Check::Clearance(_) | Check::Contact(_) | Check::Goal(_) | Check::Tracking(_) | Check::Zone(_) => {}
     }
 }

@@ -58,6 +58,16 @@ impl Watch {
         }
     }
 
+    /// What is watched.
+    pub(crate) fn quantity(&self) -> &'static str {
+        self.quantity
+    }
+
+    /// The limit.
+    pub(crate) fn limit(&self) -> f64 {
+        self.limit
+    }
+
     /// The worst value so far.
     pub(crate) fn worst(&self) -> Option<f64> {
         self.worst.is_set.then_some(self.worst.value)

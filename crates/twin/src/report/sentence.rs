@@ -4,19 +4,33 @@ use congruent_description::display::quantity;
 
 use crate::{
     monitor::{ANGLE_BEYOND_LIMIT, SHIFT_BEYOND_LIMIT},
-    verdict::{Bound, CheckResult, Measure, Moment},
+    verdict::{Bound, CheckResult, Contact, Measure, Moment},
 };
 
 /// A check in lines: what was violated first, with the remarks on it.
 pub fn lines(check: &CheckResult) -> Vec<String> {
     let is_violated = |measure: &&Measure| measure.first_violation.is_some();
     let (violated, others): (Vec<_>, Vec<_>) = check.measures.iter().partition(is_violated);
-    let notes = check.notes.iter().cloned();
+    let notes: Vec<String> = contacts(&check.contacts).chain(check.notes.iter().cloned()).collect();
     let others = others.into_iter().map(sentence);
     if violated.is_empty() {
         return others.chain(notes).collect();
     }
     violated.into_iter().map(sentence).chain(notes).chain(others).collect()
+}
+
+/// Contacts that are shown; the report has all.
+const SHOWN_CONTACTS: usize = 5;
+
+/// Each contact with its time and depth.
+fn contacts(contacts: &[Contact]) -> impl Iterator<Item = String> + '_ {
+    let shown = contacts.iter().take(SHOWN_CONTACTS).map(|contact| {
+        let Contact { pair: [a, b], from_s, until_s, depth_m } = contact;
+        let (from, until) = (quantity(*from_s, "s"), quantity(*until_s, "s"));
+        format!("{a}--{b} touch from {from} until {until}, at most {} deep", quantity(*depth_m, "m"))
+    });
+    let further = contacts.len().saturating_sub(SHOWN_CONTACTS);
+    shown.chain((further > 0).then(|| format!("{further} further contacts are in the report")))
 }
 
 /// The worst value of a measure beside its limit: `distance 33.8 mm at forearm--table (1.2 s), at least 20 mm: 13.8 mm
@@ -43,12 +57,44 @@ pub fn sentence_at(measure: &Measure, moment: &Moment) -> String {
     if matches!(measure.quantity, ANGLE_BEYOND_LIMIT | SHIFT_BEYOND_LIMIT) {
         return format!("{} at {subject} ({time})", beyond_joint_limit(*value, measure));
     }
+    if value.is_infinite() {
+        return format!(
+            "{} not reached at {subject} until {time}, {}",
+            words(measure.quantity),
+            limit(measure)
+        );
+    }
+    if measure.quantity == "distance" && *value < 0.0 {
+        return format!(
+            "overlap {} at {subject} ({time}), {}",
+            quantity(-value, measure.unit),
+            overlap(*value, measure)
+        );
+    }
     let (what, shown) = (words(measure.quantity), quantity(*value, measure.unit));
     format!("{what} {shown} at {subject} ({time}), {}: {}", limit(measure), margin(*value, measure))
 }
 
+/// The limit of an overlap, which is a distance below 0, and how far it is from it.
+fn overlap(value: f64, measure: &Measure) -> String {
+    let shown = |length: f64| quantity(length, measure.unit);
+    let allowed = -measure.limit;
+    match measure.bound {
+        bound if bound.holds(value, measure.limit) => {
+            format!("at most {}: {} left", shown(allowed), shown(allowed + value))
+        }
+        Bound::AtLeast if allowed > 0.0 => {
+            format!("at most {}: {} above the limit", shown(allowed), shown(-value - allowed))
+        }
+        _ => "none allowed".to_owned(),
+    }
+}
+
 /// The limit: `at most 1 um`.
 fn limit(measure: &Measure) -> String {
+    if measure.quantity == "distance" && measure.limit < 0.0 {
+        return format!("overlap at most {}", quantity(-measure.limit, measure.unit));
+    }
     format!("{} {}", measure.bound.words(), quantity(measure.limit, measure.unit))
 }
 
@@ -93,7 +139,7 @@ fn beyond_joint_limit(value: f64, measure: &Measure) -> String {
 }
 
 fn words(quantity: &str) -> String {
-    quantity.replace('_', " ")
+    quantity.replace('_', " ").replace("tcp", "TCP")
 }
 
 #[cfg(test)]
@@ -146,6 +192,29 @@ mod tests {
             f64::NAN,
             "position NaN m at here (1 s), at most 100 mm: not a number",
         );
+    }
+
+    #[test]
+    fn an_overlap_is_no_negative_distance() {
+        let deep = (Bound::AtLeast, -0.005);
+        reads("distance", (Bound::Above, 0.0), -0.003, "overlap 3 mm at here (1 s), none allowed");
+        reads("distance", deep, -0.003, "overlap 3 mm at here (1 s), at most 5 mm: 2 mm left");
+        reads("distance", deep, -0.007, "overlap 7 mm at here (1 s), at most 5 mm: 2 mm above the limit");
+        reads("distance", deep, 0.015, "distance 15 mm at here (1 s), overlap at most 5 mm: 20 mm left");
+    }
+
+    #[test]
+    fn an_end_that_is_not_reached_is_told_so() {
+        let worst = Some(moment(4.0, f64::INFINITY));
+        let measure = Measure {
+            quantity: "cycle_time",
+            unit: "s",
+            limit: 3.0,
+            bound: Bound::AtMost,
+            worst,
+            first_violation: None,
+        };
+        assert_eq!(sentence(&measure), "cycle time not reached at here until 4 s, at most 3 s");
     }
 
     #[test]

@@ -8,7 +8,6 @@ mod faults;
 mod joints;
 mod motions;
 mod number;
-mod on_violation;
 mod output;
 mod place;
 mod pose;
@@ -18,7 +17,10 @@ mod spaces;
 mod text;
 
 pub use bodies::{GraspSettings, PathPoseSettings};
-pub use checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck};
+pub use checks::{
+    AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, CycleTimeCheck, DynamicsCheck, GoalCheck,
+    InvariantsCheck, LimitsCheck, OnViolation, PowerCheck, TrackingCheck, TwistCheck, ZoneCheck,
+};
 pub use data::{Expectation, SCHEMA_VERSION, Scenario, SimulationSettings};
 pub(crate) use faults::FaultTime;
 pub use faults::{
@@ -31,7 +33,6 @@ pub use motions::{
     OverLimit, PlaybackMotion, Profile, Progress, ServoMethod, ServoMotion, TcpMotion, TcpPathMotion,
 };
 pub(crate) use number::Range;
-pub use on_violation::OnViolation;
 pub use output::{OutputSettings, TrajectoryFormat};
 pub use place::FilePlace;
 pub(crate) use place::mark;

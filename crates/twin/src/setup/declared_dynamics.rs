@@ -36,6 +36,9 @@ impl<'a> DeclaredDynamics<'a> {
     /// The equations of motion at a time, with memory for them.
     ///
     /// The payloads are those that a step from this time on carries. Nothing is allocated unless one comes or goes.
+    ///
+    /// # Panics
+    /// Never: the same robot has as many bodies.
     pub fn at(&mut self, time_s: f64) -> (&BodyTree, &mut DynamicsBuffer) {
         let mut has_changed = false;
         for (payload, is_carried) in self.payloads.iter().zip(&mut self.is_carried) {
@@ -45,9 +48,8 @@ impl<'a> DeclaredDynamics<'a> {
         if has_changed {
             let loaded = self.loaded(time_s);
             let inertias: Vec<_> = (0..loaded.dof()).map(|joint| loaded.inertia_in_link(joint)).collect();
-            if let Ok(tree) = self.tree.clone().with_inertias_in_links(&inertias) {
-                self.tree = tree; // always: the same robot has as many bodies
-            }
+            let tree = self.tree.clone().with_inertias_in_links(&inertias);
+            self.tree = tree.expect("the same robot has as many bodies");
         }
         (&self.tree, &mut self.buffer)
     }

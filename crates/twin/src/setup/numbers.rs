@@ -115,7 +115,21 @@ impl Numbers {
                 self.one("check.position_m", check.position_m, Range::Positive);
                 self.maybe("check.orientation_rad", check.orientation_rad, Range::Positive);
             }
-            Check::Limits(_) | Check::Zone(_) => {}
+            Check::CycleTime(check) => self.one("check.limit_s", check.limit_s, Range::Positive),
+            Check::Dynamics(check) => self.maybe("check.relative", check.relative, Range::Positive),
+            Check::Invariants(check) => self.maybe("check.rotation", check.rotation, Range::Positive),
+            Check::Limits(check) => {
+                self.maybe("check.velocity_share", check.velocity_share, Range::Positive);
+                self.maybe("check.effort_share", check.effort_share, Range::Positive);
+            }
+            Check::Power(check) => self.maybe("check.relative", check.relative, Range::Positive),
+            Check::Tracking(check) => self.maybe("check.settling_s", check.settling_s, Range::NonNegative),
+            Check::Contact(_) | Check::Twist(_) | Check::Zone(_) => {}
+        }
+        for keys in check.unit_keys() {
+            for (key, value) in keys.keys.into_iter().zip(keys.written) {
+                self.maybe(&format!("check.{key}"), value, Range::NonNegative);
+            }
         }
     }
 }

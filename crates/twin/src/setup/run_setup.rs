@@ -23,7 +23,7 @@ use super::{
 use crate::{
     bodies::MovingBody,
     fault::{PlannedFault, resolve},
-    monitor::RunningCheck,
+    monitor::{CheckContext, RunningCheck},
     motion::{MotionInput, Trajectory},
     proximity::ObstacleMobility,
     scenario::{
@@ -221,9 +221,16 @@ impl RunSetup {
     }
 
     /// The checks, each before its first sample.
-    pub fn checks(&self) -> Vec<RunningCheck> {
+    pub fn checks(&self) -> Vec<RunningCheck<'_>> {
         let checks = self.scenario.check.iter().zip(&self.check_lines);
-        checks.map(|(check, &line)| RunningCheck::new(check, line, &self.description)).collect()
+        let context = CheckContext {
+            description: &self.description,
+            clock: &self.clock,
+            motions_s: self.trajectory.duration_s(),
+            payloads: &self.payloads,
+            dynamics: self.declared_dynamics(),
+        };
+        checks.map(|(check, &line)| RunningCheck::new(check, line, &context)).collect()
     }
 
     /// How each obstacle moves.
@@ -256,7 +263,8 @@ fn written_s(scenario: &Scenario) -> f64 {
 
 /// Whether distances or contacts decide something: without obstacles nothing can be touched.
 fn needs_shapes(scenario: &Scenario) -> bool {
-    let measures = |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Zone);
+    let measures =
+        |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Contact | CheckKind::Zone);
     !scenario.obstacle.is_empty() || scenario.check.iter().any(measures)
 }
 

@@ -6,9 +6,9 @@ use congruent_description::{JointKind, Robot, RobotDescription, RobotQ};
 
 use super::clock::RunClock;
 use crate::{
-    monitor::AT_THE_LIMIT,
+    monitor::write_out_limits,
     motion::{ACCELERATION_M_S2, DEFAULT_GAIN_PER_S, default_jerk_m_s3},
-    scenario::{Check, MotionSettings, Scenario, StartSettings},
+    scenario::{MotionSettings, Scenario, StartSettings},
 };
 
 /// Fills in what was left out: the duration, the whole start, limits, and the robot's absolute path.
@@ -45,19 +45,7 @@ pub(super) fn write_out_defaults(
         grasp.link.get_or_insert_with(tip);
     }
     for check in &mut scenario.check {
-        match check {
-            Check::Agreement(check) => {
-                check.position_m.get_or_insert(description.tolerance.position_m);
-                check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
-            }
-            Check::Limits(check) => {
-                check.tolerance_rad =
-                    check.tolerance_rad.or(check.tolerance_deg.is_none().then_some(AT_THE_LIMIT));
-                check.tolerance_m =
-                    check.tolerance_m.or(check.tolerance_mm.is_none().then_some(AT_THE_LIMIT));
-            }
-            Check::Clearance(_) | Check::Goal(_) | Check::Zone(_) => {}
-        }
+        write_out_limits(check, description, clock.step_s);
     }
 }
 

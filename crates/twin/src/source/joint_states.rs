@@ -39,6 +39,17 @@ pub struct JointSample<'a> {
     pub setpoint: Option<SetpointView<'a>>,
 }
 
+/// What acted on the joints in the step that led to the present instant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepForces {
+    /// The source does not know: it has no dynamics, or was placed where it stands.
+    Unknown,
+    /// The efforts of the sample, gravity, and what resists the joints: nothing else.
+    Declared,
+    /// Contact with a body or the stop of a joint besides.
+    Constrained,
+}
+
 /// A source of joint states: sample after sample, each later than the one before.
 pub trait JointStateSource {
     /// The joints at the present instant.
@@ -61,6 +72,17 @@ pub trait JointStateSource {
     /// How far actuators were used so far, for a source that has them.
     fn actuators(&self) -> Vec<ActuatorUse> {
         Vec::new()
+    }
+
+    /// What acted in the step that led to the present instant; a source knows it if it is a simulation.
+    fn step_forces(&self) -> StepForces {
+        StepForces::Unknown
+    }
+
+    /// Brings the robot to rest from the present instant on, within its limits: the setpoint slows down and stays. Returns
+    /// whether the source can do so; one that drives nothing cannot.
+    fn begin_stop(&mut self) -> bool {
+        false
     }
 
     /// The results of the servos, for a source that drives the robot.

@@ -1,6 +1,7 @@
 //! Sources of link poses, of dynamics and of joint states. A run takes any source of joint states.
 
 mod actuators;
+mod braking;
 mod carried;
 mod joint_states;
 mod sensors;
@@ -9,7 +10,9 @@ mod simulated_poses;
 mod simulation;
 
 pub use actuators::ActuatorUse;
-pub use joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError};
+pub use joint_states::{
+    JointSample, JointStateSource, JointStateView, SetpointView, SourceError, StepForces,
+};
 pub use simulated_dynamics::SimulatedDynamics;
 pub use simulated_poses::SimulatedPoses;
 pub use simulation::{SimulationSnapshot, SimulationSource};

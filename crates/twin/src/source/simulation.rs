@@ -7,8 +7,9 @@ use nalgebra::Isometry3;
 
 use super::{
     actuators::{ActuatorCounts, ActuatorUse},
+    braking::{Braking, stop_accelerations},
     carried::CarriedPayloads,
-    joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError},
+    joint_states::{JointSample, JointStateSource, JointStateView, SetpointView, SourceError, StepForces},
     sensors::JointSensors,
 };
 use crate::{
@@ -31,6 +32,8 @@ pub struct SimulationSource<'a> {
     payloads: CarriedPayloads<'a>,
     actuators: ActuatorCounts,
     bodies: MovingBodies<'a>,
+    /// Takes the place of the motions if a check stops the run.
+    braking: Option<Braking>,
     setup: &'a RunSetup,
 }
 
@@ -44,6 +47,7 @@ pub struct SimulationSnapshot<'a> {
     payloads: CarriedPayloads<'a>,
     actuators: ActuatorCounts,
     bodies: MovingBodies<'a>,
+    braking: Option<Braking>,
 }
 
 impl std::fmt::Debug for SimulationSnapshot<'_> {
@@ -92,6 +96,7 @@ impl<'a> SimulationSource<'a> {
             is_placed: kind == "kinematic",
             payloads,
             actuators: ActuatorCounts::new(robot.dof()),
+            braking: None,
             setup,
             world,
             controller: JointController::new(setup),
@@ -111,6 +116,7 @@ impl<'a> SimulationSource<'a> {
             payloads: self.payloads.clone(),
             actuators: self.actuators.clone(),
             bodies: self.bodies.clone(),
+            braking: self.braking.clone(),
         }
     }
 
@@ -127,6 +133,7 @@ impl<'a> SimulationSource<'a> {
         self.payloads.clone_from(&snapshot.payloads);
         self.actuators.clone_from(&snapshot.actuators);
         self.bodies.clone_from(&snapshot.bodies);
+        self.braking.clone_from(&snapshot.braking);
     }
 }
 
@@ -153,10 +160,19 @@ impl SimulationSource<'_> {
     }
 }
 
+/// What the joints are commanded to do: by the motions, or on the way to rest.
+fn commanded<'s>(reference: &'s ReferenceGenerator<'_>, braking: Option<&'s Braking>) -> Setpoint<'s> {
+    match braking {
+        Some(braking) => Setpoint { q: braking.q(), qd: braking.qd(), qdd: braking.qdd() },
+        None => Setpoint { q: reference.q(), qd: reference.qd(), qdd: reference.qdd() },
+    }
+}
+
 impl JointStateSource for SimulationSource<'_> {
     fn joints(&self) -> JointSample<'_> {
         let (qd, effort) = (self.world.qd(), self.world.torque());
         let measured = self.sensors.measured();
+        let setpoint = commanded(&self.reference, self.braking.as_ref());
         JointSample {
             truth: JointStateView { q: self.world.q(), qd, effort },
             measured: JointStateView {
@@ -164,11 +180,7 @@ impl JointStateSource for SimulationSource<'_> {
                 qd: measured.qd,
                 effort: self.faults.reported_effort(),
             },
-            setpoint: Some(SetpointView {
-                q: self.reference.q(),
-                qd: self.reference.qd(),
-                qdd: self.reference.qdd(),
-            }),
+            setpoint: Some(SetpointView { q: setpoint.q, qd: setpoint.qd, qdd: setpoint.qdd }),
         }
     }
 
@@ -182,12 +194,24 @@ impl JointStateSource for SimulationSource<'_> {
         true
     }
 
+    fn step_forces(&self) -> StepForces {
+        if self.world.was_placed() {
+            StepForces::Unknown
+        } else if self.world.constraint_forces_act() {
+            StepForces::Constrained
+        } else {
+            StepForces::Declared
+        }
+    }
+
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
         self.move_bodies(time_s);
         let measured = self.sensors.measured();
-        self.reference.advance(time_s, measured.q).map_err(SourceError::new)?;
-        let mut setpoint =
-            Setpoint { q: self.reference.q(), qd: self.reference.qd(), qdd: self.reference.qdd() };
+        match &mut self.braking {
+            Some(braking) => braking.advance(time_s),
+            None => self.reference.advance(time_s, measured.q).map_err(SourceError::new)?,
+        }
+        let mut setpoint = commanded(&self.reference, self.braking.as_ref());
         if self.is_placed {
             setpoint = self.faults.placed(setpoint);
         }
@@ -207,6 +231,14 @@ impl JointStateSource for SimulationSource<'_> {
             return Vec::new();
         }
         self.actuators.report(&self.setup.description.robot, &self.setup.largest_efforts())
+    }
+
+    fn begin_stop(&mut self) -> bool {
+        let robot = &self.setup.description.robot;
+        let accelerations = stop_accelerations(robot);
+        let commanded = (self.reference.q(), self.reference.qd());
+        self.braking = Some(Braking::new(commanded, self.world.time_s(), robot, &accelerations));
+        true
     }
 
     fn finish(&mut self) -> Result<Vec<ServoResult>, SourceError> {

@@ -14,7 +14,7 @@ use toml::{Spanned, de::DeTable};
 
 use super::{faults::read_fault, overrides::Override, section::Section};
 use crate::scenario::{
-    checks::{AgreementCheck, Check, CheckKind, ClearanceCheck, GoalCheck, LimitsCheck, ZoneCheck},
+    checks::{Check, CheckKind},
     data::{Expectation, SCHEMA_VERSION, Scenario},
     motions::{
         ARC_KEY, ArcMotion, JOINT_KEYS, JOINT_PATH_KEYS, JointMotion, JointPathMotion, LINE_KEY, LineMotion,
@@ -295,11 +295,18 @@ fn read_check(mut section: Section<'_>, findings: &mut Diagnostics) -> Option<Ch
     let kind = *findings.keep(section.select("kind", "check", &CheckKind::ALL, |kind| kind.word()))?;
     let mut found = Diagnostics::default();
     let check = match kind {
-        CheckKind::Agreement => section.read_into::<AgreementCheck>(&mut found).map(Check::Agreement),
-        CheckKind::Clearance => section.read_into::<ClearanceCheck>(&mut found).map(Check::Clearance),
-        CheckKind::Goal => section.read_into::<GoalCheck>(&mut found).map(Check::Goal),
-        CheckKind::Limits => section.read_into::<LimitsCheck>(&mut found).map(Check::Limits),
-        CheckKind::Zone => section.read_into::<ZoneCheck>(&mut found).map(Check::Zone),
+        CheckKind::Agreement => section.read_into(&mut found).map(Check::Agreement),
+        CheckKind::Clearance => section.read_into(&mut found).map(Check::Clearance),
+        CheckKind::Contact => section.read_into(&mut found).map(Check::Contact),
+        CheckKind::CycleTime => section.read_into(&mut found).map(Check::CycleTime),
+        CheckKind::Dynamics => section.read_into(&mut found).map(Check::Dynamics),
+        CheckKind::Goal => section.read_into(&mut found).map(Check::Goal),
+        CheckKind::Invariants => section.read_into(&mut found).map(Check::Invariants),
+        CheckKind::Limits => section.read_into(&mut found).map(Check::Limits),
+        CheckKind::Power => section.read_into(&mut found).map(Check::Power),
+        CheckKind::Tracking => section.read_into(&mut found).map(Check::Tracking),
+        CheckKind::Twist => section.read_into(&mut found).map(Check::Twist),
+        CheckKind::Zone => section.read_into(&mut found).map(Check::Zone),
     };
     findings.extend(named_too(found.into_vec(), "of every check: kind"));
     check

@@ -2,14 +2,14 @@
 
 use congruent_description::RobotDescription;
 
-use super::{
-    monitor::{Monitor, Observed},
-    names::Names,
-    watch::Watch,
+use crate::{
+    monitor::{Monitor, Names, Observed, watch::Watch},
+    sample::Sample,
+    scenario::AgreementCheck,
+    verdict::Bound,
 };
-use crate::{sample::Sample, scenario::AgreementCheck, verdict::Bound};
 
-pub(super) struct AgreementMonitor {
+pub(crate) struct AgreementMonitor {
     position: Watch,
     orientation: Watch,
     samples: u64,
@@ -18,7 +18,7 @@ pub(super) struct AgreementMonitor {
 
 impl AgreementMonitor {
     /// Limits that are not given are the robot file's tolerance.
-    pub(super) fn new(check: &AgreementCheck, description: &RobotDescription) -> Self {
+    pub(crate) fn new(check: &AgreementCheck, description: &RobotDescription) -> Self {
         let dof = description.robot.dof();
         let position_m = check.position_m.unwrap_or(description.tolerance.position_m);
         let orientation_rad = check.orientation_rad.unwrap_or(description.tolerance.orientation_rad);
@@ -57,6 +57,7 @@ impl Monitor for AgreementMonitor {
                 self.orientation.measure(&names.joints, name),
             ],
             notes: self.notes(),
+            ..Observed::default()
         }
     }
 

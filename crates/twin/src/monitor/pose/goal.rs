@@ -5,18 +5,14 @@ use congruent_description::{Diagnostic, LinkIndex, RobotDescription};
 use congruent_kinematics::{Pose, PoseError};
 use nalgebra::Isometry3;
 
-use super::{
-    monitor::{Monitor, Observed},
-    names::Names,
-    watch::Watch,
-};
 use crate::{
+    monitor::{Monitor, Names, Observed, watch::Watch},
     sample::Sample,
     scenario::{FilePlace, GoalCheck},
     verdict::Bound,
 };
 
-pub(super) struct GoalMonitor {
+pub(crate) struct GoalMonitor {
     world_from_target: Pose,
     tip: LinkIndex,
     tip_from_tcp: Isometry3<f64>,
@@ -27,7 +23,7 @@ pub(super) struct GoalMonitor {
 }
 
 /// A pose needs both tolerances, a position one.
-pub(super) fn examine(check: &GoalCheck, place: FilePlace<'_>) -> Result<Isometry3<f64>, Diagnostic> {
+pub(crate) fn examine(check: &GoalCheck, place: FilePlace<'_>) -> Result<Isometry3<f64>, Diagnostic> {
     let place = place.key("tcp");
     let world_from_target = check.tcp.isometry(place)?;
     if check.tcp.has_rotation() == check.orientation_rad.is_some() {
@@ -45,7 +41,7 @@ pub(super) fn examine(check: &GoalCheck, place: FilePlace<'_>) -> Result<Isometr
 impl GoalMonitor {
     /// # Panics
     /// For a goal that [`examine`] rejects.
-    pub(super) fn new(check: &GoalCheck, description: &RobotDescription) -> Self {
+    pub(crate) fn new(check: &GoalCheck, description: &RobotDescription) -> Self {
         let world_from_target = examine(check, FilePlace::nowhere()).expect("a setup examines its checks");
         let watch = |quantity, unit, limit: f64| {
             Watch::new(quantity, unit, Bound::AtMost, limit, description.robot.dof())
@@ -79,7 +75,7 @@ impl Monitor for GoalMonitor {
     fn finish(&self, names: &Names) -> Observed {
         let watches = std::iter::once(&self.position).chain(&self.orientation);
         let measure = |watch: &Watch| watch.measure(&names.joints, |link| names.links[link].clone());
-        Observed { samples: self.samples, measures: watches.map(measure).collect(), notes: Vec::new() }
+        Observed { samples: self.samples, measures: watches.map(measure).collect(), ..Observed::default() }
     }
 
     fn has_failed(&self) -> bool {

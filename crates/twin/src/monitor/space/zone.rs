@@ -2,23 +2,22 @@
 
 use congruent_description::RobotDescription;
 
-use super::{
-    monitor::{Monitor, Observed},
-    names::Names,
-    watch::Watch,
+use crate::{
+    monitor::{Monitor, Names, Observed, watch::Watch},
+    sample::Sample,
+    verdict::Bound,
 };
-use crate::{sample::Sample, verdict::Bound};
 
 /// A link is outside a zone if its distance from it is above this.
 const OUTSIDE_M: f64 = 0.0;
 
-pub(super) struct ZoneMonitor {
+pub(crate) struct ZoneMonitor {
     distance: Watch,
     samples: u64,
 }
 
 impl ZoneMonitor {
-    pub(super) fn new(description: &RobotDescription) -> Self {
+    pub(crate) fn new(description: &RobotDescription) -> Self {
         let distance = Watch::new("distance", "m", Bound::Above, OUTSIDE_M, description.robot.dof());
         Self { distance, samples: 0 }
     }
@@ -38,7 +37,7 @@ impl Monitor for ZoneMonitor {
 
     fn finish(&self, names: &Names) -> Observed {
         let measure = self.distance.measure(&names.joints, |pair| names.zones[pair].clone());
-        Observed { samples: self.samples, measures: vec![measure], notes: Vec::new() }
+        Observed { samples: self.samples, measures: vec![measure], ..Observed::default() }
     }
 
     fn has_failed(&self) -> bool {

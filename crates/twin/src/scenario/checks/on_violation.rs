@@ -10,10 +10,8 @@ pub enum OnViolation {
     /// The run continues to its end, and the report has the worst value.
     #[default]
     Continue,
-    /// The run ends with the sample that shows the violation: the robot is driven no further.
-    ///
-    /// The robot does not hold its position after it, since that would assume brakes that no scenario
-    /// declares: the distance in which an arm comes to rest is a property of the machine. The report covers
-    /// the run up to the violation.
+    /// The arm is brought to rest, and the run ends there: its setpoint goes straight on in joint space, all joints slowing
+    /// down alike within their acceleration limits and ranges, and stays. The checks observe it until the arm is at
+    /// rest.
     Stop,
 }

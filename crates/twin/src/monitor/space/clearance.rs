@@ -3,12 +3,8 @@
 
 use congruent_description::{Diagnostic, RobotDescription};
 
-use super::{
-    monitor::{Monitor, Observed},
-    names::Names,
-    watch::Watch,
-};
 use crate::{
+    monitor::{Monitor, Names, Observed, watch::Watch},
     proximity::{Clearance, Nearest, ObstacleMobility, PairChoice, PairNames, measured_pairs},
     sample::Sample,
     scenario::{ClearanceCheck, FilePlace, ObstacleSettings},
@@ -17,7 +13,7 @@ use crate::{
 
 const BOUND: Bound = Bound::AtLeast;
 
-pub(super) struct ClearanceMonitor {
+pub(crate) struct ClearanceMonitor {
     names: PairNames,
     minimum_m: f64,
     /// The smallest distance of all.
@@ -40,29 +36,26 @@ struct LookedAt {
 }
 
 /// Whether the pairs that a check names are those of the robot and of its obstacles.
-pub(super) fn examine(
-    check: &ClearanceCheck,
+pub(crate) fn examine_pairs(
+    (pairs, ignore): (&[[String; 2]], &[[String; 2]]),
     place: FilePlace<'_>,
     (description, obstacles, mobility): (&RobotDescription, &[ObstacleSettings], &[ObstacleMobility]),
 ) -> Result<(), Diagnostic> {
     let links = description.robot.links().iter().map(|link| link.name.as_str());
     let subjects: Vec<&str> = links.chain(obstacles.iter().map(|obstacle| obstacle.name.as_str())).collect();
-    let pairs = measured_pairs(description, mobility, PairChoice::Usual);
-    let measured: Vec<(&str, &str)> = pairs.iter().map(|pair| (subjects[pair.a], subjects[pair.b])).collect();
-    let refused = names(check).examine(&subjects, &measured);
+    let all = measured_pairs(description, mobility, PairChoice::Usual);
+    let measured: Vec<(&str, &str)> = all.iter().map(|pair| (subjects[pair.a], subjects[pair.b])).collect();
+    let names = PairNames { pairs: pairs.to_vec(), ignore: ignore.to_vec() };
+    let refused = names.examine(&subjects, &measured);
     refused.map_err(|fault| place.key(fault.key).item(fault.entry).mark(fault.diagnostic))
 }
 
-fn names(check: &ClearanceCheck) -> PairNames {
-    PairNames { pairs: check.pairs.clone(), ignore: check.ignore.clone() }
-}
-
 impl ClearanceMonitor {
-    pub(super) fn new(check: &ClearanceCheck, description: &RobotDescription) -> Self {
+    pub(crate) fn new(check: &ClearanceCheck, description: &RobotDescription) -> Self {
         let minimum_m = check.minimum_m;
         let distance = watch(minimum_m, description.robot.dof());
         Self {
-            names: names(check),
+            names: PairNames { pairs: check.pairs.clone(), ignore: check.ignore.clone() },
             minimum_m,
             distance,
             measured: Vec::new(),
@@ -102,33 +95,33 @@ impl ClearanceMonitor {
         let worst_m = self.distance.worst().unwrap_or(f64::INFINITY);
         if self.distance.is_violated() { self.minimum_m } else { worst_m.max(self.minimum_m) }
     }
-
-    /// Pairs that were left out or chosen by name.
-    fn notes(&self) -> Vec<String> {
-        let all: Vec<(&str, &str)> = self.measured.iter().map(|[a, b]| (a.as_str(), b.as_str())).collect();
-        let listed = |chosen: &dyn Fn((&str, &str)) -> bool| {
-            let chosen = all.iter().filter(|&&pair| chosen(pair));
-            chosen.map(|(a, b)| format!("{a}--{b}")).collect::<Vec<_>>().join(", ")
-        };
-        let mut notes = Vec::new();
-        if all.is_empty() {
-            notes.push("no pair to check: neighbouring bodies and disabled pairs are left out".to_owned());
-        }
-        if !self.names.pairs.is_empty() {
-            notes.push(format!("only these pairs are checked: {}", listed(&|pair| self.names.look_at(pair))));
-        }
-        let ignored = listed(&|pair| self.names.is_ignored(pair));
-        if !ignored.is_empty() {
-            notes.push(format!("ignored, as the scenario says: {ignored}"));
-        }
-        for [a, b] in self.names.without_effect(all.iter().copied()) {
-            notes.push(format!("ignoring {a}--{b} has no effect: the pair is not measured anyway"));
-        }
-        notes
-    }
 }
 
-fn owned((a, b): (&str, &str)) -> [String; 2] {
+/// Pairs that were left out or chosen by name, as remarks.
+pub(super) fn notes_on(names: &PairNames, measured: &[[String; 2]]) -> Vec<String> {
+    let all: Vec<(&str, &str)> = measured.iter().map(|[a, b]| (a.as_str(), b.as_str())).collect();
+    let listed = |chosen: &dyn Fn((&str, &str)) -> bool| {
+        let chosen = all.iter().filter(|&&pair| chosen(pair));
+        chosen.map(|(a, b)| format!("{a}--{b}")).collect::<Vec<_>>().join(", ")
+    };
+    let mut notes = Vec::new();
+    if all.is_empty() {
+        notes.push("no pair to check: neighbouring bodies and disabled pairs are left out".to_owned());
+    }
+    if !names.pairs.is_empty() {
+        notes.push(format!("only these pairs are checked: {}", listed(&|pair| names.look_at(pair))));
+    }
+    let ignored = listed(&|pair| names.is_ignored(pair));
+    if !ignored.is_empty() {
+        notes.push(format!("ignored, as the scenario says: {ignored}"));
+    }
+    for [a, b] in names.without_effect(all.iter().copied()) {
+        notes.push(format!("ignoring {a}--{b} has no effect: the pair is not measured anyway"));
+    }
+    notes
+}
+
+pub(super) fn owned((a, b): (&str, &str)) -> [String; 2] {
     [a.to_owned(), b.to_owned()]
 }
 
@@ -174,7 +167,12 @@ impl Monitor for ClearanceMonitor {
         let watches = std::iter::once(&self.distance).chain(below.into_iter().map(|(_, watch)| watch));
         let measures =
             watches.map(|watch| watch.measure(&names.joints, |pair| names.pairs[pair].clone())).collect();
-        Observed { samples: self.samples, measures, notes: self.notes() }
+        Observed {
+            samples: self.samples,
+            measures,
+            notes: notes_on(&self.names, &self.measured),
+            ..Observed::default()
+        }
     }
 
     fn has_failed(&self) -> bool {

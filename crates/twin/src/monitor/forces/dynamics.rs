@@ -1,0 +1,165 @@
+//! The acceleration of the twin in each step against forward dynamics by analysis (the articulated body algorithm), at the
+//! twin's state before the step and with the efforts that its actuators exerted in it. The analysis starts again from the
+//! twin's state at every sample, so that nothing adds up.
+//!
+//! A difference of accelerations is shown as the torques that it takes, by the mass matrix: an unknown torque at one joint
+//! accelerates all, but is seen at its joint alone. It is relative to the torques that act at the joint, so that a wrist
+//! counts as a shoulder does. It is of first order in the step, as the physics is.
+
+use congruent_description::RobotQ;
+use congruent_dynamics::DrivenState;
+use nalgebra::DMatrix;
+
+use super::left_out::LeftOut;
+use crate::{
+    monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
+    sample::Sample,
+    scenario::DynamicsCheck,
+    setup::DeclaredDynamics,
+    source::StepForces,
+    verdict::Bound,
+};
+
+/// The limit of a check that gives none, for each second of a step. Kind: truncation, of first order in the step. Worst
+/// seen in the scenarios: 14.4 (UR5e at 0.73 of its velocity limit), 4.8 (Panda), 1.8 (course arm), by steps of 1 ms and
+/// of 0.25 ms alike; x2.
+pub(crate) const RELATIVE_PER_S: f64 = 30.0;
+/// The torques that act at a joint count at least as much as this acceleration of the joint alone takes, rad/s^2 and
+/// m/s^2: at rest and without load they are zero. Kind: engineering; arms are driven with 1 to 20 rad/s^2.
+const LEAST_ACCELERATION: f64 = 1.0;
+/// A joint with dry friction that is slower is at rest: its friction is then whatever holds it, rad/s and m/s. Kind:
+/// physics; friction that holds creeps by 4e-7 rad/s.
+const AT_REST: f64 = 1e-4;
+
+pub(crate) struct DynamicsMonitor<'a> {
+    dynamics: DeclaredDynamics<'a>,
+    mass_matrix: DMatrix<f64>,
+    /// By analysis, then what the twin has more.
+    qdd: Vec<f64>,
+    bias: Vec<f64>,
+    before: StateBefore,
+    /// For each joint, the one that it follows with its ratio; itself if it follows none.
+    drivers: Vec<(usize, f64)>,
+    torque: Watch,
+    frictions: Vec<f64>,
+    compared: u64,
+    left_out: LeftOut,
+}
+
+/// The state at the sample before.
+struct StateBefore {
+    time_s: f64,
+    q: RobotQ,
+    qd: Vec<f64>,
+    is_set: bool,
+}
+
+impl<'a> DynamicsMonitor<'a> {
+    pub(crate) fn new(check: &DynamicsCheck, context: &CheckContext<'a>) -> Self {
+        let (robot, dof) = (&context.description.robot, context.dof());
+        let driver = |(row, &joint): (usize, _)| {
+            let mimic = robot.joint(joint).mimic;
+            let master = mimic.and_then(|mimic| Some((robot.coordinate(mimic.master)?, mimic.multiplier)));
+            master.unwrap_or((row, 1.0))
+        };
+        let mut dynamics = context.dynamics.clone();
+        let frictions = dynamics.at(0.0).0.resistances().iter().map(|resistance| resistance.friction);
+        let limit = check.relative.unwrap_or(RELATIVE_PER_S * context.clock.step_s);
+        Self {
+            frictions: frictions.collect(),
+            dynamics,
+            mass_matrix: DMatrix::zeros(dof, dof),
+            qdd: vec![0.0; dof],
+            bias: vec![0.0; dof],
+            before: StateBefore { time_s: 0.0, q: RobotQ::zeros(dof), qd: vec![0.0; dof], is_set: false },
+            drivers: robot.movable_joints().iter().enumerate().map(driver).collect(),
+            torque: Watch::new("acceleration_error", "", Bound::AtMost, limit, dof),
+            compared: 0,
+            left_out: LeftOut::default(),
+        }
+    }
+
+    /// Fills the accelerations by analysis, the torques without acceleration, and the mass matrix. Forces that depend on the
+    /// velocity are those of the end of the step, as in the physics, which integrates them implicitly.
+    fn analyse(&mut self, effort: &[f64], qd: &[f64]) -> Option<()> {
+        let StateBefore { time_s, q, .. } = &self.before;
+        let (tree, buffer) = self.dynamics.at(*time_s);
+        let state = DrivenState { q, qd, tau: effort };
+        tree.forward_into(&state, buffer, &mut self.qdd).ok()?;
+        tree.bias_into(q, qd, buffer, &mut self.bias).ok()?;
+        tree.mass_matrix_into(q, buffer, &mut self.mass_matrix).ok()
+    }
+
+    /// The relative difference at one joint, with what follows it; `None` if dry friction holds one of them.
+    fn relative(&self, joint: usize, sample: &Sample<'_>) -> Option<f64> {
+        let (truth, dof) = (sample.joints.truth, self.qdd.len());
+        let (mut difference, mut acting, mut alone) = (0.0, 0.0, 0.0);
+        for row in (0..dof).filter(|&row| self.drivers[row].0 == joint) {
+            if sticks(self.frictions[row], self.before.qd[row], truth.qd[row]) {
+                return None;
+            }
+            let ratio = self.drivers[row].1;
+            let torque: f64 = (0..dof).map(|other| self.mass_matrix[(row, other)] * self.qdd[other]).sum();
+            difference += ratio * torque;
+            acting += ratio.abs() * truth.effort[row].abs().max(self.bias[row].abs());
+            alone += ratio * ratio * self.mass_matrix[(row, row)];
+        }
+        Some(difference.abs() / (acting + alone * LEAST_ACCELERATION))
+    }
+
+    fn compare(&mut self, sample: &Sample<'_>) {
+        let truth = sample.joints.truth;
+        if self.analyse(truth.effort, truth.qd).is_none() {
+            self.left_out.refused += 1;
+            return;
+        }
+        let step_s = sample.time_s - self.before.time_s;
+        for ((difference, after), before) in self.qdd.iter_mut().zip(truth.qd).zip(&self.before.qd) {
+            *difference = (after - before) / step_s - *difference;
+        }
+        let mut is_sticking = false;
+        for joint in (0..self.qdd.len()).filter(|&joint| self.drivers[joint].0 == joint) {
+            match self.relative(joint, sample) {
+                Some(relative) => self.torque.observe(relative, joint, sample),
+                None => is_sticking = true,
+            }
+        }
+        self.compared += 1;
+        self.left_out.sticking += u64::from(is_sticking);
+    }
+}
+
+/// Whether a joint with dry friction is at rest in the step, or turns round in it.
+fn sticks(friction: f64, before: f64, after: f64) -> bool {
+    friction > 0.0 && (before * after <= 0.0 || before.abs().min(after.abs()) < AT_REST)
+}
+
+impl Monitor for DynamicsMonitor<'_> {
+    fn observe(&mut self, sample: &mut Sample<'_>) {
+        let truth = sample.joints.truth;
+        let has_all = truth.qd.len() == truth.q.len() && truth.effort.len() == truth.q.len();
+        if self.before.is_set {
+            match sample.forces {
+                StepForces::Declared if has_all => self.compare(sample),
+                StepForces::Constrained => self.left_out.constrained += 1,
+                StepForces::Declared | StepForces::Unknown => self.left_out.unknown += 1,
+            }
+        }
+        self.before.is_set = has_all;
+        if has_all {
+            self.before.time_s = sample.time_s;
+            self.before.q.copy_from_slice(truth.q);
+            self.before.qd.copy_from_slice(truth.qd);
+        }
+    }
+
+    fn finish(&self, names: &Names) -> Observed {
+        let measure = self.torque.measure(&names.joints, |joint| names.joints[joint].clone());
+        let notes = self.left_out.notes(self.compared);
+        Observed { samples: self.compared, measures: vec![measure], notes, ..Observed::default() }
+    }
+
+    fn has_failed(&self) -> bool {
+        self.torque.is_violated()
+    }
+}

@@ -1,0 +1,103 @@
+//! Cycle time: since when the arm is at rest at the end of the last motion.
+
+use congruent_description::JointKind;
+
+use crate::{
+    monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
+    sample::Sample,
+    scenario::CycleTimeCheck,
+    verdict::Bound,
+};
+
+/// How far a joint may be from the end of the last motion if the check does not say, rad and m. Kind: engineering; a
+/// tenth of a degree is 1.7e-3 rad.
+pub(crate) const AT_THE_END: f64 = 1e-3;
+/// A joint below this speed is at rest, rad/s and m/s. Kind: engineering; in a second it moves by the distance above
+/// that counts as reached.
+const AT_REST: f64 = 1e-3;
+
+pub(crate) struct CycleTimeMonitor {
+    kinds: Vec<JointKind>,
+    /// Of joints that slide, of joints that turn.
+    tolerances: [f64; 2],
+    motions_s: f64,
+    /// Half a step: times of samples are rounded.
+    slack_s: f64,
+    time: Watch,
+    /// Since when all joints are there.
+    since_s: Option<f64>,
+    samples: u64,
+    is_commanded: bool,
+}
+
+impl CycleTimeMonitor {
+    pub(crate) fn new(check: &CycleTimeCheck, context: &CheckContext<'_>) -> Self {
+        let [turning, sliding] = check.unit_keys().map(|keys| keys.value().unwrap_or(AT_THE_END));
+        Self {
+            kinds: context.joint_kinds(),
+            tolerances: [sliding, turning],
+            motions_s: context.motions_s,
+            slack_s: context.clock.step_s / 2.0,
+            time: Watch::new("cycle_time", "s", Bound::AtMost, check.limit_s, context.dof()),
+            since_s: None,
+            samples: 0,
+            is_commanded: true,
+        }
+    }
+
+    /// The first joint that is not at the end of the last motion, or not at rest.
+    fn unfinished(&self, sample: &Sample<'_>) -> Option<usize> {
+        let (truth, setpoint) = (sample.joints.truth, sample.joints.setpoint?);
+        let is_under_way = sample.time_s < self.motions_s - self.slack_s;
+        let is_there = |joint: usize| {
+            let tolerance = self.tolerances[usize::from(self.kinds[joint].is_angular())];
+            let speed = truth.qd.get(joint).copied().unwrap_or(0.0);
+            (truth.q[joint] - setpoint.q[joint]).abs() <= tolerance && speed.abs() <= AT_REST
+        };
+        let joint = (0..truth.q.len()).find(|&joint| !is_there(joint));
+        if is_under_way { joint.or(Some(0)) } else { joint }
+    }
+}
+
+impl Monitor for CycleTimeMonitor {
+    fn observe(&mut self, sample: &mut Sample<'_>) {
+        if sample.joints.setpoint.is_none() {
+            self.is_commanded = false;
+            return;
+        }
+        self.samples += 1;
+        let unfinished = self.unfinished(sample);
+        match unfinished {
+            None => self.since_s = Some(self.since_s.unwrap_or(sample.time_s)),
+            Some(joint) => {
+                self.since_s = None;
+                // Too late already, whenever it will be.
+                if sample.time_s > self.time.limit() {
+                    self.time.observe(sample.time_s, joint, sample);
+                }
+            }
+        }
+        if sample.is_last {
+            self.time.observe(
+                self.since_s.unwrap_or(f64::INFINITY),
+                unfinished.unwrap_or(self.kinds.len()),
+                sample,
+            );
+        }
+    }
+
+    fn finish(&self, names: &Names) -> Observed {
+        let measure = self.time.measure(&names.joints, |joint| names.joint_or_all(joint));
+        let mut notes = Vec::new();
+        if !self.is_commanded {
+            notes.push("the source of joint states has no setpoint".to_owned());
+        } else if measure.worst.is_none() {
+            notes.push("the run ended before its motions: there is no cycle time".to_owned());
+        }
+        Observed { samples: self.samples, measures: vec![measure], notes, ..Observed::default() }
+    }
+
+    fn has_failed(&self) -> bool {
+        self.time.is_violated()
+    }
+}

@@ -1,0 +1,260 @@
+//! Joints against the limits that the description states: position, velocity and effort.
+//!
+//! A joint that rests on its stop, because it was commanded there or sags onto it, is a little beyond its limit: a stop
+//! yields. It is told apart from one that is driven beyond: by a setpoint outside, or because it goes on outwards.
+
+use congruent_description::{Diagnostic, JointKind, RobotDescription, display::quantity};
+
+use crate::{
+    monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
+    sample::Sample,
+    scenario::{FilePlace, LimitsCheck},
+    source::StepForces,
+    verdict::Bound,
+};
+
+/// How far beyond a limit a joint counts as at it, rad and m, if the scenario does not say. Kind: digits of files. A
+/// limit that is written with six decimals, 1.570796 for a quarter turn, is off by up to 5e-7, and steps that add
+/// up to a limit by 1e-9 at most; what an encoder or a stop would notice is larger.
+pub(crate) const AT_THE_LIMIT: f64 = 1e-6;
+/// How deep a joint that rests on its stop is in it at most, rad and m. Kind: physics; the stop acts from the step after
+/// the touch on, in which a joint of 1 rad/s has gone on for 1e-3 rad by steps of 1 ms.
+const ON_THE_STOP: f64 = 1e-3;
+/// Efforts are clipped at their limit, but for rounding. No unit.
+const ROUNDING: f64 = 1e-9;
+
+/// How far a joint that turns is beyond its limit; negative inside its range.
+pub(crate) const ANGLE_BEYOND_LIMIT: &str = "angle_beyond_limit";
+/// The same of a joint that shifts.
+pub(crate) const SHIFT_BEYOND_LIMIT: &str = "shift_beyond_limit";
+
+/// The limits of one coordinate, and what has become of it at its stop.
+struct CoordinateLimits {
+    coordinate: usize,
+    kind: JointKind,
+    range: Option<(f64, f64)>,
+    velocity: Option<f64>,
+    effort: Option<f64>,
+    /// How far it was beyond its limit in the sample before.
+    beyond_before: f64,
+    rest: Option<Rest>,
+    drive: Option<Drive>,
+    /// Samples in which its effort was at the limit.
+    saturated: u64,
+}
+
+/// A joint that has come to rest on its stop.
+struct Rest {
+    time_s: f64,
+    /// How far its setpoint was inside the range.
+    setpoint_inside: f64,
+}
+
+/// A joint that was driven beyond its limit.
+struct Drive {
+    time_s: f64,
+    /// How far its setpoint was outside; `None` if it was inside or is not known.
+    setpoint_outside: Option<f64>,
+    is_commanded: bool,
+}
+
+/// Values of joints that turn, and of joints that slide.
+struct ByKind {
+    angular: Watch,
+    linear: Watch,
+}
+
+pub(crate) struct LimitsMonitor {
+    coordinates: Vec<CoordinateLimits>,
+    /// Of joints that turn, and of joints that slide.
+    margins: [f64; 2],
+    beyond: ByKind,
+    on_stop: ByKind,
+    velocity: Watch,
+    effort: Watch,
+    samples: u64,
+}
+
+/// Whether the shares are shares.
+pub(crate) fn examine(check: &LimitsCheck, place: FilePlace<'_>) -> Result<(), Diagnostic> {
+    let shares = [("velocity_share", check.velocity_share), ("effort_share", check.effort_share)];
+    match shares.into_iter().find(|(_, share)| share.is_some_and(|share| share > 1.0)) {
+        None => Ok(()),
+        Some((key, share)) => {
+            let message = format!("`{key}` = {} allows more than the limit", share.unwrap_or_default());
+            let error = Diagnostic::error("scenario::share", message);
+            Err(place.key(key).mark(error.with_help("give a share of the limit, at most 1")))
+        }
+    }
+}
+
+impl LimitsMonitor {
+    pub(crate) fn new(check: &LimitsCheck, context: &CheckContext<'_>) -> Self {
+        let [tolerance_rad, margin_rad, tolerance_m, margin_m] = check.unit_keys().map(|keys| keys.value());
+        let watch = |quantity, unit, limit| Watch::new(quantity, unit, Bound::AtMost, limit, context.dof());
+        let share = |share: Option<f64>| share.unwrap_or(1.0) + ROUNDING;
+        Self {
+            coordinates: coordinates(context.description),
+            margins: [margin_rad.unwrap_or(0.0), margin_m.unwrap_or(0.0)],
+            beyond: ByKind {
+                angular: watch(ANGLE_BEYOND_LIMIT, "rad", tolerance_rad.unwrap_or(AT_THE_LIMIT)),
+                linear: watch(SHIFT_BEYOND_LIMIT, "m", tolerance_m.unwrap_or(AT_THE_LIMIT)),
+            },
+            on_stop: ByKind {
+                angular: watch("angle_into_stop", "rad", ON_THE_STOP),
+                linear: watch("shift_into_stop", "m", ON_THE_STOP),
+            },
+            velocity: watch("share_of_velocity_limit", "", share(check.velocity_share)),
+            effort: watch("share_of_effort_limit", "", share(check.effort_share)),
+            samples: 0,
+        }
+    }
+
+    fn observe_position(&mut self, at: usize, sample: &Sample<'_>) {
+        let limits = &mut self.coordinates[at];
+        let Some((lower, upper)) = limits.range else { return };
+        let outside = |q: f64| (lower - q).max(q - upper);
+        let (coordinate, kind) = (limits.coordinate, limits.kind);
+        let q = sample.joints.truth.q[coordinate];
+        // Of a number that is none, `max` would drop the other one.
+        let beyond = if q.is_nan() { q } else { outside(q) };
+        let margin = self.margins[usize::from(!kind.is_angular())];
+        let setpoint = sample.joints.setpoint.map(|setpoint| outside(setpoint.q[coordinate]));
+        let grows = limits.beyond_before > 0.0 && beyond > limits.beyond_before;
+        let is_commanded_inside = setpoint.is_some_and(|outside| outside <= AT_THE_LIMIT);
+        let rests = margin == 0.0 && is_commanded_inside && !grows && beyond <= ON_THE_STOP;
+        limits.beyond_before = beyond;
+        let tolerance = self.beyond.of(kind).limit();
+        if rests && beyond > tolerance {
+            limits.rest.get_or_insert(Rest {
+                time_s: sample.time_s,
+                setpoint_inside: -setpoint.unwrap_or_default(),
+            });
+            self.on_stop.of(kind).observe(beyond, coordinate, sample);
+            return;
+        }
+        if beyond > tolerance {
+            limits.drive.get_or_insert(Drive {
+                time_s: sample.time_s,
+                setpoint_outside: setpoint.filter(|_| !is_commanded_inside),
+                is_commanded: setpoint.is_some(),
+            });
+        }
+        self.beyond.of(kind).observe(beyond + margin, coordinate, sample);
+    }
+
+    fn observe_shares(&mut self, at: usize, sample: &Sample<'_>) {
+        let limits = &mut self.coordinates[at];
+        let (truth, coordinate) = (sample.joints.truth, limits.coordinate);
+        if let (Some(limit), Some(qd)) = (limits.velocity, truth.qd.get(coordinate)) {
+            self.velocity.observe(qd.abs() / limit, coordinate, sample);
+        }
+        if let (Some(limit), Some(effort)) = (limits.effort, truth.effort.get(coordinate)) {
+            let share = effort.abs() / limit;
+            // A robot that was placed has exerted nothing: that is no effort within the limit.
+            if share == 0.0 && sample.forces == StepForces::Unknown {
+                return;
+            }
+            limits.saturated += u64::from(share >= 1.0 - ROUNDING);
+            self.effort.observe(share, coordinate, sample);
+        }
+    }
+
+    fn notes(&self, names: &Names) -> Vec<String> {
+        let mut notes: Vec<String> =
+            self.coordinates.iter().flat_map(|limits| limits.notes(&names.joints)).collect();
+        if self.coordinates.iter().all(|limits| limits.range.is_none()) {
+            notes.push("no joint has limits of position".to_owned());
+        }
+        let unstated = |what: &str, is_stated: &dyn Fn(&CoordinateLimits) -> bool| {
+            let without = self.coordinates.iter().filter(|limits| !is_stated(limits));
+            let without: Vec<&str> = without.map(|limits| names.joints[limits.coordinate].as_str()).collect();
+            let note = format!("the description states no {what} limit of {}", without.join(", "));
+            (!without.is_empty()).then_some(note)
+        };
+        notes.extend(unstated("velocity", &|limits| limits.velocity.is_some()));
+        notes.extend(unstated("effort", &|limits| limits.effort.is_some()));
+        notes
+    }
+
+    fn watches(&self) -> [&Watch; 6] {
+        let (beyond, on_stop) = (&self.beyond, &self.on_stop);
+        [&beyond.angular, &beyond.linear, &on_stop.angular, &on_stop.linear, &self.velocity, &self.effort]
+    }
+}
+
+impl ByKind {
+    fn of(&mut self, kind: JointKind) -> &mut Watch {
+        if kind.is_angular() { &mut self.angular } else { &mut self.linear }
+    }
+}
+
+impl CoordinateLimits {
+    /// What has become of the joint at its stop and at its effort limit.
+    fn notes(&self, joints: &[String]) -> Vec<String> {
+        let name = &joints[self.coordinate];
+        let shown = |value: f64| quantity(value, if self.kind.is_angular() { "rad" } else { "m" });
+        let rest = self.rest.as_ref().map(|Rest { time_s, setpoint_inside }| {
+            let why = if *setpoint_inside <= AT_THE_LIMIT {
+                "it is commanded to its limit".to_owned()
+            } else {
+                format!("it sags onto it, its setpoint is {} inside", shown(*setpoint_inside))
+            };
+            format!("{name} rests on its stop from {} on: {why}", quantity(*time_s, "s"))
+        });
+        let drive = self.drive.as_ref().map(|Drive { time_s, setpoint_outside, is_commanded }| {
+            let why = match setpoint_outside {
+                Some(outside) => format!("its setpoint is {} outside", shown(*outside)),
+                None if *is_commanded => format!(
+                    "its setpoint is inside, but it goes on outwards, or deeper into its stop than {}",
+                    shown(ON_THE_STOP)
+                ),
+                None => "its setpoint is not known".to_owned(),
+            };
+            format!("{name} is driven beyond its limit from {} on: {why}", quantity(*time_s, "s"))
+        });
+        let saturated = (self.saturated > 0)
+            .then(|| format!("the actuator of {name} gives all it can in {} samples", self.saturated));
+        rest.into_iter().chain(drive).chain(saturated).collect()
+    }
+}
+
+impl Monitor for LimitsMonitor {
+    fn observe(&mut self, sample: &mut Sample<'_>) {
+        self.samples += 1;
+        for at in 0..self.coordinates.len() {
+            self.observe_position(at, sample);
+            self.observe_shares(at, sample);
+        }
+    }
+
+    fn finish(&self, names: &Names) -> Observed {
+        let name = |coordinate: usize| names.joints[coordinate].clone();
+        let seen = self.watches().into_iter().filter(|watch| watch.worst().is_some());
+        let measures = seen.map(|watch| watch.measure(&names.joints, name)).collect();
+        Observed { samples: self.samples, measures, notes: self.notes(names), ..Observed::default() }
+    }
+
+    fn has_failed(&self) -> bool {
+        self.watches().into_iter().any(Watch::is_violated)
+    }
+}
+
+/// A limit of zero is none: some descriptions write it for an unknown one.
+fn coordinates(description: &RobotDescription) -> Vec<CoordinateLimits> {
+    let robot = &description.robot;
+    let stated = |limit: Option<f64>| limit.filter(|&limit| limit > 0.0);
+    let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+    let limits = joints.enumerate().map(|(coordinate, joint)| CoordinateLimits {
+        coordinate,
+        kind: joint.kind,
+        range: joint.position_range(),
+        velocity: stated(joint.limit.and_then(|limit| limit.velocity)),
+        effort: stated(joint.limit.and_then(|limit| limit.effort)),
+        beyond_before: 0.0,
+        rest: None,
+        drive: None,
+        saturated: 0,
+    });
+    limits.collect()
+}

@@ -1,0 +1,254 @@
+//! The twin against its setpoint: the error on the way and at the end of the run, and wherever the setpoint stands still
+//! the time until the joints stay there and how far they go beyond.
+
+use congruent_description::{Diagnostic, JointKind, LinkIndex, Robot, RobotQ};
+use congruent_kinematics::UrdfTree;
+use nalgebra::{Isometry3, Vector3};
+
+use crate::{
+    monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
+    sample::Sample,
+    scenario::{FilePlace, TrackingCheck},
+    verdict::Bound,
+};
+
+/// Errors of joints that turn, of joints that slide, and of the TCP; `None` where the check has no limit.
+struct Errors {
+    turning: Option<Watch>,
+    sliding: Option<Watch>,
+    tcp: Option<Watch>,
+}
+
+pub(crate) struct TrackingMonitor {
+    kinds: Vec<JointKind>,
+    tcp: TcpOfSetpoint,
+    path: Errors,
+    goal: Errors,
+    overshoot: Errors,
+    settling: Option<Watch>,
+    standstill: Standstill,
+    samples: u64,
+    is_commanded: bool,
+}
+
+/// The setpoint between its motions.
+struct Standstill {
+    /// Where the setpoint was in the sample before.
+    q: RobotQ,
+    has_begun: bool,
+    /// Since when it stands; `None` while it moves.
+    since_s: Option<f64>,
+    /// Which way each joint went last: 1, -1, or 0 for one that has not moved since the standstill before.
+    way: Vec<f64>,
+}
+
+/// The TCP where the setpoint has it, by analysis.
+struct TcpOfSetpoint {
+    tree: UrdfTree,
+    tip: LinkIndex,
+    tip_from_tcp: Isometry3<f64>,
+}
+
+/// At least one limit, of joints that the robot has; settling needs a band.
+pub(crate) fn examine(check: &TrackingCheck, place: FilePlace<'_>, robot: &Robot) -> Result<(), Diagnostic> {
+    let limits = check.unit_keys();
+    let refused = |message: String, help: &str| {
+        Diagnostic::error("scenario::tracking", message).with_help(help.to_owned())
+    };
+    if limits.iter().all(|keys| keys.value().is_none()) {
+        let help = "give for example path_deg, path_tcp_mm, goal_deg or overshoot_deg";
+        let what = if check.settling_s.is_some() {
+            "`settling_s` has no band: the goal limits are missing"
+        } else {
+            "the check `tracking` has no limit"
+        };
+        return Err(place.mark(refused(what.to_owned(), help)));
+    }
+    let [_, _, _, goal_rad, goal_m, ..] = &limits;
+    if check.settling_s.is_some() && goal_rad.value().or(goal_m.value()).is_none() {
+        let message = "`settling_s` is the time until the joints stay within `goal_*`, and no joint has one";
+        let error =
+            refused(message.to_owned(), "give goal_deg or goal_rad, of sliding joints goal_m or goal_mm");
+        return Err(place.key("settling_s").mark(error));
+    }
+    let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint).kind.is_angular());
+    let (turning, sliding) = (joints().any(|turns| turns), joints().any(|turns| !turns));
+    let without = limits.iter().find_map(|keys| {
+        let key = keys.keys.into_iter().zip(keys.written).find_map(|(key, value)| value.map(|_| key))?;
+        let is_angle = keys.keys[0].ends_with("_rad");
+        let has_none = !key.contains("tcp") && if is_angle { !turning } else { !sliding };
+        has_none.then_some((key, if is_angle { "turns" } else { "slides" }))
+    });
+    match without {
+        None => Ok(()),
+        Some((key, moves)) => {
+            let message = format!("`{key}` limits nothing: no joint of \"{}\" {moves}", robot.name());
+            Err(place.key(key).mark(refused(message, "leave it out")))
+        }
+    }
+}
+
+impl TrackingMonitor {
+    pub(crate) fn new(check: &TrackingCheck, context: &CheckContext<'_>) -> Self {
+        let (description, dof) = (context.description, context.dof());
+        let watch = |quantity, unit, limit| Watch::new(quantity, unit, Bound::AtMost, limit, dof);
+        let limits = check.unit_keys().map(|keys| keys.value());
+        let [path_rad, path_m, path_tcp_m, goal_rad, goal_m, goal_tcp_m, overshoot_rad, overshoot_m] = limits;
+        Self {
+            kinds: context.joint_kinds(),
+            tcp: TcpOfSetpoint {
+                tree: UrdfTree::new(&description.robot),
+                tip: description.tip,
+                tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
+            },
+            path: Errors {
+                turning: path_rad.map(|limit| watch("path_error_of_angle", "rad", limit)),
+                sliding: path_m.map(|limit| watch("path_error_of_shift", "m", limit)),
+                tcp: path_tcp_m.map(|limit| watch("path_error_of_tcp", "m", limit)),
+            },
+            goal: Errors {
+                turning: goal_rad.map(|limit| watch("goal_error_of_angle", "rad", limit)),
+                sliding: goal_m.map(|limit| watch("goal_error_of_shift", "m", limit)),
+                tcp: goal_tcp_m.map(|limit| watch("goal_error_of_tcp", "m", limit)),
+            },
+            overshoot: Errors {
+                turning: overshoot_rad.map(|limit| watch("overshoot_of_angle", "rad", limit)),
+                sliding: overshoot_m.map(|limit| watch("overshoot_of_shift", "m", limit)),
+                tcp: None,
+            },
+            settling: check.settling_s.map(|limit| watch("settling_time", "s", limit)),
+            standstill: Standstill {
+                q: RobotQ::zeros(dof),
+                has_begun: false,
+                since_s: None,
+                way: vec![0.0; dof],
+            },
+            samples: 0,
+            is_commanded: true,
+        }
+    }
+
+    fn watches(&self) -> impl Iterator<Item = &Watch> {
+        let groups = [&self.path, &self.goal, &self.overshoot];
+        let of_groups = groups.into_iter().flat_map(|group| [&group.turning, &group.sliding, &group.tcp]);
+        of_groups.chain([&self.settling]).flatten()
+    }
+
+    /// While the setpoint stands: are the joints there, and not beyond?
+    fn observe_standstill(&mut self, since_s: f64, q: &RobotQ, sample: &Sample<'_>) {
+        let bands = [&self.goal.sliding, &self.goal.turning].map(|goal| goal.as_ref().map(Watch::limit));
+        let mut unsettled = None;
+        for (joint, (reference, true_q)) in q.iter().zip(sample.joints.truth.q).enumerate() {
+            let kind = self.kinds[joint];
+            let beyond = (true_q - reference) * self.standstill.way[joint];
+            if let Some(watch) = self.overshoot.of(kind).filter(|_| self.standstill.way[joint] != 0.0) {
+                watch.observe(beyond.max(0.0) + 0.0 * beyond, joint, sample);
+            }
+            let band = bands[usize::from(kind.is_angular())];
+            // Not a number is outside of every band.
+            let error = (true_q - reference).abs();
+            if band.is_some_and(|band| error.is_nan() || error > band) {
+                unsettled = Some(joint);
+            }
+        }
+        if let Some(watch) = &mut self.settling {
+            let (joint, time_s) = unsettled.map_or((q.len(), 0.0), |joint| (joint, sample.time_s - since_s));
+            watch.observe(time_s, joint, sample);
+        }
+    }
+}
+
+impl Errors {
+    fn of(&mut self, kind: JointKind) -> Option<&mut Watch> {
+        if kind.is_angular() { self.turning.as_mut() } else { self.sliding.as_mut() }
+    }
+
+    fn observe(
+        &mut self,
+        kinds: &[JointKind],
+        (q, tcp_error_m): (&RobotQ, f64),
+        tip: LinkIndex,
+        sample: &Sample<'_>,
+    ) {
+        for (joint, (reference, true_q)) in q.iter().zip(sample.joints.truth.q).enumerate() {
+            if let Some(watch) = self.of(kinds[joint]) {
+                watch.observe((true_q - reference).abs(), joint, sample);
+            }
+        }
+        if let Some(watch) = &mut self.tcp {
+            watch.observe(tcp_error_m, tip.get(), sample);
+        }
+    }
+}
+
+impl TcpOfSetpoint {
+    /// Distance of the twin's TCP from the setpoint's.
+    fn error_m(&self, q: &RobotQ, sample: &Sample<'_>) -> f64 {
+        let Ok(root_from_tip) = self.tree.root_from_link(q, self.tip) else { return f64::NAN };
+        let tcp_in_tip: Vector3<f64> = self.tip_from_tcp.translation.vector;
+        let wanted = root_from_tip.rotation * tcp_in_tip + root_from_tip.translation;
+        let found = sample.twin[self.tip.get()] * self.tip_from_tcp;
+        (found.translation.vector - wanted).norm()
+    }
+}
+
+impl Standstill {
+    /// Takes the setpoint of a sample; says since when it stands.
+    fn take(&mut self, q: &RobotQ, time_s: f64) -> Option<f64> {
+        let is_still = !self.has_begun || self.q == *q;
+        if !is_still {
+            if self.since_s.is_some() {
+                self.way.fill(0.0);
+            }
+            for (way, (now, before)) in self.way.iter_mut().zip(q.iter().zip(&self.q)) {
+                let step = now - before;
+                if step.abs() > 0.0 {
+                    *way = step.signum();
+                }
+            }
+        }
+        self.since_s = if is_still { Some(self.since_s.unwrap_or(time_s)) } else { None };
+        self.has_begun = true;
+        self.q.copy_from_slice(q);
+        self.since_s
+    }
+}
+
+impl Monitor for TrackingMonitor {
+    fn observe(&mut self, sample: &mut Sample<'_>) {
+        let Some(setpoint) = sample.joints.setpoint else {
+            self.is_commanded = false;
+            return;
+        };
+        self.samples += 1;
+        let needs_tcp = self.path.tcp.is_some() || self.goal.tcp.is_some();
+        let tcp_error_m = if needs_tcp { self.tcp.error_m(setpoint.q, sample) } else { 0.0 };
+        self.path.observe(&self.kinds, (setpoint.q, tcp_error_m), self.tcp.tip, sample);
+        let since_s = self.standstill.take(setpoint.q, sample.time_s);
+        if let Some(since_s) = since_s {
+            self.observe_standstill(since_s, setpoint.q, sample);
+        }
+        if sample.is_last {
+            self.goal.observe(&self.kinds, (setpoint.q, tcp_error_m), self.tcp.tip, sample);
+        }
+    }
+
+    fn finish(&self, names: &Names) -> Observed {
+        let name = |watch: &Watch| {
+            let of_link = watch.quantity().ends_with("_of_tcp");
+            move |subject: usize| {
+                if of_link { names.links[subject].clone() } else { names.joint_or_all(subject) }
+            }
+        };
+        let measures = self.watches().map(|watch| watch.measure(&names.joints, name(watch))).collect();
+        let mut notes = Vec::new();
+        if !self.is_commanded {
+            notes.push("the source of joint states has no setpoint".to_owned());
+        }
+        Observed { samples: self.samples, measures, notes, ..Observed::default() }
+    }
+
+    fn has_failed(&self) -> bool {
+        self.watches().any(Watch::is_violated)
+    }
+}

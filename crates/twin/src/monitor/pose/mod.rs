@@ -1,0 +1,11 @@
+//! Checks of link poses and of the tool.
+
+mod agreement;
+mod goal;
+mod invariants;
+mod twist;
+
+pub(super) use agreement::AgreementMonitor;
+pub(super) use goal::{GoalMonitor, examine as examine_goal};
+pub(super) use invariants::{InvariantsMonitor, ROTATION};
+pub(super) use twist::{TwistMonitor, twist_limits};

@@ -1,0 +1,91 @@
+//! Checks of link poses and of the tool.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    on_violation::OnViolation,
+    unit_keys::{UnitKeys, angular_speed, linear_speed},
+};
+use crate::scenario::{
+    number::{optional_non_negative, optional_positive, positive},
+    pose::PoseSettings,
+    text::variant,
+};
+
+/// Limits that are left out are the robot file's tolerance.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AgreementCheck {
+    /// Largest distance of the origins of a link.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub position_m: Option<f64>,
+    /// Largest angle between the orientations of a link.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub orientation_rad: Option<f64>,
+    /// What follows its first violation.
+    #[serde(default, deserialize_with = "variant")]
+    pub on_violation: OnViolation,
+}
+
+/// A pose needs both tolerances, a position one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GoalCheck {
+    /// Pose or position of the twin's TCP at the end, in the world.
+    pub tcp: PoseSettings,
+    /// Largest distance from it.
+    #[serde(deserialize_with = "positive")]
+    pub position_m: f64,
+    /// Largest angle from it, if the goal has a rotation.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub orientation_rad: Option<f64>,
+    /// What follows its first violation.
+    #[serde(default, deserialize_with = "variant")]
+    pub on_violation: OnViolation,
+}
+
+/// The velocity of the TCP by the Jacobian at the measured joint positions and velocities, against the change of the twin's
+/// TCP pose. Limits that are left out are proportional to the length of a step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TwistCheck {
+    /// Largest difference of the TCP's velocity, in m/s or in mm/s.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub linear_m_s: Option<f64>,
+    /// The same in mm/s.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub linear_mm_s: Option<f64>,
+    /// Largest difference of its angular velocity, in rad/s or in deg/s.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub angular_rad_s: Option<f64>,
+    /// The same in deg/s.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub angular_deg_s: Option<f64>,
+    /// What follows its first violation.
+    #[serde(default, deserialize_with = "variant")]
+    pub on_violation: OnViolation,
+}
+
+/// Rotations are rotations, and joint states are finite numbers.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InvariantsCheck {
+    /// Largest error of a link's rotation, of model and twin: of `R' R - 1` in the Frobenius norm, and of the determinant.
+    /// A small multiple of rounding if it is left out.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub rotation: Option<f64>,
+    /// What follows its first violation.
+    #[serde(default, deserialize_with = "variant")]
+    pub on_violation: OnViolation,
+}
+
+impl TwistCheck {
+    /// The values that a file gives in one of two units: linear, angular.
+    pub(crate) fn unit_keys(&self) -> [UnitKeys; 2] {
+        [
+            linear_speed(["linear_m_s", "linear_mm_s"], [self.linear_m_s, self.linear_mm_s]),
+            angular_speed(["angular_rad_s", "angular_deg_s"], [self.angular_rad_s, self.angular_deg_s]),
+        ]
+    }
+}

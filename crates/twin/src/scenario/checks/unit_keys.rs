@@ -1,0 +1,53 @@
+//! Values of a check that a file gives in one of two units.
+
+use congruent_description::{Diagnostic, units::Unit};
+
+use crate::scenario::place::FilePlace;
+
+/// One value under two keys: in SI units, and in engineering units.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct UnitKeys {
+    /// The keys.
+    pub(crate) keys: [&'static str; 2],
+    /// What is written under them.
+    pub(crate) written: [Option<f64>; 2],
+    unit: Unit,
+}
+
+/// A length, in m or mm.
+pub(crate) fn length(keys: [&'static str; 2], written: [Option<f64>; 2]) -> UnitKeys {
+    UnitKeys { keys, written, unit: Unit::Length }
+}
+
+/// An angle, in rad or deg.
+pub(crate) fn angle(keys: [&'static str; 2], written: [Option<f64>; 2]) -> UnitKeys {
+    UnitKeys { keys, written, unit: Unit::Angle }
+}
+
+/// A speed, in m/s or mm/s: seconds have one unit, so that it converts as a length does.
+pub(crate) fn linear_speed(keys: [&'static str; 2], written: [Option<f64>; 2]) -> UnitKeys {
+    length(keys, written)
+}
+
+/// An angular speed, in rad/s or deg/s, likewise.
+pub(crate) fn angular_speed(keys: [&'static str; 2], written: [Option<f64>; 2]) -> UnitKeys {
+    angle(keys, written)
+}
+
+impl UnitKeys {
+    /// The value in SI units.
+    pub(crate) fn value(&self) -> Option<f64> {
+        let [si, engineering] = self.written;
+        si.or(engineering.map(|value| self.unit.convert(value)))
+    }
+
+    /// Refuses a value that is given in both units.
+    pub(crate) fn examine(&self, place: FilePlace<'_>) -> Result<(), Diagnostic> {
+        let [Some(_), Some(_)] = self.written else { return Ok(()) };
+        let [si, engineering] = self.keys;
+        let (quantity, _) = si.split_once('_').unwrap_or((si, ""));
+        let message = format!("the {quantity} is given twice, as {si} and as {engineering}");
+        let error = Diagnostic::error("scenario::two_units", message).with_help("leave one of them out");
+        Err(place.key(engineering).mark(error))
+    }
+}

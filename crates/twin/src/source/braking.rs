@@ -1,0 +1,147 @@
+//! Brings the setpoint to rest: it goes straight on in joint space from the present commanded velocity, all joints
+//! slowing down alike, so that none exceeds its acceleration limit; then it stays.
+
+use congruent_description::{Joint, Robot, RobotQ};
+
+/// A stop from the full speed of a joint takes this long. Kind: engineering; a URDF states velocities, and no
+/// accelerations.
+const FROM_VELOCITY_S: f64 = 0.25;
+/// Of a joint without a velocity limit, rad/s^2 or m/s^2. Kind: engineering; the lowest limit of a joint of a Panda is 7.5
+/// rad/s^2 (Franka Robotics).
+const ACCELERATION: f64 = 7.5;
+
+/// Accelerations with which a stop slows each movable joint down.
+pub(super) fn stop_accelerations(robot: &Robot) -> Vec<f64> {
+    let velocity = |joint: &Joint| joint.limit.and_then(|limit| limit.velocity).filter(|&limit| limit > 0.0);
+    let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+    joints.map(|joint| velocity(joint).map_or(ACCELERATION, |limit| limit / FROM_VELOCITY_S)).collect()
+}
+
+/// A setpoint that slows down and stays.
+#[derive(Debug, Clone)]
+pub(super) struct Braking {
+    began_s: f64,
+    /// Time from the full speed to rest.
+    lasts_s: f64,
+    from: RobotQ,
+    speed: Vec<f64>,
+    /// For each joint, the positions between which the setpoint stays.
+    ranges: Vec<(f64, f64)>,
+    q: RobotQ,
+    qd: Vec<f64>,
+    qdd: Vec<f64>,
+}
+
+impl Braking {
+    /// From a setpoint and its velocities at `began_s`.
+    pub(super) fn new(
+        (q, qd): (&RobotQ, &[f64]),
+        began_s: f64,
+        robot: &Robot,
+        accelerations: &[f64],
+    ) -> Self {
+        let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+        let slowing = qd.iter().zip(accelerations).map(|(qd, acceleration)| qd.abs() / acceleration);
+        let unlimited = (f64::NEG_INFINITY, f64::INFINITY);
+        let range = |(joint, &q): (&Joint, &f64)| {
+            let (lower, upper) = joint.position_range().unwrap_or(unlimited);
+            (lower.min(q), upper.max(q))
+        };
+        Self {
+            began_s,
+            lasts_s: slowing.fold(0.0, f64::max),
+            from: q.clone(),
+            speed: qd.to_vec(),
+            ranges: joints.zip(q).map(range).collect(),
+            q: q.clone(),
+            qd: qd.to_vec(),
+            qdd: vec![0.0; qd.len()],
+        }
+    }
+
+    /// Moves the setpoint to its place at `time_s`.
+    pub(super) fn advance(&mut self, time_s: f64) {
+        let elapsed_s = (time_s - self.began_s).min(self.lasts_s);
+        let left = if self.lasts_s > 0.0 { 1.0 - elapsed_s / self.lasts_s } else { 0.0 };
+        // The mean speed so far is between the full and the present one.
+        let way_s = elapsed_s * 0.5 * (1.0 + left);
+        for (joint, (from, speed)) in self.from.iter().zip(&self.speed).enumerate() {
+            let (lower, upper) = self.ranges[joint];
+            let q = from + speed * way_s;
+            self.q[joint] = q.clamp(lower, upper);
+            let is_free = (lower..=upper).contains(&q);
+            self.qd[joint] = if is_free { speed * left } else { 0.0 };
+            self.qdd[joint] = if is_free && left > 0.0 { -speed / self.lasts_s } else { 0.0 };
+        }
+    }
+
+    pub(super) fn q(&self) -> &RobotQ {
+        &self.q
+    }
+
+    pub(super) fn qd(&self) -> &[f64] {
+        &self.qd
+    }
+
+    pub(super) fn qdd(&self) -> &[f64] {
+        &self.qdd
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use congruent_description::parse_urdf;
+
+    use super::*;
+
+    fn robot() -> Robot {
+        let joint = |name: &str, kind: &str, parent: &str, child: &str| {
+            format!(
+                r#"<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/><axis xyz="0 0 1"/>
+                   <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>"#
+            )
+        };
+        let text = format!(
+            r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/>{}{}</robot>"#,
+            joint("turn", "revolute", "a", "b"),
+            joint("slide", "prismatic", "b", "c")
+        );
+        parse_urdf(&text).unwrap()
+    }
+
+    const LIMITS: [f64; 2] = [4.0, 1.0];
+
+    #[test]
+    fn all_joints_slow_down_alike_and_none_faster_than_its_limit() {
+        // Alone the first would need 0.125 s, the second 0.5 s.
+        let mut braking = Braking::new((&[0.0, 0.25].into(), &[0.5, -0.5]), 3.0, &robot(), &LIMITS);
+        braking.advance(3.25);
+        assert_eq!((&braking.q()[..], braking.qd()), (&[0.09375, 0.15625][..], &[0.25, -0.25][..]));
+        // v^2 / 2 a of the second, and as far of the first.
+        for time_s in [3.5, 9.0] {
+            braking.advance(time_s);
+            assert_eq!((&braking.q()[..], braking.qd()), (&[0.125, 0.125][..], &[0.0, 0.0][..]));
+        }
+    }
+
+    #[test]
+    fn a_setpoint_stays_within_the_range_of_its_joint() {
+        let mut braking = Braking::new((&[0.95, 1.25].into(), &[0.5, 0.5]), 0.0, &robot(), &LIMITS);
+        braking.advance(0.25);
+        assert_eq!((&braking.q()[..], braking.qd()), (&[1.0, 1.25][..], &[0.0, 0.0][..]));
+    }
+
+    #[test]
+    fn a_joint_slows_down_from_its_velocity_limit_in_a_quarter_of_a_second() {
+        assert_eq!(stop_accelerations(&robot()), [4.0, 4.0]);
+        let unlimited = robot().with_joints(|joint| joint.limit = None);
+        assert_eq!(stop_accelerations(&unlimited), [ACCELERATION; 2]);
+    }
+
+    #[test]
+    fn a_setpoint_at_rest_stays() {
+        let mut braking = Braking::new((&[0.5, 0.25].into(), &[0.0, 0.0]), 1.0, &robot(), &LIMITS);
+        braking.advance(1.001);
+        assert_eq!((&braking.q()[..], braking.qd()), (&[0.5, 0.25][..], &[0.0, 0.0][..]));
+    }
+}

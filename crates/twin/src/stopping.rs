@@ -1,0 +1,103 @@
+//! The way of an arm to rest, after the first violation of a check that stops the run.
+
+use congruent_description::{
+    JointValues, RobotQ,
+    display::{length, quantity},
+};
+use nalgebra::Vector3;
+
+use crate::{
+    source::JointSample,
+    verdict::{CheckResult, Stop, WayToRest},
+};
+
+/// An arm is at rest if every joint is slower, rad/s and m/s. Kind: engineering; in a second it moves by 0.06 deg.
+const AT_REST: f64 = 1e-3;
+/// The run waits no longer for the arm to come to rest. Kind: engineering; stops of arms take tenths of a second.
+const LONGEST_S: f64 = 5.0;
+
+/// A stop in progress, and where it has led so far.
+#[derive(Debug, Clone)]
+pub(crate) struct Stopping {
+    check: usize,
+    step: u64,
+    time_s: f64,
+    from: RobotQ,
+    /// Whether the source can be brought to rest.
+    pub(crate) can_stop: bool,
+    is_at_rest: bool,
+    duration_s: f64,
+    q: RobotQ,
+    tcp_in_root: Vector3<f64>,
+    tcp_path_m: f64,
+}
+
+impl Stopping {
+    /// By the check of this number, at this step and state.
+    pub(crate) fn new(
+        check: usize,
+        (step, time_s): (u64, f64),
+        (q, tcp_in_root): (RobotQ, Vector3<f64>),
+    ) -> Self {
+        Self {
+            check,
+            step,
+            time_s,
+            from: q.clone(),
+            can_stop: false,
+            is_at_rest: false,
+            duration_s: 0.0,
+            q,
+            tcp_in_root,
+            tcp_path_m: 0.0,
+        }
+    }
+
+    /// The number of the check that stops the run.
+    pub(crate) fn check(&self) -> usize {
+        self.check
+    }
+
+    /// Goes on to an instant; returns whether the run ends with it.
+    pub(crate) fn ends(&mut self, time_s: f64, joints: &JointSample<'_>, tcp_in_root: Vector3<f64>) -> bool {
+        self.duration_s = time_s - self.time_s;
+        self.q.copy_from_slice(joints.truth.q);
+        self.tcp_path_m += (tcp_in_root - self.tcp_in_root).norm();
+        self.tcp_in_root = tcp_in_root;
+        let slow = |qd: &[f64]| qd.iter().all(|qd| qd.abs() <= AT_REST);
+        let is_commanded_to_rest =
+            joints.setpoint.is_none_or(|setpoint| setpoint.qd.iter().all(|&qd| qd == 0.0));
+        self.is_at_rest = is_commanded_to_rest && slow(joints.truth.qd);
+        !self.can_stop || self.is_at_rest || self.duration_s >= LONGEST_S
+    }
+
+    /// In words, as a remark on the check.
+    pub(crate) fn note(&self, steps: u64) -> String {
+        let (time, step) = (quantity(self.time_s, "s"), self.step);
+        let note = format!("stopped the run at {time}, after {step} of {steps} steps");
+        if !self.can_stop {
+            return note;
+        }
+        let (duration, way) = (quantity(self.duration_s, "s"), length(self.tcp_path_m));
+        let rest = if self.is_at_rest { "at rest" } else { "not at rest" };
+        format!("{note}; the arm is {rest} {duration} later, its TCP {way} further")
+    }
+
+    /// For the report.
+    pub(crate) fn report(&self, result: &CheckResult, joints: &[String]) -> Stop {
+        let gone: Vec<f64> = self.q.iter().zip(&self.from).map(|(to, from)| to - from).collect();
+        Stop {
+            check: result.check,
+            line: result.line,
+            step: self.step,
+            time_s: self.time_s,
+            q: JointValues::new(joints, &self.from),
+            rest: self.can_stop.then(|| WayToRest {
+                is_at_rest: self.is_at_rest,
+                duration_s: self.duration_s,
+                joints: JointValues::new(joints, &gone),
+                tcp_path_m: self.tcp_path_m,
+            }),
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! `dynamics` and `power`.
+
+use congruent_description::Inertia;
+use congruent_simulation::CarriedBody;
+use congruent_twin::{
+    RunSetup,
+    scenario::{Check, DynamicsCheck, ObstacleSettings, PowerCheck},
+    setup::Payload,
+    verdict::Status,
+};
+use nalgebra::{Isometry3, Matrix3};
+
+use crate::support::{
+    arm, controlled, fails, measure, notes, passes, result, result_with_physics_of, scenario, servo, setup,
+    worst,
+};
+
+fn dynamics() -> Check {
+    Check::Dynamics(DynamicsCheck::default())
+}
+
+fn power() -> Check {
+    Check::Power(PowerCheck::default())
+}
+
+/// The arm takes 3 kg with its finger from 0.3 s to 0.6 s.
+fn loaded(check: Check) -> RunSetup {
+    let mut setup = setup(scenario(servo(), check), &arm(&[]));
+    let link = setup.description.robot.find_link("finger").expect("the arm has a finger");
+    let link_from_inertial = Isometry3::translation(0.05, 0.0, 0.0);
+    let inertia = Inertia { mass_kg: 3.0, link_from_inertial, tensor_kg_m2: Matrix3::identity() * 0.002 };
+    let carried = CarriedBody { link, inertia };
+    setup.payloads = vec![Payload { name: "part".to_owned(), carried, from_s: 0.3, until_s: 0.6 }];
+    setup
+}
+
+#[test]
+fn the_physics_moves_as_its_robot_would() {
+    for controller in [servo(), controlled("pd", 3000.0, 150.0)] {
+        let dynamics = result(&setup(scenario(controller.clone(), dynamics()), &arm(&[])));
+        passes(&dynamics);
+        let power = result(&setup(scenario(controller, power()), &arm(&[])));
+        passes(&power);
+    }
+}
+
+/// First-order scheme: a quarter of the step, a quarter of the difference.
+#[test]
+fn the_differences_are_of_first_order_in_the_step() {
+    /// Kind: truncation, the second order of the ratio at 1 ms; worst seen 0.05.
+    const RATIO: f64 = 0.15;
+    for (check, quantity) in [(dynamics(), "acceleration_error"), (power(), "energy_error")] {
+        let [coarse, fine] = [1e-3, 0.25e-3].map(|step_s| {
+            let mut scenario = scenario(servo(), check.clone());
+            scenario.simulation.step_s = step_s;
+            // Without dry friction, which acts by jumps.
+            let result = result(&setup(scenario, &arm(&[("friction=\"0.5\"", "friction=\"0\"")])));
+            worst(&result, quantity)
+        });
+        assert!((coarse / fine - 4.0).abs() < 4.0 * RATIO, "{quantity}: {coarse:e} and {fine:e}");
+    }
+}
+
+#[test]
+fn a_joint_that_resists_more_than_declared_is_named() {
+    let declared = setup(scenario(servo(), dynamics()), &arm(&[]));
+    let stiff = arm(&[("friction=\"0.5\"", "friction=\"3\"")]);
+    fails(&result_with_physics_of(&stiff, &declared), "acceleration_error", "elbow");
+    let damped = arm(&[("damping=\"0.5\"", "damping=\"3\"")]);
+    fails(&result_with_physics_of(&damped, &declared), "acceleration_error", "shoulder");
+    let declared = setup(scenario(servo(), power()), &arm(&[]));
+    fails(&result_with_physics_of(&damped, &declared), "energy_error", "all joints");
+}
+
+#[test]
+fn an_undeclared_mass_is_seen() {
+    let heavy = arm(&[("mass value=\"2\"", "mass value=\"2.5\"")]);
+    for (check, quantity) in [(dynamics(), "acceleration_error"), (power(), "energy_error")] {
+        let result = result_with_physics_of(&heavy, &setup(scenario(servo(), check), &arm(&[])));
+        assert_eq!(result.status, Status::Fail, "{result:#?}");
+        assert!(measure(&result, quantity).first_violation.is_some());
+    }
+}
+
+#[test]
+fn a_declared_payload_is_part_of_the_robot_while_it_is_carried() {
+    for check in [dynamics(), power()] {
+        passes(&result(&loaded(check)));
+    }
+    // The same physics, and a check that does not know of it.
+    let loaded_setup = loaded(dynamics());
+    let source = congruent_twin::source::SimulationSource::new(&loaded_setup).unwrap();
+    let unaware = setup(scenario(servo(), dynamics()), &arm(&[]));
+    let outcome = crate::support::outcome(&unaware, Some(Box::new(source)));
+    let violation = measure(&outcome.checks[0], "acceleration_error").first_violation.clone().unwrap();
+    assert!(
+        (violation.time_s - 0.301).abs() < 1e-9,
+        "the first step with the payload ends there: {violation:?}"
+    );
+}
+
+#[test]
+fn what_is_played_back_has_no_forces_and_is_skipped() {
+    for check in [dynamics(), power()] {
+        let result = result(&setup(scenario(controlled("kinematic", 0.0, 0.0), check), &arm(&[])));
+        assert_eq!((result.status, result.samples), (Status::Skipped, 0), "{result:#?}");
+        notes(&result, "1200 of 1200 samples are left out: the source does not know the forces");
+    }
+}
+
+#[test]
+fn samples_with_contact_are_left_out_and_counted() {
+    for check in [dynamics(), power()] {
+        let mut scenario = scenario(servo(), check);
+        // The finger comes down on it half way.
+        scenario.obstacle = vec![ObstacleSettings {
+            name: "block".to_owned(),
+            box_m: Some([2.0, 2.0, 0.1]),
+            xyz_m: Some([0.5, 0.0, -0.55]),
+            ..ObstacleSettings::default()
+        }];
+        let result = result(&setup(scenario, &arm(&[])));
+        passes(&result);
+        notes(&result, "samples are left out: contact or the stop of a joint acts");
+        assert!((100..1200).contains(&result.samples), "{result:#?}");
+    }
+}
+
+#[test]
+fn dry_friction_that_holds_is_left_out_at_its_joint_alone() {
+    let sticky = arm(&[("friction=\"0.5\"", "friction=\"60\"")]);
+    let check = scenario(controlled("passive", 0.0, 0.0), dynamics());
+    let result = result(&setup(check, &sticky));
+    passes(&result);
+    notes(&result, "dry friction holds a joint");
+    assert!(result.samples > 1000, "the other joint is compared: {result:#?}");
+}

@@ -1,0 +1,209 @@
+//! `limits`, `tracking` and `cycle_time`.
+
+use std::collections::BTreeMap;
+
+use congruent_twin::{
+    RunSetup,
+    scenario::{Check, CycleTimeCheck, LimitsCheck, MotionSettings, Scenario, TrackingCheck},
+    verdict::{CheckResult, Status},
+};
+
+use crate::support::{
+    arm, controlled, fails, measure, notes, passes, refused, result, result_distorted, scenario, servo,
+    setup, worst,
+};
+
+fn limits() -> Check {
+    Check::Limits(LimitsCheck::default())
+}
+
+/// The elbow, whose range ends at 2 rad, is led to `target_rad` from 1.7 rad.
+#[track_caller]
+fn led_to(target_rad: f64, controller: congruent_twin::scenario::ControllerSettings) -> CheckResult {
+    let mut scenario = scenario(controller, limits());
+    scenario.start.joints_rad =
+        [("shoulder", -1.5), ("elbow", 1.7)].map(|(name, q)| (name.to_owned(), q)).into();
+    if let MotionSettings::Joints(motion) = &mut scenario.motion[0] {
+        motion.move_joints_rad = BTreeMap::from([("elbow".to_owned(), target_rad)]);
+    }
+    result(&setup(scenario, &arm(&[])))
+}
+
+#[test]
+fn a_joint_that_is_commanded_to_its_limit_is_at_it() {
+    passes(&led_to(2.0, servo()));
+    passes(&led_to(2.0, controlled("kinematic", 0.0, 0.0)));
+}
+
+#[test]
+fn a_joint_that_sags_onto_its_stop_is_no_violation() {
+    // Servos without gravity compensation: 6 N m of gravity at the elbow, which is level, by 60 N m/rad.
+    let result = led_to(1.95, controlled("pd", 60.0, 20.0));
+    passes(&result);
+    notes(&result, "elbow rests on its stop from ");
+    notes(&result, "it sags onto it, its setpoint is ");
+    let depth_rad = worst(&result, "angle_into_stop");
+    assert!(depth_rad > 1e-6 && depth_rad < 1e-3, "{depth_rad}");
+}
+
+#[test]
+fn a_joint_that_is_driven_beyond_its_limit_is_told_apart() {
+    let by_physics = led_to(2.1, servo());
+    fails(&by_physics, "angle_beyond_limit", "elbow");
+    notes(&by_physics, "elbow is driven beyond its limit from ");
+    notes(&by_physics, "outside");
+    let in_playback = led_to(2.1, controlled("kinematic", 0.0, 0.0));
+    fails(&in_playback, "angle_beyond_limit", "elbow");
+    let error_rad = (worst(&in_playback, "angle_beyond_limit") - 0.1).abs();
+    assert!(error_rad < 1e-12, "{in_playback:#?}");
+}
+
+/// The setpoint is inside, but the state goes on outwards through where the stop should be.
+#[test]
+fn a_stop_that_does_not_hold_is_a_violation() {
+    let setup = setup(scenario(servo(), limits()), &arm(&[]));
+    let result = result_distorted(&setup, |said| {
+        if said.time_s > 0.5 {
+            said.true_q[1] = 2.0 + 1e-4 * (said.time_s - 0.5);
+        }
+    });
+    fails(&result, "angle_beyond_limit", "elbow");
+    notes(&result, "its setpoint is inside, but it goes on outwards");
+}
+
+#[test]
+fn a_margin_moves_the_limits_inwards() {
+    let check = LimitsCheck { margin_deg: Some(90.0), ..LimitsCheck::default() };
+    let result = result(&setup(scenario(servo(), Check::Limits(check)), &arm(&[])));
+    // The elbow ends at 0.8 rad, 1.2 rad from its limit.
+    fails(&result, "angle_beyond_limit", "elbow");
+    let beyond_rad = worst(&result, "angle_beyond_limit") - (std::f64::consts::FRAC_PI_2 - 1.2);
+    assert!(beyond_rad.abs() < 0.01, "{result:#?}");
+}
+
+#[test]
+fn velocity_and_effort_are_shares_of_their_limits() {
+    let within = result(&setup(scenario(servo(), limits()), &arm(&[])));
+    passes(&within);
+    // 0.8 rad in 0.8 s by a quintic: 1.875 of 3 rad/s.
+    let share = worst(&within, "share_of_velocity_limit");
+    assert!((share - 0.625).abs() < 0.02, "{share}");
+    let check = LimitsCheck { velocity_share: Some(0.5), ..LimitsCheck::default() };
+    let fast = result(&setup(scenario(servo(), Check::Limits(check)), &arm(&[])));
+    fails(&fast, "share_of_velocity_limit", "elbow");
+    let check = LimitsCheck { effort_share: Some(0.05), ..LimitsCheck::default() };
+    let strong = result(&setup(scenario(servo(), Check::Limits(check)), &arm(&[])));
+    fails(&strong, "share_of_effort_limit", "shoulder");
+}
+
+#[test]
+fn an_actuator_at_its_limit_and_limits_that_are_not_stated_are_said() {
+    let weak = arm(&[("effort=\"300\" velocity=\"3\"", "effort=\"20\" velocity=\"0\"")]);
+    let result = result(&setup(scenario(servo(), limits()), &weak));
+    notes(&result, "the actuator of shoulder gives all it can in ");
+    notes(&result, "the description states no velocity limit of shoulder");
+    assert_eq!(worst(&result, "share_of_effort_limit"), 1.0);
+}
+
+#[test]
+fn a_share_is_at_most_the_whole() {
+    let check = LimitsCheck { velocity_share: Some(1.5), ..LimitsCheck::default() };
+    assert_eq!(
+        refused(Check::Limits(check)),
+        "scenario::share: `velocity_share` = 1.5 allows more than the limit"
+    );
+    let check = LimitsCheck { margin_m: Some(f64::NAN), ..LimitsCheck::default() };
+    assert!(refused(Check::Limits(check)).starts_with("scenario::number: check.margin_m: expected a finite"));
+}
+
+fn tracked(tracking: &TrackingCheck, controller: congruent_twin::scenario::ControllerSettings) -> RunSetup {
+    setup(scenario(controller, Check::Tracking(*tracking)), &arm(&[]))
+}
+
+#[test]
+fn a_stiff_servo_follows_and_a_soft_one_does_not() {
+    let tracking = TrackingCheck {
+        path_deg: Some(2.0),
+        path_mm: Some(2.0),
+        path_tcp_mm: Some(20.0),
+        goal_deg: Some(0.1),
+        settling_s: Some(0.2),
+        overshoot_deg: Some(0.5),
+        ..TrackingCheck::default()
+    };
+    let stiff = result(&tracked(&tracking, servo()));
+    passes(&stiff);
+    let soft = result(&tracked(&tracking, controlled("pd", 300.0, 30.0)));
+    assert_eq!(soft.status, Status::Fail);
+    // The shoulder carries the whole arm: it sags by gravity over stiffness, 3 deg or more.
+    let goal = measure(&soft, "goal_error_of_angle").worst.as_ref().unwrap();
+    assert_eq!((goal.subject.as_str(), goal.time_s), ("shoulder", 1.2));
+    let tcp = measure(&soft, "path_error_of_tcp").first_violation.as_ref().unwrap();
+    assert_eq!(tcp.subject, "finger");
+    let settling = measure(&soft, "settling_time").first_violation.as_ref().unwrap();
+    assert!((settling.value - 0.2).abs() < 2e-3, "it is late as soon as the time is over: {settling:?}");
+}
+
+#[test]
+fn playback_follows_exactly() {
+    let tracking = TrackingCheck {
+        path_rad: Some(0.0),
+        goal_rad: Some(0.0),
+        overshoot_rad: Some(0.0),
+        ..TrackingCheck::default()
+    };
+    passes(&result(&tracked(&tracking, controlled("kinematic", 0.0, 0.0))));
+}
+
+/// A servo with little damping swings beyond the end of the motion.
+#[test]
+fn an_overshoot_is_measured_beyond_the_setpoint_that_stands() {
+    let tracking = TrackingCheck { overshoot_deg: Some(0.05), ..TrackingCheck::default() };
+    let result = result(&tracked(&tracking, controlled("gravity_compensation", 1000.0, 5.0)));
+    assert_eq!(result.status, Status::Fail, "{result:#?}");
+    let violation = measure(&result, "overshoot_of_angle").first_violation.as_ref().unwrap();
+    assert!(violation.time_s >= 0.8, "the setpoint stands from 0.8 s on: {violation:?}");
+}
+
+#[test]
+fn tracking_needs_limits_that_mean_something() {
+    let refused = |tracking| refused(Check::Tracking(tracking));
+    assert_eq!(refused(TrackingCheck::default()), "scenario::tracking: the check `tracking` has no limit");
+    let settling = TrackingCheck { path_deg: Some(1.0), settling_s: Some(0.1), ..TrackingCheck::default() };
+    assert!(refused(settling).contains("`settling_s` is the time until the joints stay within `goal_*`"));
+    let twice = TrackingCheck { path_deg: Some(1.0), path_rad: Some(0.1), ..TrackingCheck::default() };
+    assert!(refused(twice).contains("given twice"));
+}
+
+fn cycle(limit_s: f64, edit: fn(&mut Scenario)) -> CheckResult {
+    let check = CycleTimeCheck {
+        limit_s,
+        tolerance_rad: None,
+        tolerance_deg: None,
+        tolerance_m: None,
+        tolerance_mm: None,
+        on_violation: congruent_twin::scenario::OnViolation::Continue,
+    };
+    let mut scenario = scenario(servo(), Check::CycleTime(check));
+    edit(&mut scenario);
+    result(&setup(scenario, &arm(&[])))
+}
+
+#[test]
+fn the_motions_end_in_time() {
+    let result = cycle(1.0, |_| {});
+    passes(&result);
+    let time_s = worst(&result, "cycle_time");
+    assert!((0.8..1.0).contains(&time_s), "{time_s}");
+    assert_eq!(measure(&result, "cycle_time").worst.as_ref().unwrap().subject, "all joints");
+    let late = cycle(0.8, |_| {});
+    assert_eq!(late.status, Status::Fail, "{late:#?}");
+    assert_eq!(measure(&late, "cycle_time").first_violation.as_ref().unwrap().time_s, 0.801);
+}
+
+#[test]
+fn an_arm_that_does_not_arrive_has_no_cycle_time() {
+    let result = cycle(9.0, |scenario| scenario.controller = controlled("pd", 300.0, 30.0));
+    assert_eq!(result.status, Status::Fail, "{result:#?}");
+    assert_eq!(worst(&result, "cycle_time"), f64::INFINITY);
+}

@@ -1,0 +1,82 @@
+//! `contact`: which pair, when, how deep.
+
+use std::collections::BTreeMap;
+
+use congruent_twin::{
+    RunSetup,
+    scenario::{Check, ContactCheck, MotionSettings, ObstacleSettings},
+    verdict::Status,
+};
+
+use crate::support::{arm, controlled, measure, passes, result, scenario, setup};
+
+/// The finger, a ball of 50 mm, slides from 20 mm to 90 mm out and stays; the block's face is 60 mm away from the middle
+/// of the ball at its start.
+fn slid(check: ContactCheck) -> RunSetup {
+    let mut scenario = scenario(controlled("kinematic", 0.0, 0.0), Check::Contact(check));
+    scenario.start.joints_rad.clear();
+    if let MotionSettings::Joints(motion) = &mut scenario.motion[0] {
+        motion.move_joints_rad.clear();
+        motion.move_joints_m = BTreeMap::from([("grip".to_owned(), 0.09)]);
+        motion.profile = congruent_twin::scenario::Profile::Linear;
+    }
+    // The ball's middle is 1.05 m out, at y = 0.05 m + q.
+    scenario.obstacle = vec![ObstacleSettings {
+        name: "block".to_owned(),
+        box_m: Some([0.2, 0.2, 0.2]),
+        xyz_m: Some([1.05, 0.23, 0.0]),
+        ..ObstacleSettings::default()
+    }];
+    setup(scenario, &arm(&[]))
+}
+
+#[test]
+fn a_contact_has_its_pair_its_time_and_its_depth() {
+    let result = result(&slid(ContactCheck::default()));
+    assert_eq!(result.status, Status::Fail, "{result:#?}");
+    let [contact] = &result.contacts[..] else { panic!("{result:#?}") };
+    assert_eq!(contact.pair, ["finger", "block"].map(str::to_owned));
+    // The ball reaches y = 0.1 m + q and the block begins at 0.13 m: they touch from q = 0.03 m on, after a seventh of the
+    // way, and stay 60 mm in.
+    let began_s = 0.8 / 7.0;
+    assert!((contact.from_s - began_s).abs() < 1.5e-3, "{contact:?}");
+    assert_eq!(contact.until_s, 1.2);
+    assert!((contact.depth_m - 0.06).abs() < 1e-6, "{contact:?}");
+    let violation = measure(&result, "distance").first_violation.as_ref().unwrap();
+    assert_eq!((violation.subject.as_str(), violation.time_s), ("finger--block", contact.from_s));
+}
+
+#[test]
+fn a_depth_that_is_allowed_is_no_violation() {
+    let deep = |depth_mm| ContactCheck { depth_mm: Some(depth_mm), ..ContactCheck::default() };
+    let allowed = result(&slid(deep(61.0)));
+    passes(&allowed);
+    assert_eq!(allowed.contacts.len(), 1);
+    let too_deep = result(&slid(deep(30.0)));
+    assert_eq!(too_deep.status, Status::Fail);
+    // 30 mm deep at q = 0.06 m, after four sevenths of the way.
+    let violation = measure(&too_deep, "distance").first_violation.clone().unwrap();
+    assert!((violation.time_s - 0.8 * 4.0 / 7.0).abs() < 1.5e-3, "{violation:?}");
+}
+
+#[test]
+fn an_arm_that_touches_nothing_passes_with_its_distance() {
+    let mut scenario = scenario(controlled("kinematic", 0.0, 0.0), Check::Contact(ContactCheck::default()));
+    scenario.obstacle = vec![ObstacleSettings {
+        name: "far".to_owned(),
+        sphere_radius_m: Some(0.1),
+        xyz_m: Some([0.0, 3.0, 0.0]),
+        ..ObstacleSettings::default()
+    }];
+    let far = crate::support::result(&setup(scenario, &arm(&[])));
+    passes(&far);
+    assert!(far.contacts.is_empty());
+}
+
+/// The finger is the only link with a shape.
+#[test]
+fn without_a_pair_there_is_nothing_to_check() {
+    let check = Check::Contact(ContactCheck::default());
+    let alone = result(&setup(scenario(controlled("kinematic", 0.0, 0.0), check), &arm(&[])));
+    assert_eq!(alone.status, Status::Skipped, "{alone:#?}");
+}

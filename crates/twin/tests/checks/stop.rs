@@ -1,0 +1,94 @@
+//! `on_violation = "stop"`: the arm is brought to rest, and the report says how.
+
+use congruent_twin::{
+    Outcome, RunSetup,
+    scenario::{Check, LimitsCheck, OnViolation},
+    source::{JointSample, JointStateSource, SimulationSource, SourceError},
+    verdict::Status,
+};
+use nalgebra::Isometry3;
+
+use crate::support::{arm, controlled, outcome, scenario, servo, setup};
+
+/// The elbow goes faster than a third of its velocity limit, 1 rad/s, in the first half of its move.
+fn stopped(controller: congruent_twin::scenario::ControllerSettings) -> RunSetup {
+    let check = LimitsCheck {
+        velocity_share: Some(1.0 / 3.0),
+        on_violation: OnViolation::Stop,
+        ..LimitsCheck::default()
+    };
+    setup(scenario(controller, Check::Limits(check)), &arm(&[]))
+}
+
+fn values(values: &congruent_description::JointValues) -> Vec<f64> {
+    values.iter().map(|(_, value)| value).collect()
+}
+
+#[test]
+fn in_playback_the_arm_slows_down_straight_on_within_its_accelerations() {
+    let outcome = outcome(&stopped(controlled("kinematic", 0.0, 0.0)), None);
+    let stop = outcome.stopped.as_ref().unwrap();
+    let rest = stop.rest.as_ref().unwrap();
+    assert!(rest.is_at_rest && outcome.steps > stop.step, "{stop:#?}");
+    // 3 rad/s in 0.25 s are 12 rad/s^2: from v to rest in v / 12, v^2 / 24 further. v is just above 1 rad/s.
+    let moved = values(&rest.joints);
+    let speed = (24.0 * moved[1]).sqrt();
+    assert!((1.0..1.02).contains(&speed), "{speed}");
+    assert!((rest.duration_s - speed / 12.0).abs() < 1.5e-3, "{rest:#?}");
+    // The others slow down alike: 0.7 rad of the shoulder for 0.8 rad of the elbow.
+    assert!((moved[0] / moved[1] - 0.875).abs() < 1e-9, "{moved:?}");
+    assert!(rest.tcp_path_m > 0.0);
+}
+
+#[test]
+fn servos_bring_the_arm_to_rest_and_hold_it() {
+    let outcome = outcome(&stopped(servo()), None);
+    let stop = outcome.stopped.as_ref().unwrap();
+    let rest = stop.rest.as_ref().unwrap();
+    assert!(rest.is_at_rest, "{stop:#?}");
+    assert!((0.08..0.6).contains(&rest.duration_s), "{rest:#?}");
+    assert!(values(&rest.joints)[1] > 0.04, "{rest:#?}");
+    let result = &outcome.checks[0];
+    assert_eq!(result.status, Status::Fail);
+    assert_eq!(result.samples, outcome.steps + 1, "it is observed until the arm is at rest");
+    let note = result.notes.last().unwrap();
+    assert!(note.starts_with("stopped the run at ") && note.contains("; the arm is at rest "), "{note}");
+}
+
+/// Nothing holds the arm: the run does not wait for ever.
+#[test]
+fn an_arm_that_does_not_come_to_rest_is_told_so() {
+    let Outcome { stopped, .. } = outcome(&stopped(controlled("passive", 0.0, 0.0)), None);
+    let rest = stopped.unwrap().rest.unwrap();
+    assert!(!rest.is_at_rest && (rest.duration_s - 5.0).abs() < 2e-3, "{rest:#?}");
+}
+
+/// A log of a robot: it cannot be stopped.
+struct Log<'a>(SimulationSource<'a>);
+
+impl JointStateSource for Log<'_> {
+    fn joints(&self) -> JointSample<'_> {
+        self.0.joints()
+    }
+
+    fn step_count(&self) -> u64 {
+        self.0.step_count()
+    }
+
+    fn root_from_links_into(&self, root_from_links: &mut [Isometry3<f64>]) -> bool {
+        self.0.root_from_links_into(root_from_links)
+    }
+
+    fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
+        self.0.advance(time_s)
+    }
+}
+
+#[test]
+fn a_source_that_cannot_be_stopped_ends_the_run_at_once() {
+    let setup = stopped(servo());
+    let source = Box::new(Log(SimulationSource::new(&setup).unwrap()));
+    let outcome = outcome(&setup, Some(source));
+    let stop = outcome.stopped.unwrap();
+    assert_eq!((stop.rest, stop.step), (None, outcome.steps));
+}
