@@ -158,7 +158,7 @@ fn gravity_compensation_holds_with_the_payload_that_is_declared() {
 
 fn moving(description: &RobotDescription, controller: ControllerSettings, step_s: f64) -> Scenario {
     let to = start(description).into_iter().map(|(joint, q)| (joint, q - 0.4)).collect();
-    let motion = JointMotion { move_joints_rad: to, duration_s: 1.0, ..JointMotion::default() };
+    let motion = JointMotion { move_joints_rad: to, duration_s: Some(1.0), ..JointMotion::default() };
     let simulation = SimulationSettings { duration_s: Some(1.0), step_s, ..SimulationSettings::default() };
     Scenario { motion: vec![MotionSettings::Joints(motion)], simulation, ..still(description, controller) }
 }
@@ -327,7 +327,7 @@ fn actuators_keep_their_limits_and_the_source_says_how_long() {
         let mut scenario = moving(&description, gains("gravity_compensation", 3e4, 300.0), 1e-3);
         // 0.4 rad in 0.05 s: 15 rad/s at the middle.
         if let MotionSettings::Joints(motion) = &mut scenario.motion[0] {
-            motion.duration_s = 0.05;
+            motion.duration_s = Some(0.05);
         }
         let limited = worst_speed(&description, scenario.clone());
         scenario.joints.enforce_limits = false;

@@ -118,7 +118,7 @@ impl Search<'_> {
 
     /// The efforts that are reported against those that the motion needs.
     fn efforts(&mut self, setup: &RunSetup, first_contact: Option<usize>) -> Result<(), DynamicsError> {
-        let mut residuals = residuals(self.observed, &setup.payloads)?;
+        let mut residuals = residuals(self.observed, setup.declared_dynamics())?;
         if residuals.is_empty() {
             self.not_followed();
             return Ok(());

@@ -1,12 +1,11 @@
 //! The effort that the motion needs by inverse dynamics, minus the effort that the drives report.
 
 use congruent_description::{JointKind, LinkIndex, Robot, RobotQ};
-use congruent_dynamics::{BodyTree, DynamicsBuffer, DynamicsError, JointMotion, SpatialInertia};
-use congruent_kinematics::Pose;
+use congruent_dynamics::{BodyTree, DynamicsBuffer, DynamicsError, JointMotion};
 use nalgebra::Isometry3;
 
 use super::{fit::Window, observed::Observed};
-use crate::{proximity::Clearance, setup::Payload};
+use crate::{proximity::Clearance, setup::DeclaredDynamics};
 
 /// Residuals below this part of the largest effort of the joint are the difference of the engine's step from its limit, which
 /// is proportional to its length. Worst seen without fault, beyond what `CHANGES` takes: 0.0018, in steps of 1 ms, on UR5e and
@@ -101,29 +100,18 @@ fn find_changes(residuals: &mut [Residual], dof: usize) {
 /// [`DynamicsError`] if the robot has no dynamics.
 pub(super) fn residuals(
     observed: &Observed<'_>,
-    payloads: &[Payload],
+    mut declared: DeclaredDynamics<'_>,
 ) -> Result<Vec<Residual>, DynamicsError> {
-    let robot = observed.robot;
-    let plain = BodyTree::new(robot).with_gravity(observed.clock.gravity_in_world);
-    let mut carried: Vec<bool> = vec![false; payloads.len()];
-    let mut tree = plain.clone();
-    let mut buffer = tree.buffer();
     let mut found: Vec<Residual> = Vec::new();
     for sample in 2..observed.samples() {
         if !observed.are_consecutive(sample - 2, sample - 1) || !observed.are_consecutive(sample - 1, sample)
         {
             continue;
         }
-        let begin_s = observed.times_s[sample - 1];
-        let now: Vec<bool> = payloads.iter().map(|payload| payload.is_carried_at(begin_s)).collect();
-        if now != carried {
-            let loads = payloads.iter().zip(&now).filter_map(|(payload, now)| now.then_some(payload));
-            tree = loaded(&plain, robot, loads)?;
-            carried = now;
-        }
-        found.push(residual(observed, sample, &tree, &mut buffer)?);
+        let (tree, buffer) = declared.at(observed.times_s[sample - 1]);
+        found.push(residual(observed, sample, tree, buffer)?);
     }
-    find_changes(&mut found, robot.dof());
+    find_changes(&mut found, observed.robot.dof());
     let is_driven = found.iter().any(|residual| residual.effort.iter().any(|effort| effort.abs() > 0.0));
     Ok(if is_driven { found } else { Vec::new() })
 }
@@ -155,24 +143,6 @@ fn residual(
     let change = vec![0.0; q.len()];
     residual.iter_mut().zip(&effort).for_each(|(residual, effort)| *residual -= effort);
     Ok(Residual { sample, q, qd, qdd, effort, missing: residual, change })
-}
-
-/// The robot with what its links carry.
-fn loaded<'p>(
-    plain: &BodyTree,
-    robot: &Robot,
-    payloads: impl Iterator<Item = &'p Payload>,
-) -> Result<BodyTree, DynamicsError> {
-    let mut inertias: Vec<SpatialInertia> =
-        (0..plain.dof()).map(|joint| plain.inertia_in_link(joint)).collect();
-    for payload in payloads {
-        let (body, body_from_link) = body_of(robot, payload.carried.link);
-        if let Some(joint) = (0..plain.dof()).find(|&joint| plain.link(joint) == body) {
-            let load = SpatialInertia::of_link(payload.inertia_in_link());
-            inertias[joint] += load.transformed_by(&Pose::from(body_from_link));
-        }
-    }
-    plain.clone().with_inertias_in_links(&inertias)
 }
 
 /// The link that names the body of a link, and the pose of the link in it.

@@ -158,10 +158,10 @@ impl Clearance {
         self.candidates.reserve(self.watches.len());
     }
 
-    /// The one link of a pair whose other body stands still; `None` if both can move.
+    /// The one link of a pair whose other body stands still; `None` if both can move, or neither is a link.
     fn only_mover(&self, Pair { a, b }: Pair) -> Option<usize> {
         match (self.can_move[a], self.can_move[b]) {
-            (true, false) => Some(a),
+            (true, false) if a < self.links => Some(a),
             (false, true) if b < self.links => Some(b),
             _ => None,
         }

@@ -142,10 +142,8 @@ impl RunSetup {
         let (mut found, mut warnings) = (Diagnostics::default(), Vec::new());
         let robot = &description.robot;
         found.keep(check_head(&scenario, place));
-        let start = keep_all(&mut found, start(&scenario.start, place.key("start"), robot));
-        let mut start = start.unwrap_or_else(|| RobotQ::zeros(robot.dof()));
-        warnings.extend(start_warnings(&start, robot));
-        move_inside_limits(&mut start, robot);
+        let written = keep_all(&mut found, start(&scenario.start, place.key("start"), robot));
+        let start = inside_limits(written, robot, &mut warnings);
         let limits = motion_limits::build(&scenario.limits, place.key("limits"), robot);
         let trajectory = keep_all(&mut found, limits).and_then(|limits| {
             let places = place.key("motion");
@@ -154,8 +152,8 @@ impl RunSetup {
         });
         // Motions that cannot be planned are no fault of the clock.
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
-        let at_simulation = place.key("simulation");
-        let clock = found.keep(RunClock::new(&scenario.simulation, at_simulation, motions_s, &mut warnings));
+        let clock = place.key("simulation");
+        let clock = found.keep(RunClock::new(&scenario.simulation, clock, motions_s, &mut warnings));
         found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
         let actuation = keep_all(&mut found, Actuation::new(&scenario, place, &description));
         let planned = (&description, trajectory.as_ref());
@@ -163,19 +161,11 @@ impl RunSetup {
             Surroundings::new(&scenario, (place, folder), planned, &mut found);
         let mobility = mobility(&moving, scenario.obstacle.len());
         let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
-        found.keep(zones::paired_with_checks(&scenario.zone, &scenario.check, place));
-        for (index, check) in scenario.check.iter().enumerate() {
-            let around = (&description, scenario.obstacle.as_slice(), mobility.as_slice());
-            found.keep(RunningCheck::examine(check, place.key("check").item(index), around));
-        }
+        examine_checks(&scenario, place, (&description, &mobility), &mut found);
         let faults = clock.as_ref().and_then(|clock| {
             let written = (scenario.fault.as_slice(), place.key("fault"));
             keep_all(&mut found, resolve(written, &description, clock, &scenario.controller.kind))
         });
-        found.extend(unexpected(&scenario, place.key("expect")));
-        if needs_shapes(&scenario) {
-            keep_all(&mut found, description.for_use(Use::Clearance));
-        }
         let (Some(trajectory), Some(clock), Some(actuation), Some(obstacles), Some(zones), Some(faults)) =
             (trajectory, clock, actuation, obstacles, zones, faults)
         else {
@@ -184,10 +174,10 @@ impl RunSetup {
         if found.has_error() {
             return Err(found.into_vec());
         }
-        let lines = (0..scenario.check.len()).map(|index| place.key("check").item(index).line());
-        let check_lines = lines.collect();
+        let check_line = |index| place.key("check").item(index).line();
         write_out_defaults(&mut scenario, &description, (&clock, &start));
         write_out_paths(&mut scenario, folder);
+        let check_lines = (0..scenario.check.len()).map(check_line).collect();
         let Actuation { controller, resistances, sensors, mut payloads } = actuation;
         payloads.extend(held);
         Ok(Self {
@@ -261,6 +251,24 @@ fn written_s(scenario: &Scenario) -> f64 {
     scenario.motion.iter().map(|motion| motion.duration_s().unwrap_or(1.0)).sum()
 }
 
+/// Keeps what is wrong with the checks, and with what the scenario expects of them, in `found`.
+fn examine_checks(
+    scenario: &Scenario,
+    place: FilePlace<'_>,
+    (description, mobility): (&RobotDescription, &[ObstacleMobility]),
+    found: &mut Diagnostics,
+) {
+    found.keep(zones::paired_with_checks(&scenario.zone, &scenario.check, place));
+    for (index, check) in scenario.check.iter().enumerate() {
+        let around = (description, scenario.obstacle.as_slice(), mobility);
+        found.keep(RunningCheck::examine(check, place.key("check").item(index), around));
+    }
+    found.extend(unexpected(scenario, place.key("expect")));
+    if needs_shapes(scenario) {
+        keep_all(found, description.for_use(Use::Clearance));
+    }
+}
+
 /// Whether distances or contacts decide something: without obstacles nothing can be touched.
 fn needs_shapes(scenario: &Scenario) -> bool {
     let measures =
@@ -309,6 +317,14 @@ fn start(settings: &StartSettings, place: FilePlace<'_>, robot: &Robot) -> Resul
         target.put(robot, &mut q);
     }
     if errors.is_empty() { Ok(q) } else { Err(errors) }
+}
+
+/// The start that is written, or zero, inside the limits of the joints.
+fn inside_limits(written: Option<RobotQ>, robot: &Robot, warnings: &mut Vec<Diagnostic>) -> RobotQ {
+    let mut start = written.unwrap_or_else(|| RobotQ::zeros(robot.dof()));
+    warnings.extend(start_warnings(&start, robot));
+    move_inside_limits(&mut start, robot);
+    start
 }
 
 /// A joint that is not named starts at 0, or at its limit nearest to 0, with a warning.

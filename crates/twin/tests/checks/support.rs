@@ -54,7 +54,12 @@ pub(crate) fn arm(edits: &[(&str, &str)]) -> RobotDescription {
 }
 
 pub(crate) fn controlled(kind: &str, stiffness: f64, damping: f64) -> ControllerSettings {
-    ControllerSettings { kind: kind.to_owned(), stiffness, damping }
+    ControllerSettings {
+        kind: kind.to_owned(),
+        stiffness: stiffness.into(),
+        damping: damping.into(),
+        ..ControllerSettings::default()
+    }
 }
 
 pub(crate) fn servo() -> ControllerSettings {
@@ -64,8 +69,11 @@ pub(crate) fn servo() -> ControllerSettings {
 /// One move of the shoulder and the elbow in 0.8 s, and 0.4 s in which it holds.
 pub(crate) fn scenario(controller: ControllerSettings, check: Check) -> Scenario {
     let targets = [("shoulder", 0.4), ("elbow", 0.8)].map(|(name, target)| (name.to_owned(), target));
-    let motion =
-        JointMotion { move_joints_rad: BTreeMap::from(targets), duration_s: 0.8, ..JointMotion::default() };
+    let motion = JointMotion {
+        move_joints_rad: BTreeMap::from(targets),
+        duration_s: Some(0.8),
+        ..JointMotion::default()
+    };
     Scenario {
         name: "small".to_owned(),
         simulation: SimulationSettings { duration_s: Some(1.2), ..SimulationSettings::default() },

@@ -1,9 +1,10 @@
-//! What holds in every state: rotations of links, of model and twin, are orthonormal with determinant 1, and joint states
-//! are finite numbers.
+//! What holds in every state: rotations of links, of model and twin, are orthonormal with determinant 1, links stand as
+//! the joints between them allow, and joint states are finite numbers.
 
 use congruent_kinematics::Pose;
 use nalgebra::Isometry3;
 
+use super::joint_constraints::{ConstraintError, JointConstraint};
 use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
     sample::Sample,
@@ -15,7 +16,14 @@ use crate::{
 /// scenarios: 1.4e-14 (seven joints, 24,000 steps); x3.
 pub(crate) const ROTATION: f64 = 4e-14;
 
+/// Largest error of the joints of the twin, m and rad. Kind: rounding of products along a chain and of its angles; worst
+/// seen in the scenarios: see `docs/checks.md`.
+const JOINT_ERROR: f64 = 1e-12;
+
 pub(crate) struct InvariantsMonitor {
+    constraints: Vec<JointConstraint>,
+    offset: Watch,
+    tilt: Watch,
     orthonormality: Watch,
     determinant: Watch,
     not_finite: Watch,
@@ -26,7 +34,12 @@ impl InvariantsMonitor {
     pub(crate) fn new(check: &InvariantsCheck, context: &CheckContext<'_>) -> Self {
         let limit = check.rotation.unwrap_or(ROTATION);
         let watch = |quantity, limit| Watch::new(quantity, "", Bound::AtMost, limit, context.dof());
+        let of_joints =
+            |quantity, unit| Watch::new(quantity, unit, Bound::AtMost, JOINT_ERROR, context.dof());
         Self {
+            constraints: JointConstraint::all(&context.description.robot),
+            offset: of_joints("joint_offset", "m"),
+            tilt: of_joints("joint_tilt", "rad"),
             orthonormality: watch("orthonormality_error", limit),
             determinant: watch("determinant_error", limit),
             not_finite: watch("not_finite_values", 0.0),
@@ -49,6 +62,11 @@ impl Monitor for InvariantsMonitor {
             self.observe_rotation(model, link, sample);
             self.observe_rotation(&written_out(twin), link, sample);
         }
+        for constraint in &self.constraints {
+            let ConstraintError { offset_m, tilt_rad } = constraint.error(sample.twin);
+            self.offset.observe(offset_m, constraint.link, sample);
+            self.tilt.observe(tilt_rad, constraint.link, sample);
+        }
         let [truth, measured] = [sample.joints.truth, sample.joints.measured];
         let vectors = [&truth.q[..], truth.qd, truth.effort, &measured.q[..], measured.qd, measured.effort];
         for joint in 0..truth.q.len() {
@@ -64,13 +82,16 @@ impl Monitor for InvariantsMonitor {
         let measures = vec![
             self.orthonormality.measure(&names.joints, link),
             self.determinant.measure(&names.joints, link),
+            self.offset.measure(&names.joints, link),
+            self.tilt.measure(&names.joints, link),
             self.not_finite.measure(&names.joints, joint),
         ];
         Observed { samples: self.samples, measures, ..Observed::default() }
     }
 
     fn has_failed(&self) -> bool {
-        [&self.orthonormality, &self.determinant, &self.not_finite].into_iter().any(Watch::is_violated)
+        let watches = [&self.orthonormality, &self.determinant, &self.offset, &self.tilt, &self.not_finite];
+        watches.into_iter().any(Watch::is_violated)
     }
 }
 

@@ -3,6 +3,7 @@
 mod agreement;
 mod goal;
 mod invariants;
+mod joint_constraints;
 mod twist;
 
 pub(super) use agreement::AgreementMonitor;
