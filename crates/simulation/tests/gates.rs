@@ -188,8 +188,10 @@ fn a03_gravity_torque() {
 }
 
 /// One-step acceleration against ABA, part of the largest entry, h = 1 us; truncation, first
-/// order in h, which the second half of the test shows; worst seen 3.0e-5 (`rrr_arm`).
-const ACCELERATION_RELATIVE: f64 = 1e-4;
+/// order in h, which the second half of the test shows; worst seen 4.7e-6 (UR5e), 3.7e-6 (Panda).
+const ACCELERATION_RELATIVE: f64 = 1e-5;
+/// The same of light arms whose goldens are fast; worst seen 3.0e-5 (`rrr_arm`).
+const FAST_ACCELERATION_RELATIVE: f64 = 1e-4;
 
 #[test]
 fn a04_one_step_acceleration() {
@@ -200,7 +202,9 @@ fn a04_one_step_acceleration() {
             golden.random().map(|config| one_step_error(&golden, config, &mut world)).fold(0.0, f64::max)
         });
         println!("a04 {name}: {off:?}");
-        assert!(off[0] < ACCELERATION_RELATIVE, "{name}: {off:?}");
+        let is_gated = ["ur5e", "panda"].contains(&name);
+        let limit = if is_gated { ACCELERATION_RELATIVE } else { FAST_ACCELERATION_RELATIVE };
+        assert!(off[0] < limit, "{name}: {off:?}");
         assert!((1.8..2.2).contains(&(off[0] / off[1])), "{name}: first order, {off:?}");
     }
 }

@@ -32,9 +32,12 @@ pub(in crate::robot_file) fn check(
     for value in gravity.iter().flat_map(|gravity| gravity.get_ref().map(|value| (value, gravity.span()))) {
         diagnostics.keep(check_finite("gravity_m_s2", value.0, value.1));
     }
-    let mut inertials: Vec<DeclaredInertial> = Vec::with_capacity(written.len());
+    let (mut inertials, mut is_whole) = (Vec::<DeclaredInertial>::with_capacity(written.len()), true);
     for entry in written {
-        let Some(inertial) = inertial(entry, context, diagnostics) else { continue };
+        let Some(inertial) = inertial(entry, context, diagnostics) else {
+            is_whole = false;
+            continue;
+        };
         if let Some(first) = inertials.iter().position(|known| known.joint == inertial.joint) {
             let name = &entry.get_ref().joint;
             let line = line_column(context.text, written[first].span().start).0;
@@ -43,7 +46,7 @@ pub(in crate::robot_file) fn check(
         }
         inertials.push(inertial);
     }
-    if dynamics.is_none() && written.is_empty() {
+    if !is_whole || (dynamics.is_none() && written.is_empty()) {
         return None;
     }
     Some(DeclaredDynamics {
@@ -145,10 +148,15 @@ fn frame(
         (name, Some(row)) if own.as_deref() == Some(name) => Ok(InertialFrame::Dh(row + 1)),
         (name, _) if name.strip_prefix("dh").is_some_and(|number| number.parse::<usize>().is_ok()) => {
             match &own {
-                Some(own) => refused(
-                    format!("frame \"{name}\" does not move with joint \"{joint_name}\""),
-                    format!("its frame in the table is \"{own}\""),
-                ),
+                // The table may be wrong, which is what a check of the geometry finds: it goes on.
+                Some(own) => {
+                    let message = format!("frame \"{name}\" does not move with joint \"{joint_name}\"");
+                    let help = format!(
+                        "its frame in the table is \"{own}\"; as long as the two differ, no [[inertial]] is compared"
+                    );
+                    let warning = Diagnostic::warning("robot_file::inertial", message).with_help(help);
+                    Err(warning.at(written.span()))
+                }
                 None => refused(
                     format!("frame \"{name}\": the table has no row for joint \"{joint_name}\""),
                     "use frame = \"link\"".to_owned(),

@@ -90,7 +90,6 @@ fn frame_and_point_are_never_defaulted() {
 
 #[test]
 fn wrong_names_have_the_nearest_one() {
-    refused("'dh1'", "'dh2'", "\"dh2\" does not move with joint \"turn\"", "is \"dh1\"", "dh2");
     refused("'dh1'", "'lnk'", "unknown frame \"lnk\"", "link", "lnk");
     refused(
         "joint = 'turn'\nframe",
@@ -115,6 +114,15 @@ fn wrong_names_have_the_nearest_one() {
         "com_cm",
     );
     refused("zz = 1,", "", "missing key \"zz\"", "", "inertia_kg_m2");
+}
+
+#[test]
+fn a_frame_of_another_joint_leaves_the_geometry_to_be_checked() {
+    let description = parsed(&GOOD.replacen("'dh1'", "'dh2'", 1)).unwrap();
+    assert!(description.dynamics.is_none());
+    let [warning] = &description.warnings[..] else { panic!("{:#?}", description.warnings) };
+    assert!(warning.message.contains("\"dh2\" does not move with joint \"turn\""), "{warning:?}");
+    assert!(warning.help.as_deref().unwrap_or_default().contains("is \"dh1\""), "{warning:?}");
 }
 
 #[test]
