@@ -22,7 +22,7 @@ kind = "gravity_compensation"
 stiffness = 2000.0
 damping = 120.0
 [[motion]]
-move_joints_deg = {{ shoulder_pan_joint = 10, elbow_joint = 100 }}
+move_joints_deg = {{ shoulder_pan_joint = 10, elbow_joint = 98 }}
 duration_s = 0.1
 [[obstacle]]
 name = "box, red"

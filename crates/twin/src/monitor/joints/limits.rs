@@ -121,10 +121,10 @@ impl LimitsMonitor {
         let margin = self.margins[usize::from(!kind.is_angular())];
         let setpoint = sample.joints.setpoint.map(|setpoint| outside(setpoint.q[coordinate]));
         let grows = limits.beyond_before > 0.0 && beyond > limits.beyond_before;
-        let is_commanded_inside = setpoint.is_some_and(|outside| outside <= AT_THE_LIMIT);
+        let tolerance = self.beyond.of(kind).limit();
+        let is_commanded_inside = setpoint.is_some_and(|outside| outside <= tolerance.min(AT_THE_LIMIT));
         let rests = margin == 0.0 && is_commanded_inside && !grows && beyond <= ON_THE_STOP;
         limits.beyond_before = beyond;
-        let tolerance = self.beyond.of(kind).limit();
         if rests && beyond > tolerance {
             limits.rest.get_or_insert(Rest {
                 time_s: sample.time_s,
