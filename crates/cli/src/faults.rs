@@ -17,7 +17,7 @@ use congruent::{
 
 use crate::{
     batch::unwritable,
-    failure::{BROKEN, FAILED, Failure},
+    failure::{BROKEN, FAILED, Failure, worse},
     input::PackageArguments,
     print::Printer,
 };
@@ -48,19 +48,31 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         printer.warnings_of(Some(path), &setup.warnings);
         Ok(setup)
     };
-    let setups = arguments.scenarios.iter().map(load).collect::<Result<Vec<_>, _>>()?;
     let document = arguments.markdown.as_deref().map(Document::read).transpose()?;
-    let reports = setups.iter().map(report).collect::<Result<Vec<_>, _>>()?;
+    let (mut reports, mut exit_code) = (Vec::new(), 0);
+    for path in &arguments.scenarios {
+        match load(path).and_then(|setup| report(&setup)) {
+            Ok(report) => reports.push(report),
+            // The others are answered all the same.
+            Err(failure) if arguments.scenarios.len() > 1 => {
+                Printer::explain(Some(path), &failure);
+                exit_code = worse(exit_code, failure.exit_code());
+            }
+            Err(failure) => return Err(failure),
+        }
+    }
     let table = FaultTable::new(&reports);
-    if let Some(document) = document {
+    // A table of a part of the scenarios would look like one of all.
+    if let Some(document) = document.filter(|_| exit_code == 0) {
         document.write(&table.markdown())?;
     }
     printer.result(&table, text)?;
-    Ok(match (table.broken.is_empty(), table.is_sound()) {
+    let of_table = match (table.broken.is_empty(), table.is_sound()) {
         (false, _) => BROKEN,
         (true, true) => 0,
         (true, false) => FAILED,
-    })
+    };
+    Ok(worse(exit_code, of_table))
 }
 
 fn report(setup: &RunSetup) -> Result<RunReport, Failure> {
@@ -115,7 +127,7 @@ fn text(table: &FaultTable) -> String {
         let seen: Vec<String> = row
             .checks
             .iter()
-            .filter(|seen| seen.fails)
+            .filter(|seen| seen.fails && !seen.before_fault)
             .map(|seen| match seen.after_s {
                 Some(_) => format!("{} after {}", seen.check, row.cell(seen.check)),
                 None => seen.check.to_string(),

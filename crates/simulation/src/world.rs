@@ -186,10 +186,15 @@ impl World {
         self.commands.placed
     }
 
-    /// Whether forces act on the robot that are neither efforts nor gravity nor what resists its joints: contact with an
-    /// obstacle, or the stop of a joint in the last step.
-    pub fn constraint_forces_act(&self) -> bool {
-        self.engine.constraint_forces_act()
+    /// Whether a link and an obstacle pushed each other in the last step. Contacts act before the shapes touch if they
+    /// would within the step.
+    pub fn contact_acts(&self) -> bool {
+        self.engine.contact_acts()
+    }
+
+    /// Whether the stop of a joint acted in the last step.
+    pub fn joint_stop_acts(&self) -> bool {
+        self.engine.joint_stop_acts()
     }
 
     /// Simulated time, s: the number of steps times their length.

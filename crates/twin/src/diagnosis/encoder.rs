@@ -55,6 +55,9 @@ fn noise(series: &[f64]) -> f64 {
     /// Of noise, two of three changes are followed by one in the other direction.
     const SELDOM: f64 = 0.2;
     let mut changes: Vec<f64> = series.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    if changes.is_empty() {
+        return 0.0; // a run that ends with its first sample
+    }
     let turns = changes.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count();
     #[expect(clippy::cast_precision_loss, reason = "samples are few")]
     if (turns as f64) < SELDOM * changes.len() as f64 {

@@ -30,8 +30,12 @@ pub(super) fn dropped(observed: &Observed<'_>, joints: &[usize]) -> Option<Fit> 
     let remaining = errors(false) / errors(true);
     #[expect(clippy::cast_precision_loss, reason = "samples are few")]
     let count = |is: &dyn Fn(usize) -> bool| window.samples().filter(|&sample| is(sample)).count() as f64;
-    let share = count(&repeats) / count(&moves);
-    let share = FaultQuantity::share(share);
+    let (lost, all) = (count(&repeats), count(&moves));
+    // At the begin of a latency readings repeat as well, all of them for its time.
+    if lost >= all {
+        return None;
+    }
+    let share = FaultQuantity::share(lost / all);
     Some(fit(observed, FaultKind::DroppedSamples, (share, window, joints), remaining))
 }
 

@@ -55,6 +55,8 @@ pub struct SeenBy {
     pub check: CheckKind,
     /// Whether it failed.
     pub fails: bool,
+    /// Whether it failed before the first fault began, so that it is not the fault that it sees.
+    pub before_fault: bool,
     /// Time from the beginning of the first fault to the first violation.
     pub after_s: Option<f64>,
 }
@@ -75,12 +77,14 @@ impl FaultTable {
         let broken = reports.iter().filter(|report| report.verdict == Verdict::Broken);
         let sees = |kind: CheckKind| {
             let faulty = rows.iter().filter(|row| !row.faults.is_empty());
-            faulty.flat_map(|row| &row.checks).any(|seen| seen.check == kind && seen.fails)
+            faulty
+                .flat_map(|row| &row.checks)
+                .any(|seen| seen.check == kind && seen.fails && !seen.before_fault)
         };
         Self {
             blind_checks: checks.iter().copied().filter(|&kind| !sees(kind)).collect(),
             unseen: named(&|row| !row.faults.is_empty() && !row.is_seen()),
-            false_alarms: named(&|row| row.faults.is_empty() && (row.is_seen() || row.diagnosis.is_some())),
+            false_alarms: named(&FaultRow::is_false_alarm),
             not_diagnosed: named(&|row| !row.faults.is_empty() && row.judgement != Judgement::Right),
             broken: broken.map(|report| report.scenario.clone()).collect(),
             checks,
@@ -107,7 +111,10 @@ impl FaultTable {
         [
             scenarios(&self.broken, "the simulation failed"),
             scenarios(&self.unseen, "seen by no check"),
-            scenarios(&self.false_alarms, "a check fails or the diagnosis finds something without a fault"),
+            scenarios(
+                &self.false_alarms,
+                "a check fails or the diagnosis finds something without a fault, or before it",
+            ),
             scenarios(&self.not_diagnosed, "the diagnosis is not right"),
             remark(&blind, "checks that see none of these faults"),
         ]
@@ -167,12 +174,19 @@ impl FaultRow {
     }
 
     fn is_seen(&self) -> bool {
-        self.checks.iter().any(|seen| seen.fails)
+        self.checks.iter().any(|seen| seen.fails && !seen.before_fault)
+    }
+
+    /// Whether something is seen without a fault, or before one.
+    fn is_false_alarm(&self) -> bool {
+        let without = self.faults.is_empty() && (self.is_seen() || self.diagnosis.is_some());
+        without || self.checks.iter().any(|seen| seen.before_fault)
     }
 
     /// What a check says of it: the time after which it sees the fault, or a dash.
     pub fn cell(&self, kind: CheckKind) -> String {
         match self.checks.iter().find(|seen| seen.check == kind) {
+            Some(SeenBy { before_fault: true, .. }) => "before it".to_owned(),
             Some(SeenBy { fails: true, after_s, .. }) => {
                 after_s.map_or("fails".to_owned(), |after_s| quantity(after_s, "s"))
             }
@@ -203,13 +217,18 @@ impl FaultRow {
     }
 }
 
+/// Times are products of whole numbers of steps, which rounding leaves equal to this, s.
+const AT_THE_BEGIN_S: f64 = 1e-9;
+
 fn seen_by(result: &CheckResult, begin_s: f64) -> SeenBy {
     let violations = result.measures.iter().filter_map(|measure| measure.first_violation.as_ref());
     let first_s = violations.map(|moment| moment.time_s).fold(f64::INFINITY, f64::min);
     let after_s = first_s - begin_s;
+    let fails = result.status == Status::Fail;
     SeenBy {
         check: result.check,
-        fails: result.status == Status::Fail,
+        fails,
+        before_fault: fails && begin_s.is_finite() && after_s < -AT_THE_BEGIN_S,
         after_s: after_s.is_finite().then_some(after_s),
     }
 }

@@ -4,6 +4,8 @@ use congruent_description::serde_name;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::text::two_strings;
+
 /// One fault. Each kind may have `at_s`, the time from which it is there (0 if left out), and `until_s`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
@@ -293,6 +295,7 @@ pub struct ShiftedToolFault {
 #[serde(deny_unknown_fields)]
 pub struct SwappedJointsFault {
     /// The two joints.
+    #[serde(deserialize_with = "two_strings")]
     pub joints: [String; 2],
     /// The time from which it is there.
     #[serde(default)]

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{
     Deserialize, Deserializer,
-    de::{DeserializeOwned, IntoDeserializer, SeqAccess, Visitor},
+    de::{DeserializeOwned, Error, IntoDeserializer, SeqAccess, Visitor},
 };
 
 /// For `deserialize_with`: the name of a variant.
@@ -17,6 +17,13 @@ pub(crate) fn variant<'de, D: Deserializer<'de>, T: DeserializeOwned>(
 /// For `deserialize_with`: an array of strings.
 pub(crate) fn strings<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
     deserializer.deserialize_seq(Strings)
+}
+
+/// For `deserialize_with`: two strings, no more and no less.
+pub(crate) fn two_strings<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[String; 2], D::Error> {
+    let strings = strings(deserializer)?;
+    let found = strings.len();
+    strings.try_into().map_err(|_| Error::custom(format!("expected two names, found {found}")))
 }
 
 struct Strings;

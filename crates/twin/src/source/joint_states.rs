@@ -46,8 +46,17 @@ pub enum StepForces {
     Unknown,
     /// The efforts of the sample, gravity, and what resists the joints: nothing else.
     Declared,
-    /// Contact with a body or the stop of a joint besides.
-    Constrained,
+    /// The stop of a joint besides.
+    JointStop,
+    /// Contact with an obstacle besides.
+    Contact,
+}
+
+impl StepForces {
+    /// Whether forces acted that hold the robot back where it is, and that no effort tells.
+    pub(crate) fn are_constrained(self) -> bool {
+        matches!(self, Self::JointStop | Self::Contact)
+    }
 }
 
 /// A source of joint states: sample after sample, each later than the one before.

@@ -197,8 +197,10 @@ impl JointStateSource for SimulationSource<'_> {
     fn step_forces(&self) -> StepForces {
         if self.world.was_placed() {
             StepForces::Unknown
-        } else if self.world.constraint_forces_act() {
-            StepForces::Constrained
+        } else if self.world.contact_acts() {
+            StepForces::Contact
+        } else if self.world.joint_stop_acts() {
+            StepForces::JointStop
         } else {
             StepForces::Declared
         }

@@ -13,7 +13,6 @@ use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
     sample::Sample,
     scenario::TwistCheck,
-    source::StepForces,
     verdict::Bound,
 };
 
@@ -129,7 +128,7 @@ impl Monitor for TwistMonitor {
         if !before.is_set {
             return;
         }
-        if sample.forces == StepForces::Constrained {
+        if sample.forces.are_constrained() {
             self.constrained += 1;
             return;
         }
