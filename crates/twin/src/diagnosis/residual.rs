@@ -142,7 +142,28 @@ fn residual(
     let effort = observed.store.sample(sample).effort.to_vec();
     let change = vec![0.0; q.len()];
     residual.iter_mut().zip(&effort).for_each(|(residual, effort)| *residual -= effort);
+    for (joint, resistance) in tree.resistances().iter().enumerate() {
+        if stands([qd[0][joint], qd[1][joint]]) {
+            residual[joint] = not_held(residual[joint], resistance.friction, mean[joint]);
+        }
+    }
     Ok(Residual { sample, q, qd, qdd, effort, missing: residual, change })
+}
+
+/// Slower than this, rad/s or m/s, a joint stands: dry friction holds it. Kind: solver; the engine lets it creep.
+const STANDING_SPEED: f64 = 1e-4;
+
+/// Whether a joint stands in a step, or turns round in it.
+fn stands([before, after]: [f64; 2]) -> bool {
+    before * after <= 0.0 || before.abs().max(after.abs()) < STANDING_SPEED
+}
+
+/// What a residual that was computed with the friction of a speed is if the joint stands, which dry friction of any size up
+/// to its own explains.
+fn not_held(residual: f64, friction: f64, speed: f64) -> f64 {
+    let of_speed = if speed == 0.0 { 0.0 } else { friction.copysign(speed) };
+    let without = residual - of_speed;
+    (without.abs() - friction).max(0.0).copysign(without)
 }
 
 /// The link that names the body of a link, and the pose of the link in it.
