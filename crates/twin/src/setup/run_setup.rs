@@ -104,7 +104,7 @@ impl RunSetup {
         if let Some(torques) = &mut scenario.controller.torque_file {
             *torques = file.folder().join(&*torques).display().to_string();
         }
-        let built = Self::build(scenario, description, (file.place(), file.folder()));
+        let built = Self::build(scenario, description, (file.place(), &file.folder()));
         let mut setup = match built {
             Ok(setup) if file.findings().is_empty() => setup,
             Ok(_) => return Err(file.findings().to_vec()),
@@ -131,7 +131,8 @@ impl RunSetup {
         if !wrong.is_empty() {
             return Err(wrong);
         }
-        Self::build(scenario, description, (FilePlace::nowhere(), Path::new("")))
+        let folder = PathBuf::from(scenario.folder.clone().unwrap_or_default());
+        Self::build(scenario, description, (FilePlace::nowhere(), &folder))
     }
 
     fn build(
