@@ -215,3 +215,31 @@ fn values_that_cannot_be_set_are_refused_with_the_reason() {
     let answer = run_set(&out, &["name=\"a"]);
     assert!(answer.code == 2 && answer.stderr.contains("neither TOML nor a word"), "{}", answer.stderr);
 }
+
+/// What was run can be run again from its results, wherever they are: motions that only wait and meshes beside the
+/// scenario are in it.
+#[test]
+fn every_resolved_scenario_runs_again_with_the_same_hash() {
+    let out = tempfile::tempdir().unwrap();
+    let run = |path: &str, out: &Path| {
+        let answer = congruent_json(&["run", path, "--no-recording", "--out", &text(out)]);
+        assert_eq!(answer.code, 0, "{path}: {}{}", answer.stdout, answer.stderr);
+        let report = answer.json();
+        let resolved = out.join(report["scenario"].as_str().unwrap()).join("scenario.resolved.toml");
+        (report["trajectory_sha256"].clone(), resolved)
+    };
+    let mut compared = 0;
+    for entry in fs::read_dir(workspace().join("scenarios")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            let (hash, resolved) = run(&text(&path), out.path());
+            let (hash_again, resolved_again) = run(&text(&resolved), &out.path().join("again"));
+            assert!(hash.is_string());
+            assert_eq!(hash, hash_again, "{}", path.display());
+            let [first, again] = [resolved, resolved_again].map(|path| fs::read_to_string(path).unwrap());
+            assert_eq!(first, again, "{}", path.display());
+            compared += 1;
+        }
+    }
+    assert!(compared >= 13, "{compared} scenarios");
+}

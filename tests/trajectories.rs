@@ -162,3 +162,42 @@ fn wrong_periods_are_refused_at_their_line() {
         assert!(!fs::exists(bench.path().join("out/refused/trajectory.csv")).unwrap());
     }
 }
+
+#[test]
+fn a_table_that_a_run_has_written_is_played_back() {
+    let bench = Bench::new();
+    let folder = run(&bench, &scenario(&bench, "first", "trajectory = \"csv\""));
+    let table = folder.join("trajectory.csv");
+    let written = columns(&table);
+    let pairs = &written["clearance_pair"];
+    assert!(pairs.iter().any(|pair| pair.contains(',')), "a name with a comma: {pairs:?}");
+    let robot = text(&workspace().join("robots/ur5e"));
+    let again = format!(
+        r#"schema_version = 1
+name = "again"
+robot = {robot:?}
+[start]
+joints_deg = {{ shoulder_lift_joint = -90.0, elbow_joint = 90.0, wrist_1_joint = -90.0, wrist_2_joint = -90.0 }}
+[controller]
+kind = "kinematic"
+[[motion]]
+play_csv = {:?}
+between = "linear"
+[[check]]
+kind = "agreement"
+[output]
+trajectory = "csv"
+"#,
+        text(&table)
+    );
+    let played = columns(&run(&bench, &bench.write("again.toml", &again)).join("trajectory.csv"));
+    for name in ["shoulder_pan_joint.q_rad", "elbow_joint.q_rad"] {
+        let numbers =
+            |cells: &[String]| -> Vec<f64> { cells.iter().map(|cell| cell.parse().unwrap()).collect() };
+        let [first, again] = [&written, &played].map(|columns| numbers(&columns[name]));
+        assert_eq!(first.len(), again.len());
+        for (first, again) in first.iter().zip(&again) {
+            assert!((first - again).abs() < 1e-9, "{name}: {first} and {again}");
+        }
+    }
+}

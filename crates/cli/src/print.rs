@@ -49,8 +49,10 @@ fn is_zero(count: &usize) -> bool {
 
 /// Most findings that are shown; the others appear once these are corrected.
 const MOST_FINDINGS: usize = 100;
-/// Longest piece of a file, message or help that is shown to people, in bytes.
+/// Longest message or help that is shown to people, in bytes.
 const MOST_SHOWN: usize = 2000;
+/// Longest snippet: beyond it, a line fills the terminal and what is marked in it is not found.
+const LONGEST_SNIPPET: usize = 500;
 
 impl<'a> From<&'a Failure> for Refusal<'a> {
     fn from(failure: &'a Failure) -> Self {
@@ -200,7 +202,7 @@ fn shortened(finding: &Diagnostic) -> Diagnostic {
     shortened.help.as_mut().map(clip);
     if let (Some(source), Some(span), Some((line, column))) =
         (&finding.source, &finding.span, finding.line_column())
-        && snippet_bytes(&source.text, span) > MOST_SHOWN
+        && snippet_bytes(&source.text, span) > LONGEST_SNIPPET
     {
         let _ = write!(shortened.message, " ({}:{line}:{column})", source.path.display());
         (shortened.source, shortened.span) = (None, None);

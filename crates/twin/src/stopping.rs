@@ -13,6 +13,9 @@ use crate::{
 
 /// An arm is at rest if every joint is slower, rad/s and m/s. Kind: engineering; in a second it moves by 0.06 deg.
 const AT_REST: f64 = 1e-3;
+/// It is so for this long: an arm that swings is as slow where it turns. Kind: engineering; a joint that passes through
+/// a turning point with 0.04 rad/s^2 or more is slow for a shorter time.
+const STAYS_S: f64 = 0.05;
 /// The run waits no longer for the arm to come to rest. Kind: engineering; stops of arms take tenths of a second.
 const LONGEST_S: f64 = 5.0;
 
@@ -25,7 +28,10 @@ pub(crate) struct Stopping {
     from: RobotQ,
     /// Whether the source can be brought to rest.
     pub(crate) can_stop: bool,
+    /// Since when every joint is slow.
+    slow_since_s: Option<f64>,
     is_at_rest: bool,
+    /// Until rest, or until now.
     duration_s: f64,
     q: RobotQ,
     tcp_in_root: Vector3<f64>,
@@ -45,6 +51,7 @@ impl Stopping {
             time_s,
             from: q.clone(),
             can_stop: false,
+            slow_since_s: None,
             is_at_rest: false,
             duration_s: 0.0,
             q,
@@ -60,14 +67,19 @@ impl Stopping {
 
     /// Goes on to an instant; returns whether the run ends with it.
     pub(crate) fn ends(&mut self, time_s: f64, joints: &JointSample<'_>, tcp_in_root: Vector3<f64>) -> bool {
-        self.duration_s = time_s - self.time_s;
         self.q.copy_from_slice(joints.truth.q);
         self.tcp_path_m += (tcp_in_root - self.tcp_in_root).norm();
         self.tcp_in_root = tcp_in_root;
         let slow = |qd: &[f64]| qd.iter().all(|qd| qd.abs() <= AT_REST);
         let is_commanded_to_rest =
             joints.setpoint.is_none_or(|setpoint| setpoint.qd.iter().all(|&qd| qd == 0.0));
-        self.is_at_rest = is_commanded_to_rest && slow(joints.truth.qd);
+        self.slow_since_s =
+            (is_commanded_to_rest && slow(joints.truth.qd)).then(|| self.slow_since_s.unwrap_or(time_s));
+        // An arm that is placed, not driven, stands as soon as its setpoint does.
+        let stands = joints.truth.qd.iter().all(|&qd| qd == 0.0);
+        let rest_s = self.slow_since_s.filter(|since_s| stands || time_s - since_s >= STAYS_S);
+        self.is_at_rest = rest_s.is_some();
+        self.duration_s = rest_s.unwrap_or(time_s) - self.time_s;
         !self.can_stop || self.is_at_rest || self.duration_s >= LONGEST_S
     }
 

@@ -155,7 +155,7 @@ pub struct Stop {
 /// the arm was at rest.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct WayToRest {
-    /// Whether every joint is slower than 1e-3 rad/s or m/s at the end; the run does not wait for more than 5 s.
+    /// Whether every joint is slower than 1e-3 rad/s or m/s for the last 50 ms; the run does not wait for more than 5 s.
     pub is_at_rest: bool,
     /// Time from the violation to rest.
     pub duration_s: f64,

@@ -25,6 +25,8 @@ pub(super) struct Planning<'a> {
     /// The end of the previous motion; after a servo, whose end is not known, the last configuration that is.
     pub(super) from: &'a RobotQ,
     pub(super) place: FilePlace<'a>,
+    /// Whether the run has begun: when its motions begin is settled, so that none can be slowed.
+    pub(super) is_in_run: bool,
     pub(super) warnings: &'a mut Vec<Diagnostic>,
 }
 
@@ -63,16 +65,20 @@ impl Planning<'_> {
         );
         let least = quantity(least_s, "s");
         match self.limits.over_limit {
-            OverLimit::Refuse => {
-                let help = format!(
-                    "{least} instead of {} is the shortest duration that would do, \
-                     or write over_limit = \"slow\" under [limits]",
+            over_limit if self.is_in_run || over_limit == OverLimit::Refuse => {
+                let shortest = format!(
+                    "{least} instead of {} is the shortest duration that would do",
                     quantity(duration_s, "s")
                 );
+                let help = if self.is_in_run {
+                    shortest
+                } else {
+                    format!("{shortest}, or write over_limit = \"slow\" under [limits]")
+                };
                 let error = Diagnostic::error("scenario::over_limit", message).with_help(help);
                 Err(self.place.mark(error))
             }
-            OverLimit::Slow => {
+            _ => {
                 let help = format!("the motion takes {least} instead of {}", quantity(duration_s, "s"));
                 let warning = Diagnostic::warning("scenario::slowed", message).with_help(help);
                 self.warnings.push(self.place.mark(warning));

@@ -9,10 +9,9 @@ use super::{
     course::{Course, PlannedMove, SetpointMut},
     planning::Planning,
     tcp::tcp_servo::{ServoController, ServoResult, StepInterval},
-    timing::MotionLimits,
     trajectory::{Trajectory, plan},
 };
-use crate::scenario::{FilePlace, MotionSettings, OverLimit};
+use crate::scenario::{FilePlace, MotionSettings};
 
 /// Why there is no setpoint.
 #[derive(Debug, thiserror::Error)]
@@ -161,13 +160,13 @@ impl<'a> ReferenceGenerator<'a> {
 
     /// Plans a motion from the setpoint at which the arm is held now, so that the setpoint does not jump.
     fn plan(&self, settings: &MotionSettings, index: usize) -> Result<PlannedMove, MotionError> {
-        let limits = MotionLimits { over_limit: OverLimit::Refuse, ..self.trajectory.limits.clone() };
         let mut planning = Planning {
             description: self.description,
-            limits: &limits,
+            limits: &self.trajectory.limits,
             folder: Path::new(""),
             from: &self.q,
             place: FilePlace::nowhere(),
+            is_in_run: true,
             warnings: &mut Vec::new(),
         };
         let refused = |mut found: Vec<Diagnostic>| MotionError::Planning {

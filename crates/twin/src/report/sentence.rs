@@ -122,6 +122,15 @@ fn beyond_joint_limit(value: f64, measure: &Measure) -> String {
     let shown = quantity(value.abs(), measure.unit);
     match value {
         _ if value.is_nan() => "not a number".to_owned(),
+        // A margin is kept from the limit.
+        _ if measure.limit < 0.0 => {
+            let margin = quantity(-measure.limit, measure.unit);
+            match value {
+                _ if value > 0.0 => format!("{shown} beyond the limit, with a margin of {margin}"),
+                _ if measure.bound.holds(value, measure.limit) => format!("{shown} left, at least {margin}"),
+                _ => format!("{shown} left, within the margin of {margin}"),
+            }
+        }
         _ if value < -measure.limit => format!("{shown} left"),
         _ if measure.bound.holds(value, measure.limit) && value.abs() <= NEGLIGIBLE => {
             "at the limit".to_owned()
@@ -228,6 +237,15 @@ mod tests {
         reads(SHIFT_BEYOND_LIMIT, wide, 0.002, &format!("2 mm beyond {tolerance}"));
         reads(SHIFT_BEYOND_LIMIT, wide, -0.002, &format!("2 mm inside {tolerance}"));
         reads(SHIFT_BEYOND_LIMIT, wide, 0.02, &format!("20 mm beyond {tolerance}"));
+        let margin = (Bound::AtMost, -0.01);
+        reads(SHIFT_BEYOND_LIMIT, margin, -0.02, "20 mm left, at least 10 mm at here (1 s)");
+        reads(SHIFT_BEYOND_LIMIT, margin, -0.002, "2 mm left, within the margin of 10 mm at here (1 s)");
+        reads(
+            SHIFT_BEYOND_LIMIT,
+            margin,
+            0.002,
+            "2 mm beyond the limit, with a margin of 10 mm at here (1 s)",
+        );
     }
 
     #[test]

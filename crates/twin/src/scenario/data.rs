@@ -42,6 +42,10 @@ pub struct Scenario {
     pub name: String,
     /// A folder with robot.toml, a robot file or a .urdf, relative to the scenario file.
     pub robot: String,
+    /// The folder to which paths are relative, and in whose project meshes of obstacles are; that of the scenario file if
+    /// it is left out. It is written into resolved scenarios, which are elsewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub folder: Option<String>,
     /// Seed of everything random.
     #[serde(default)]
     pub seed: u64,
@@ -97,6 +101,7 @@ impl Default for Scenario {
             schema_version: SCHEMA_VERSION,
             name: String::new(),
             robot: String::new(),
+            folder: None,
             seed: 0,
             simulation: SimulationSettings::default(),
             start: StartSettings::default(),

@@ -9,7 +9,10 @@ use congruent_kinematics::UrdfTree;
 use congruent_simulation::{CarriedBody, Obstacle};
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 
-use super::{payload::Payload, spaces};
+use super::{
+    payload::{HEAVIEST_KG, Payload, too_heavy},
+    spaces,
+};
 use crate::{
     bodies::{BodyCourse, Grasp, MovingBody, PathPose},
     motion::Trajectory,
@@ -186,6 +189,10 @@ fn grasp(
             unknown("link", message, known_names(name, "links", links))
         })?,
     };
+    if let Some(mass_kg) = settings.mass_kg.filter(|&mass_kg| mass_kg > HEAVIEST_KG) {
+        let message = format!("\"{}\": {}", settings.body, too_heavy(mass_kg));
+        return Err(place.key("mass_kg").mark(Diagnostic::error("scenario::grasp", message)));
+    }
     let (from_s, until_s) = (settings.from_s, settings.until_s.unwrap_or(f64::INFINITY));
     if until_s <= from_s {
         let message =

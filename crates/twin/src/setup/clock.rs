@@ -10,6 +10,9 @@ const LONGEST_STEP_S: f64 = 0.01;
 /// Most steps of one run: about an hour of computing.
 const MOST_STEPS: f64 = 1e8;
 
+/// Part of a step by which sums of durations may be above a whole number of steps. Kind: rounding.
+const ROUNDING: f64 = 1e-6;
+
 /// The clock and the world of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunClock {
@@ -59,7 +62,12 @@ impl RunClock {
             let message = format!("step_s = {step_s:?} is longer than the run ({duration_s:?} s)");
             return Err(at_step(Diagnostic::error("scenario::step", message)));
         }
-        let steps = (duration_s / step_s).round();
+        let steps = duration_s / step_s;
+        // A run without a duration does not end before its motions.
+        let steps = match settings.duration_s {
+            Some(_) => steps.round(),
+            None => (steps - ROUNDING).ceil(),
+        };
         if steps > MOST_STEPS {
             let message = format!("{duration_s:?} s in steps of {step_s:?} s are {steps:e} steps");
             let error = Diagnostic::error("scenario::steps", message);

@@ -16,7 +16,7 @@ use super::{
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
     motion_limits, numbers, output,
-    payload::Payload,
+    payload::{Payload, taken_too_late},
     written_out::{write_out_defaults, write_out_paths},
     zones::{self, Zone},
 };
@@ -104,7 +104,7 @@ impl RunSetup {
         if let Some(torques) = &mut scenario.controller.torque_file {
             *torques = file.folder().join(&*torques).display().to_string();
         }
-        let built = Self::build(scenario, description, (file.place(), file.folder()));
+        let built = Self::build(scenario, description, (file.place(), &file.folder()));
         let mut setup = match built {
             Ok(setup) if file.findings().is_empty() => setup,
             Ok(_) => return Err(file.findings().to_vec()),
@@ -131,7 +131,8 @@ impl RunSetup {
         if !wrong.is_empty() {
             return Err(wrong);
         }
-        Self::build(scenario, description, (FilePlace::nowhere(), Path::new("")))
+        let folder = PathBuf::from(scenario.folder.clone().unwrap_or_default());
+        Self::build(scenario, description, (FilePlace::nowhere(), &folder))
     }
 
     fn build(
@@ -154,6 +155,7 @@ impl RunSetup {
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
         let clock = place.key("simulation");
         let clock = found.keep(RunClock::new(&scenario.simulation, clock, motions_s, &mut warnings));
+        warnings.extend(clock.iter().flat_map(|clock| taken_too_late(&scenario, place, clock.duration_s())));
         found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
         let actuation = keep_all(&mut found, Actuation::new(&scenario, place, &description));
         let planned = (&description, trajectory.as_ref());

@@ -51,9 +51,11 @@ pub(super) fn write_out_defaults(
 
 /// Makes the paths of other files absolute.
 pub(super) fn write_out_paths(scenario: &mut Scenario, folder: &Path) {
-    for mesh in scenario.obstacle.iter_mut().filter_map(|obstacle| obstacle.mesh.as_mut()) {
-        let path = folder.join(&*mesh);
-        *mesh = path.canonicalize().unwrap_or(path).display().to_string();
+    // Meshes keep their paths: those that leave the project of the folder are refused.
+    if scenario.folder.is_some() || scenario.obstacle.iter().any(|obstacle| obstacle.mesh.is_some()) {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        scenario.folder = Some(whole.display().to_string());
     }
     if let Some(torques) = &mut scenario.controller.torque_file {
         let path = Path::new(&*torques);

@@ -68,6 +68,8 @@ pub(crate) struct LimitsMonitor {
     coordinates: Vec<CoordinateLimits>,
     /// Of joints that turn, and of joints that slide.
     margins: [f64; 2],
+    /// Likewise.
+    tolerances: [f64; 2],
     beyond: ByKind,
     on_stop: ByKind,
     velocity: Watch,
@@ -93,12 +95,17 @@ impl LimitsMonitor {
         let [tolerance_rad, margin_rad, tolerance_m, margin_m] = check.unit_keys().map(|keys| keys.value());
         let watch = |quantity, unit, limit| Watch::new(quantity, unit, Bound::AtMost, limit, context.dof());
         let share = |share: Option<f64>| share.unwrap_or(1.0) + ROUNDING;
+        let margins = [margin_rad, margin_m].map(|margin| margin.unwrap_or(0.0));
+        let tolerances = [tolerance_rad, tolerance_m].map(|tolerance| tolerance.unwrap_or(AT_THE_LIMIT));
+        // With a margin, a value that holds is negative: inside the range.
+        let [angle, shift] = [0, 1].map(|kind| tolerances[kind] - margins[kind]);
         Self {
             coordinates: coordinates(context.description),
-            margins: [margin_rad.unwrap_or(0.0), margin_m.unwrap_or(0.0)],
+            margins,
+            tolerances,
             beyond: ByKind {
-                angular: watch(ANGLE_BEYOND_LIMIT, "rad", tolerance_rad.unwrap_or(AT_THE_LIMIT)),
-                linear: watch(SHIFT_BEYOND_LIMIT, "m", tolerance_m.unwrap_or(AT_THE_LIMIT)),
+                angular: watch(ANGLE_BEYOND_LIMIT, "rad", angle),
+                linear: watch(SHIFT_BEYOND_LIMIT, "m", shift),
             },
             on_stop: ByKind {
                 angular: watch("angle_into_stop", "rad", ON_THE_STOP),
@@ -118,10 +125,10 @@ impl LimitsMonitor {
         let q = sample.joints.truth.q[coordinate];
         // Of a number that is none, `max` would drop the other one.
         let beyond = if q.is_nan() { q } else { outside(q) };
-        let margin = self.margins[usize::from(!kind.is_angular())];
+        let [margin, tolerance] =
+            [self.margins, self.tolerances].map(|of| of[usize::from(!kind.is_angular())]);
         let setpoint = sample.joints.setpoint.map(|setpoint| outside(setpoint.q[coordinate]));
         let grows = limits.beyond_before > 0.0 && beyond > limits.beyond_before;
-        let tolerance = self.beyond.of(kind).limit();
         let is_commanded_inside = setpoint.is_some_and(|outside| outside <= tolerance.min(AT_THE_LIMIT));
         let rests = margin == 0.0 && is_commanded_inside && !grows && beyond <= ON_THE_STOP;
         limits.beyond_before = beyond;
@@ -140,7 +147,7 @@ impl LimitsMonitor {
                 is_commanded: setpoint.is_some(),
             });
         }
-        self.beyond.of(kind).observe(beyond + margin, coordinate, sample);
+        self.beyond.of(kind).observe(beyond, coordinate, sample);
     }
 
     fn observe_shares(&mut self, at: usize, sample: &Sample<'_>) {

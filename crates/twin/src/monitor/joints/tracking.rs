@@ -151,8 +151,14 @@ impl TrackingMonitor {
                 unsettled = Some(joint);
             }
         }
-        if let Some(watch) = &mut self.settling {
-            let (joint, time_s) = unsettled.map_or((q.len(), 0.0), |joint| (joint, sample.time_s - since_s));
+        // Before the first motion there is nothing to settle from.
+        let has_moved = self.standstill.way.iter().any(|&way| way != 0.0);
+        if let Some(watch) = self.settling.as_mut().filter(|_| has_moved) {
+            let (joint, time_s) = match unsettled {
+                None => (q.len(), 0.0),
+                Some(joint) if sample.is_last => (joint, f64::INFINITY),
+                Some(joint) => (joint, sample.time_s - since_s),
+            };
             watch.observe(time_s, joint, sample);
         }
     }
@@ -244,6 +250,11 @@ impl Monitor for TrackingMonitor {
         let mut notes = Vec::new();
         if !self.is_commanded {
             notes.push("the source of joint states has no setpoint".to_owned());
+        } else if self.settling.as_ref().is_some_and(|watch| watch.worst().is_none()) {
+            notes.push(
+                "the setpoint never stood after a motion: nothing settled. Let the run go on, with `duration_s`"
+                    .to_owned(),
+            );
         }
         Observed { samples: self.samples, measures, notes, ..Observed::default() }
     }

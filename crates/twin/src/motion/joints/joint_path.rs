@@ -154,7 +154,11 @@ fn least_s(spline: &JointSpline, planning: &Planning<'_>) -> f64 {
 }
 
 /// Refuses a spline that leaves the range of a joint between points that are inside.
-fn check_positions(spline: &JointSpline, duration_s: f64, planning: &Planning<'_>) -> Result<(), Diagnostic> {
+pub(super) fn check_positions(
+    spline: &JointSpline,
+    duration_s: f64,
+    planning: &Planning<'_>,
+) -> Result<(), Diagnostic> {
     let robot = &planning.description.robot;
     let joints: Vec<_> = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).collect();
     let mut left = None;

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use congruent_description::{Diagnostic, display::quantity};
 
 use super::{
+    joint_path::check_positions,
     spline::{JointSpline, SplineEnds},
-    table::JointTable,
+    table::{JointTable, SAME_PLACE},
 };
 use crate::{
     motion::{
@@ -16,9 +17,6 @@ use crate::{
     },
     scenario::{Between, PlaybackMotion, Profile},
 };
-
-/// How far the first row may be from where the joints stand, rad or m. Kind: digits of a table.
-const SAME_PLACE: f64 = 1e-4;
 
 pub(in crate::motion) fn plan(
     settings: &PlaybackMotion,
@@ -51,6 +49,7 @@ pub(in crate::motion) fn plan(
         Between::Linear => SplineEnds::Straight,
     };
     let spline = Arc::new(JointSpline::new(&shares, &points, ends));
+    check_positions(&spline, duration_s, planning)?;
     let pace = Pace::Shape { profile: Profile::Linear, duration_s };
     let to = points.swap_remove(points.len() - 1);
     // Rows are held against the limits as they are read: a file is played as it is.

@@ -11,10 +11,23 @@ use crate::motion::timing::MotionLimits;
 
 /// Largest table that is read.
 const MOST_BYTES: u64 = 256 << 20;
+/// How far positions of a table may be from where they should be, rad or m. Kind: digits of a table.
+pub(super) const SAME_PLACE: f64 = 1e-4;
 /// The column of times.
 const TIME: &str = "time_s";
 /// Between the name of a joint and the position among other quantities, in the tables that runs write.
 const POSITION: &str = ".q";
+
+/// Columns of tables that runs write, which are of no joint. Other columns that are left out have a dot in their names.
+const OF_THE_RUN: [&str; 7] = [
+    "step",
+    "position_error_m",
+    "position_error_link",
+    "orientation_error_rad",
+    "orientation_error_link",
+    "clearance_m",
+    "clearance_pair",
+];
 
 /// Joint positions over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,6 +91,7 @@ impl JointTable {
                 q[column.coordinate] = column.handy.map_or(value, |unit| unit.convert(value));
             }
             robot.apply_mimic(&mut q);
+            row.check_range(&q, robot)?;
             table.follow(&row, (time_s, &q), (robot, limits))?;
             table.times_s.push(time_s);
             table.points.push(q);
@@ -123,6 +137,24 @@ impl JointTable {
 }
 
 impl Row<'_> {
+    /// Refuses positions outside the range of a joint.
+    fn check_range(&self, q: &RobotQ, robot: &Robot) -> Result<(), Diagnostic> {
+        for (&joint, &position) in robot.movable_joints().iter().zip(q) {
+            let joint = robot.joint(joint);
+            let Some((lower, upper)) = joint.position_range() else { continue };
+            if position < lower - SAME_PLACE || position > upper + SAME_PLACE {
+                let unit = joint.kind.unit();
+                let [position, lower, upper] = [position, lower, upper].map(|value| quantity(value, unit));
+                let message = format!(
+                    "line {}: joint \"{}\" is at {position}, outside its range of {lower} to {upper}",
+                    self.number, joint.name
+                );
+                return Err(Diagnostic::error("scenario::playback_range", message).at(self.span.clone()));
+            }
+        }
+        Ok(())
+    }
+
     fn number_in(&self, cell: usize) -> Result<f64, Diagnostic> {
         let written = self.cells[cell];
         written.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
@@ -143,7 +175,12 @@ fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
     });
     lines.filter(|(_, line, _)| !line.trim().is_empty() && !line.starts_with('#')).map(
         |(index, line, span)| {
-            let cells = line.split(',').map(|cell| cell.trim().trim_matches('"')).collect();
+            let mut is_quoted = false;
+            let separates = |character| {
+                is_quoted ^= character == '"';
+                character == ',' && !is_quoted
+            };
+            let cells = line.split(separates).map(|cell| cell.trim().trim_matches('"')).collect();
             Row { number: index + 1, span, cells }
         },
     )
@@ -193,10 +230,10 @@ fn columns(header: &Row<'_>, robot: &Robot) -> Result<Vec<Column>, Diagnostic> {
     Ok(columns)
 }
 
-/// Whether a column is one of those that runs write beside positions: `joint.qd_rad_s`, `link.error_m`.
+/// Whether a column is one of those that runs write beside positions: `joint.qd_rad_s`, `clearance_m`.
 fn is_other_quantity(name: &str, robot: &Robot) -> bool {
-    name.split_once('.').is_some_and(|(_, quantity)| !quantity.starts_with("q_"))
-        && robot.find_joint(name).is_none()
+    let is_dotted = name.split_once('.').is_some_and(|(_, quantity)| !quantity.starts_with("q_"));
+    (is_dotted || OF_THE_RUN.contains(&name)) && robot.find_joint(name).is_none()
 }
 
 fn unknown(name: &str, header: &Row<'_>, robot: &Robot) -> Diagnostic {

@@ -27,6 +27,8 @@ use crate::{
 
 /// A tool that has no further to go, m and rad, is there.
 const THERE: f64 = 1e-6;
+/// By this a blend may be longer than half of a line. Kind: rounding.
+const ROUNDING_M: f64 = 1e-9;
 
 /// One line or arc with how it is driven.
 struct Leg<'a> {
@@ -250,9 +252,11 @@ fn check(legs: &[Leg<'_>]) -> Result<(), Diagnostic> {
             return refused("there is no line or arc after it to blend into".to_owned(), help);
         }
         let shortest_m = |other: &Leg<'_>| other.segment.length_m() / 2.0;
-        if !is_last && leg.blend_m > shortest_m(leg).min(shortest_m(&legs[index + 1])) {
-            let (blend, at_most) =
-                (length(leg.blend_m), length(shortest_m(leg).min(shortest_m(&legs[index + 1]))));
+        let at_most_m =
+            legs.get(index + 1).map_or(f64::INFINITY, |next| shortest_m(leg).min(shortest_m(next)));
+        // Lengths are differences of positions: half of a line may be rounded below what is written.
+        if !is_last && leg.blend_m > at_most_m + ROUNDING_M {
+            let (blend, at_most) = (length(leg.blend_m), length(at_most_m));
             let message =
                 format!("a blend of {blend} does not fit: half of the shorter way beside it is {at_most}");
             return refused(message, "blends of one line may not overlap");

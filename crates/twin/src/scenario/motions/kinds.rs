@@ -71,7 +71,8 @@ impl MotionSettings {
 #[serde(deny_unknown_fields)]
 pub struct JointMotion {
     /// Angles in degrees by joint.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    // Written even if it is empty: a motion that moves no joint is told by this key alone.
+    #[serde(default)]
     pub move_joints_deg: BTreeMap<String, f64>,
     /// Angles in radians by joint.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]

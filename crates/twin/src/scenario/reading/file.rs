@@ -46,6 +46,8 @@ struct Top {
     name: Spanned<String>,
     robot: String,
     #[serde(default)]
+    folder: Option<String>,
+    #[serde(default)]
     seed: u64,
 }
 
@@ -106,10 +108,11 @@ impl ScenarioFile {
         self.folder().join(&self.scenario.robot)
     }
 
-    /// The folder of the file, to which paths in it are relative.
-    pub fn folder(&self) -> &Path {
-        let folder = self.path().parent().filter(|_| !is_standard_input(self.path()));
-        folder.unwrap_or(Path::new(""))
+    /// The folder to which paths in the file are relative: its own, unless it names another.
+    pub fn folder(&self) -> PathBuf {
+        let own = self.path().parent().filter(|_| !is_standard_input(self.path()));
+        let own = own.unwrap_or(Path::new(""));
+        self.scenario.folder.as_ref().map_or_else(|| own.to_owned(), |folder| own.join(folder))
     }
 
     /// The places of its values.
@@ -201,6 +204,7 @@ fn read(mut document: Section<'_>, findings: &mut Diagnostics) -> Option<Scenari
         schema_version: top.schema_version.into_inner(),
         name: top.name.into_inner(),
         robot: top.robot,
+        folder: top.folder,
         seed: top.seed,
         simulation: simulation?,
         start: start?,

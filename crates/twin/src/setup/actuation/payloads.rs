@@ -6,7 +6,10 @@ use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
 use crate::{
     scenario::{FilePlace, PayloadInertia, PayloadSettings},
-    setup::Payload,
+    setup::{
+        Payload,
+        payload::{HEAVIEST_KG, too_heavy},
+    },
 };
 
 /// The payloads of a run, in the order of the scenario.
@@ -46,6 +49,9 @@ fn payload(
     };
     if settings.name.trim().is_empty() {
         return Err(wrong("name", "the name is empty".to_owned()));
+    }
+    if settings.mass_kg > HEAVIEST_KG {
+        return Err(wrong("mass_kg", too_heavy(settings.mass_kg)));
     }
     let until_s = settings.until_s.unwrap_or(f64::INFINITY);
     if until_s <= settings.from_s {
