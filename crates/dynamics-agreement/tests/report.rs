@@ -3,7 +3,7 @@
 #[path = "../../../tests/corpus.rs"]
 mod corpus;
 
-use congruent_description::{RobotDescription, load_robot};
+use congruent_description::{RobotDescription, load_robot, parse_urdf};
 use congruent_dynamics_agreement::{
     CompareError, DynamicsCause, DynamicsExplanation, DynamicsReport, DynamicsVerdict, Inertial, NamedSide,
     Side, certify, compare,
@@ -174,6 +174,61 @@ fn a_figure_that_is_no_bodys_is_still_explained() {
 
 fn unnamed(side: &Side) -> NamedSide<'_> {
     NamedSide { name: "", side, places: None }
+}
+
+/// An arm of two joints; the link that the second carries has another one fixed to it, and nothing is drawn anywhere.
+fn arm_with_fixed_link(second: &str) -> Side {
+    let text = format!(
+        r#"<robot name="arm"><link name="base"/>
+        <link name="first"><inertial><origin xyz="0 0.01 0.1"/><mass value="4"/>
+          <inertia ixx="0.02" iyy="0.03" izz="0.012" ixy="0" ixz="0.001" iyz="0"/></inertial></link>
+        <link name="second">{second}</link>
+        <link name="fixed"><inertial><origin xyz="0.05 0.02 0.03"/><mass value="0.8"/>
+          <inertia ixx="0.003" iyy="0.002" izz="0.002" ixy="0.0001" ixz="0" iyz="0"/></inertial></link>
+        <joint name="j1" type="continuous"><parent link="base"/><child link="first"/><axis xyz="0 0 1"/></joint>
+        <joint name="j2" type="continuous"><parent link="first"/><child link="second"/><origin xyz="0 0 0.2"/>
+          <axis xyz="0 1 0"/></joint>
+        <joint name="f" type="fixed"><parent link="second"/><child link="fixed"/><origin xyz="0.3 0 0.1"/></joint>
+        </robot>"#
+    );
+    Side::new(&parse_urdf(&text).unwrap_or_else(|findings| panic!("{findings:#?}")))
+}
+
+const SECOND: &str = r#"<inertial><origin xyz="0.2 0.01 0"/><mass value="3"/>
+    <inertia ixx="0.02" iyy="0.03" izz="0.025" ixy="0.001" ixz="0" iyz="0"/></inertial>"#;
+
+#[test]
+fn the_link_without_inertial_is_named_and_not_one_that_is_fixed_to_it() {
+    let (without, with) = (arm_with_fixed_link(""), arm_with_fixed_link(SECOND));
+    let report = compare(&unnamed(&without), &unnamed(&with), 1).expect("one chain");
+    assert_eq!(causes(&report.explanations), [(DynamicsCause::InertialMissing, "second")]);
+    let explanation = &report.explanations[0];
+    assert!(explanation.is_a_body && !explanation.contradicted, "{explanation:?}");
+    let mass = explanation.figures.iter().find(|figure| figure.figure == "mass").expect("the mass");
+    assert_eq!((mass.found, mass.expected), (None, Some(3.0)));
+}
+
+#[test]
+fn an_armature_that_neither_description_has_is_no_cause() {
+    let reference = arm_with_fixed_link(SECOND);
+    let mut candidate = reference.clone();
+    // Of the first link torques show one moment only, as they would of an armature.
+    figures(&mut candidate, "first").tensor_kg_m2 *= 2.0;
+    let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+    assert_eq!(report.explanations[0].place, ["first"], "{:?}", report.explanations);
+    let mut all = report.explanations.iter().chain(&report.indistinguishable);
+    assert!(all.all(|of| of.cause != DynamicsCause::Armature), "{report:?}");
+}
+
+#[test]
+fn an_armature_of_one_description_is_taken_out_whole() {
+    let reference = arm_with_fixed_link(SECOND);
+    let mut candidate = reference.clone();
+    (candidate.resistances[0].armature, candidate.resistances[1].armature) = (0.37, 0.1);
+    let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+    assert_eq!(report.explanations[0].cause, DynamicsCause::Armature);
+    let expected: Vec<_> = report.explanations[0].figures.iter().map(|figure| figure.expected).collect();
+    assert_eq!(expected, [Some(0.0); 2]);
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use congruent::{
     RobotCheck,
+    agreement::SourcePair,
     description::{JointValues, Robot, RobotQ},
     dynamics_agreement::{
         DynamicsExplanation, DynamicsReport, FigureDifference, LimitDifference, TorqueBracket,
@@ -20,7 +21,11 @@ const SHOWN: usize = 8;
 pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
     let against = check.against.as_ref();
     if let Some(why) = against.and_then(|against| against.dynamics_not_compared.as_ref()) {
-        let _ = writeln!(text, "  disagree  dynamics is not compared: {why}");
+        let poses = &check.geometry.comparisons;
+        let and_poses =
+            if poses.iter().any(|of| of.name == SourcePair::UrdfOther) { "" } else { "poses and " };
+        let verb = if and_poses.is_empty() { "is" } else { "are" };
+        let _ = writeln!(text, "  disagree  {and_poses}dynamics {verb} not compared: {why}");
     }
     check.all_dynamics().for_each(|report| compared(text, report, robot));
     let declared = check.declared_dynamics.as_ref().map(|declared| &declared.not_declared);

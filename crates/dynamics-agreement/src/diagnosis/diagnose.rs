@@ -96,12 +96,14 @@ fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed {
     let frames = &setting.candidate.frames;
     let containing = (0..frames.dof()).filter(|&body| target.contains(Part::Body(body)));
     let links = containing.flat_map(|body| frames.links_of(body)).collect();
-    let catalogue = Catalogue::new(setting.candidate, setting.faulty);
+    let catalogue = Catalogue::new(setting.candidate, setting.reference, setting.faulty);
     let exactly = |parts| Exact::new(parts, setting.candidate, setting.reference);
-    let mut found: Vec<Exact> =
-        catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit])).collect();
+    let is_possible = |exact: &Exact| !exact.has_no_such_armature(setting.candidate, setting.reference);
+    let singles = catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit]));
+    let mut found: Vec<Exact> = singles.filter(is_possible).collect();
     if found.iter().all(|exact| exact.free_numbers() > PAIRS_ABOVE) {
-        found.extend(catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into())));
+        let pairs = catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into()));
+        found.extend(pairs.filter(is_possible));
     }
     sort(&mut found);
     Diagnosed { same: false, links, explanations: grouped(setting.candidate, torque, found) }

@@ -27,7 +27,13 @@ impl Exact {
     pub(super) fn new(parts: Vec<Fit>, side: &Side, reference: Option<&Side>) -> Self {
         let mut corrected = Corrected::default();
         for part in &parts {
-            corrected.links.extend(part.corrected.links.iter().copied());
+            // A later part corrects what the earlier ones leave.
+            for (link, figures) in &part.corrected.links {
+                match corrected.links.iter_mut().find(|(before, _)| before == link) {
+                    Some((_, before)) => *before = *figures,
+                    None => corrected.links.push((*link, *figures)),
+                }
+            }
             corrected.gravity = corrected.gravity.or(part.corrected.gravity);
             if let Some(joints) = &part.corrected.joints {
                 let before = corrected.joints.take().unwrap_or_else(|| side.resistances.clone());
@@ -44,6 +50,19 @@ impl Exact {
         let more = f64::from(u32::try_from(parts.len() - 1).unwrap_or(u32::MAX));
         let price = parts.iter().map(Fit::price).sum::<f64>() + PRICE_OF_PART * more;
         Self { parts, corrected, law_broken, contradicted, price }
+    }
+
+    /// Whether an armature is named that both descriptions have alike, as two URDFs have none, or that is negative.
+    pub(super) fn has_no_such_armature(&self, side: &Side, reference: Option<&Side>) -> bool {
+        let armature = |of: &Side, joint: usize| of.resistances[joint].armature;
+        self.corrected.joints.iter().flatten().enumerate().any(|(joint, new)| {
+            let old = armature(side, joint);
+            let there = reference.and_then(|reference| {
+                Some(armature(reference, reference.frames.find_joint(side.frames.joint_name(joint))?))
+            });
+            let is_alike = there.is_some_and(|there| is_equal(there, old));
+            !is_equal(new.armature, old) && (is_alike || new.armature < 0.0)
+        })
     }
 
     /// Free numbers that torque shows, those that the file lacks among them.

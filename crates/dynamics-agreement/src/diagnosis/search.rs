@@ -38,11 +38,14 @@ pub(super) struct Catalogue<'a> {
 }
 
 impl<'a> Catalogue<'a> {
-    pub(super) fn new(side: &'a Side, faulty: FaultySide) -> Self {
+    pub(super) fn new(side: &'a Side, reference: Option<&Side>, faulty: FaultySide) -> Self {
         let slips: Vec<Slip<'_>> = cause::slips(&side.frames, faulty);
         let n = side.frames.dof();
         let of_body = |body| {
-            side.frames.links_of(body).flat_map(|link| cause::of_link(side, faulty, &slips, link)).collect()
+            side.frames
+                .links_of(body)
+                .flat_map(|link| cause::of_link(side, reference, faulty, &slips, link))
+                .collect()
         };
         let mut catalogue = Self {
             side,
