@@ -75,7 +75,14 @@ pub(crate) fn diagnose_in_stages(
     }
     let both = second.explanations.into_iter().flat_map(|grouped| {
         std::iter::once(grouped.named).chain(grouped.also).map(|other| {
-            let parts = named.parts.iter().cloned().chain(other.parts).collect();
+            let mut parts = named.parts.clone();
+            for later in other.parts {
+                let place = &later.hypothesis.place;
+                match parts.iter_mut().find(|part| part.hypothesis.place == *place) {
+                    Some(part) => part.refined_by(later, setting.candidate),
+                    None => parts.push(later),
+                }
+            }
             Exact::new(parts, setting.candidate, setting.reference)
         })
     });
@@ -98,7 +105,7 @@ fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed {
     let links = containing.flat_map(|body| frames.links_of(body)).collect();
     let catalogue = Catalogue::new(setting.candidate, setting.reference, setting.faulty);
     let exactly = |parts| Exact::new(parts, setting.candidate, setting.reference);
-    let is_possible = |exact: &Exact| !exact.has_no_such_armature(setting.candidate, setting.reference);
+    let is_possible = |exact: &Exact| !exact.is_impossible(setting.candidate, setting.reference);
     let singles = catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit]));
     let mut found: Vec<Exact> = singles.filter(is_possible).collect();
     if found.iter().all(|exact| exact.free_numbers() > PAIRS_ABOVE) {

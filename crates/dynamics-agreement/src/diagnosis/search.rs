@@ -113,6 +113,25 @@ impl<'a> Catalogue<'a> {
                 }
             }
         }
+        pairs.extend((0..self.side.frames.dof()).flat_map(|joint| self.pairs_at_joint(target, joint)));
+        pairs
+    }
+
+    /// Two terms of one joint that leave nothing together, such as damping and friction that were left out.
+    fn pairs_at_joint(&self, target: &Target<'_>, joint: usize) -> Vec<[Fit; 2]> {
+        let part = Part::Joint(joint);
+        if !target.contains(part) {
+            return Vec::new();
+        }
+        let mut pairs = Vec::new();
+        for second in [JointTerm::Friction, JointTerm::Armature] {
+            let column = DMatrix::from_columns(&[target.torque.term(second).column(joint)]);
+            let reduced = target.torque.without(&basis(&column, target.torque.scale));
+            let reduced = Target { torque: &reduced, ..*target };
+            for fit in self.fits_of(&reduced, part) {
+                pairs.extend(self.completed(target, &fit, part));
+            }
+        }
         pairs
     }
 
