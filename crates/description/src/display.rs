@@ -75,6 +75,17 @@ pub fn quantity(value: f64, unit: &str) -> String {
     }
 }
 
+/// A value in its SI unit with all its digits, for two that [`quantity`] prints alike.
+///
+/// # Examples
+/// ```
+/// use congruent_description::display::quantity_in_full;
+/// assert_eq!(quantity_in_full(3.000_001, "kg"), "3.000001 kg");
+/// ```
+pub fn quantity_in_full(value: f64, unit: &str) -> String {
+    format!("{value} {unit}").trim_end().to_owned()
+}
+
 /// A number without unit.
 ///
 /// # Examples

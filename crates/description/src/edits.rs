@@ -27,13 +27,17 @@ pub struct ChangedLines {
     pub text: String,
 }
 
-/// The lines that edits change, each with all edits in it; in the order of the file.
+/// The lines that edits change, each with all edits in it; in the order of the file. Of edits that overlap, such as two of
+/// one value, the first counts.
 pub fn changed_lines(text: &str, edits: &[TextEdit]) -> Vec<ChangedLines> {
     let mut edits: Vec<&TextEdit> = edits.iter().collect();
     edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
     let mut changed: Vec<(Range<usize>, String)> = Vec::new();
     let mut written_to = 0;
     for TextEdit { span, text: new } in edits {
+        if span.start < written_to {
+            continue;
+        }
         let start = text[..span.start].rfind('\n').map_or(0, |at| at + 1);
         match changed.last_mut() {
             Some((lines, so_far)) if start < lines.end => {
@@ -72,4 +76,34 @@ pub(crate) fn line_end(text: &str, from: usize) -> usize {
     let rest = &text[from..];
     let end = rest.find('\n').unwrap_or(rest.len());
     from + rest[..end].trim_end_matches('\r').len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "mass = 1\nlength = 20\n";
+
+    fn edit(span: Range<usize>, text: &str) -> TextEdit {
+        TextEdit { span, text: text.to_owned() }
+    }
+
+    fn lines(edits: &[TextEdit]) -> Vec<(usize, usize, String)> {
+        let changed = changed_lines(TEXT, edits).into_iter();
+        changed.map(|lines| (lines.from_line, lines.to_line, lines.text)).collect()
+    }
+
+    #[test]
+    fn of_two_edits_of_one_value_the_first_counts() {
+        let twice =
+            [edit(7..8, "2"), edit(7..8, "2"), edit(18..20, "30"), edit(19..20, "5"), edit(20..20, ".5")];
+        let expected = [(1, 1, "mass = 2".to_owned()), (2, 2, "length = 30.5".to_owned())];
+        assert_eq!(lines(&twice), expected);
+    }
+
+    #[test]
+    fn an_edit_across_lines_takes_in_what_it_covers() {
+        let across = [edit(5..14, "+"), edit(7..8, "2"), edit(18..20, "30")];
+        assert_eq!(lines(&across), [(1, 2, "mass +h = 30".to_owned())]);
+    }
 }

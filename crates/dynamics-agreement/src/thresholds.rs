@@ -77,6 +77,9 @@ pub(crate) const NO_TORQUE: f64 = 1e-12;
 pub(crate) const SAME_FIGURE: f64 = 1e-9;
 /// A figure below this share of the link's own is zero: a reader's rotation leaves as much. No unit; kind: rounding.
 pub(crate) const ZERO_FIGURE: f64 = 1e-12;
+/// A slip that leaves a smaller share of the figure is meant, and its figures are rounded: a length in inches has four
+/// digits. No unit; kind: digits of a file.
+pub(crate) const FILE_DIGITS: f64 = 1e-5;
 /// A tensor is a power of ten times identity within this share. No unit; kind: rounding.
 pub(crate) const PLACEHOLDER: f64 = 1e-9;
 

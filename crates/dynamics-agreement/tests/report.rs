@@ -3,7 +3,7 @@
 #[path = "../../../tests/corpus.rs"]
 mod corpus;
 
-use congruent_description::{RobotDescription, load_robot};
+use congruent_description::{RobotDescription, load_robot, parse_urdf};
 use congruent_dynamics_agreement::{
     CompareError, DynamicsCause, DynamicsExplanation, DynamicsReport, DynamicsVerdict, Inertial, NamedSide,
     Side, certify, compare,
@@ -43,14 +43,25 @@ fn causes(explanations: &[DynamicsExplanation]) -> Vec<(DynamicsCause, &str)> {
 
 #[test]
 fn a_fault_has_its_line_its_figures_and_its_sentence() {
-    let report = changed("ur5e", |side| figures(side, "forearm_link").com_m *= 1e3);
+    let right = load("ur5e");
+    let text = std::fs::read_to_string(&right.urdf_path).expect("it is there");
+    let text = text.replace(r#"<origin xyz="-0.2422 0 0.0265""#, r#"<origin xyz="-242.2 0 26.5""#);
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("forearm_in_mm.urdf");
+    std::fs::write(&path, text).expect("a file for tests");
+    let wrong = load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}"));
+    let [candidate, reference] = [&wrong, &right].map(|of| Side::new(&of.robot));
+    let places = wrong.places.urdf.as_ref().map(|places| places as _);
+    let candidate = NamedSide { name: "wrong", side: &candidate, places };
+    let mut report = compare(&candidate, &unnamed(&reference), 1).expect("one chain");
+    report.certificates = Some(certify(&candidate, &unnamed(&reference), 1).expect("one chain"));
     let [explanation] = &report.explanations[..] else { panic!("{:?}", report.explanations) };
     assert_eq!(explanation.sentence(), "forearm_link: the centre of mass is given in another unit (mm)");
     let path = explanation.file.as_deref().expect("the file of the candidate");
     let text = std::fs::read_to_string(path).expect("it is there");
     let line = text.lines().nth(explanation.line.expect("a line") - 1).expect("it has the line");
     assert!(line.contains("<origin"), "{line}");
-    assert_eq!(explanation.changes.len(), 1, "{:?}", explanation.changes);
+    let [change] = &explanation.changes[..] else { panic!("{:?}", explanation.changes) };
+    assert!(change.text.contains(r#"<origin xyz="-0.2422 0"#), "{}", change.text);
     let suggestion = explanation.suggestion.as_deref().expect("what to write");
     assert!(suggestion.starts_with("forearm_link: com_x = "), "{suggestion}");
     let mass = report.invariants.as_ref().expect("both are descriptions").total_mass_kg;
@@ -174,6 +185,107 @@ fn a_figure_that_is_no_bodys_is_still_explained() {
 
 fn unnamed(side: &Side) -> NamedSide<'_> {
     NamedSide { name: "", side, places: None }
+}
+
+/// An arm of two joints; the link that the second carries has another one fixed to it, and nothing is drawn anywhere.
+fn arm_with_fixed_link(second: &str) -> Side {
+    let text = format!(
+        r#"<robot name="arm"><link name="base"/>
+        <link name="first"><inertial><origin xyz="0 0.01 0.1"/><mass value="4"/>
+          <inertia ixx="0.02" iyy="0.03" izz="0.012" ixy="0" ixz="0.001" iyz="0"/></inertial></link>
+        <link name="second">{second}</link>
+        <link name="fixed"><inertial><origin xyz="0.05 0.02 0.03"/><mass value="0.8"/>
+          <inertia ixx="0.003" iyy="0.002" izz="0.002" ixy="0.0001" ixz="0" iyz="0"/></inertial></link>
+        <joint name="j1" type="continuous"><parent link="base"/><child link="first"/><axis xyz="0 0 1"/></joint>
+        <joint name="j2" type="continuous"><parent link="first"/><child link="second"/><origin xyz="0 0 0.2"/>
+          <axis xyz="0 1 0"/></joint>
+        <joint name="f" type="fixed"><parent link="second"/><child link="fixed"/><origin xyz="0.3 0 0.1"/></joint>
+        </robot>"#
+    );
+    Side::new(&parse_urdf(&text).unwrap_or_else(|findings| panic!("{findings:#?}")))
+}
+
+const SECOND: &str = r#"<inertial><origin xyz="0.2 0.01 0"/><mass value="3"/>
+    <inertia ixx="0.02" iyy="0.03" izz="0.025" ixy="0.001" ixz="0" iyz="0"/></inertial>"#;
+
+#[test]
+fn the_link_without_inertial_is_named_and_not_one_that_is_fixed_to_it() {
+    let (without, with) = (arm_with_fixed_link(""), arm_with_fixed_link(SECOND));
+    let report = compare(&unnamed(&without), &unnamed(&with), 1).expect("one chain");
+    assert_eq!(causes(&report.explanations), [(DynamicsCause::InertialMissing, "second")]);
+    let explanation = &report.explanations[0];
+    assert!(explanation.is_a_body && !explanation.contradicted, "{explanation:?}");
+    let mass = explanation.figures.iter().find(|figure| figure.figure == "mass").expect("the mass");
+    assert_eq!((mass.found, mass.expected), (None, Some(3.0)));
+}
+
+#[test]
+fn an_armature_that_neither_description_has_is_no_cause() {
+    let reference = arm_with_fixed_link(SECOND);
+    let mut candidate = reference.clone();
+    // Of the first link torques show one moment only, as they would of an armature.
+    figures(&mut candidate, "first").tensor_kg_m2 *= 2.0;
+    let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+    assert_eq!(report.explanations[0].place, ["first"], "{:?}", report.explanations);
+    let mut all = report.explanations.iter().chain(&report.indistinguishable);
+    assert!(all.all(|of| of.cause != DynamicsCause::Armature), "{report:?}");
+}
+
+#[test]
+fn damping_and_friction_of_one_joint_are_named_together() {
+    let candidate = arm_with_fixed_link(SECOND);
+    let mut reference = candidate.clone();
+    (reference.resistances[1].damping, reference.resistances[1].friction) = (1.0, 0.5);
+    let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+    let [explanation] = &report.explanations[..] else { panic!("{:?}", report.explanations) };
+    let figures = explanation.figures.iter().map(|figure| (figure.of.as_str(), figure.figure.as_str()));
+    assert_eq!(figures.collect::<Vec<_>>(), [("j2", "damping"), ("j2", "friction")]);
+    let expected = explanation.figures.iter().filter_map(|figure| figure.expected);
+    for (expected, value) in expected.zip([1.0, 0.5]) {
+        assert!((expected - value).abs() < 1e-9, "{expected}");
+    }
+}
+
+#[test]
+fn values_that_differ_in_a_late_digit_are_told_apart() {
+    let reference = arm_with_fixed_link(SECOND);
+    let mut candidate = reference.clone();
+    figures(&mut candidate, "second").mass_kg = 3.000_001;
+    let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+    let sentence = report.explanations[0].figures[0].sentence();
+    assert!(sentence.starts_with("second: mass is 3.000001 kg, expected "), "{sentence}");
+}
+
+/// A limit that one description does not state: a range decides, speed and effort are remarks.
+#[test]
+fn a_limit_on_one_side_is_said() {
+    let reference = Side::new(&load("ur5e").robot);
+    let mut candidate = reference.clone();
+    candidate.limits[0].as_mut().expect("a limit").velocity = None;
+    candidate.limits[1].as_mut().expect("a limit").effort = Some(0.0);
+    let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+    let limits = || report.limits.iter();
+    let found: Vec<_> = limits().map(|of| (of.figure.as_str(), of.found, of.decides)).collect();
+    assert_eq!(found, [("velocity", None, false), ("effort", None, false)]);
+    assert!(report.agrees() && limits().all(|of| of.sentence().contains("is not stated, expected")));
+    let endless = candidate.limits[2].as_mut().expect("a limit");
+    (endless.lower, endless.upper) = (f64::NEG_INFINITY, f64::INFINITY);
+    let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+    let decisive: Vec<_> =
+        report.limits.iter().filter(|of| of.decides).map(|of| of.figure.as_str()).collect();
+    assert_eq!(decisive, ["lower", "upper"]);
+    assert!(!report.agrees());
+}
+
+#[test]
+fn an_armature_of_one_description_is_taken_out_whole() {
+    let reference = arm_with_fixed_link(SECOND);
+    let mut candidate = reference.clone();
+    (candidate.resistances[0].armature, candidate.resistances[1].armature) = (0.37, 0.1);
+    let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+    assert_eq!(report.explanations[0].cause, DynamicsCause::Armature);
+    let expected: Vec<_> = report.explanations[0].figures.iter().map(|figure| figure.expected).collect();
+    assert_eq!(expected, [Some(0.0); 2]);
 }
 
 #[test]

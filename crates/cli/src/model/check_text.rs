@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use congruent::{
-    RobotCheck,
+    OtherDescription, RobotCheck,
     agreement::{
         SourcePair,
         compare::{
@@ -23,7 +23,7 @@ use crate::table::{with_one_sign, wrapped};
 pub(super) fn text(check: &RobotCheck, robot: &Robot) -> String {
     let report = &check.geometry;
     let mut text = String::new();
-    headline(&mut text, report);
+    headline(&mut text, check);
     let _ = writeln!(text, "  {}", report.chain);
     if !report.table_compared && report.verdict != Agreement::NothingCompared {
         let agree = report.verdict == Agreement::Agree;
@@ -66,7 +66,24 @@ fn poses_disagree(report: &CheckReport) -> bool {
     report.comparisons.iter().any(|comparison| comparison.verdict == Agreement::Disagree)
 }
 
-fn headline(text: &mut String, report: &CheckReport) {
+/// Why nothing of the two descriptions was compared: they have other joints.
+fn other_chain(check: &RobotCheck) -> Option<(&OtherDescription, &str)> {
+    let against = check.against.as_ref()?;
+    let mut compared = check.geometry.comparisons.iter().map(|of| of.name);
+    let why = against.dynamics_not_compared.as_ref()?;
+    (!compared.any(|name| name == SourcePair::UrdfOther)).then_some((against, why))
+}
+
+fn headline(text: &mut String, check: &RobotCheck) {
+    let report = &check.geometry;
+    if let Some((other, why)) = other_chain(check) {
+        let _ = writeln!(
+            text,
+            "{}: disagree, not the same chain as {}: {why}; nothing of the two was compared",
+            report.file, other.file
+        );
+        return;
+    }
     if report.verdict == Agreement::NothingCompared {
         let what = "nothing was compared: there is no [dh] table, and the physics was not asked";
         let _ = writeln!(text, "{}: {what}", report.file);

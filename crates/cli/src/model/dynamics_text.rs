@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use congruent::{
     RobotCheck,
+    agreement::SourcePair,
     description::{JointValues, Robot, RobotQ},
     dynamics_agreement::{
         DynamicsExplanation, DynamicsReport, FigureDifference, LimitDifference, TorqueBracket,
@@ -20,7 +21,11 @@ const SHOWN: usize = 8;
 pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
     let against = check.against.as_ref();
     if let Some(why) = against.and_then(|against| against.dynamics_not_compared.as_ref()) {
-        let _ = writeln!(text, "  disagree  dynamics is not compared: {why}");
+        let poses = &check.geometry.comparisons;
+        let and_poses =
+            if poses.iter().any(|of| of.name == SourcePair::UrdfOther) { "" } else { "poses and " };
+        let verb = if and_poses.is_empty() { "is" } else { "are" };
+        let _ = writeln!(text, "  disagree  {and_poses}dynamics {verb} not compared: {why}");
     }
     check.all_dynamics().for_each(|report| compared(text, report, robot));
     let declared = check.declared_dynamics.as_ref().map(|declared| &declared.not_declared);
@@ -44,7 +49,7 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
     for explanation in &report.explanations {
         explained(text, explanation);
     }
-    let mut lines: Vec<String> = report.limits.iter().map(limit).collect();
+    let mut lines: Vec<String> = limits(&report.limits);
     if !report.has_same_torques() {
         for other in report.indistinguishable.iter().take(SHOWN) {
             let reason = other.reason.map_or_else(String::new, |reason| format!(" ({})", reason.text()));
@@ -98,11 +103,24 @@ fn placed(sentence: String, figure: &FigureDifference, file: Option<&str>) -> St
     }
 }
 
-fn limit(difference: &LimitDifference) -> String {
-    match difference.line {
-        Some(line) => format!("line {line}: {}", difference.sentence()),
-        None => difference.sentence(),
+/// The limits that differ with the lines that say them, each joint with what to write once.
+fn limits(differences: &[LimitDifference]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (at, difference) in differences.iter().enumerate() {
+        let sentence = difference.sentence();
+        lines.push(match (&difference.file, difference.line) {
+            (Some(file), Some(line)) => format!("{file}:{line}: {sentence}"),
+            _ => sentence,
+        });
+        if differences.get(at + 1).is_some_and(|next| next.changes == difference.changes) {
+            continue;
+        }
+        for change in &difference.changes {
+            lines.push(format!("  to write in line {}:", change.from_line));
+            lines.extend(change.text.lines().map(|line| format!("    {}", line.trim_start())));
+        }
     }
+    lines
 }
 
 /// The largest difference of gravity torque, with the configuration that has it.

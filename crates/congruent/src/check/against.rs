@@ -57,11 +57,14 @@ pub(super) fn compared(
 
 /// The first moving joint that one of the two does not have, or that moves in another way.
 fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
-    let missing = |joint: &str, file: &str| format!("joint \"{joint}\" does not move in {file}");
+    let missing = |joint: &str, (of, lacks): (&str, &Robot)| match lacks.find_joint(joint) {
+        Some(_) => format!("joint \"{joint}\" does not move in {of}"),
+        None => format!("{of} has no joint \"{joint}\""),
+    };
     for &index in robot.movable_joints() {
         let joint = robot.joint(index);
         let Some(there) = moving(other, &joint.name) else {
-            return Some(missing(&joint.name, "the other description"));
+            return Some(missing(&joint.name, ("the other description", other)));
         };
         if other.joint(there).kind.is_angular() != joint.kind.is_angular() {
             return Some(format!(
@@ -73,7 +76,7 @@ fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {
     let mut others = other.movable_joint_names();
     others
         .find(|name| moving(robot, name).is_none())
-        .map(|name| missing(name, "this description, only in the other"))
+        .map(|name| missing(name, ("this description, unlike the other,", robot)))
 }
 
 fn moving(robot: &Robot, name: &str) -> Option<JointIndex> {

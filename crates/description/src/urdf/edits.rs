@@ -63,7 +63,25 @@ impl UrdfPlaces {
         set(&mut edits, joint, "dynamics", &values);
         edits
     }
+
+    /// The edits after which a joint has this `lower`, `upper`, `effort` or `velocity`; none if there is no such joint, or
+    /// no such limit, and none for the range of a continuous joint, which has another type.
+    pub fn set_joint_limit(&self, joint: &str, limit: &str, value: f64) -> Vec<TextEdit> {
+        let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };
+        let Some(joint) = last(document.root_element(), "joint", joint) else { return Vec::new() };
+        let Some(name) = LIMITS.into_iter().find(|name| *name == limit) else { return Vec::new() };
+        if joint.attribute("type") == Some("continuous") && RANGE.contains(&name) {
+            return Vec::new();
+        }
+        let mut edits = Vec::new();
+        set(&mut edits, joint, "limit", &changed(joint, "limit", &[(name, value)]));
+        edits
+    }
 }
+
+/// The ends of a joint's range.
+const RANGE: [&str; 2] = ["lower", "upper"];
+const LIMITS: [&str; 4] = [RANGE[0], RANGE[1], "effort", "velocity"];
 
 type Attribute = (&'static str, String);
 
@@ -201,5 +219,20 @@ mod tests {
         let joint = robot.joint(robot.find_joint("k").unwrap());
         assert_eq!((joint.damping, joint.friction), (0.5, 0.25), "{text}");
         assert_eq!(places.set_joint_dynamics("k", 0.0, 0.0), []);
+    }
+
+    #[test]
+    fn a_corrected_limit_is_read_back() {
+        let text =
+            TEXT.replace("name='j' type='continuous'>", "name='j' type='revolute'><limit effort='1'/>");
+        let source = SourceFile { path: "two.urdf".into(), text };
+        let places = UrdfPlaces::new(Arc::new(source));
+        let of = |limit, value| places.set_joint_limit("j", limit, value);
+        let edits = [of("upper", 1.5), of("effort", 20.0), of("velocity", 3.0)].concat();
+        let changed = changed_lines(&places.source().text, &edits);
+        let [line] = &changed[..] else { panic!("{changed:?}") };
+        assert!(line.text.contains("<limit effort='20.0' upper=\"1.5\" velocity=\"3.0\"/>"), "{}", line.text);
+        assert_eq!(places.set_joint_limit("k", "lower", -1.0), [], "a continuous joint has no range");
+        assert_eq!(places.set_joint_limit("j", "lower", 0.0), [], "what is not written is zero");
     }
 }

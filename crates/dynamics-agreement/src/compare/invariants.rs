@@ -27,6 +27,8 @@ pub struct Invariants {
     pub gravity_n_m: f64,
     /// The joint that has it; `null` if there is none.
     pub gravity_joint: Option<String>,
+    /// Unit of that difference: `N m`, or `N` of a joint that slides.
+    pub gravity_unit: String,
     /// The largest relative difference of the mass matrix at the compared states, in any direction of acceleration;
     /// `null` if the reference's is not positive definite.
     pub mass_matrix_relative: Option<f64>,
@@ -55,12 +57,14 @@ pub(crate) fn invariants(
         let relative = relative_difference(&found, &expected);
         mass_matrix_relative = mass_matrix_relative.zip(relative).map(|(a, b)| a.max(b));
     }
+    let slides = gravity_joint.is_some_and(|joint: usize| !candidate.frames.joints[joint].is_angular);
     Ok(Invariants {
         total_mass_kg: Compared { found: total, expected: reference_total },
         moving_mass_kg: Compared { found: moving, expected: reference_moving },
         com_distance_m: com_at_zero(candidate).zip(com_at_zero(reference)).map(|(a, b)| (a - b).norm()),
         gravity_n_m,
         gravity_joint: gravity_joint.map(|joint| candidate.frames.joint_name(joint).to_owned()),
+        gravity_unit: if slides { "N" } else { "N m" }.to_owned(),
         mass_matrix_relative,
     })
 }

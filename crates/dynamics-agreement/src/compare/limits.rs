@@ -1,6 +1,6 @@
 //! Limits of joints, compared directly: no torque shows them.
 
-use congruent_description::JointLimit;
+use congruent_description::{ChangedLines, JointLimit};
 
 use crate::{
     side::{Side, frames::JointPlace},
@@ -18,18 +18,25 @@ pub struct LimitDifference {
     pub detail: String,
     /// `velocity`, `effort`, `lower`, `upper`.
     pub figure: String,
-    /// What the candidate says, SI units.
-    pub found: f64,
-    /// What the reference says, SI units.
-    pub expected: f64,
-    /// Found over expected; `null` if nothing is expected.
+    /// What the candidate says, SI units; `null` if it does not state the limit.
+    pub found: Option<f64>,
+    /// What the reference says, SI units; `null` if it does not state the limit.
+    pub expected: Option<f64>,
+    /// Found over expected; `null` if one of them is not stated, or 0 is expected.
     pub factor: Option<f64>,
+    /// Whether the two disagree by it; a limit of speed or effort that one of the two does not state is a remark.
+    pub decides: bool,
     /// Unit of both.
     pub unit: String,
     /// Where the candidate's file says it; `null` if the place is not known.
     pub line: Option<usize>,
     /// Where the reference's file says it.
     pub expected_line: Option<usize>,
+    /// The candidate's file; `null` if the place is not known.
+    pub file: Option<String>,
+    /// The lines of the candidate's file with all limits of the joint as the reference has them; empty if the reference
+    /// does not state the limit, or if the file cannot say it.
+    pub changes: Vec<ChangedLines>,
 }
 
 /// Which limit differs.
@@ -49,24 +56,30 @@ const RPM: f64 = 30.0 / std::f64::consts::PI;
 /// A factor is that of a unit within this share. No unit; kind: digits of a file, which rounds a limit to three.
 const FACTOR: f64 = 1e-3;
 
-/// The limits that differ; 0 and what is left out are not stated, and differ from nothing.
+/// The limits that differ; a speed or an effort of 0 is not stated, and neither is the range of a joint that turns on
+/// and on.
 pub(crate) fn differences(candidate: &Side, reference: &Side, joints: &[usize]) -> Vec<LimitDifference> {
     let mut differences = Vec::new();
     for (joint, &other) in joints.iter().enumerate() {
-        let (Some(found), Some(expected)) = (candidate.limits[joint], reference.limits[other]) else {
-            continue;
-        };
         for (cause, figure, value) in LIMITS {
-            let (Some(found), Some(expected)) = (value(&found), value(&expected)) else { continue };
-            let states =
-                |value: f64| value.is_finite() && (cause == LimitCause::PositionLimit || value != 0.0);
-            if !states(found) || !states(expected) {
+            let stated = |limit: Option<&JointLimit>| {
+                let value = limit.and_then(value).filter(|value| value.is_finite());
+                value.filter(|value| cause == LimitCause::PositionLimit || *value != 0.0)
+            };
+            let (found, expected) =
+                (stated(candidate.limits[joint].as_ref()), stated(reference.limits[other].as_ref()));
+            let is_same = match (found, expected) {
+                (Some(found), Some(expected)) => {
+                    (found - expected).abs() <= SAME_FIGURE * found.abs().max(expected.abs())
+                }
+                (None, None) => true,
+                _ => false,
+            };
+            if is_same {
                 continue;
             }
-            if (found - expected).abs() <= SAME_FIGURE * found.abs().max(expected.abs()) {
-                continue;
-            }
-            let factor = (expected != 0.0).then(|| found / expected);
+            let both = found.zip(expected);
+            let factor = both.filter(|of| of.1 != 0.0).map(|(found, expected)| found / expected);
             differences.push(LimitDifference {
                 joint: candidate.frames.joint_name(joint).to_owned(),
                 cause,
@@ -75,9 +88,12 @@ pub(crate) fn differences(candidate: &Side, reference: &Side, joints: &[usize]) 
                 found,
                 expected,
                 factor,
+                decides: both.is_some() || cause == LimitCause::PositionLimit,
                 unit: unit(cause, &candidate.frames.joints[joint]).to_owned(),
                 line: None,
                 expected_line: None,
+                file: None,
+                changes: Vec::new(),
             });
         }
     }

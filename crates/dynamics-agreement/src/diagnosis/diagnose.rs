@@ -75,7 +75,14 @@ pub(crate) fn diagnose_in_stages(
     }
     let both = second.explanations.into_iter().flat_map(|grouped| {
         std::iter::once(grouped.named).chain(grouped.also).map(|other| {
-            let parts = named.parts.iter().cloned().chain(other.parts).collect();
+            let mut parts = named.parts.clone();
+            for later in other.parts {
+                let place = &later.hypothesis.place;
+                match parts.iter_mut().find(|part| part.hypothesis.place == *place) {
+                    Some(part) => part.refined_by(later, setting.candidate),
+                    None => parts.push(later),
+                }
+            }
             Exact::new(parts, setting.candidate, setting.reference)
         })
     });
@@ -96,12 +103,14 @@ fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed {
     let frames = &setting.candidate.frames;
     let containing = (0..frames.dof()).filter(|&body| target.contains(Part::Body(body)));
     let links = containing.flat_map(|body| frames.links_of(body)).collect();
-    let catalogue = Catalogue::new(setting.candidate, setting.faulty);
+    let catalogue = Catalogue::new(setting.candidate, setting.reference, setting.faulty);
     let exactly = |parts| Exact::new(parts, setting.candidate, setting.reference);
-    let mut found: Vec<Exact> =
-        catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit])).collect();
+    let is_possible = |exact: &Exact| !exact.is_impossible(setting.candidate, setting.reference);
+    let singles = catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit]));
+    let mut found: Vec<Exact> = singles.filter(is_possible).collect();
     if found.iter().all(|exact| exact.free_numbers() > PAIRS_ABOVE) {
-        found.extend(catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into())));
+        let pairs = catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into()));
+        found.extend(pairs.filter(is_possible));
     }
     sort(&mut found);
     Diagnosed { same: false, links, explanations: grouped(setting.candidate, torque, found) }

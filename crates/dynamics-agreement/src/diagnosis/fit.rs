@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     side::{Inertial, JointTerm, Side},
-    thresholds::{COM_START_M, LAST_STEP, MAX_STEPS},
+    thresholds::{COM_START_M, LAST_STEP, MAX_STEPS, ZERO_FIGURE},
     torque::{compressed::Compressed, least_squares::solve},
 };
 
@@ -231,7 +231,14 @@ impl Target<'_> {
         let mut joints = self.side.resistances.clone();
         for (group, change) in groups.iter().zip(solution.unknowns.iter()) {
             for &joint in group {
-                let value = term.of(&joints[joint]) + change;
+                let old = term.of(&joints[joint]);
+                // What only rounding changes stays, and what is zero but for rounding is zero.
+                let effect = all.column(joint).norm() * change.abs();
+                if effect <= ZERO_FIGURE * self.torque.difference.norm() {
+                    continue;
+                }
+                let new = old + change;
+                let value = if new.abs() <= ZERO_FIGURE * old.abs() { 0.0 } else { new };
                 term.set(&mut joints[joint], value);
             }
         }

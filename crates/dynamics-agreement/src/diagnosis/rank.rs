@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     side::{BodyLaw, Inertial, JointTerm, Side},
-    thresholds::{PRICE_OF_MISSING, PRICE_OF_PART, SAME_FIGURE},
+    thresholds::{FILE_DIGITS, PRICE_OF_MISSING, PRICE_OF_PART, SAME_FIGURE},
 };
 
 /// One or several hypotheses that together leave nothing.
@@ -27,7 +27,13 @@ impl Exact {
     pub(super) fn new(parts: Vec<Fit>, side: &Side, reference: Option<&Side>) -> Self {
         let mut corrected = Corrected::default();
         for part in &parts {
-            corrected.links.extend(part.corrected.links.iter().copied());
+            // A later part corrects what the earlier ones leave.
+            for (link, figures) in &part.corrected.links {
+                match corrected.links.iter_mut().find(|(before, _)| before == link) {
+                    Some((_, before)) => *before = *figures,
+                    None => corrected.links.push((*link, *figures)),
+                }
+            }
             corrected.gravity = corrected.gravity.or(part.corrected.gravity);
             if let Some(joints) = &part.corrected.joints {
                 let before = corrected.joints.take().unwrap_or_else(|| side.resistances.clone());
@@ -44,6 +50,24 @@ impl Exact {
         let more = f64::from(u32::try_from(parts.len() - 1).unwrap_or(u32::MAX));
         let price = parts.iter().map(Fit::price).sum::<f64>() + PRICE_OF_PART * more;
         Self { parts, corrected, law_broken, contradicted, price }
+    }
+
+    /// Whether gravity or an armature is named that both descriptions have alike, as two URDFs have no armature and the
+    /// same gravity, or an armature that is negative.
+    pub(super) fn is_impossible(&self, side: &Side, reference: Option<&Side>) -> bool {
+        let same_gravity = reference.is_some_and(|reference| reference.gravity_m_s2 == side.gravity_m_s2);
+        if self.corrected.gravity.is_some() && same_gravity {
+            return true;
+        }
+        let armature = |of: &Side, joint: usize| of.resistances[joint].armature;
+        self.corrected.joints.iter().flatten().enumerate().any(|(joint, new)| {
+            let old = armature(side, joint);
+            let there = reference.and_then(|reference| {
+                Some(armature(reference, reference.frames.find_joint(side.frames.joint_name(joint))?))
+            });
+            let is_alike = there.is_some_and(|there| is_equal(there, old));
+            !is_equal(new.armature, old) && (is_alike || new.armature < 0.0)
+        })
     }
 
     /// Free numbers that torque shows, those that the file lacks among them.
@@ -105,6 +129,24 @@ pub(super) struct Rank<'a> {
 }
 
 impl Fit {
+    /// Takes in what a later stage corrects at the same place: the name stays if only the digits of the file are other,
+    /// as those of a mass in pounds.
+    pub(super) fn refined_by(&mut self, later: Self, side: &Side) {
+        let [before, after] = [&*self, &later].map(|fit| fit.corrected.side(side));
+        let close = |a: Option<Inertial>, b: Option<Inertial>| match (a, b) {
+            (Some(a), Some(b)) => Differences::above(FILE_DIGITS, &a, &b) == Differences([false; 3]),
+            _ => true,
+        };
+        let mut links = later.corrected.links.iter().map(|(link, _)| *link);
+        if later.corrected.joints.is_none()
+            && links.all(|link| close(before.inertials[link], after.inertials[link]))
+        {
+            self.corrected = later.corrected;
+        } else {
+            *self = later;
+        }
+    }
+
     /// Free numbers that torque shows, or less if the file lacks the figure.
     pub(super) fn price(&self) -> f64 {
         if self.hypothesis.is_missing {
@@ -158,8 +200,7 @@ fn is_contradicted(side: &Side, reference: &Side, corrected: &Corrected) -> bool
             || changes(new.friction, old.friction, other.friction)
             || changes(new.armature, old.armature, other.armature)
     });
-    let gravity = corrected.gravity.is_some() && side.gravity_m_s2 == reference.gravity_m_s2;
-    links || joints || gravity
+    links || joints
 }
 
 /// Which of a link's figures differ: mass, centre of mass, tensor.
@@ -168,7 +209,11 @@ struct Differences([bool; 3]);
 
 impl Differences {
     fn between(a: &Inertial, b: &Inertial) -> Self {
-        let differs = |difference: f64, size: f64| difference > SAME_FIGURE * size;
+        Self::above(SAME_FIGURE, a, b)
+    }
+
+    fn above(share: f64, a: &Inertial, b: &Inertial) -> Self {
+        let differs = |difference: f64, size: f64| difference > share * size;
         let tensors = [a.tensor_in_link(), b.tensor_in_link()];
         Self([
             differs((a.mass_kg - b.mass_kg).abs(), a.mass_kg.abs().max(b.mass_kg.abs())),

@@ -38,11 +38,14 @@ pub(super) struct Catalogue<'a> {
 }
 
 impl<'a> Catalogue<'a> {
-    pub(super) fn new(side: &'a Side, faulty: FaultySide) -> Self {
+    pub(super) fn new(side: &'a Side, reference: Option<&Side>, faulty: FaultySide) -> Self {
         let slips: Vec<Slip<'_>> = cause::slips(&side.frames, faulty);
         let n = side.frames.dof();
         let of_body = |body| {
-            side.frames.links_of(body).flat_map(|link| cause::of_link(side, faulty, &slips, link)).collect()
+            side.frames
+                .links_of(body)
+                .flat_map(|link| cause::of_link(side, reference, faulty, &slips, link))
+                .collect()
         };
         let mut catalogue = Self {
             side,
@@ -108,6 +111,25 @@ impl<'a> Catalogue<'a> {
                 for fit in self.fits_of(&reduced, first) {
                     pairs.extend(self.completed(target, &fit, second));
                 }
+            }
+        }
+        pairs.extend((0..self.side.frames.dof()).flat_map(|joint| self.pairs_at_joint(target, joint)));
+        pairs
+    }
+
+    /// Two terms of one joint that leave nothing together, such as damping and friction that were left out.
+    fn pairs_at_joint(&self, target: &Target<'_>, joint: usize) -> Vec<[Fit; 2]> {
+        let part = Part::Joint(joint);
+        if !target.contains(part) {
+            return Vec::new();
+        }
+        let mut pairs = Vec::new();
+        for second in [JointTerm::Friction, JointTerm::Armature] {
+            let column = DMatrix::from_columns(&[target.torque.term(second).column(joint)]);
+            let reduced = target.torque.without(&basis(&column, target.torque.scale));
+            let reduced = Target { torque: &reduced, ..*target };
+            for fit in self.fits_of(&reduced, part) {
+                pairs.extend(self.completed(target, &fit, part));
             }
         }
         pairs

@@ -49,9 +49,10 @@ impl DynamicsReport {
         matches!(self.verdict, DynamicsVerdict::Same | DynamicsVerdict::SameTorques)
     }
 
-    /// Whether torques and limits are the same: a difference that no torque shows is none that decides.
+    /// Whether torques and limits are the same: a difference that no torque shows is none that decides, and neither is a
+    /// limit of speed or effort that one of the two does not state.
     pub fn agrees(&self) -> bool {
-        self.has_same_torques() && self.limits.is_empty()
+        self.has_same_torques() && !self.limits.iter().any(|limit| limit.decides)
     }
 }
 

@@ -30,6 +30,11 @@ pub trait FigurePlaces: Debug {
 
     /// The edits after which gravity is this; empty if the file cannot say it.
     fn set_gravity(&self, gravity_m_s2: &Vector3<f64>) -> Vec<TextEdit>;
+
+    /// The edits after which a limit of a joint, such as `effort`, is this; empty if the file cannot say it.
+    fn set_limit(&self, _joint: &str, _figure: &str, _value: f64) -> Vec<TextEdit> {
+        Vec::new()
+    }
 }
 
 impl dyn FigurePlaces + '_ {
@@ -59,9 +64,23 @@ impl Files<'_> {
     }
 
     pub(super) fn place_limits(&self, differences: &mut [LimitDifference]) {
-        for difference in differences {
+        for difference in &mut *differences {
             let line = |file: Option<&dyn FigurePlaces>| file?.line(&difference.joint, &difference.figure);
             (difference.line, difference.expected_line) = (line(self.found), line(self.expected));
+        }
+        let Some(file) = self.found else { return };
+        let set = |of: &LimitDifference| {
+            of.expected.map_or_else(Vec::new, |value| file.set_limit(&of.joint, &of.figure, value))
+        };
+        let edits: Vec<Vec<TextEdit>> = differences.iter().map(set).collect();
+        let joints: Vec<String> = differences.iter().map(|of| of.joint.clone()).collect();
+        for (difference, own) in differences.iter_mut().zip(&edits) {
+            difference.file = Some(file.source().path.display().to_string());
+            if !own.is_empty() {
+                let of_joint = edits.iter().zip(&joints).filter(|(_, joint)| **joint == difference.joint);
+                let all: Vec<TextEdit> = of_joint.flat_map(|(edits, _)| edits.iter().cloned()).collect();
+                difference.changes = file.lines(&all);
+            }
         }
     }
 }
@@ -101,6 +120,10 @@ impl FigurePlaces for UrdfPlaces {
 
     fn set_gravity(&self, _: &Vector3<f64>) -> Vec<TextEdit> {
         Vec::new()
+    }
+
+    fn set_limit(&self, joint: &str, figure: &str, value: f64) -> Vec<TextEdit> {
+        self.set_joint_limit(joint, figure, value)
     }
 }
 

@@ -1,13 +1,13 @@
 //! The comparison in sentences.
 
-use congruent_description::display::{length, number, quantity};
+use congruent_description::display::{length, number, quantity, quantity_in_full};
 
 use super::content::{DynamicsExplanation, DynamicsReport, DynamicsVerdict};
 use crate::{
     bound::TorqueBracket,
     compare::{Compared, FigureDifference, Invariants, LimitDifference},
     diagnosis::{DynamicsCause, FaultySide},
-    thresholds::SAME_FIGURE,
+    thresholds::{Precision, SAME_FIGURE},
 };
 
 /// Figures that a suggestion names one by one.
@@ -28,10 +28,8 @@ pub(super) fn suggestion(faulty: FaultySide, figures: &[FigureDifference]) -> Op
 impl FigureDifference {
     /// `shoulder_link: mass is 2.63 kg, expected 3.76 kg`.
     pub fn sentence(&self) -> String {
-        let value = |value: Option<f64>| {
-            value.map_or_else(|| "not given".to_owned(), |value| quantity(value, &self.unit))
-        };
-        let what = format!("{} is {}, expected {}", self.figure, value(self.found), value(self.expected));
+        let [found, expected] = told_apart(self.found, self.expected, &self.unit, "not given");
+        let what = format!("{} is {found}, expected {expected}", self.figure);
         if self.of.is_empty() { what } else { format!("{}: {what}", self.of) }
     }
 }
@@ -68,10 +66,24 @@ impl DynamicsCause {
 impl LimitDifference {
     /// `elbow_joint: velocity limit is 10313 deg/s, expected 180 deg/s, 57.3 times as much: degrees?`.
     pub fn sentence(&self) -> String {
-        let [found, expected] = [self.found, self.expected].map(|value| quantity(value, &self.unit));
+        let [found, expected] = told_apart(self.found, self.expected, &self.unit, "not stated");
         let factor = self.factor.map_or_else(String::new, |factor| format!(", factor {}", number(factor)));
         let unit = if self.detail.is_empty() { String::new() } else { format!(": in {}?", self.detail) };
-        format!("{}: {} limit is {found}, expected {expected}{factor}{unit}", self.joint, self.figure)
+        let remark =
+            if self.decides { "" } else { "; only one of the two states it, which is no disagreement" };
+        format!("{}: {} limit is {found}, expected {expected}{factor}{unit}{remark}", self.joint, self.figure)
+    }
+}
+
+/// Two values with as many digits as it takes to tell them apart: as they are written if three do not.
+fn told_apart(found: Option<f64>, expected: Option<f64>, unit: &str, nothing: &str) -> [String; 2] {
+    let texts = [found, expected]
+        .map(|value| value.map_or_else(|| nothing.to_owned(), |value| quantity(value, unit)));
+    match found.zip(expected) {
+        Some((a, b)) if texts[0] == texts[1] && a.total_cmp(&b).is_ne() => {
+            [a, b].map(|value| quantity_in_full(value, unit))
+        }
+        _ => texts,
     }
 }
 
@@ -80,7 +92,7 @@ impl Invariants {
     pub fn sentences(&self) -> Vec<String> {
         let mass = |what: &str, Compared { found, expected }: Compared| {
             let differs = (found - expected).abs() > SAME_FIGURE * expected.abs();
-            let values = [found, expected].map(|value| quantity(value, "kg"));
+            let values = told_apart(Some(found), Some(expected), "kg", "");
             differs.then(|| format!("{what} {}, expected {}", values[0], values[1]))
         };
         let com = self.com_distance_m.filter(|distance| *distance > SAME_FIGURE);
@@ -93,7 +105,7 @@ impl Invariants {
             gravity.map(|joint| {
                 format!(
                     "gravity torques seen to differ by up to {} at {joint}",
-                    quantity(self.gravity_n_m, "N m")
+                    quantity(self.gravity_n_m, &self.gravity_unit)
                 )
             }),
             matrix.map(|relative| {
@@ -132,11 +144,20 @@ impl DynamicsReport {
             DynamicsVerdict::Explained => {
                 format!("torques differ by {percent} % at {states} states, explained")
             }
-            DynamicsVerdict::Unexplained => format!(
-                "torques differ by {percent} % at {states} states, and no known cause explains it; no inertial \
-                 numbers at all explain {} % of them",
-                number(self.premise.fit_relative * 100.0)
-            ),
+            DynamicsVerdict::Unexplained => {
+                let no_body = self.premise.fit_relative;
+                let of_no_body = if no_body > Precision::ENGINE.of_torque {
+                    let percent = number(no_body * 100.0);
+                    format!(
+                        "; {percent} % of them are torques that no masses and inertias at these joints have"
+                    )
+                } else {
+                    String::new()
+                };
+                format!(
+                    "torques differ by {percent} % at {states} states, and no known cause explains it{of_no_body}"
+                )
+            }
         }
     }
 

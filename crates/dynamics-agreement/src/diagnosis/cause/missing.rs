@@ -41,13 +41,13 @@ pub(super) fn slips_of_importers<'a>() -> Vec<Slip<'a>> {
 }
 
 /// What a link's file lacks.
-pub(super) fn of_link(side: &Side, link: usize) -> Vec<Hypothesis> {
+pub(super) fn of_link(side: &Side, reference: Option<&Side>, link: usize) -> Vec<Hypothesis> {
     let free = |cause, detail: &str, free| {
         Hypothesis::new(cause, detail, Place::Links(vec![link]), Change::FreeLink { link, free })
     };
     let Some(figures) = &side.inertials[link] else {
         let missing = free(DynamicsCause::InertialMissing, "", Free::Inertial).missing();
-        return if could_have_inertial(side, link) { vec![missing] } else { Vec::new() };
+        return if could_have_inertial(side, reference, link) { vec![missing] } else { Vec::new() };
     };
     let mut hypotheses = Vec::new();
     let tensor = &figures.tensor_kg_m2;
@@ -69,10 +69,15 @@ pub(super) fn of_link(side: &Side, link: usize) -> Vec<Hypothesis> {
     hypotheses
 }
 
-/// Frames without mass are normal on a body that has some, unless something is drawn there.
-fn could_have_inertial(side: &Side, link: usize) -> bool {
+/// Frames without mass are normal on a body that has some, unless something is drawn there, or the other description
+/// has an inertial there.
+fn could_have_inertial(side: &Side, reference: Option<&Side>, link: usize) -> bool {
     let place = &side.frames.links[link];
     let Some(body) = place.body else { return false };
+    let there = reference.and_then(|other| other.inertials[other.frames.find_link(&place.name)?]);
+    if there.is_some() {
+        return true;
+    }
     let mut others = side.frames.links_of(body);
     place.has_shape
         || (side.frames.joints[body].link == link && others.all(|other| side.inertials[other].is_none()))

@@ -27,8 +27,14 @@ pub(super) fn slips(frames: &Frames, faulty: FaultySide) -> Vec<Slip<'_>> {
     slips
 }
 
-/// What can be wrong at one link.
-pub(super) fn of_link(side: &Side, faulty: FaultySide, slips: &[Slip<'_>], link: usize) -> Vec<Hypothesis> {
+/// What can be wrong at one link; a figure that the other description has, if there is one, can be missing.
+pub(super) fn of_link(
+    side: &Side,
+    reference: Option<&Side>,
+    faulty: FaultySide,
+    slips: &[Slip<'_>],
+    link: usize,
+) -> Vec<Hypothesis> {
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
     if let Some(figures) = &side.inertials[link] {
         for slip in slips {
@@ -39,7 +45,7 @@ pub(super) fn of_link(side: &Side, faulty: FaultySide, slips: &[Slip<'_>], link:
         }
     }
     if faulty == FaultySide::Candidate {
-        hypotheses.extend(missing::of_link(side, link));
+        hypotheses.extend(missing::of_link(side, reference, link));
     }
     hypotheses.extend(free_numbers::of_link(side, faulty, link));
     hypotheses
