@@ -80,7 +80,8 @@ pub(crate) fn diagnose_in_stages(
                 let place = &later.hypothesis.place;
                 match parts.iter_mut().find(|part| part.hypothesis.place == *place) {
                     Some(part) => part.refined_by(later, setting.candidate),
-                    None => parts.push(later),
+                    None if later.is_more_than_rounding(setting.candidate) => parts.push(later),
+                    None => {}
                 }
             }
             Exact::new(parts, setting.candidate, setting.reference)

@@ -39,7 +39,7 @@ fn planted(original: &Side) -> Vec<Planted> {
     hypotheses.extend(cause::of_joints_and_gravity(original, FaultySide::Reference));
     for link in 0..original.inertials.len() {
         if original.frames.links[link].body.is_some() {
-            hypotheses.extend(cause::of_link(original, FaultySide::Reference, &slips, link));
+            hypotheses.extend(cause::of_link(original, None, FaultySide::Reference, &slips, link));
         }
     }
     hypotheses.iter().filter_map(|hypothesis| plant(original, hypothesis)).collect()

@@ -42,10 +42,7 @@ impl Exact {
                     Some(changed.map(|((new, old), before)| added(new, old, before)).collect());
             }
         }
-        let law_broken = corrected
-            .links
-            .iter()
-            .find_map(|(link, figures)| Some((*link, law_broken(side, *link, figures)?)));
+        let law_broken = corrected.law_broken(side);
         let contradicted = reference.is_some_and(|reference| is_contradicted(side, reference, &corrected));
         let more = f64::from(u32::try_from(parts.len() - 1).unwrap_or(u32::MAX));
         let price = parts.iter().map(Fit::price).sum::<f64>() + PRICE_OF_PART * more;
@@ -128,7 +125,24 @@ pub(super) struct Rank<'a> {
     places: Vec<&'a Place>,
 }
 
+impl Corrected {
+    /// The first link that would be no body, and the law that it breaks.
+    pub(crate) fn law_broken(&self, side: &Side) -> Option<(usize, BodyLaw)> {
+        let mut links = self.links.iter();
+        links.find_map(|(link, figures)| Some((*link, law_broken(side, *link, figures)?)))
+    }
+}
+
 impl Fit {
+    /// Whether more than rounding of a link's figures is corrected, or anything else.
+    pub(super) fn is_more_than_rounding(&self, side: &Side) -> bool {
+        let is_same = |(link, figures): &(usize, Inertial)| {
+            side.inertials[*link].is_some_and(|written| is_same(&written, figures))
+        };
+        let is_of_links = self.corrected.joints.is_none() && self.corrected.gravity.is_none();
+        !(is_of_links && self.corrected.links.iter().all(is_same))
+    }
+
     /// Takes in what a later stage corrects at the same place: the name stays if only the digits of the file are other,
     /// as those of a mass in pounds.
     pub(super) fn refined_by(&mut self, later: Self, side: &Side) {

@@ -36,6 +36,7 @@ impl Teller<'_> {
         self.files.place(&mut figures);
         let file = self.files.found.filter(|_| self.faulty == FaultySide::Candidate);
         let first = self.name(exact);
+        let law_broken = corrected.law_broken(self.candidate);
         DynamicsExplanation {
             cause: first.cause,
             detail: first.detail,
@@ -47,9 +48,8 @@ impl Teller<'_> {
             figures,
             numbers: exact.price,
             left_relative: exact.left() / self.difference,
-            is_a_body: exact.law_broken.is_none(),
-            body_law: exact
-                .law_broken
+            is_a_body: law_broken.is_none(),
+            body_law: law_broken
                 .map(|(link, law)| format!("{}: {}", self.candidate.frames.link_name(link), law.broken())),
             contradicted: exact.contradicted,
             also_named: grouped.also.iter().map(|exact| self.name(exact)).collect(),
