@@ -80,7 +80,9 @@ struct Seen(Vec<(f64, BTreeMap<String, f64>, f64, f64)>);
 impl Recorder for Seen {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
         // Below infinity are all pairs that count now.
-        sample.clearance.nearest_below(f64::INFINITY);
+        for pair in 0..sample.clearance.pairs().len() {
+            sample.clearance.measure_below(pair, f64::INFINITY);
+        }
         let pairs = 0..sample.clearance.pairs().len();
         let found = pairs.filter_map(|pair| {
             let (a, b) = sample.clearance.names(pair);
