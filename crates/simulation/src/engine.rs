@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use congruent_description::Inertia;
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::{
-    IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint, MultibodyLink,
-    PhysicsPipeline, RigidBodyHandle, Vector,
+    ContactPair, IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint,
+    MultibodyLink, PhysicsPipeline, RigidBodyHandle, Vector,
 };
 
 use crate::{
@@ -335,9 +335,10 @@ impl Engine {
         self.sets.narrow_phase.contact_pairs().any(|pair| pair.total_impulse_magnitude() > 0.0)
     }
 
-    /// Whether a joint was beyond its limits at the beginning of the last step, which brings it back.
-    pub(crate) fn joint_stop_acts(&self) -> bool {
-        self.is_beyond_limits
+    /// Whether contact or the stop of a joint may have acted in the last step.
+    pub(crate) fn constraints_may_act(&self) -> bool {
+        let mut pairs = self.sets.narrow_phase.contact_pairs();
+        self.is_beyond_limits || pairs.any(ContactPair::has_any_active_contact)
     }
 
     /// The first coordinate for which this step had no solution: rapier found no pivot in its mass

@@ -192,9 +192,10 @@ impl World {
         self.engine.contact_acts()
     }
 
-    /// Whether the stop of a joint acted in the last step.
-    pub fn joint_stop_acts(&self) -> bool {
-        self.engine.joint_stop_acts()
+    /// Whether forces may have acted in the last step that are neither efforts nor gravity nor what resists the joints: the
+    /// stop of a joint, or contact with an obstacle that is near.
+    pub fn constraints_may_act(&self) -> bool {
+        self.engine.constraints_may_act()
     }
 
     /// Simulated time, s: the number of steps times their length.

@@ -17,6 +17,18 @@ pub(crate) struct Texts {
     pub(crate) urdf: String,
 }
 
+/// The lines of a robot file without the sections of its dynamics, of which the advice here is not.
+fn geometry(lines: &[&str]) -> String {
+    let mut is_kept = true;
+    let kept = lines.iter().filter(|line| {
+        if line.starts_with('[') {
+            is_kept = !line.starts_with("[dynamics]") && !line.starts_with("[[inertial]]");
+        }
+        is_kept
+    });
+    kept.map(|line| format!("{line}\n")).collect()
+}
+
 /// The robots of `robots/`.
 pub(crate) fn all() -> Vec<Texts> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
@@ -28,7 +40,7 @@ pub(crate) fn all() -> Vec<Texts> {
         let urdf = fs::read_to_string(folder.join(format!("{name}.urdf"))).unwrap();
         // Nothing is opened, so there is no SRDF.
         let without_srdf: Vec<&str> = robot_file.lines().filter(|line| !line.starts_with("srdf")).collect();
-        Texts { name, robot_file: without_srdf.join("\n") + "\n", urdf }
+        Texts { name, robot_file: geometry(&without_srdf), urdf }
     };
     folders.iter().map(texts).collect()
 }

@@ -80,7 +80,8 @@ struct Seen(Vec<(f64, BTreeMap<String, f64>, f64, f64)>);
 impl Recorder for Seen {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
         // Below infinity are all pairs that count now.
-        for pair in 0..sample.clearance.pairs().len() {
+        let pairs = sample.clearance.pairs().len();
+        for pair in 0..pairs {
             sample.clearance.measure_below(pair, f64::INFINITY);
         }
         let pairs = 0..sample.clearance.pairs().len();

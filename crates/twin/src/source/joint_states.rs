@@ -46,8 +46,8 @@ pub enum StepForces {
     Unknown,
     /// The efforts of the sample, gravity, and what resists the joints: nothing else.
     Declared,
-    /// The stop of a joint besides.
-    JointStop,
+    /// Perhaps the stop of a joint besides, or contact with an obstacle that is near.
+    Constrained,
     /// Contact with an obstacle besides.
     Contact,
 }
@@ -55,7 +55,7 @@ pub enum StepForces {
 impl StepForces {
     /// Whether forces acted that hold the robot back where it is, and that no effort tells.
     pub(crate) fn are_constrained(self) -> bool {
-        matches!(self, Self::JointStop | Self::Contact)
+        matches!(self, Self::Constrained | Self::Contact)
     }
 }
 

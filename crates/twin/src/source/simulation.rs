@@ -199,8 +199,8 @@ impl JointStateSource for SimulationSource<'_> {
             StepForces::Unknown
         } else if self.world.contact_acts() {
             StepForces::Contact
-        } else if self.world.joint_stop_acts() {
-            StepForces::JointStop
+        } else if self.world.constraints_may_act() {
+            StepForces::Constrained
         } else {
             StepForces::Declared
         }

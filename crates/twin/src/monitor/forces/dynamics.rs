@@ -141,7 +141,7 @@ impl Monitor for DynamicsMonitor<'_> {
         if self.before.is_set {
             match sample.forces {
                 StepForces::Declared if has_all => self.compare(sample),
-                StepForces::JointStop | StepForces::Contact => self.left_out.constrained += 1,
+                StepForces::Constrained | StepForces::Contact => self.left_out.constrained += 1,
                 StepForces::Declared | StepForces::Unknown => self.left_out.unknown += 1,
             }
         }

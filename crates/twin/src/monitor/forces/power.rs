@@ -142,7 +142,7 @@ impl Monitor for PowerMonitor<'_> {
         match (is_step, state, sample.forces) {
             (false, ..) => {}
             (true, Some(()), StepForces::Declared) => self.balance(sample),
-            (true, _, StepForces::JointStop | StepForces::Contact) => self.left_out.constrained += 1,
+            (true, _, StepForces::Constrained | StepForces::Contact) => self.left_out.constrained += 1,
             (true, Some(()), StepForces::Unknown) => self.left_out.unknown += 1,
             (true, None, _) => self.left_out.refused += 1,
         }
