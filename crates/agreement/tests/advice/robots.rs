@@ -26,7 +26,7 @@ fn geometry(lines: &[&str]) -> String {
         }
         is_kept
     });
-    kept.map(|line| format!("{line}\n")).collect()
+    kept.copied().collect::<Vec<&str>>().join("\n") + "\n"
 }
 
 /// The robots of `robots/`.
