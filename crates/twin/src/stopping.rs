@@ -113,3 +113,35 @@ impl Stopping {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::JointStateView;
+
+    /// When the stop of one joint ends that has this speed.
+    fn stopped(speed: impl Fn(f64) -> f64) -> (Stopping, f64) {
+        let q = RobotQ::zeros(1);
+        let mut stopping = Stopping::new(0, (0, 0.0), (q.clone(), Vector3::zeros()));
+        stopping.can_stop = true;
+        let mut times_s = (1..=10_000).map(|step| f64::from(step) * 1e-3);
+        let end_s = times_s.find(|&time_s| {
+            let state = JointStateView { q: &q, qd: &[speed(time_s)], effort: &[] };
+            let joints = JointSample { truth: state, measured: state, setpoint: None };
+            stopping.ends(time_s, &joints, Vector3::zeros())
+        });
+        (stopping, end_s.unwrap())
+    }
+
+    #[test]
+    fn an_arm_that_turns_round_is_not_at_rest() {
+        let (swinging, end_s) = stopped(|time_s| 0.5 * (3.0 * time_s).cos());
+        assert!(!swinging.is_at_rest && (end_s - LONGEST_S).abs() < 1e-9, "{swinging:?}");
+        let (decaying, end_s) = stopped(|time_s| 0.5 * (-10.0 * time_s).exp());
+        // 0.5 exp(-10 t) is 1e-3 at 0.6215 s.
+        assert!(decaying.is_at_rest && (decaying.duration_s - 0.622).abs() < 1e-9, "{decaying:?}");
+        assert!((end_s - 0.672).abs() < 1.5e-3, "{end_s}");
+        let (placed, end_s) = stopped(|time_s| (0.1 - time_s).max(0.0));
+        assert!(placed.is_at_rest && (end_s - 0.1).abs() < 1.5e-3, "{end_s}");
+    }
+}

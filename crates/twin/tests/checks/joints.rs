@@ -165,6 +165,23 @@ fn an_overshoot_is_measured_beyond_the_setpoint_that_stands() {
     assert!(violation.time_s >= 0.8, "the setpoint stands from 0.8 s on: {violation:?}");
 }
 
+/// The soft arm sags by degrees, and nothing settles before the setpoint stands, 0.8 s after the start.
+#[test]
+fn settling_is_judged_by_what_was_measured() {
+    let tracking = TrackingCheck { goal_deg: Some(0.1), settling_s: Some(0.2), ..TrackingCheck::default() };
+    let ended = |duration_s: f64| {
+        let mut scenario = scenario(controlled("pd", 300.0, 30.0), Check::Tracking(tracking));
+        scenario.simulation.duration_s = Some(duration_s);
+        result(&setup(scenario, &arm(&[])))
+    };
+    let early = ended(0.8);
+    assert!(measure(&early, "settling_time").worst.is_none(), "{early:#?}");
+    notes(&early, "the setpoint never stood");
+    let unsettled = ended(0.85);
+    let settling = measure(&unsettled, "settling_time").first_violation.as_ref().unwrap();
+    assert!(settling.value.is_infinite(), "0.05 s are within the limit, but it is not there: {settling:?}");
+}
+
 #[test]
 fn tracking_needs_limits_that_mean_something() {
     let refused = |tracking| refused(Check::Tracking(tracking));

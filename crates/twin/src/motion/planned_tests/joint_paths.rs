@@ -104,6 +104,11 @@ fn tables_that_cannot_be_played_are_refused_with_their_line() {
             vec!["line 3", "elbow_joint", "10 deg in 0.01 s", "1000 deg/s", "180 deg/s"],
         ),
         (
+            format!("{head}5,400\n"),
+            "scenario::playback_range",
+            vec!["line 3", "elbow_joint", "400 deg", "outside its range"],
+        ),
+        (
             "time_s,elbow_joint_deg\n0,80\n1,81\n".to_owned(),
             "scenario::playback_start",
             vec!["80 deg", "90 deg"],
