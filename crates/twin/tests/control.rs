@@ -164,13 +164,7 @@ fn moving(description: &RobotDescription, controller: ControllerSettings, step_s
 }
 
 fn worst_tracking(description: &RobotDescription, scenario: Scenario) -> f64 {
-    let mut setup = setup(description, scenario);
-    // A plan beyond the limits is refused: the limits fall to a tenth after it is made.
-    setup.description.robot = setup.description.robot.with_joints(|joint| {
-        if let Some(limit) = &mut joint.limit {
-            limit.velocity = limit.velocity.map(|velocity| 0.1 * velocity);
-        }
-    });
+    let setup = setup(description, scenario);
     let mut source = SimulationSource::new(&setup).unwrap();
     let mut worst = 0.0_f64;
     for step in 1..=setup.clock.steps {
@@ -371,7 +365,7 @@ fn worst_speed(description: &RobotDescription, scenario: Scenario) -> f64 {
         }
     }
     let uses = source.actuators();
-    let is_saturated = uses.iter().any(|joint| joint.at_velocity_limit > 0.0 && joint.at_effort_limit > 0.0);
+    let is_saturated = uses.iter().any(|joint| joint.at_velocity_limit > 0.0);
     assert_eq!(is_saturated, enforce_limits, "{uses:?}");
     worst
 }
