@@ -142,7 +142,7 @@ fn scenario(fault: Option<FaultSettings>, description: &RobotDescription, draw: 
         let profile = Profile::Quintic;
         MotionSettings::Joints(JointMotion { move_joints_rad, duration_s, profile, ..JointMotion::default() })
     };
-    let motions = vec![motion(Some(1.0)), motion(Some(1.0))];
+    let motions = vec![motion(Some(1.3)), motion(Some(1.3))];
     let is_late = matches!(fault, Some(FaultSettings::Latency(_)));
     let start = names.iter().cloned().zip(middle.iter().copied()).collect();
     let mut scenario = Scenario {
