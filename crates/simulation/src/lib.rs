@@ -11,6 +11,7 @@ mod changes;
 mod contact;
 mod drive;
 mod engine;
+mod engine_changes;
 mod error;
 mod lumping;
 mod sets;

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     scenario::{FilePlace, Scenario},
-    setup::Payload,
+    setup::payload::Payload,
 };
 
 /// What moves the joints of a run, what resists them, and how their state is known.

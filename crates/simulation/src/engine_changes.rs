@@ -1,0 +1,70 @@
+//! Changes of the robot in rapier while it runs.
+
+use congruent_description::Inertia;
+
+use crate::{adapter, engine::Engine};
+
+impl Engine {
+    pub(crate) fn set_damping(&mut self, coordinate: usize, damping: f64) {
+        self.sets.damping[coordinate] = damping;
+    }
+
+    pub(crate) fn set_dry_friction(&mut self, coordinate: usize, friction: f64) {
+        if let Some(multibody) = self.multibody_mut() {
+            multibody.frictions_mut()[coordinate] = friction;
+        }
+    }
+
+    pub(crate) fn damping(&self, coordinate: usize) -> f64 {
+        self.sets.damping[coordinate]
+    }
+
+    pub(crate) fn dry_friction(&self, coordinate: usize) -> f64 {
+        self.multibody().map_or(0.0, |multibody| multibody.frictions()[coordinate])
+    }
+
+    pub(crate) fn set_armature(&mut self, coordinate: usize, armature: f64) {
+        if let Some(multibody) = self.multibody_mut() {
+            multibody.armature_mut()[coordinate] = armature;
+        }
+    }
+
+    pub(crate) fn set_inertia(&mut self, body: usize, inertia: &Inertia) {
+        let sets = &mut self.sets;
+        let body = sets.bodies.get_mut(self.handles[body]).expect("the body exists");
+        body.set_additional_mass_properties(adapter::mass_properties(inertia), false);
+        body.recompute_mass_properties_from_colliders(&sets.colliders);
+    }
+
+    /// Moves an obstacle to a pose at the end of the next step, or puts it there; without contacts nothing is moved.
+    pub(crate) fn move_obstacle(&mut self, obstacle: usize, pose: &Isometry3<f64>, touches: Touches) {
+        let Some(&handle) = self.moving.get(&obstacle) else { return };
+        let sets = &mut self.sets;
+        let body = sets.bodies.get_mut(handle).expect("the body exists");
+        let pose = adapter::pose(pose);
+        let was_enabled = body.is_enabled();
+        match touches {
+            Touches::Links => {
+                body.set_enabled(true);
+                if was_enabled {
+                    body.set_next_kinematic_position(pose);
+                } else {
+                    body.set_position(pose, true);
+                }
+            }
+            Touches::Nothing => {
+                body.set_enabled(false);
+                body.set_position(pose, true);
+            }
+        }
+    }
+
+    /// To be called after inertias have changed: Jacobians are those of the centres of mass.
+    pub(crate) fn update_jacobians(&mut self) {
+        let Some(index) = self.multibody else { return };
+        let sets = &mut self.sets;
+        let multibody = sets.multibody_joints.get_multibody_mut(index).expect("the multibody exists");
+        multibody.forward_kinematics(&sets.bodies, true);
+        multibody.update_rigid_bodies(&mut sets.bodies, true);
+    }
+}
