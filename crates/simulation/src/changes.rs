@@ -8,6 +8,18 @@ use crate::{
 };
 
 impl World {
+    /// Whether a link and an obstacle pushed each other in the last step. Contacts act before the shapes touch if they
+    /// would within the step.
+    pub fn contact_acts(&self) -> bool {
+        self.engine.contact_acts()
+    }
+
+    /// Whether forces may have acted in the last step that are neither efforts nor gravity nor what resists the joints: the
+    /// stop of a joint, or contact with an obstacle that is near.
+    pub fn constraints_may_act(&self) -> bool {
+        self.engine.constraints_may_act()
+    }
+
     /// Sets the viscous damping of a joint, N m s/rad or N s/m. It is integrated implicitly, so that any value is
     /// stable: a very large one stops the joint.
     ///

@@ -186,18 +186,6 @@ impl World {
         self.commands.placed
     }
 
-    /// Whether a link and an obstacle pushed each other in the last step. Contacts act before the shapes touch if they
-    /// would within the step.
-    pub fn contact_acts(&self) -> bool {
-        self.engine.contact_acts()
-    }
-
-    /// Whether forces may have acted in the last step that are neither efforts nor gravity nor what resists the joints: the
-    /// stop of a joint, or contact with an obstacle that is near.
-    pub fn constraints_may_act(&self) -> bool {
-        self.engine.constraints_may_act()
-    }
-
     /// Simulated time, s: the number of steps times their length.
     #[expect(clippy::cast_precision_loss, reason = "2^53 steps of 1 ms are 285 thousand years")]
     pub fn time_s(&self) -> f64 {
