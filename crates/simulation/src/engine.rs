@@ -3,7 +3,6 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::Inertia;
 use nalgebra::{DMatrix, Isometry3, Vector3};
 use rapier3d_f64::prelude::{
     ContactPair, IntegrationParameters, JointAxis, MotorModel, Multibody, MultibodyIndex, MultibodyJoint,
@@ -16,7 +15,7 @@ use crate::{
     build::Built,
     drive::{CoordinateState, Drive, Linear, Saturation},
     sets::{EngineSets, EngineSlot},
-    settings::{Touches, WorldSettings},
+    settings::WorldSettings,
 };
 
 /// Sweeps of the constraint solver in a step. Dry friction that holds a six-joint arm creeps in 5 s

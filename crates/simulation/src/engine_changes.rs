@@ -1,8 +1,9 @@
 //! Changes of the robot in rapier while it runs.
 
 use congruent_description::Inertia;
+use nalgebra::Isometry3;
 
-use crate::{adapter, engine::Engine};
+use crate::{adapter, engine::Engine, settings::Touches};
 
 impl Engine {
     pub(crate) fn set_damping(&mut self, coordinate: usize, damping: f64) {

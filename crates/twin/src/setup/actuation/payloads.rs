@@ -6,10 +6,7 @@ use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
 use crate::{
     scenario::{FilePlace, PayloadInertia, PayloadSettings},
-    setup::{
-        Payload,
-        payload::{HEAVIEST_KG, too_heavy},
-    },
+    setup::payload::{HEAVIEST_KG, Payload, too_heavy},
 };
 
 /// The payloads of a run, in the order of the scenario.
