@@ -21,6 +21,7 @@ mod conversions;
 mod corpus;
 mod diagnosis;
 mod diagnosis_chains;
+mod dynamics_causes;
 mod dynamics_goldens;
 mod faults;
 mod forward_goldens;

@@ -22,11 +22,11 @@ mod thresholds;
 mod torque;
 
 pub use bound::{CoveredMotion, TorqueBracket, TorqueCertificate};
-pub use compare::{Compared, FigureDifference, Invariants, LimitCause, LimitDifference};
+pub use compare::{Compared, Invariants, LimitCause, LimitDifference, ParameterDifference};
 pub use diagnosis::{DynamicsCause, EquivalenceReason, FaultySide};
 pub use report::{
-    CompareError, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, FigurePlaces,
-    NamedSide, PlacedCause, Sides, TorqueCertificates, certify, compare, compare_with_source,
+    CompareError, DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, NamedSide,
+    ParameterPlaces, PlacedCause, Sides, TorqueCertificates, certify, compare, compare_with_source,
 };
 pub use side::{BodyLaw, Frames, Inertial, Side};
 pub use torque::{AccelerationSource, Probing, SeenNumbers};

@@ -71,13 +71,13 @@ pub(crate) const ROUNDING: f64 = 1e-15;
 /// A joint whose torque is a smaller share of the largest is weighted by the largest. No unit; kind: rounding.
 pub(crate) const NO_TORQUE: f64 = 1e-12;
 
-// Figures.
+// Parameters.
 
-/// Figures that differ by a smaller share of the link's own are equal. No unit; kind: digits of a file.
-pub(crate) const SAME_FIGURE: f64 = 1e-9;
-/// A figure below this share of the link's own is zero: a reader's rotation leaves as much. No unit; kind: rounding.
-pub(crate) const ZERO_FIGURE: f64 = 1e-12;
-/// A slip that leaves a smaller share of the figure is meant, and its figures are rounded: a length in inches has four
+/// Parameters that differ by a smaller share of the link's own are equal. No unit; kind: digits of a file.
+pub(crate) const SAME_VALUE: f64 = 1e-9;
+/// A parameter below this share of the link's own is zero: a reader's rotation leaves as much. No unit; kind: rounding.
+pub(crate) const ZERO_VALUE: f64 = 1e-12;
+/// A slip that leaves a smaller share of the parameter is meant, and its parameters are rounded: a length in inches has four
 /// digits. No unit; kind: digits of a file.
 pub(crate) const FILE_DIGITS: f64 = 1e-5;
 /// A tensor is a power of ten times identity within this share. No unit; kind: rounding.
@@ -85,7 +85,7 @@ pub(crate) const PLACEHOLDER: f64 = 1e-9;
 
 // Choice between explanations.
 
-/// Price of figures that the file does not have or that stand there as a placeholder, however many they are. Unit:
+/// Price of parameters that the file does not have or that stand there as a placeholder, however many they are. Unit:
 /// free numbers; kind: choice, dearer than a slip and cheaper than any free number.
 pub(crate) const PRICE_OF_MISSING: f64 = 0.5;
 /// If every single explanation has more, pairs are tried as well: six or ten free numbers of one link also explain a
@@ -102,7 +102,7 @@ pub(crate) const MAX_STEPS: usize = 30;
 pub(crate) const LAST_STEP: f64 = 1e-13;
 /// Further starts of a centre of mass beside what is written. Unit: m; kind: choice, the size of a link.
 pub(crate) const COM_START_M: f64 = 0.05;
-/// Step of a central difference of figures that are quadratic in each unknown, where it is exact. Unit: that of the
+/// Step of a central difference of parameters that are quadratic in each unknown, where it is exact. Unit: that of the
 /// unknown; kind: rounding.
 pub(crate) const QUADRATIC_STEP: f64 = 1e-2;
 /// Step of a central difference of a rotation. Unit: rad; kind: truncation of 1e-10, which costs a step more.

@@ -23,7 +23,7 @@ fn load(name: &str) -> Side {
     Side::new(&load_robot(&path).unwrap_or_else(|findings| panic!("{findings:#?}")).robot)
 }
 
-fn figures<'a>(side: &'a mut Side, link: &str) -> &'a mut Inertial {
+fn parameters<'a>(side: &'a mut Side, link: &str) -> &'a mut Inertial {
     let link = side.frames().find_link(link).expect("a link");
     side.inertials[link].as_mut().expect("an inertial")
 }
@@ -149,7 +149,7 @@ fn no_motion_exceeds_what_is_certified() {
     ] {
         let reference = load(robot);
         let mut candidate = reference.clone();
-        let changed = figures(&mut candidate, link);
+        let changed = parameters(&mut candidate, link);
         changed.mass_kg *= 1.2;
         changed.com_m.y += 0.02;
         changed.tensor_kg_m2 *= 1.3;
@@ -172,7 +172,7 @@ fn damping_friction_armature_and_gravity_are_in_it() {
     assert!((together.certified_n_m - expected).abs() < 1e-9, "{together:?}, {expected} expected");
     // Friction against damping: the most is one of the two.
     candidate.resistances[elbow].damping = -0.5;
-    candidate.largest_accelerations.fill(0.0);
+    candidate.accelerations.fill(Some(0.0));
     let all = check("friction against damping", &candidate, &reference);
     let [together] = &all.together.by_joint[..] else { panic!("{:?}", all.together) };
     assert!((together.certified_n_m - 2.0).abs() < 1e-9, "{together:?}");
@@ -182,7 +182,7 @@ fn damping_friction_armature_and_gravity_are_in_it() {
     assert!(all.inertia.worst.is_none() && all.velocity.worst.is_none());
     assert_eq!(all.together.by_joint.len(), all.gravity.by_joint.len());
     // With a fault of a link beside it.
-    figures(&mut candidate, "forearm_link").mass_kg *= 1.1;
+    parameters(&mut candidate, "forearm_link").mass_kg *= 1.1;
     check("gravity and a link", &candidate, &reference);
 }
 
@@ -192,12 +192,76 @@ fn speeds_and_accelerations_are_those_that_are_stated() {
     let mut candidate = reference.clone();
     candidate.limits[1].as_mut().expect("a limit").velocity = Some(180.0);
     candidate.limits[2].as_mut().expect("a limit").velocity = Some(0.0);
-    candidate.largest_accelerations[3] = 25.0;
+    candidate.accelerations[3] = Some(25.0);
     let mut other = reference.clone();
     other.limits[2].as_mut().expect("a limit").velocity = None;
     let all = certified(&candidate, &other);
     assert!((all.covered[1].speed - std::f64::consts::PI).abs() < 1e-9 && all.covered[1].speed_is_stated);
     assert!((all.covered[2].speed - 2.0).abs() < 1e-9 && !all.covered[2].speed_is_stated);
+    let declared = all.covered.iter().map(|covered| covered.acceleration_is_declared);
     assert!((all.covered[3].acceleration - 25.0).abs() < 1e-9);
+    assert_eq!(declared.collect::<Vec<bool>>(), [false, false, false, true, false, false]);
+    assert!((all.covered[0].acceleration - 10.0).abs() < 1e-9);
     assert!(all.together.worst.is_none());
+}
+
+#[test]
+fn fingers_that_follow_each_other_are_one_joint() {
+    let reference = load("panda");
+    let mut candidate = reference.clone();
+    parameters(&mut candidate, "panda_rightfinger").mass_kg *= 2.0;
+    let all = certified(&candidate, &reference);
+    let [driven, follower] = ["panda_finger_joint1", "panda_finger_joint2"]
+        .map(|joint| candidate.frames().find_joint(joint).expect("a joint"));
+    for (part, (name, certificate)) in certificates(&all).into_iter().enumerate() {
+        for bracket in &certificate.by_joint {
+            assert_ne!(bracket.joint, "panda_finger_joint2", "{name}: it is not driven");
+            let pairs = [&bracket.q, &bracket.qd, &bracket.qdd].map(|of| (of[driven] - of[follower]).abs());
+            assert!(pairs.iter().all(|apart| *apart < 1e-12), "{name}: {bracket:?}");
+            // The drive of the fingers feels both.
+            let at = Motion { q: bracket.q.clone().into(), qd: bracket.qd.clone(), qdd: bracket.qdd.clone() };
+            let joint = candidate.frames().find_joint(&bracket.joint).expect("a joint");
+            let [found, expected] = [&candidate, &reference].map(|side| {
+                let tau = &parts(side, &at)[part];
+                tau[joint] + if joint == driven { tau[follower] } else { 0.0 }
+            });
+            let error = ((found - expected).abs() - bracket.attained_n_m).abs();
+            assert!(
+                error <= ROUNDING * (1.0 + bracket.attained_n_m),
+                "{name}: {} {bracket:?}",
+                found - expected
+            );
+            assert!(bracket.certified_n_m >= bracket.attained_n_m);
+        }
+        assert!(certificate.by_joint.iter().any(|bracket| bracket.joint == "panda_finger_joint1"), "{name}");
+    }
+    check_followed([&candidate, &reference], &all, (driven, follower));
+}
+
+/// Random motions in which the second finger follows the first stay below every bound.
+fn check_followed(
+    [candidate, reference]: [&Side; 2],
+    all: &TorqueCertificates,
+    (driven, follower): (usize, usize),
+) {
+    let mut random = Uniform::seeded(11);
+    for _ in 0..MOTIONS / 10 {
+        let mut motion = random_motion(&mut random, &all.covered);
+        motion.q[follower] = motion.q[driven];
+        motion.qd[follower] = motion.qd[driven];
+        motion.qdd[follower] = motion.qdd[driven];
+        let [found, expected] = [candidate, reference].map(|side| parts(side, &motion));
+        for (part, (name, certificate)) in certificates(all).into_iter().enumerate() {
+            for bracket in &certificate.by_joint {
+                let joint = candidate.frames().find_joint(&bracket.joint).expect("a joint");
+                let at = |tau: &[f64]| tau[joint] + if joint == driven { tau[follower] } else { 0.0 };
+                let difference = at(&found[part]) - at(&expected[part]);
+                let slack = ROUNDING * (1.0 + bracket.certified_n_m);
+                assert!(
+                    difference.abs() <= bracket.certified_n_m + slack,
+                    "{name}: {difference} {bracket:?}"
+                );
+            }
+        }
+    }
 }

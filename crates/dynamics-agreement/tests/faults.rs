@@ -67,9 +67,9 @@ fn inertial(value: &Value) -> Option<Inertial> {
 /// A side with the changes of a fault.
 fn mutated(robot: &Robot, fault: &Value) -> Side {
     let mut side = Side::new(robot);
-    for (link, figures) in fault["changes"].as_object().expect("changes by link") {
+    for (link, parameters) in fault["changes"].as_object().expect("changes by link") {
         let link = side.frames().find_link(link).expect("a link of the robot");
-        side.inertials[link] = inertial(figures);
+        side.inertials[link] = inertial(parameters);
     }
     for (joint, terms) in fault["joint_changes"].as_object().expect("changes by joint") {
         let joint = side.frames().find_joint(joint).expect("a joint of the robot");
@@ -329,7 +329,7 @@ fn no_alarm_without_a_fault() {
 }
 
 #[test]
-fn turned_inertial_frames_and_hidden_figures_raise_no_alarm() {
+fn turned_inertial_frames_and_hidden_parameters_raise_no_alarm() {
     each_fault(|fault, candidate, reference| {
         let (id, cause) = (text(&fault["id"]), text(&fault["cause"]));
         let report = compared(candidate, reference);

@@ -1,4 +1,4 @@
-//! The report as a person reads it: figures, lines of the file, sentences, several faults.
+//! The report as a person reads it: parameters, lines of the file, sentences, several faults.
 
 #[path = "../../../tests/corpus.rs"]
 mod corpus;
@@ -32,7 +32,7 @@ fn changed(name: &str, change: impl Fn(&mut Side)) -> DynamicsReport {
     report
 }
 
-fn figures<'a>(side: &'a mut Side, link: &str) -> &'a mut Inertial {
+fn parameters<'a>(side: &'a mut Side, link: &str) -> &'a mut Inertial {
     let link = side.frames().find_link(link).expect("a link");
     side.inertials[link].as_mut().expect("an inertial")
 }
@@ -42,7 +42,7 @@ fn causes(explanations: &[DynamicsExplanation]) -> Vec<(DynamicsCause, &str)> {
 }
 
 #[test]
-fn a_fault_has_its_line_its_figures_and_its_sentence() {
+fn a_fault_has_its_line_its_parameters_and_its_sentence() {
     let right = load("ur5e");
     let text = std::fs::read_to_string(&right.urdf_path).expect("it is there");
     let text = text.replace(r#"<origin xyz="-0.2422 0 0.0265""#, r#"<origin xyz="-242.2 0 26.5""#);
@@ -86,8 +86,8 @@ fn a_centre_of_mass_in_a_dh_frame_is_told_by_the_table() {
     for link in ["upper_arm_link", "forearm_link", "wrist_1_link"] {
         let mut candidate = reference.clone();
         let link_from_dh = reference.frames().dh_frame(link).expect("its joint has a row");
-        let right = figures(&mut candidate, link).com_m;
-        figures(&mut candidate, link).com_m =
+        let right = parameters(&mut candidate, link).com_m;
+        parameters(&mut candidate, link).com_m =
             link_from_dh.rotation.transpose() * (right - link_from_dh.translation);
         let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
         let explanation = &report.explanations[0];
@@ -106,8 +106,8 @@ fn a_centre_of_mass_in_a_dh_frame_is_told_by_the_table() {
 #[test]
 fn a_small_fault_beside_a_huge_one_is_named() {
     let report = changed("ur5e", |side| {
-        figures(side, "forearm_link").tensor_kg_m2 *= 1e9;
-        figures(side, "wrist_2_link").com_m.y += 0.013;
+        parameters(side, "forearm_link").tensor_kg_m2 *= 1e9;
+        parameters(side, "wrist_2_link").com_m.y += 0.013;
     });
     let [explanation] = &report.explanations[..] else { panic!("{:?}", report.explanations) };
     let parts: Vec<_> = explanation.parts.iter().map(|part| (part.cause, part.place[0].as_str())).collect();
@@ -120,8 +120,8 @@ fn a_small_fault_beside_a_huge_one_is_named() {
 #[test]
 fn what_no_torque_shows_is_said_with_its_numbers() {
     let report = changed("ur5e", |side| {
-        let figures = figures(side, "shoulder_link");
-        figures.com_m.z = 0.0123;
+        let parameters = parameters(side, "shoulder_link");
+        parameters.com_m.z = 0.0123;
     });
     assert_eq!(report.verdict, DynamicsVerdict::SameTorques);
     let sentences = report.hidden_sentences();
@@ -133,8 +133,8 @@ fn what_no_torque_shows_is_said_with_its_numbers() {
 #[test]
 fn two_faults_are_named_together_and_more_link_by_link() {
     let two = |side: &mut Side| {
-        figures(side, "forearm_link").mass_kg *= 1.25;
-        figures(side, "wrist_2_link").com_m.y *= -1.0;
+        parameters(side, "forearm_link").mass_kg *= 1.25;
+        parameters(side, "wrist_2_link").com_m.y *= -1.0;
     };
     let report = changed("ur5e", two);
     let [explanation] = &report.explanations[..] else { panic!("{:?}", report.explanations) };
@@ -145,7 +145,7 @@ fn two_faults_are_named_together_and_more_link_by_link() {
     assert_eq!(parts, [(DynamicsCause::ComSign, "wrist_2_link"), (DynamicsCause::Mass, "forearm_link")]);
     let report = changed("ur5e", |side| {
         two(side);
-        figures(side, "upper_arm_link").tensor_kg_m2 *= 1e6;
+        parameters(side, "upper_arm_link").tensor_kg_m2 *= 1e6;
         let joint = side.frames().find_joint("elbow_joint").expect("a joint");
         side.resistances[joint].damping = 0.7;
     });
@@ -162,10 +162,10 @@ fn two_faults_are_named_together_and_more_link_by_link() {
 }
 
 #[test]
-fn a_figure_that_is_no_bodys_is_still_explained() {
+fn a_parameter_that_is_no_bodys_is_still_explained() {
     let report = changed("panda", |side| {
         // The six numbers in the order of another format: no body has such a tensor.
-        let tensor = &mut figures(side, "panda_hand").tensor_kg_m2;
+        let tensor = &mut parameters(side, "panda_hand").tensor_kg_m2;
         let t = *tensor;
         *tensor = Matrix3::new(
             t[(0, 0)],
@@ -215,7 +215,8 @@ fn the_link_without_inertial_is_named_and_not_one_that_is_fixed_to_it() {
     assert_eq!(causes(&report.explanations), [(DynamicsCause::InertialMissing, "second")]);
     let explanation = &report.explanations[0];
     assert!(explanation.is_a_body && !explanation.contradicted, "{explanation:?}");
-    let mass = explanation.figures.iter().find(|figure| figure.figure == "mass").expect("the mass");
+    let mass =
+        explanation.parameters.iter().find(|parameter| parameter.parameter == "mass").expect("the mass");
     assert_eq!((mass.found, mass.expected), (None, Some(3.0)));
 }
 
@@ -224,7 +225,7 @@ fn an_armature_that_neither_description_has_is_no_cause() {
     let reference = arm_with_fixed_link(SECOND);
     let mut candidate = reference.clone();
     // Of the first link torques show one moment only, as they would of an armature.
-    figures(&mut candidate, "first").tensor_kg_m2 *= 2.0;
+    parameters(&mut candidate, "first").tensor_kg_m2 *= 2.0;
     let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
     assert_eq!(report.explanations[0].place, ["first"], "{:?}", report.explanations);
     let mut all = report.explanations.iter().chain(&report.indistinguishable);
@@ -238,9 +239,10 @@ fn damping_and_friction_of_one_joint_are_named_together() {
     (reference.resistances[1].damping, reference.resistances[1].friction) = (1.0, 0.5);
     let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
     let [explanation] = &report.explanations[..] else { panic!("{:?}", report.explanations) };
-    let figures = explanation.figures.iter().map(|figure| (figure.of.as_str(), figure.figure.as_str()));
-    assert_eq!(figures.collect::<Vec<_>>(), [("j2", "damping"), ("j2", "friction")]);
-    let expected = explanation.figures.iter().filter_map(|figure| figure.expected);
+    let parameters =
+        explanation.parameters.iter().map(|parameter| (parameter.of.as_str(), parameter.parameter.as_str()));
+    assert_eq!(parameters.collect::<Vec<_>>(), [("j2", "damping"), ("j2", "friction")]);
+    let expected = explanation.parameters.iter().filter_map(|parameter| parameter.expected);
     for (expected, value) in expected.zip([1.0, 0.5]) {
         assert!((expected - value).abs() < 1e-9, "{expected}");
     }
@@ -250,9 +252,9 @@ fn damping_and_friction_of_one_joint_are_named_together() {
 fn values_that_differ_in_a_late_digit_are_told_apart() {
     let reference = arm_with_fixed_link(SECOND);
     let mut candidate = reference.clone();
-    figures(&mut candidate, "second").mass_kg = 3.000_001;
+    parameters(&mut candidate, "second").mass_kg = 3.000_001;
     let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
-    let sentence = report.explanations[0].figures[0].sentence();
+    let sentence = report.explanations[0].parameters[0].sentence();
     assert!(sentence.starts_with("second: mass is 3.000001 kg, expected "), "{sentence}");
 }
 
@@ -265,14 +267,14 @@ fn a_limit_on_one_side_is_said() {
     candidate.limits[1].as_mut().expect("a limit").effort = Some(0.0);
     let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
     let limits = || report.limits.iter();
-    let found: Vec<_> = limits().map(|of| (of.figure.as_str(), of.found, of.decides)).collect();
+    let found: Vec<_> = limits().map(|of| (of.parameter.as_str(), of.found, of.decides)).collect();
     assert_eq!(found, [("velocity", None, false), ("effort", None, false)]);
     assert!(report.agrees() && limits().all(|of| of.sentence().contains("is not stated, expected")));
     let endless = candidate.limits[2].as_mut().expect("a limit");
     (endless.lower, endless.upper) = (f64::NEG_INFINITY, f64::INFINITY);
     let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
     let decisive: Vec<_> =
-        report.limits.iter().filter(|of| of.decides).map(|of| of.figure.as_str()).collect();
+        report.limits.iter().filter(|of| of.decides).map(|of| of.parameter.as_str()).collect();
     assert_eq!(decisive, ["lower", "upper"]);
     assert!(!report.agrees());
 }
@@ -284,7 +286,8 @@ fn an_armature_of_one_description_is_taken_out_whole() {
     (candidate.resistances[0].armature, candidate.resistances[1].armature) = (0.37, 0.1);
     let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
     assert_eq!(report.explanations[0].cause, DynamicsCause::Armature);
-    let expected: Vec<_> = report.explanations[0].figures.iter().map(|figure| figure.expected).collect();
+    let expected: Vec<_> =
+        report.explanations[0].parameters.iter().map(|parameter| parameter.expected).collect();
     assert_eq!(expected, [Some(0.0); 2]);
 }
 
@@ -294,10 +297,10 @@ fn inputs_that_cannot_be_compared_are_refused() {
     let error = compare(&unnamed(&ur5e), &unnamed(&panda), 1).expect_err("other joints");
     assert!(matches!(error, CompareError::Joint { .. }), "{error}");
     let mut endless = ur5e.clone();
-    figures(&mut endless, "forearm_link").mass_kg = f64::NAN;
+    parameters(&mut endless, "forearm_link").mass_kg = f64::NAN;
     let error = compare(&unnamed(&endless), &unnamed(&ur5e), 1).expect_err("no number");
     assert_eq!(error, CompareError::NotFinite);
-    figures(&mut endless, "forearm_link").mass_kg = 1e300;
+    parameters(&mut endless, "forearm_link").mass_kg = 1e300;
     assert_eq!(compare(&unnamed(&ur5e), &unnamed(&endless), 1), Err(CompareError::NotFinite));
 }
 

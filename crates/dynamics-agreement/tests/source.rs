@@ -1,5 +1,5 @@
 //! A source of accelerations against the description that it was built from: an engine of first order that this test
-//! makes of other figures.
+//! makes of other parameters.
 
 #![expect(clippy::print_stdout, reason = "measured values, for --nocapture")]
 

@@ -8,13 +8,13 @@ use congruent::{
     agreement::SourcePair,
     description::{JointValues, Robot, RobotQ},
     dynamics_agreement::{
-        DynamicsExplanation, DynamicsReport, FigureDifference, LimitDifference, TorqueBracket,
+        DynamicsExplanation, DynamicsReport, LimitDifference, ParameterDifference, TorqueBracket,
     },
 };
 
 use crate::table::wrapped;
 
-/// Figures, alternatives or hidden differences that are shown to people; JSON has all of them.
+/// Parameters, alternatives or hidden differences that are shown to people; JSON has all of them.
 const SHOWN: usize = 8;
 
 /// All comparisons of dynamics of a check.
@@ -64,7 +64,11 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
         let _ = writeln!(text, "    {line}");
     }
     if let Some(worst) = report.worst_gravity() {
-        certified(text, worst, robot);
+        certified(text, ("gravity torque difference", worst), robot);
+    }
+    if let (Some(worst), Some(all)) = (report.worst_in_motion(), &report.certificates) {
+        certified(text, ("torque difference in motion", worst), robot);
+        let _ = writeln!(text, "      {}", all.covered_sentence());
     }
 }
 
@@ -72,19 +76,26 @@ fn more(all: usize, what: &str) -> Option<String> {
     all.checked_sub(SHOWN + 1).map(|more| format!("and {} more {what}", more + 1))
 }
 
-/// A cause, its figures with the lines that say them, and what to write.
+/// A cause, its parameters with the lines that say them, and what to write.
 fn explained(text: &mut String, explanation: &DynamicsExplanation) {
     let _ = writeln!(text, "    {}", explanation.sentence());
-    for figure in explanation.figures.iter().take(SHOWN) {
-        let _ = writeln!(text, "      {}", placed(figure.sentence(), figure, explanation.file.as_deref()));
+    for parameter in explanation.parameters.iter().take(SHOWN) {
+        let _ =
+            writeln!(text, "      {}", placed(parameter.sentence(), parameter, explanation.file.as_deref()));
     }
-    if let Some(more) = more(explanation.figures.len(), "figures") {
+    if let Some(more) = more(explanation.parameters.len(), "parameters") {
         let _ = writeln!(text, "      {more}");
+    }
+    for law in &explanation.impossible_as_written {
+        let _ = writeln!(text, "      as it is written no body has this inertia: {law}");
     }
     if let Some(law) = &explanation.body_law {
         let _ = writeln!(text, "      no body is so: {law}");
     }
     if explanation.changes.is_empty() {
+        if let Some(advice) = explanation.suggestion.as_ref().filter(|_| explanation.cause.is_of_one_file()) {
+            let _ = writeln!(text, "      {advice}");
+        }
         return;
     }
     let _ = writeln!(text, "      to write in {}:", explanation.file.as_deref().unwrap_or("the file"));
@@ -96,8 +107,8 @@ fn explained(text: &mut String, explanation: &DynamicsExplanation) {
     }
 }
 
-fn placed(sentence: String, figure: &FigureDifference, file: Option<&str>) -> String {
-    match (file, figure.line) {
+fn placed(sentence: String, parameter: &ParameterDifference, file: Option<&str>) -> String {
+    match (file, parameter.line) {
         (Some(file), Some(line)) => format!("{file}:{line}: {sentence}"),
         _ => sentence,
     }
@@ -123,9 +134,9 @@ fn limits(differences: &[LimitDifference]) -> Vec<String> {
     lines
 }
 
-/// The largest difference of gravity torque, with the configuration that has it.
-fn certified(text: &mut String, worst: &TorqueBracket, robot: &Robot) {
-    let _ = writeln!(text, "    worst gravity torque difference {}, at", worst.sentence());
+/// The largest difference of a torque, with the configuration that has it.
+fn certified(text: &mut String, (what, worst): (&str, &TorqueBracket), robot: &Robot) {
+    let _ = writeln!(text, "    worst {what} {}, at", worst.sentence());
     let at = JointValues::of_robot(robot, &RobotQ::from(worst.q.clone()));
     text.push_str(&wrapped(&at.for_people(robot)));
 }

@@ -10,7 +10,7 @@ use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, UrdfTree};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::sides::{two_descriptions, urdf_places, urdf_side};
+use super::sides::{two_descriptions, unreadable_inertial, urdf_places, urdf_side};
 
 /// The other description of a robot.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
@@ -39,6 +39,10 @@ pub(super) fn compared(
     }
     geometry.add_other(description, &mut PosesOfOther::new(&description.robot, &other.robot), options)?;
     against.dynamics_not_compared = misplaced_joint(description, geometry);
+    if against.dynamics_not_compared.is_some() {
+        return Ok((against, None));
+    }
+    against.dynamics_not_compared = [description, other].into_iter().find_map(unreadable_inertial);
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
     }

@@ -8,7 +8,7 @@ use congruent_description::{DeclaredDynamics, Diagnostic, Finding, InertialFrame
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_kinematics::LinkPoses;
 
-use super::{against, declared, physics, robot_check::RobotCheck};
+use super::{against, declared, physics, robot_check::RobotCheck, sides::unreadable_inertial};
 use crate::with_physics::simulated_poses;
 
 /// Compares table, URDF chain, screws and the physics twin of a robot, first their poses and then their dynamics. A robot
@@ -54,7 +54,8 @@ fn checked(
     };
     let mut declared_dynamics = None;
     if let Some(declared) = &description.dynamics {
-        match frames_of_table(declared, &geometry).and_then(|()| {
+        let readable = unreadable_inertial(description).map_or(Ok(()), Err);
+        match readable.and_then(|()| comparable(declared, &geometry)).and_then(|()| {
             declared::compared(description, declared, options.seed).map_err(|error| error.to_string())
         }) {
             Ok((source, report)) => {
@@ -86,13 +87,17 @@ fn checked(
     Ok(RobotCheck { geometry, against, declared_dynamics, dynamics, other_dynamics })
 }
 
-/// Whether figures in frames of the table can be compared: a wrong row would be taken for wrong masses.
-fn frames_of_table(declared: &DeclaredDynamics, geometry: &CheckReport) -> Result<(), String> {
+/// Whether there is anything to compare, and if parameters are in frames of the table, whether these are those of the
+/// URDF: a wrong row would be taken for wrong masses.
+fn comparable(declared: &DeclaredDynamics, geometry: &CheckReport) -> Result<(), String> {
+    if declared.inertials.is_empty() && declared.gravity_in_base_m_s2.is_none() {
+        return Err("[dynamics] of the robot file declares neither gravity nor an [[inertial]]: there is nothing to compare".to_owned());
+    }
     let uses_table = declared.inertials.iter().any(|of| matches!(of.frame, InertialFrame::Dh(_)));
     let mut table = geometry.comparisons.iter().filter(|of| of.name == SourcePair::ModelUrdf);
     if uses_table && table.any(|of| of.verdict == Agreement::Disagree) {
         return Err(
-            "figures are in frames of the table, which is not the chain of the URDF: correct the table first"
+            "parameters are in frames of the table, which is not the chain of the URDF: correct the table first"
                 .to_owned(),
         );
     }

@@ -8,7 +8,7 @@ use congruent_description::{
 };
 use congruent_dynamics::JointResistance;
 use congruent_dynamics_agreement::{
-    CompareError, DynamicsExplanation, DynamicsReport, FigurePlaces, Inertial, NamedSide, Side,
+    CompareError, DynamicsExplanation, DynamicsReport, Inertial, NamedSide, ParameterPlaces, Side,
 };
 use congruent_kinematics::Pose;
 use nalgebra::{Matrix3, Vector3};
@@ -42,10 +42,10 @@ pub(super) fn compared(
     let places = description.places.inertials.as_deref();
     let robot = &description.robot;
     let places =
-        places.map(|places| DeclaredPlaces { places, bodies: &bodies, robot, figures: InFrame::Link });
+        places.map(|places| DeclaredPlaces { places, bodies: &bodies, robot, parameters: InFrame::Link });
     let names = [&description.urdf_path, &description.path].map(|path| path.display().to_string());
     let by_urdf = NamedSide { name: &names[0], side: &urdf, places: urdf_places(description) };
-    let by_file = places.as_ref().map(|places| places as &dyn FigurePlaces);
+    let by_file = places.as_ref().map(|places| places as &dyn ParameterPlaces);
     let by_file = NamedSide { name: &names[1], side: &side, places: by_file };
     let mut report = two_descriptions(&by_urdf, &by_file, seed)?;
     if !report.has_same_torques() {
@@ -53,10 +53,10 @@ pub(super) fn compared(
         let frames: Vec<(usize, Pose)> =
             bodies.iter().map(|body| (body.link, body.link_from_frame)).collect();
         let [urdf, side] = [&urdf, &side].map(|side| side.in_frames(&frames));
-        let places = places.as_ref().map(|places| DeclaredPlaces { figures: InFrame::Entry, ..*places });
+        let places = places.as_ref().map(|places| DeclaredPlaces { parameters: InFrame::Entry, ..*places });
         let by_file = NamedSide {
             side: &side,
-            places: places.as_ref().map(|places| places as &dyn FigurePlaces),
+            places: places.as_ref().map(|places| places as &dyn ParameterPlaces),
             ..by_file
         };
         let other = two_descriptions(&by_file, &NamedSide { side: &urdf, ..by_urdf }, seed)?;
@@ -98,7 +98,8 @@ fn not_declared(declared: &DeclaredDynamics, robot: &Robot) -> Vec<String> {
         }
     };
     let left_out = [
-        lacking("mass and centre of mass", |_| true),
+        lacking("mass", |_| true),
+        lacking("centre of mass", |of| of.com_m.is_some()),
         lacking("inertia", |of| of.tensor_kg_m2.is_some()),
         lacking("damping", |of| of.damping.is_some()),
         lacking("friction", |of| of.friction.is_some()),
@@ -114,8 +115,9 @@ struct Body {
     link: usize,
     link_from_frame: Pose,
     about: InertialPoint,
-    /// Of a body without a declared tensor the tensor is zero here.
-    figures: Inertial,
+    /// What is not declared is zero here.
+    parameters: Inertial,
+    has_com: bool,
     has_tensor: bool,
 }
 
@@ -128,7 +130,7 @@ impl Body {
         };
         let mut in_frame = Inertial {
             mass_kg: declared.mass_kg,
-            com_m: declared.com_m,
+            com_m: declared.com_m.unwrap_or_else(Vector3::zeros),
             link_from_axes: Matrix3::identity(),
             tensor_kg_m2: declared.tensor_kg_m2.unwrap_or_else(Matrix3::zeros),
         };
@@ -140,31 +142,32 @@ impl Body {
             link,
             link_from_frame,
             about: declared.about,
-            figures: Inertial {
+            parameters: Inertial {
                 com_m: link_from_frame.rotation * in_frame.com_m + link_from_frame.translation,
                 link_from_axes: link_from_frame.rotation,
                 ..in_frame
             },
+            has_com: declared.com_m.is_some(),
             has_tensor: declared.tensor_kg_m2.is_some(),
         }
     }
 
-    /// Figures as they are written.
+    /// Parameters as they are written.
     fn written(&self) -> Inertial {
-        self.about_point(&self.in_frame(&self.figures))
+        self.about_point(&self.in_frame(&self.parameters))
     }
 
-    /// Figures of the link in the frame of the entry.
-    fn in_frame(&self, figures: &Inertial) -> Inertial {
+    /// Parameters of the link in the frame of the entry.
+    fn in_frame(&self, parameters: &Inertial) -> Inertial {
         let frame_from_link = self.link_from_frame.inverse();
         Inertial {
-            com_m: frame_from_link.rotation * figures.com_m + frame_from_link.translation,
-            link_from_axes: frame_from_link.rotation * figures.link_from_axes,
-            ..*figures
+            com_m: frame_from_link.rotation * parameters.com_m + frame_from_link.translation,
+            link_from_axes: frame_from_link.rotation * parameters.link_from_axes,
+            ..*parameters
         }
     }
 
-    /// Figures in the frame of the entry with the tensor in its axes and about the point of the entry.
+    /// Parameters in the frame of the entry with the tensor in its axes and about the point of the entry.
     fn about_point(&self, in_frame: &Inertial) -> Inertial {
         let mut tensor_kg_m2 = in_frame.tensor_in_link();
         if self.about == InertialPoint::Frame {
@@ -178,11 +181,17 @@ impl Body {
 fn declared_side(declared: &DeclaredDynamics, (bodies, zero): (&[Body], &AtZero), urdf: &Side) -> Side {
     let mut side = urdf.clone();
     for (body, declared) in bodies.iter().zip(&declared.inertials) {
-        let mut figures = body.figures;
-        if let Some(written) = side.inertials[body.link].filter(|_| !body.has_tensor) {
-            (figures.link_from_axes, figures.tensor_kg_m2) = (written.link_from_axes, written.tensor_kg_m2);
+        let mut parameters = body.parameters;
+        if let Some(written) = &side.inertials[body.link] {
+            if !body.has_com {
+                parameters.com_m = written.com_m;
+            }
+            if !body.has_tensor {
+                (parameters.link_from_axes, parameters.tensor_kg_m2) =
+                    (written.link_from_axes, written.tensor_kg_m2);
+            }
         }
-        side.inertials[body.link] = Some(figures);
+        side.inertials[body.link] = Some(parameters);
         let terms = &mut side.resistances[body.joint];
         terms.armature = declared.armature.unwrap_or(terms.armature);
         terms.damping = declared.damping.unwrap_or(terms.damping);
@@ -194,16 +203,16 @@ fn declared_side(declared: &DeclaredDynamics, (bodies, zero): (&[Body], &AtZero)
     side
 }
 
-/// The entries of the file as figures of links and joints.
+/// The entries of the file as parameters of links and joints.
 #[derive(Debug)]
 struct DeclaredPlaces<'a> {
     places: &'a InertialPlaces,
     bodies: &'a [Body],
     robot: &'a Robot,
-    figures: InFrame,
+    parameters: InFrame,
 }
 
-/// The frame of the figures that are asked for.
+/// The frame of the parameters that are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum InFrame {
     /// The link's.
@@ -221,24 +230,24 @@ impl DeclaredPlaces<'_> {
     }
 }
 
-impl FigurePlaces for DeclaredPlaces<'_> {
+impl ParameterPlaces for DeclaredPlaces<'_> {
     fn source(&self) -> &SourceFile {
         self.places.source()
     }
 
-    fn figure(&self, of: &str, figure: &str) -> Option<Range<usize>> {
-        if of.is_empty() { self.places.gravity() } else { self.places.figure(self.entry(of)?, figure) }
+    fn parameter(&self, of: &str, parameter: &str) -> Option<Range<usize>> {
+        if of.is_empty() { self.places.gravity() } else { self.places.parameter(self.entry(of)?, parameter) }
     }
 
-    fn set_inertial(&self, link: &str, figures: &Inertial) -> Vec<TextEdit> {
+    fn set_inertial(&self, link: &str, parameters: &Inertial) -> Vec<TextEdit> {
         let Some(entry) = self.entry(link) else { return Vec::new() };
         let body = &self.bodies[entry];
         let written = body.written();
-        let new = match self.figures {
-            InFrame::Link => body.about_point(&body.in_frame(figures)),
-            InFrame::Entry => body.about_point(figures),
+        let new = match self.parameters {
+            InFrame::Link => body.about_point(&body.in_frame(parameters)),
+            InFrame::Entry => body.about_point(parameters),
         };
-        let mut edits = self.places.set_mass(entry, figures.mass_kg);
+        let mut edits = self.places.set_mass(entry, parameters.mass_kg);
         let length = written.com_m.amax().max(new.com_m.amax());
         if (new.com_m - written.com_m).amax() > ROUNDING * length {
             let com = new.com_m.map(|value| cleaned(value, length));
@@ -262,7 +271,7 @@ impl FigurePlaces for DeclaredPlaces<'_> {
     }
 }
 
-/// A figure that changes by a smaller share of its body's is the same, and a smaller one is zero. No unit; kind:
+/// A parameter that changes by a smaller share of its body's is the same, and a smaller one is zero. No unit; kind:
 /// rounding of the rotation into another frame.
 const ROUNDING: f64 = 1e-12;
 

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use congruent_description::{RobotDescription, RobotQ};
+use congruent_description::{Diagnostic, RobotDescription, RobotQ, line_column};
 use congruent_dynamics_agreement::{
-    CompareError, DynamicsReport, FigurePlaces, Frames, NamedSide, Side, certify, compare,
+    CompareError, DynamicsReport, Frames, NamedSide, ParameterPlaces, Side, certify, compare,
 };
 use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree};
 
@@ -21,7 +21,7 @@ pub(super) fn two_descriptions(
     Ok(report)
 }
 
-/// What the URDF of a description says; a figure may be mistaken for one in a frame of the table.
+/// What the URDF of a description says; a parameter may be mistaken for one in a frame of the table.
 pub(super) fn urdf_side(description: &RobotDescription) -> Side {
     let robot = &description.robot;
     let mut frames = Frames::new(robot);
@@ -30,12 +30,28 @@ pub(super) fn urdf_side(description: &RobotDescription) -> Side {
         link_from_frame[link] = Some(link_from_dh);
         frames = frames.with_other_frame(&format!("dh{row}"), link_from_frame);
     }
-    Side::with_frames(robot, Arc::new(frames))
+    Side::with_frames(robot, Arc::new(frames)).with_accelerations(&description.accelerations)
 }
 
-/// Where the URDF of a description says figures.
-pub(super) fn urdf_places(description: &RobotDescription) -> Option<&dyn FigurePlaces> {
-    description.places.urdf.as_ref().map(|places| places as &dyn FigurePlaces)
+/// The first link whose `<inertial>` cannot be read, such as a mass that is no number: without it there is nothing to
+/// compare. With its file, line and value.
+pub(super) fn unreadable_inertial(description: &RobotDescription) -> Option<String> {
+    let places = description.places.urdf.as_ref()?;
+    let links = description.robot.links().iter().filter(|link| link.inertia.is_none());
+    let link = links.map(|link| &link.name).find(|name| places.has_inertial(name))?;
+    let of_link = format!("link \"{link}\"");
+    let stopping = |found: &&Diagnostic| found.stops.is_some() && found.message.starts_with(&of_link);
+    let found = description.warnings.iter().find(stopping);
+    let what =
+        found.map_or_else(|| format!("{of_link}: its <inertial> cannot be read"), |of| of.message.clone());
+    let span = found.and_then(|found| found.span.clone()).or_else(|| places.inertial_part(link, "mass"))?;
+    let (line, _) = line_column(&places.source().text, span.start);
+    Some(format!("{}:{line}: {what}", description.urdf_path.display()))
+}
+
+/// Where the URDF of a description says parameters.
+pub(super) fn urdf_places(description: &RobotDescription) -> Option<&dyn ParameterPlaces> {
+    description.places.urdf.as_ref().map(|places| places as &dyn ParameterPlaces)
 }
 
 /// Links and frames of the table, joints at zero.

@@ -2,6 +2,7 @@
 
 use std::{
     collections::BTreeMap,
+    ops::Range,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -32,6 +33,12 @@ impl Diagnostics {
     #[must_use]
     pub fn map(self, change: impl FnMut(Diagnostic) -> Diagnostic) -> Self {
         Self(self.0.into_iter().map(change).collect())
+    }
+
+    /// Whether something at a place within a range stops physics.
+    pub(crate) fn stops_physics_within(&self, range: &Range<usize>) -> bool {
+        let within = |found: &Diagnostic| found.span.as_ref().is_some_and(|span| range.contains(&span.start));
+        self.0.iter().any(|found| found.stops == Some(Use::Physics) && within(found))
     }
 
     /// Whether any of them stops the work.

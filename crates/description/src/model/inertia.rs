@@ -1,6 +1,6 @@
 //! Mass, centre of mass and rotational inertia of a link, or of several that move as one.
 
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, SymmetricEigen, Translation3, UnitQuaternion, Vector3};
 
 /// Inertia of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,4 +41,17 @@ impl Inertia {
             tensor_kg_m2: (tensor + tensor.transpose()) * 0.5,
         }
     }
+}
+
+/// The principal moments of a tensor in ascending order.
+pub fn principal_moments(tensor_kg_m2: &Matrix3<f64>) -> [f64; 3] {
+    // Entries near the largest double overflow inside the solver, which then never ends.
+    let largest = tensor_kg_m2.amax();
+    if largest == 0.0 {
+        return [0.0; 3];
+    }
+    let mut moments: [f64; 3] =
+        SymmetricEigen::new(tensor_kg_m2.map(|entry| entry / largest)).eigenvalues.into();
+    moments.sort_by(f64::total_cmp);
+    moments.map(|moment| moment * largest)
 }

@@ -15,7 +15,7 @@ mod tree;
 pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};
 pub use error::RobotError;
 pub use geometry::{Geometry, Mesh, Shape};
-pub use inertia::Inertia;
+pub use inertia::{Inertia, principal_moments};
 pub use joint::{Joint, JointIndex, JointKind, JointLimit, JointParts, Mimic};
 pub use joint_values::JointValues;
 pub use link::{Link, LinkIndex};

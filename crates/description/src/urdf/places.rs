@@ -54,6 +54,14 @@ impl UrdfPlaces {
         Some(element(link, "inertial").map_or_else(|| tag(link), |inertial| place(inertial, part)))
     }
 
+    /// Whether a link has an `<inertial>`, readable or not.
+    pub fn has_inertial(&self, link: &str) -> bool {
+        let document = xml::parse(&self.source.text).ok();
+        document.is_some_and(|document| {
+            last(document.root_element(), "link", link).and_then(|link| element(link, "inertial")).is_some()
+        })
+    }
+
     /// Place of the `<limit>` of a joint, or of the joint if it has none.
     pub fn joint_limit(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;

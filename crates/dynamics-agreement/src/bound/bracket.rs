@@ -4,7 +4,7 @@ use congruent_description::{JointLimit, RobotQ};
 
 use crate::{
     side::Side,
-    thresholds::{LARGEST_SPEED, SAME_FIGURE},
+    thresholds::{LARGEST_ACCELERATION, LARGEST_SPEED, SAME_VALUE},
 };
 
 /// The bracket of one joint.
@@ -16,6 +16,8 @@ pub struct TorqueBracket {
     pub attained_n_m: f64,
     /// No difference within the range of motion is larger.
     pub certified_n_m: f64,
+    /// The second over the first: 1 if the bound is met; `null` if nothing was found.
+    pub ratio: Option<f64>,
     /// Unit of both: `N m`, or `N` for a sliding joint.
     pub unit: String,
     /// Positions where it was found, in the order of the moving joints; rad and m.
@@ -68,6 +70,7 @@ impl TorqueBracket {
             joint: place.name.clone(),
             attained_n_m: attained,
             certified_n_m: certified.max(attained),
+            ratio: (attained > 0.0).then(|| certified.max(attained) / attained),
             unit: if place.is_angular { "N m" } else { "N" }.to_owned(),
             q: at.q.to_vec(),
             qd: at.qd,
@@ -82,7 +85,7 @@ impl TorqueCertificate {
     /// Of joints that have the same difference the one nearest to the base is the worst.
     pub(super) fn of(by_joint: Vec<TorqueBracket>) -> Self {
         let largest = by_joint.iter().map(|bracket| bracket.attained_n_m).fold(0.0, f64::max);
-        let is_worst = |bracket: &&TorqueBracket| bracket.attained_n_m >= largest * (1.0 - SAME_FIGURE);
+        let is_worst = |bracket: &&TorqueBracket| bracket.attained_n_m >= largest * (1.0 - SAME_VALUE);
         Self { worst: by_joint.iter().find(is_worst).cloned(), by_joint }
     }
 }
@@ -102,10 +105,12 @@ pub struct CoveredMotion {
     pub speed_is_stated: bool,
     /// Largest acceleration in either direction, rad/s^2 or m/s^2.
     pub acceleration: f64,
+    /// Whether a description declares the acceleration; else it is 10 rad/s^2 or m/s^2.
+    pub acceleration_is_declared: bool,
 }
 
 /// The range of motion of each joint of a candidate. If both descriptions state a speed it is the smaller one: a limit
-/// in degrees is not a speed.
+/// in degrees is not a speed. The same holds for accelerations. Mimic joints move as their masters make them.
 pub(super) fn covered_motions(candidate: &Side, reference: &Side) -> Vec<CoveredMotion> {
     let stated = |limit: &Option<JointLimit>| {
         limit.and_then(|limit| limit.velocity).filter(|speed| speed.is_finite() && *speed > 0.0)
@@ -114,14 +119,25 @@ pub(super) fn covered_motions(candidate: &Side, reference: &Side) -> Vec<Covered
         let place = &candidate.frames.joints[joint];
         let speeds = [candidate, reference].map(|side| stated(&side.limits[joint]));
         let speed = speeds.into_iter().flatten().reduce(f64::min);
+        let accelerations = [candidate, reference].map(|side| side.accelerations[joint]);
+        let acceleration = accelerations.into_iter().flatten().reduce(f64::min);
         CoveredMotion {
             joint: place.name.clone(),
             lower: place.range.0,
             upper: place.range.1,
             speed: speed.unwrap_or(LARGEST_SPEED),
             speed_is_stated: speed.is_some(),
-            acceleration: candidate.largest_accelerations[joint].abs(),
+            acceleration: acceleration.unwrap_or(LARGEST_ACCELERATION),
+            acceleration_is_declared: acceleration.is_some(),
         }
     };
-    (0..candidate.frames.dof()).map(covered).collect()
+    let mut all: Vec<CoveredMotion> = (0..candidate.frames.dof()).map(covered).collect();
+    for (joint, place) in candidate.frames.joints.iter().enumerate() {
+        if let Some((master, ratio, _)) = place.follows {
+            let (speed, acceleration) = (all[master].speed, all[master].acceleration);
+            all[joint].speed = ratio.abs() * speed;
+            all[joint].acceleration = ratio.abs() * acceleration;
+        }
+    }
+    all
 }

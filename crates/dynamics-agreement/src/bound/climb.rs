@@ -69,6 +69,22 @@ pub(super) fn largest_sampled<F: FnMut(usize, &[f64]) -> Vec<f64>>(
     climbed.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, Vec::new()))
 }
 
+/// The largest measure that climbing from one position finds.
+pub(super) fn largest_from(function: &Trigonometric, mut q: Vec<f64>) -> f64 {
+    let mut best = 0.0;
+    for _ in 0..ROUNDS {
+        let before = best;
+        for at in 0..q.len() {
+            let coefficients = function.of_one(at, &q);
+            (best, q[at]) = best_of_one((&function.variables[at], &coefficients), function.measure, q[at]);
+        }
+        if best - before <= LEAST_GAIN_SAMPLED * best {
+            break;
+        }
+    }
+    if q.is_empty() { function.measure.of(&function.at(&q)) } else { best }
+}
+
 /// Positions of one joint that are tried before the best is refined. Kind: choice; waves of second degree have four
 /// slopes a turn.
 const POSITIONS: u32 = 48;

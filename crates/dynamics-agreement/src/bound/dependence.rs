@@ -40,7 +40,7 @@ impl Dependence {
     /// Of all joints.
     pub(super) fn all(rows: &Rows<'_>, gravity: &GravityTorques<'_>) -> Result<Vec<Self>, DynamicsError> {
         let mut all: Vec<Self> = Vec::new();
-        for joint in 0..rows.covered.len() {
+        for joint in (0..rows.covered.len()).filter(|&joint| rows.ways.coupling.is_driven(joint)) {
             let mut one = Self::of(rows, joint);
             one.with_gravity(gravity.joints(joint)?.unwrap_or_default());
             one.is_tractable = one.count(rows) <= MAX_COEFFICIENTS && one.moving.len() <= MAX_SPEEDS;
@@ -56,12 +56,15 @@ impl Dependence {
 
     fn of(rows: &Rows<'_>, joint: usize) -> Self {
         let (ways, frames) = (&rows.ways, rows.ways.frames);
-        let carries = (0..frames.dof()).any(|body| ways.differs[body] && ways.carries(joint, body));
-        let mut moving = if carries { ways.through(joint) } else { vec![joint] };
-        moving.sort_unstable();
+        let carries = ways.has_difference(joint);
+        let mut moved = if carries { ways.through(joint) } else { vec![joint] };
+        moved.sort_unstable();
         // Neither the mass matrix nor its derivatives depend on how the whole robot is turned.
-        let inner = moving.iter().filter(|joint| carries && frames.joints[**joint].parent.is_some());
+        let inner = moved.iter().filter(|joint| carries && frames.joints[**joint].parent.is_some());
         let positions = inner.map(|joint| (*joint, 2)).collect();
+        let mut moving: Vec<usize> = moved.iter().map(|&joint| ways.coupling.driver(joint)).collect();
+        moving.sort_unstable();
+        moving.dedup();
         Self { joints: vec![joint], moving, positions, is_tractable: false }
     }
 

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     side::{Frames, Side},
-    thresholds::{CLOSED, MAX_BOXES, MAX_CONTROL_VALUES, MAX_VARIABLES, NO_COEFFICIENT, SAME_FIGURE},
+    thresholds::{CLOSED, MAX_BOXES, MAX_CONTROL_VALUES, MAX_VARIABLES, NO_COEFFICIENT, SAME_VALUE},
     torque::states::position,
 };
 
@@ -38,7 +38,8 @@ pub(super) struct GravityTorques<'a> {
 impl<'a> GravityTorques<'a> {
     /// Brackets of all joints.
     pub(super) fn certify(&self, seed: u64) -> Result<TorqueCertificate, DynamicsError> {
-        let brackets = (0..self.frames.dof()).map(|joint| self.bracket(joint, seed));
+        let driven = (0..self.frames.dof()).filter(|&joint| self.ways.coupling.is_driven(joint));
+        let brackets = driven.map(|joint| self.bracket(joint, seed));
         let by_joint: Vec<TorqueBracket> =
             brackets.filter_map(Result::transpose).collect::<Result<_, _>>()?;
         Ok(TorqueCertificate::of(by_joint))
@@ -47,7 +48,7 @@ impl<'a> GravityTorques<'a> {
     /// The joints whose positions one joint's difference depends on; `None` if it has none.
     pub(super) fn joints(&self, joint: usize) -> Result<Option<Vec<usize>>, DynamicsError> {
         let all = self.ways.through(joint);
-        if self.ways.below(joint).is_empty() && !self.ways.differs[joint] {
+        if !self.ways.has_difference(joint) {
             return Ok(None);
         }
         if all.len() > MAX_VARIABLES {
@@ -62,7 +63,7 @@ impl<'a> GravityTorques<'a> {
         let (found, expected) = (candidate.bodies(), reference.bodies());
         let differences: Vec<SpatialInertia> =
             found.iter().zip(&expected).map(|(a, b)| difference(a, b)).collect();
-        let rounding = |a: f64, b: f64| SAME_FIGURE * SAME_FIGURE.sqrt() * a.abs().max(b.abs());
+        let rounding = |a: f64, b: f64| SAME_VALUE * SAME_VALUE.sqrt() * a.abs().max(b.abs());
         let differs = differences.iter().zip(found.iter().zip(&expected)).map(|(difference, (a, b))| {
             let [h, k] = [a, b].map(|body| body.first_moment_kg_m.norm());
             !same_gravity
@@ -82,7 +83,7 @@ impl<'a> GravityTorques<'a> {
             along_axes: weightless,
             gravity_m_s2: candidate.gravity_m_s2.norm(),
             differences,
-            ways: Ways { frames: &candidate.frames, differs },
+            ways: Ways::new(&candidate.frames, differs),
         }
     }
 
@@ -90,7 +91,7 @@ impl<'a> GravityTorques<'a> {
     fn bracket(&self, joint: usize, seed: u64) -> Result<Option<TorqueBracket>, DynamicsError> {
         let below = self.ways.below(joint);
         let variables = self.ways.variables(&self.ways.through(joint));
-        if below.is_empty() && !self.ways.differs[joint] {
+        if !self.ways.has_difference(joint) {
             return Ok(None);
         }
         let crude = self.crude_bound(joint);
@@ -99,7 +100,7 @@ impl<'a> GravityTorques<'a> {
             return Ok(Some(self.report(joint, [attained, crude], (q, 0))));
         }
         let torque = self.torque(joint, variables)?;
-        let (attained, positions) = climb::largest(&torque, seed);
+        let (mut attained, positions) = climb::largest(&torque, seed);
         let mut q = RobotQ::zeros(self.frames.dof());
         for place in 0..q.len() {
             q[place] = q[place].clamp(self.frames.joints[place].range.0, self.frames.joints[place].range.1);
@@ -107,6 +108,12 @@ impl<'a> GravityTorques<'a> {
         for (variable, position) in torque.variables.iter().zip(positions) {
             q[variable.joint] = position;
         }
+        let places: Vec<usize> = torque.variables.iter().map(|variable| variable.joint).collect();
+        if places.iter().any(|&place| self.ways.coupling.is_coupled(place)) {
+            let mut difference = self.difference_at(joint);
+            attained = self.ways.coupling.climb(&mut q, &places, |q| difference(q).map(f64::abs))?;
+        }
+        self.ways.coupling.place(&mut q);
         if torque.coefficients.iter().all(|value| *value == 0.0) && torque.slack == 0.0 {
             return Ok(None);
         }
@@ -133,19 +140,29 @@ impl<'a> GravityTorques<'a> {
     fn sampled(&self, joint: usize, seed: u64) -> Result<(f64, RobotQ), DynamicsError> {
         let mut random = Uniform::seeded(seed);
         let mut best = (0.0, RobotQ::zeros(self.frames.dof()));
-        let mut buffers = [self.trees[0].buffer(), self.trees[1].buffer()];
-        let mut tau = [vec![0.0; self.frames.dof()], vec![0.0; self.frames.dof()]];
+        let mut difference_at = self.difference_at(joint);
         for _ in 0..SAMPLES {
-            let q = position(&mut random, self.frames);
-            for ((tree, buffer), tau) in self.trees.iter().zip(&mut buffers).zip(&mut tau) {
-                tree.gravity_into(&q, buffer, tau)?;
-            }
-            let difference: f64 = tau[0][joint] - tau[1][joint];
+            let mut q = position(&mut random, self.frames);
+            self.ways.coupling.place(&mut q);
+            let difference = difference_at(&q)?;
             if difference.abs() > best.0 {
                 best = (difference.abs(), q);
             }
         }
         Ok(best)
+    }
+
+    /// The difference of a driven joint's torque at a position.
+    fn difference_at(&self, joint: usize) -> impl FnMut(&RobotQ) -> Result<f64, DynamicsError> {
+        let mut buffers = [self.trees[0].buffer(), self.trees[1].buffer()];
+        let mut tau = [vec![0.0; self.frames.dof()], vec![0.0; self.frames.dof()]];
+        move |q| {
+            for ((tree, buffer), tau) in self.trees.iter().zip(&mut buffers).zip(&mut tau) {
+                tree.gravity_into(q, buffer, tau)?;
+            }
+            let [found, expected] = [0, 1].map(|side| self.ways.coupling.torque(joint, &tau[side]));
+            Ok(found - expected)
+        }
     }
 
     fn report(&self, joint: usize, bracket: [f64; 2], at: (RobotQ, usize)) -> TorqueBracket {
@@ -155,25 +172,23 @@ impl<'a> GravityTorques<'a> {
     /// The difference of a joint's gravity torque.
     fn torque(&self, joint: usize, variables: Vec<Variable>) -> Result<Trigonometric, DynamicsError> {
         let mut error = Ok(());
-        let mut buffers = [self.trees[0].buffer(), self.trees[1].buffer()];
-        let mut tau = [vec![0.0; self.frames.dof()], vec![0.0; self.frames.dof()]];
+        let mut difference_at = self.difference_at(joint);
         let joints: Vec<usize> = variables.iter().map(|variable| variable.joint).collect();
         let mut q = RobotQ::zeros(self.frames.dof());
         let function = Trigonometric::sampled(variables, (1, Measure::Sum), |positions| {
             joints.iter().zip(positions).for_each(|(&joint, &position)| q[joint] = position);
-            for ((tree, buffer), tau) in self.trees.iter().zip(&mut buffers).zip(&mut tau) {
-                if let Err(found) = tree.gravity_into(&q, buffer, tau) {
-                    error = Err(found);
-                }
-            }
-            vec![tau[0][joint] - tau[1][joint]]
+            vec![difference_at(&q).unwrap_or_else(|found| {
+                error = Err(found);
+                0.0
+            })]
         });
         error.map(|()| function)
     }
 
     /// The lever of gravity at a joint: its torque is at most the norm times gravity, however the joints above turn.
     fn lever(&self, joint: usize, below: &[usize]) -> Result<Option<Trigonometric>, DynamicsError> {
-        if self.along_axes.is_empty() {
+        // The lever of followers that hang elsewhere has another direction.
+        if self.along_axes.is_empty() || self.ways.coupling.is_coupled(joint) {
             return Ok(None);
         }
         let mut error = Ok(());
@@ -200,6 +215,12 @@ impl<'a> GravityTorques<'a> {
         if self.along_axes.is_empty() {
             return f64::INFINITY;
         }
+        let group = self.ways.coupling.group(joint).iter();
+        group.map(|(of, ratio)| ratio.abs() * self.stretched(*of)).sum()
+    }
+
+    /// The same of one joint without its followers.
+    fn stretched(&self, joint: usize) -> f64 {
         let below = |body: &usize| self.ways.carries(joint, *body);
         let turns = self.frames.joints[joint].is_angular;
         let lever = |body: usize| {

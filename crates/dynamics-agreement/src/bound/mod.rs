@@ -4,6 +4,7 @@
 mod bracket;
 mod branch;
 mod climb;
+mod coupling;
 mod dependence;
 mod gravity;
 mod measure;

@@ -7,13 +7,13 @@ use congruent_kinematics::Uniform;
 
 use super::{
     bracket::{AttainedAt, CoveredMotion, TorqueBracket, TorqueCertificate},
-    branch::{Stop, upper_bound},
+    branch::{Stop, UpperBound, upper_bound},
     climb::{self, Course},
     dependence::{Dependence, Part},
     gravity::GravityTorques,
     measure::{LargestMotion, Measure, Motion},
     rows::Rows,
-    trigonometric::{Trigonometric, along},
+    trigonometric::{Trigonometric, Variable, along},
 };
 use crate::{
     side::Side,
@@ -84,7 +84,9 @@ impl Motions<'_> {
     /// The middle of all ranges, at rest.
     fn somewhere(&self) -> AttainedAt {
         let ranges = self.rows.covered.iter().map(|covered| (covered.lower, covered.upper));
-        AttainedAt::rest(ranges.map(|(lower, upper)| 0.0_f64.clamp(lower, upper)).collect())
+        let mut at = AttainedAt::rest(ranges.map(|(lower, upper)| 0.0_f64.clamp(lower, upper)).collect());
+        self.rows.ways.coupling.follow(&mut at);
+        at
     }
 
     /// The motion with the largest torque, which is computed by the algorithm of inverse dynamics.
@@ -94,7 +96,8 @@ impl Motions<'_> {
         motions: Vec<AttainedAt>,
     ) -> Result<(f64, AttainedAt), DynamicsError> {
         let mut best = (-1.0, self.somewhere());
-        for at in motions {
+        for mut at in motions {
+            self.rows.ways.coupling.follow(&mut at);
             let torque = match part {
                 Part::Together => self.rows.together(joint, &at)?,
                 Part::Inertia | Part::Velocity => self.rows.part(joint, &at)?,
@@ -109,8 +112,12 @@ impl Motions<'_> {
     /// A bound that needs no search: every lever stretched out.
     fn crude(&self, part: Part, joint: usize) -> f64 {
         let ways = &self.rows.ways;
-        let bodies = (0..ways.differs.len()).filter(|&body| ways.differs[body] && ways.carries(joint, body));
-        let entries: f64 = bodies.map(|body| self.rows.largest_entries[body]).sum();
+        let entries = |of: usize| -> f64 {
+            let bodies = (0..ways.differs.len()).filter(|&body| ways.differs[body] && ways.carries(of, body));
+            bodies.map(|body| self.rows.largest_entries[body]).sum()
+        };
+        let entries: f64 =
+            ways.coupling.group(joint).iter().map(|(of, ratio)| ratio.abs() * entries(*of)).sum();
         let covered = &self.rows.covered;
         let armature = self.rows.resistances[joint].armature.abs() * covered[joint].acceleration;
         let accelerations: f64 = covered.iter().map(|covered| covered.acceleration).sum();
@@ -175,11 +182,20 @@ impl OneJoint<'_> {
             control_values: MAX_MOTION_VALUES,
         };
         let crude = crude.min(function.sum_of_amplitudes() + motion.resistance);
-        if crude <= stop.below || function.control_values() > MAX_MOTION_VALUES / FEWEST_BOXES {
+        if crude <= stop.below {
             return report(attained, crude, 0);
         }
-        let bound = upper_bound(&function, stop);
-        report(attained, bound.value.min(crude), bound.boxes)
+        let (mut certified, mut boxes) = (crude, 0);
+        if function.control_values() <= MAX_MOTION_VALUES / FEWEST_BOXES {
+            let bound = upper_bound(&function, stop);
+            (certified, boxes) = (bound.value.min(crude), bound.boxes);
+        }
+        if certified > stop.below && part != Part::Together {
+            let apart = one_by_one(&function);
+            certified = certified.min(apart.value);
+            boxes += apart.boxes;
+        }
+        report(attained, certified, boxes)
     }
 
     /// Positions with a torque that is as large as climbing finds.
@@ -210,7 +226,31 @@ impl OneJoint<'_> {
         };
         let course = Course { variables: &function.variables, measure: function.measure, of_one };
         let (_, positions) = climb::largest_sampled(course, motions.seed);
-        error.map(|()| positions)
+        error?;
+        self.followed((part, function), positions)
+    }
+
+    /// Positions that the robot can take, climbed to from those of a function whose joints do not follow each other.
+    fn followed(
+        &self,
+        (part, function): (Part, &Trigonometric),
+        positions: Vec<f64>,
+    ) -> Result<Vec<f64>, DynamicsError> {
+        let (rows, coupling) = (&self.motions.rows, &self.motions.rows.ways.coupling);
+        let places: Vec<usize> = function.variables.iter().map(|variable| variable.joint).collect();
+        if !places.iter().any(|&place| coupling.is_coupled(place)) {
+            return Ok(positions);
+        }
+        let mut q = self.motions.somewhere().q;
+        places.iter().zip(&positions).for_each(|(&place, position)| q[place] = *position);
+        let mut memory = rows.memory();
+        let values = self.dependence.values_of(part, 0);
+        let moving = (&self.dependence.joints[self.at..=self.at], &self.dependence.moving[..]);
+        coupling.climb(&mut q, &places, |q| {
+            let all = rows.values(q, moving, &mut memory)?;
+            Ok(function.measure.of(&all[values.clone()]))
+        })?;
+        Ok(places.iter().map(|&place| q[place]).collect())
     }
 
     /// Motions that may attain the largest torque: speeds either way, and the joint's own as dry friction wants it.
@@ -269,6 +309,38 @@ impl OneJoint<'_> {
     }
 }
 
+/// A bound of the sum by the largest value of each acceleration and of each product of two speeds: these are not largest
+/// at the same positions, but each depends on fewer joints than all together and is one value instead of many.
+fn one_by_one(function: &Trigonometric) -> UpperBound {
+    let mut sum = UpperBound { value: 0.0, boxes: 0 };
+    for at in 0..function.values {
+        let one = function.selected(at..at + 1, Measure::Sum);
+        let mut bound = UpperBound { value: one.sum_of_amplitudes(), boxes: 0 };
+        if one.control_values() <= VALUES_OF_ONE / FEWEST_BOXES {
+            let control_values = VALUES_OF_ONE;
+            let stop =
+                Stop { below: largest_seen(&one) * (1.0 + CLOSED_SUM), boxes: MAX_BOXES, control_values };
+            let divided = upper_bound(&one, stop);
+            bound = UpperBound { value: divided.value.min(bound.value), boxes: divided.boxes };
+        }
+        sum.value += bound.value;
+        sum.boxes += bound.boxes;
+    }
+    sum
+}
+
+/// The largest of a value that climbing finds from the middle of all ranges and from both ends.
+fn largest_seen(one: &Trigonometric) -> f64 {
+    let starts = [0.5, 0.25, 0.75].map(|share| {
+        let at = |variable: &Variable| variable.lower + share * (variable.upper - variable.lower);
+        one.variables.iter().map(at).collect::<Vec<f64>>()
+    });
+    let climbed = starts.into_iter().map(|q| climb::largest_from(one, q));
+    climbed.fold(0.0, f64::max)
+}
+
+/// Control values of one acceleration or product of speeds. Kind: speed; some 5 ms.
+const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 20;
 /// Where fewer boxes can be divided the sum of amplitudes is the better bound. Kind: choice.
 const FEWEST_BOXES: usize = 10;
 /// Random motions for a torque of too many joints. Kind: choice.

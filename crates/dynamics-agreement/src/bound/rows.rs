@@ -12,7 +12,7 @@ use super::{
     speeds::{entries, row},
     ways::Ways,
 };
-use crate::{side::Side, thresholds::SAME_FIGURE};
+use crate::{side::Side, thresholds::SAME_VALUE};
 
 /// The difference between a candidate and a reference in the candidate's geometry.
 pub(super) struct Rows<'a> {
@@ -25,7 +25,7 @@ pub(super) struct Rows<'a> {
     difference: BodyTree,
     /// A bound of what each body adds to any entry of the mass matrix.
     pub(super) largest_entries: Vec<f64>,
-    /// Damping, friction, armature: candidate's less the reference's.
+    /// Damping, friction, armature at the driven joints: candidate's less the reference's.
     pub(super) resistances: Vec<JointResistance>,
 }
 
@@ -47,9 +47,10 @@ impl<'a> Rows<'a> {
         let (found, expected) = (candidate.bodies(), reference.bodies());
         let differences: Vec<SpatialInertia> =
             found.iter().zip(&expected).map(|(a, b)| super::gravity::difference(a, b)).collect();
-        let rounding = SAME_FIGURE * SAME_FIGURE.sqrt();
+        let rounding = SAME_VALUE * SAME_VALUE.sqrt();
         let sizes = found.iter().zip(&expected).map(|(a, b)| size(a).max(size(b)));
         let differs = differences.iter().zip(sizes).map(|(body, of_both)| size(body) > rounding * of_both);
+        let ways = Ways::new(&candidate.frames, differs.collect());
         let resistances: Vec<JointResistance> = candidate
             .resistances
             .iter()
@@ -64,14 +65,14 @@ impl<'a> Rows<'a> {
         let weightless = candidate.frames.tree.clone().with_gravity(Vector3::zeros());
         Ok(Self {
             candidate,
-            ways: Ways { frames: &candidate.frames, differs: differs.collect() },
             covered: covered_motions(candidate, reference),
             whole: [candidate.tree(), reference.tree()],
             difference: weightless
                 .with_inertias_in_links(&differences)?
                 .with_resistances(armatures.collect())?,
             largest_entries: differences.iter().map(size).collect(),
-            resistances,
+            resistances: at_driven(&ways, &resistances),
+            ways,
         })
     }
 
@@ -90,6 +91,7 @@ impl<'a> Rows<'a> {
         memory: &mut Memory,
     ) -> Result<Vec<f64>, DynamicsError> {
         let Memory { buffer, matrix, tau, qd } = memory;
+        let coupling = &self.ways.coupling;
         let products = moving.len();
         let count = 1 + products + entries(products);
         let mut values = vec![0.0; joints.len() * count];
@@ -98,9 +100,14 @@ impl<'a> Rows<'a> {
         }
         self.difference.mass_matrix_into(q, buffer, matrix)?;
         for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
-            values[0] = tau[0][joint] - tau[1][joint];
+            values[0] = coupling.torque(joint, &tau[0]) - coupling.torque(joint, &tau[1]);
             for (&other, value) in moving.iter().zip(&mut values[1..]) {
-                *value = matrix[(joint, other)] * self.covered[other].acceleration;
+                let pairs = coupling
+                    .group(joint)
+                    .iter()
+                    .flat_map(|a| coupling.group(other).iter().map(move |b| (a, b)));
+                let entry: f64 = pairs.map(|(a, b)| a.1 * b.1 * matrix[(a.0, b.0)]).sum();
+                *value = entry * self.covered[other].acceleration;
             }
         }
         let place = |first: usize, second: usize| 1 + products + row(products, first) + second;
@@ -110,12 +117,13 @@ impl<'a> Rows<'a> {
             for at in pair {
                 qd[moving[at]] = self.covered[moving[at]].speed;
             }
+            coupling.spread(qd);
             self.difference.bias_into(q, qd, buffer, &mut tau[0])?;
             // Both speeds together are the two squares, which are known before, and the product.
             let squares = if pair[0] == pair[1] { &[][..] } else { &pair[..] };
             for (&joint, values) in joints.iter().zip(values.chunks_exact_mut(count)) {
                 let known: f64 = squares.iter().map(|&at| values[place(at, at)]).sum();
-                values[place(pair[0], pair[1])] = tau[0][joint] - known;
+                values[place(pair[0], pair[1])] = coupling.torque(joint, &tau[0]) - known;
             }
         }
         Ok(values)
@@ -126,7 +134,7 @@ impl<'a> Rows<'a> {
         let mut tau = vec![0.0; at.qd.len()];
         let motion = JointMotion { q: &at.q, qd: &at.qd, qdd: &at.qdd };
         self.difference.inverse_into(&motion, &mut self.difference.buffer(), &mut tau)?;
-        Ok(tau[joint])
+        Ok(self.ways.coupling.torque(joint, &tau))
     }
 
     /// The difference of the whole torque.
@@ -136,7 +144,8 @@ impl<'a> Rows<'a> {
         for (tree, tau) in self.whole.iter().zip(&mut tau) {
             tree.inverse_into(&motion, &mut tree.buffer(), tau)?;
         }
-        Ok(tau[0][joint] - tau[1][joint])
+        let [found, expected] = tau.map(|tau| self.ways.coupling.torque(joint, &tau));
+        Ok(found - expected)
     }
 
     /// The largest torque of damping and dry friction, which acts at any speed but none.
@@ -144,4 +153,18 @@ impl<'a> Rows<'a> {
         let of = &self.resistances[joint];
         of.friction.abs().max((of.friction + of.damping * self.covered[joint].speed).abs())
     }
+}
+
+/// What resists driven joints, by themselves and by their followers.
+fn at_driven(ways: &Ways<'_>, own: &[JointResistance]) -> Vec<JointResistance> {
+    let sum = |joint: usize| {
+        let mut sum = JointResistance::default();
+        for (of, ratio) in ways.coupling.group(joint) {
+            sum.friction += ratio.abs() * own[*of].friction;
+            sum.damping += ratio * ratio * own[*of].damping;
+            sum.armature += ratio * ratio * own[*of].armature;
+        }
+        sum
+    };
+    (0..own.len()).map(sum).collect()
 }

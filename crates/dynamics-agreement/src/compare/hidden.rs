@@ -2,15 +2,15 @@
 
 use nalgebra::Matrix3;
 
-use super::figures::{FigureDifference, of_link};
+use super::parameters::{ParameterDifference, of_link};
 use crate::{
     side::{Inertial, Side},
     thresholds::{Precision, SEEN},
     torque::compressed::Compressed,
 };
 
-/// All figures of links that differ.
-pub(crate) fn differences(candidate: &Side, reference: &Side) -> Vec<FigureDifference> {
+/// All parameters of links that differ.
+pub(crate) fn differences(candidate: &Side, reference: &Side) -> Vec<ParameterDifference> {
     differing(candidate, reference).into_iter().map(|(_, difference)| difference).collect()
 }
 
@@ -19,9 +19,9 @@ pub(crate) fn without_effect(
     candidate: &Side,
     reference: &Side,
     torque: &Compressed,
-) -> Vec<FigureDifference> {
+) -> Vec<ParameterDifference> {
     let mut all = differing(candidate, reference);
-    all.retain(|(pair, difference)| !is_seen(torque, pair, &difference.figure));
+    all.retain(|(pair, difference)| !is_seen(torque, pair, &difference.parameter));
     all.into_iter().map(|(_, difference)| difference).collect()
 }
 
@@ -32,7 +32,7 @@ struct LinkPair {
     expected: Option<Inertial>,
 }
 
-fn differing(candidate: &Side, reference: &Side) -> Vec<(LinkPair, FigureDifference)> {
+fn differing(candidate: &Side, reference: &Side) -> Vec<(LinkPair, ParameterDifference)> {
     let mut all = Vec::new();
     for (link, place) in candidate.frames.links.iter().enumerate() {
         let Some(other) = reference.frames.find_link(&place.name) else { continue };
@@ -43,13 +43,13 @@ fn differing(candidate: &Side, reference: &Side) -> Vec<(LinkPair, FigureDiffere
     all
 }
 
-/// Whether the difference of one figure, alone, changes a torque.
-fn is_seen(torque: &Compressed, pair: &LinkPair, figure: &str) -> bool {
+/// Whether the difference of one parameter, alone, changes a torque.
+fn is_seen(torque: &Compressed, pair: &LinkPair, parameter: &str) -> bool {
     let Some(block) = torque.link(pair.link) else { return false };
     let (Some(found), Some(expected)) = (pair.found, pair.expected) else { return true };
     let mut changed = found;
     let (tensor, other) = (found.tensor_in_link(), expected.tensor_in_link());
-    match figure {
+    match parameter {
         "mass" => changed.mass_kg = expected.mass_kg,
         "com_x" => changed.com_m.x = expected.com_m.x,
         "com_y" => changed.com_m.y = expected.com_m.y,

@@ -4,7 +4,7 @@ use congruent_description::{ChangedLines, JointLimit};
 
 use crate::{
     side::{Side, frames::JointPlace},
-    thresholds::SAME_FIGURE,
+    thresholds::SAME_VALUE,
 };
 
 /// A limit that differs.
@@ -17,7 +17,8 @@ pub struct LimitDifference {
     /// `degrees` or `rpm` if that is what the factor says.
     pub detail: String,
     /// `velocity`, `effort`, `lower`, `upper`.
-    pub figure: String,
+    #[serde(rename = "figure")]
+    pub parameter: String,
     /// What the candidate says, SI units; `null` if it does not state the limit.
     pub found: Option<f64>,
     /// What the reference says, SI units; `null` if it does not state the limit.
@@ -53,15 +54,16 @@ pub enum LimitCause {
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 const RPM: f64 = 30.0 / std::f64::consts::PI;
-/// A factor is that of a unit within this share. No unit; kind: digits of a file, which rounds a limit to three.
-const FACTOR: f64 = 1e-3;
+/// A factor is that of a unit within this share. No unit; kind: digits of a file, which rounds a limit to three; the
+/// nearest two units are a factor of six apart.
+const FACTOR: f64 = 5e-3;
 
 /// The limits that differ; a speed or an effort of 0 is not stated, and neither is the range of a joint that turns on
 /// and on.
 pub(crate) fn differences(candidate: &Side, reference: &Side, joints: &[usize]) -> Vec<LimitDifference> {
     let mut differences = Vec::new();
     for (joint, &other) in joints.iter().enumerate() {
-        for (cause, figure, value) in LIMITS {
+        for (cause, parameter, value) in LIMITS {
             let stated = |limit: Option<&JointLimit>| {
                 let value = limit.and_then(value).filter(|value| value.is_finite());
                 value.filter(|value| cause == LimitCause::PositionLimit || *value != 0.0)
@@ -70,7 +72,7 @@ pub(crate) fn differences(candidate: &Side, reference: &Side, joints: &[usize]) 
                 (stated(candidate.limits[joint].as_ref()), stated(reference.limits[other].as_ref()));
             let is_same = match (found, expected) {
                 (Some(found), Some(expected)) => {
-                    (found - expected).abs() <= SAME_FIGURE * found.abs().max(expected.abs())
+                    (found - expected).abs() <= SAME_VALUE * found.abs().max(expected.abs())
                 }
                 (None, None) => true,
                 _ => false,
@@ -84,7 +86,7 @@ pub(crate) fn differences(candidate: &Side, reference: &Side, joints: &[usize]) 
                 joint: candidate.frames.joint_name(joint).to_owned(),
                 cause,
                 detail: detail(cause, factor).to_owned(),
-                figure: figure.to_owned(),
+                parameter: parameter.to_owned(),
                 found,
                 expected,
                 factor,

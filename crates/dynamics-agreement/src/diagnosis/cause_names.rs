@@ -43,9 +43,10 @@ causes! {
     ComAxes = "com_axes", "the centre of mass is given in the axes of another frame";
     InertialFrame = "inertial_frame", "centre of mass and inertia are given in another frame";
     InertialAxes = "inertial_axes", "centre of mass and inertia are given in the axes of another frame";
-    InertiaAboutOrigin = "inertia_about_origin", "the inertia is about the link's origin instead of its centre of mass";
+    InertiaAboutOrigin = "inertia_about_origin", "the inertia is given about the link's origin, not about its centre of mass";
     ProductsSign = "products_sign", "all products of inertia have the other sign";
     ProductSign = "product_sign", "one product of inertia has the other sign";
+    MomentSign = "moment_sign", "a moment of inertia has the wrong sign";
     MomentsSwapped = "moments_swapped", "two moments of inertia are exchanged";
     ProductsSwapped = "products_swapped", "two products of inertia are exchanged";
     InertiaOrder = "inertia_order", "the six numbers of the inertia are in another order";
@@ -63,7 +64,10 @@ causes! {
     InertiaPlaceholder = "inertia_placeholder", "the inertia is a placeholder";
     InertiaMissing = "inertia_missing", "the inertia is missing";
     InertialMissing = "inertial_missing", "the link has no inertia";
+    LinkMissing = "link_missing", "only the other description has this link and its mass";
+    LinkAdded = "link_added", "only this description has this link and its mass";
     Mass = "mass", "the mass is off";
+    MassScale = "mass_scale", "the masses are off by one factor";
     Density = "density", "mass and inertia are off by one factor";
     ComEntry = "com_entry", "one coordinate of the centre of mass is off";
     InertiaScale = "inertia_scale", "the inertia is off by one factor";
@@ -87,7 +91,7 @@ causes! {
     GravityMissing = "gravity_missing", "gravity is left out";
     GravityDirection = "gravity_direction", "gravity has another direction";
     GravityMagnitude = "gravity_magnitude", "gravity has another magnitude";
-    Several = "several", "several figures are wrong";
+    Several = "several", "several values are wrong";
     #[default]
     Unexplained = "unexplained", "no known cause explains the difference";
 }

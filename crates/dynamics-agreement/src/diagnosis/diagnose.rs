@@ -15,7 +15,7 @@ use crate::{
     torque::{compressed::Compressed, states::State},
 };
 
-/// Whose figures are taken to be wrong, and what is known.
+/// Whose parameters are taken to be wrong, and what is known.
 #[derive(Clone, Copy)]
 pub(crate) struct Setting<'a> {
     pub(crate) candidate: &'a Side,
@@ -32,7 +32,7 @@ pub(crate) struct Diagnosed {
     pub(crate) same: bool,
     /// Links whose numbers alone can contain the difference.
     pub(crate) links: Vec<usize>,
-    /// Explanations with different figures, the first one named.
+    /// Explanations with different parameters, the first one named.
     pub(crate) explanations: Vec<Grouped>,
 }
 
@@ -40,7 +40,7 @@ pub(crate) struct Diagnosed {
 #[derive(Debug, Clone)]
 pub(crate) struct Grouped {
     pub(crate) named: Exact,
-    /// Others that end at the same figures.
+    /// Others that end at the same parameters.
     pub(crate) also: Vec<Exact>,
     /// Why it cannot be told from the first.
     pub(crate) reason: Option<EquivalenceReason>,
@@ -56,7 +56,7 @@ pub(crate) struct Expected<'a> {
     pub(crate) torques: &'a [Vec<f64>],
 }
 
-/// Finds what explains a difference of torque. Beside a figure that is a thousand million times too large any other
+/// Finds what explains a difference of torque. Beside a parameter that is a thousand million times too large any other
 /// fault is rounding: what is left after the correction of the first is looked at again.
 pub(crate) fn diagnose_in_stages(
     setting: &Setting<'_>,
@@ -121,11 +121,11 @@ fn sort(found: &mut [Exact]) {
     found.sort_by(|a, b| a.rank().cmp(&b.rank()));
 }
 
-/// Puts explanations with the same figures together.
+/// Puts explanations with the same parameters together.
 fn grouped(side: &Side, torque: &Compressed, found: Vec<Exact>) -> Vec<Grouped> {
     let mut groups: Vec<Grouped> = Vec::new();
     for exact in found {
-        if let Some(group) = groups.iter_mut().find(|group| group.named.has_figures_of(&exact, side)) {
+        if let Some(group) = groups.iter_mut().find(|group| group.named.has_parameters_of(&exact, side)) {
             group.also.push(exact);
             continue;
         }

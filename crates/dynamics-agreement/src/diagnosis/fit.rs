@@ -1,4 +1,4 @@
-//! Does a hypothesis leave nothing of the difference of torque, and with which figures?
+//! Does a hypothesis leave nothing of the difference of torque, and with which parameters?
 
 use congruent_dynamics::JointResistance;
 use congruent_kinematics::rotation_exp;
@@ -6,15 +6,15 @@ use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 
 use super::{
     free::{ENTRIES, Free},
-    hypothesis::{Change, Hypothesis},
+    hypothesis::{Change, Hypothesis, Scale},
 };
 use crate::{
     side::{Inertial, JointTerm, Side},
-    thresholds::{COM_START_M, LAST_STEP, MAX_STEPS, ZERO_FIGURE},
+    thresholds::{COM_START_M, LAST_STEP, MAX_STEPS, ZERO_VALUE},
     torque::{compressed::Compressed, least_squares::solve},
 };
 
-/// The candidate's figures after a correction; what is not named stays.
+/// The candidate's parameters after a correction; what is not named stays.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Corrected {
     pub(crate) links: Vec<(usize, Inertial)>,
@@ -26,8 +26,8 @@ impl Corrected {
     /// A side with the correction.
     pub(crate) fn side(&self, side: &Side) -> Side {
         let mut corrected = side.clone();
-        for (link, figures) in &self.links {
-            corrected.inertials[*link] = Some(*figures);
+        for (link, parameters) in &self.links {
+            corrected.inertials[*link] = Some(*parameters);
         }
         if let Some(joints) = &self.joints {
             corrected.resistances.clone_from(joints);
@@ -57,7 +57,7 @@ pub(super) struct Target<'a> {
     pub(super) exact: f64,
 }
 
-/// What a correction does to the torques, and its figures.
+/// What a correction does to the torques, and its parameters.
 struct Effect {
     corrected: Corrected,
     torque: DVector<f64>,
@@ -74,6 +74,7 @@ impl Target<'_> {
                 self.free_link(*link, &written, *free)?
             }
             Change::FreeLinkFrom { link, from, free } => self.free_link(*link, from, *free)?,
+            Change::FreeScale(scale) => self.free_scale(*scale)?,
             Change::Joints(joints) => self.joints(joints),
             Change::FreeJoints { term, groups } => self.free_joints(*term, groups),
             Change::Gravity(gravity) => self.gravity(*gravity),
@@ -95,24 +96,38 @@ impl Target<'_> {
         Some(effect)
     }
 
-    /// Effect of other figures of a link.
-    fn of_figures(&self, link: usize, figures: &Inertial) -> Option<DVector<f64>> {
+    /// Effect of other parameters of a link.
+    fn of_parameters(&self, link: usize, parameters: &Inertial) -> Option<DVector<f64>> {
         let written = self.side.inertials[link].unwrap_or_else(Inertial::nothing);
-        Some(self.torque.link(link)? * (figures.ten_numbers() - written.ten_numbers()))
+        Some(self.torque.link(link)? * (parameters.ten_numbers() - written.ten_numbers()))
     }
 
     fn links(&self, links: &[(usize, Inertial)]) -> Option<Effect> {
         let mut effect = DVector::zeros(self.torque.difference.len());
-        for (link, figures) in links {
-            effect += self.of_figures(*link, figures)?;
+        for (link, parameters) in links {
+            effect += self.of_parameters(*link, parameters)?;
         }
         let corrected = Corrected { links: links.to_vec(), ..Corrected::default() };
         Some(Effect { corrected, torque: effect, rank: 0 })
     }
 
+    /// One factor of all links that move: torques are linear in it.
+    fn free_scale(&self, scale: Scale) -> Option<Effect> {
+        let all = |factor: f64| -> Vec<(usize, Inertial)> {
+            let links = self.side.inertials.iter().enumerate();
+            let moving = links.filter(|(link, _)| self.torque.link(*link).is_some());
+            moving.filter_map(|(link, of)| Some((link, scale.scaled(of.as_ref()?, factor)))).collect()
+        };
+        let column = self.links(&all(2.0))?.torque;
+        let columns = DMatrix::from_columns(&[column]);
+        let solution = solve(&columns, &self.torque.difference, self.torque.scale);
+        let rank = solution.rank;
+        Some(Effect { rank, ..self.links(&all(1.0 + solution.unknowns[0]))? })
+    }
+
     fn free_link(&self, link: usize, from: &Inertial, free: Free) -> Option<Effect> {
         let block = self.torque.link(link)?;
-        let target = &self.torque.difference - self.of_figures(link, from)?;
+        let target = &self.torque.difference - self.of_parameters(link, from)?;
         let ends = self
             .starts(block, &target, from, free)
             .into_iter()
@@ -121,15 +136,18 @@ impl Target<'_> {
         let is_no_body = |(free, end): &(Free, Descent)| {
             let is_exact = end.left.hypot(self.torque.outside) <= self.exact;
             !is_exact
-                || free.figures(from, end.unknowns.as_slice()).law_broken(self.side.frames.reach_m).is_some()
+                || free
+                    .parameters(from, end.unknowns.as_slice())
+                    .law_broken(self.side.frames.reach_m)
+                    .is_some()
         };
         let best = ends.min_by(|a, b| is_no_body(a).cmp(&is_no_body(b)).then(a.1.left.total_cmp(&b.1.left)));
         let (free, end) = best?;
-        let figures = free.figures(from, end.unknowns.as_slice());
+        let parameters = free.parameters(from, end.unknowns.as_slice());
         let numbers = free.about_origin(from, end.unknowns.as_slice()).parameters();
         let written = self.side.inertials[link].unwrap_or_else(Inertial::nothing);
         let effect = block * (crate::side::inertial::TenNumbers::from(numbers) - written.ten_numbers());
-        let corrected = Corrected { links: vec![(link, figures)], ..Corrected::default() };
+        let corrected = Corrected { links: vec![(link, parameters)], ..Corrected::default() };
         Some(Effect { corrected, torque: effect, rank: end.rank })
     }
 
@@ -156,7 +174,7 @@ impl Target<'_> {
                 if fitted.left > self.exact {
                     return Vec::new();
                 }
-                let tensor = Free::Inertia.figures(from, fitted.unknowns.as_slice()).tensor_in_link();
+                let tensor = Free::Inertia.parameters(from, fitted.unknowns.as_slice()).tensor_in_link();
                 turns_onto(&from.tensor_in_link(), &tensor)
                     .into_iter()
                     .chain(SKEW_STARTS_RAD.map(|turn| rotation_exp(&Vector3::from(turn))))
@@ -234,11 +252,11 @@ impl Target<'_> {
                 let old = term.of(&joints[joint]);
                 // What only rounding changes stays, and what is zero but for rounding is zero.
                 let effect = all.column(joint).norm() * change.abs();
-                if effect <= ZERO_FIGURE * self.torque.difference.norm() {
+                if effect <= ZERO_VALUE * self.torque.difference.norm() {
                     continue;
                 }
                 let new = old + change;
-                let value = if new.abs() <= ZERO_FIGURE * old.abs() { 0.0 } else { new };
+                let value = if new.abs() <= ZERO_VALUE * old.abs() { 0.0 } else { new };
                 term.set(&mut joints[joint], value);
             }
         }
@@ -274,9 +292,9 @@ fn ball(from: &Inertial, fitted: &DVector<f64>, free: Free) -> DVector<f64> {
     if ball.mass_kg <= 0.0 {
         ball.mass_kg = BALL_DENSITY * moment;
     }
-    let of = |figures: &Inertial| match free {
-        Free::Inertial => figures.ten_numbers().iter().copied().collect::<Vec<f64>>(),
-        _ => ENTRIES.map(|entry| figures.tensor_kg_m2[entry]).to_vec(),
+    let of = |parameters: &Inertial| match free {
+        Free::Inertial => parameters.ten_numbers().iter().copied().collect::<Vec<f64>>(),
+        _ => ENTRIES.map(|entry| parameters.tensor_kg_m2[entry]).to_vec(),
     };
     DVector::from_vec(of(&ball)) - DVector::from_vec(of(from))
 }

@@ -56,13 +56,13 @@ impl Free {
                 numbers.iter_mut().zip(x).for_each(|(number, x)| *number += x);
                 SpatialInertia::from_parameters(numbers)
             }
-            _ => self.figures(written, x).about_origin(),
+            _ => self.parameters(written, x).about_origin(),
         }
     }
 
-    /// The link's figures with these numbers.
-    pub(super) fn figures(self, written: &Inertial, x: &[f64]) -> Inertial {
-        let mut figures = *written;
+    /// The link's parameters with these numbers.
+    pub(super) fn parameters(self, written: &Inertial, x: &[f64]) -> Inertial {
+        let mut parameters = *written;
         let add = |tensor: &mut Matrix3<f64>, entries: &[(usize, usize)]| {
             for (&(row, column), x) in entries.iter().zip(x) {
                 tensor[(row, column)] += x;
@@ -72,27 +72,27 @@ impl Free {
             }
         };
         match self {
-            Self::Mass => figures.mass_kg += x[0],
+            Self::Mass => parameters.mass_kg += x[0],
             Self::Density => {
-                figures.mass_kg *= 1.0 + x[0];
-                figures.tensor_kg_m2 *= 1.0 + x[0];
+                parameters.mass_kg *= 1.0 + x[0];
+                parameters.tensor_kg_m2 *= 1.0 + x[0];
             }
-            Self::ComEntry(axis) => figures.com_m[axis] += x[0],
-            Self::Com => figures.com_m += Vector3::new(x[0], x[1], x[2]),
-            Self::InertiaEntry(row, column) => add(&mut figures.tensor_kg_m2, &[(row, column)]),
-            Self::InertiaScale => figures.tensor_kg_m2 *= 1.0 + x[0],
-            Self::Products => add(&mut figures.tensor_kg_m2, &PRODUCTS),
-            Self::Inertia => add(&mut figures.tensor_kg_m2, &ENTRIES),
+            Self::ComEntry(axis) => parameters.com_m[axis] += x[0],
+            Self::Com => parameters.com_m += Vector3::new(x[0], x[1], x[2]),
+            Self::InertiaEntry(row, column) => add(&mut parameters.tensor_kg_m2, &[(row, column)]),
+            Self::InertiaScale => parameters.tensor_kg_m2 *= 1.0 + x[0],
+            Self::Products => add(&mut parameters.tensor_kg_m2, &PRODUCTS),
+            Self::Inertia => add(&mut parameters.tensor_kg_m2, &ENTRIES),
             Self::Rotation(start) => {
                 let turn = rotation_exp(&Vector3::new(x[0], x[1], x[2])) * start;
                 let tensor = turn * written.tensor_in_link() * turn.transpose();
-                figures = figures.with_tensor_in_link(&tensor);
+                parameters = parameters.with_tensor_in_link(&tensor);
             }
             Self::Payload | Self::Inertial => {
-                figures = Inertial::from_origin(&self.about_origin(written, x), written.link_from_axes);
+                parameters = Inertial::from_origin(&self.about_origin(written, x), written.link_from_axes);
             }
         }
-        figures
+        parameters
     }
 
     /// Derivatives of the ten numbers by the free ones: exact, except for a rotation.

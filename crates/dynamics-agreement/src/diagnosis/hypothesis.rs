@@ -1,4 +1,4 @@
-//! A hypothesis about a fault: what of the candidate's figures would have to be other, for the torques of the
+//! A hypothesis about a fault: what of the candidate's parameters would have to be other, for the torques of the
 //! reference. The catalogue of hypotheses is `cause/`.
 
 use congruent_dynamics::JointResistance;
@@ -9,7 +9,7 @@ use crate::side::{Inertial, JointTerm};
 
 /// Which of the two sides is taken to be wrong.
 ///
-/// Only the candidate's figures are known, so either way they are what is changed: if the candidate is taken to be wrong, a slip
+/// Only the candidate's parameters are known, so either way they are what is changed: if the candidate is taken to be wrong, a slip
 /// is undone on them; if the reference is, which was made from the candidate's file, the slip is done to them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -54,19 +54,21 @@ pub(crate) struct Hypothesis {
     pub(crate) detail: String,
     pub(crate) place: Place,
     pub(super) change: Change,
-    /// Whether the figure is lacking in the file itself: it has a price of its own.
+    /// Whether the parameter is lacking in the file itself: it has a price of its own.
     pub(super) is_missing: bool,
 }
 
-/// What becomes of the candidate's figures.
+/// What becomes of the candidate's parameters.
 #[derive(Debug, Clone)]
 pub(crate) enum Change {
-    /// These links have other figures.
+    /// These links have other parameters.
     Links(Vec<(usize, Inertial)>),
     /// Numbers of one link are free.
     FreeLink { link: usize, free: Free },
     /// Numbers of one link are free, the others are these.
     FreeLinkFrom { link: usize, from: Inertial, free: Free },
+    /// One factor of all links is free.
+    FreeScale(Scale),
     /// All joints have these terms.
     Joints(Vec<JointResistance>),
     /// One term is free: each group of joints has one number, added to it.
@@ -75,6 +77,28 @@ pub(crate) enum Change {
     Gravity(Vector3<f64>),
     /// Gravity is free along these directions.
     FreeGravity(Vec<Vector3<f64>>),
+}
+
+/// What one factor of all links multiplies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Scale {
+    Masses,
+    Tensors,
+    /// As another density does.
+    Both,
+}
+
+impl Scale {
+    /// A link's parameters with the factor.
+    pub(super) fn scaled(self, parameters: &Inertial, factor: f64) -> Inertial {
+        let [mass, tensor] = match self {
+            Self::Masses => [factor, 1.0],
+            Self::Tensors => [1.0, factor],
+            Self::Both => [factor, factor],
+        };
+        let (mass_kg, tensor_kg_m2) = (parameters.mass_kg * mass, parameters.tensor_kg_m2 * tensor);
+        Inertial { mass_kg, tensor_kg_m2, ..*parameters }
+    }
 }
 
 impl Hypothesis {

@@ -14,11 +14,12 @@ mod rank;
 mod reason;
 mod search;
 
+pub(crate) use cause::{rounded_damping_unit, rounded_unit};
 pub use cause_names::DynamicsCause;
 pub(crate) use diagnose::{Expected, Grouped, Setting, diagnose_in_stages};
 pub(crate) use fit::Corrected;
 pub use hypothesis::FaultySide;
-pub(crate) use hypothesis::Place;
+pub(crate) use hypothesis::{Hypothesis, Place};
 pub(crate) use rank::Exact;
 pub use reason::EquivalenceReason;
 

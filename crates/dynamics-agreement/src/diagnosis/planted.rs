@@ -50,13 +50,17 @@ fn plant(original: &Side, hypothesis: &Hypothesis) -> Option<Planted> {
     let mut side = original.clone();
     match &hypothesis.change {
         Change::Links(links) => {
-            for (link, figures) in links {
-                side.inertials[*link] = Some(*figures);
+            for (link, parameters) in links {
+                side.inertials[*link] = Some(*parameters);
             }
         }
         Change::FreeLink { link, free } | Change::FreeLinkFrom { link, free, .. } => {
-            let figures = side.inertials[*link]?;
-            side.inertials[*link] = Some(shifted(&figures, *free));
+            let parameters = side.inertials[*link]?;
+            side.inertials[*link] = Some(shifted(&parameters, *free));
+        }
+        Change::FreeScale(scale) => {
+            let links = side.inertials.iter_mut().flatten();
+            links.for_each(|parameters| *parameters = scale.scaled(parameters, 1.137));
         }
         Change::Joints(joints) => side.resistances.clone_from(joints),
         Change::FreeJoints { term, groups } => {
@@ -79,12 +83,12 @@ fn plant(original: &Side, hypothesis: &Hypothesis) -> Option<Planted> {
     Some(Planted { cause, detail, place: hypothesis.place.clone(), side })
 }
 
-fn shifted(figures: &Inertial, free: Free) -> Inertial {
-    let size = figures.tensor_kg_m2.trace();
+fn shifted(parameters: &Inertial, free: Free) -> Inertial {
+    let size = parameters.tensor_kg_m2.trace();
     let lengths = Vector3::new(0.013, -0.021, 0.008);
     let entries = [0.31, 0.02, -0.03, 0.23, 0.05, 0.17].map(|share| share * size);
     let x: Vec<f64> = match free {
-        Free::Mass => vec![-0.3 * figures.mass_kg],
+        Free::Mass => vec![-0.3 * parameters.mass_kg],
         Free::Density => vec![0.2],
         Free::InertiaScale => vec![0.5],
         Free::ComEntry(axis) => vec![lengths[axis]],
@@ -93,15 +97,15 @@ fn shifted(figures: &Inertial, free: Free) -> Inertial {
         Free::Products => entries[1..4].to_vec(),
         Free::Inertia => entries.to_vec(),
         Free::Inertial => {
-            let mass = 0.4 * figures.mass_kg;
-            let moved = Inertial { mass_kg: mass, com_m: figures.com_m + lengths, ..*figures };
+            let mass = 0.4 * parameters.mass_kg;
+            let moved = Inertial { mass_kg: mass, com_m: parameters.com_m + lengths, ..*parameters };
             let numbers: Vec<f64> = moved.ten_numbers().iter().copied().collect();
             numbers
         }
         Free::Payload => vec![0.15, 0.02, -0.01, 0.06],
         Free::Rotation(_) => vec![0.3, -0.2, 0.4],
     };
-    free.figures(figures, &x)
+    free.parameters(parameters, &x)
 }
 
 /// The original with both faults of two, the second one at a link.

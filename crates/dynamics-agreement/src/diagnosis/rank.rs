@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     side::{BodyLaw, Inertial, JointTerm, Side},
-    thresholds::{FILE_DIGITS, PRICE_OF_MISSING, PRICE_OF_PART, SAME_FIGURE},
+    thresholds::{FILE_DIGITS, PRICE_OF_MISSING, PRICE_OF_PART, SAME_VALUE},
 };
 
 /// One or several hypotheses that together leave nothing.
@@ -18,7 +18,7 @@ pub(crate) struct Exact {
     pub(crate) parts: Vec<Fit>,
     pub(crate) corrected: Corrected,
     pub(crate) law_broken: Option<(usize, BodyLaw)>,
-    /// Whether a figure is named that is the same in both descriptions.
+    /// Whether a parameter is named that is the same in both descriptions.
     pub(crate) contradicted: bool,
     pub(crate) price: f64,
 }
@@ -28,10 +28,10 @@ impl Exact {
         let mut corrected = Corrected::default();
         for part in &parts {
             // A later part corrects what the earlier ones leave.
-            for (link, figures) in &part.corrected.links {
+            for (link, parameters) in &part.corrected.links {
                 match corrected.links.iter_mut().find(|(before, _)| before == link) {
-                    Some((_, before)) => *before = *figures,
-                    None => corrected.links.push((*link, *figures)),
+                    Some((_, before)) => *before = *parameters,
+                    None => corrected.links.push((*link, *parameters)),
                 }
             }
             corrected.gravity = corrected.gravity.or(part.corrected.gravity);
@@ -93,23 +93,24 @@ impl Exact {
         }
     }
 
-    /// Whether two explanations end at the same figures.
-    pub(super) fn has_figures_of(&self, other: &Self, side: &Side) -> bool {
+    /// Whether two explanations end at the same parameters.
+    pub(super) fn has_parameters_of(&self, other: &Self, side: &Side) -> bool {
         let links = |a: &Corrected, b: &Corrected| {
-            a.links.iter().all(|(link, figures)| {
-                let there = b.links.iter().find(|(other, _)| other == link).map(|(_, figures)| *figures);
+            a.links.iter().all(|(link, parameters)| {
+                let there =
+                    b.links.iter().find(|(other, _)| other == link).map(|(_, parameters)| *parameters);
                 let there = there.or(side.inertials[*link]).unwrap_or_else(Inertial::nothing);
-                is_same(figures, &there)
+                is_same(parameters, &there)
             })
         };
         let joints = |of: &Corrected| of.joints.clone().unwrap_or_else(|| side.resistances.clone());
         let gravity = |of: &Corrected| of.gravity.unwrap_or(side.gravity_m_s2);
         let (a, b) = (&self.corrected, &other.corrected);
-        let close = |a: f64, b: f64| (a - b).abs() <= SAME_FIGURE * a.abs().max(b.abs()).max(SAME_FIGURE);
+        let close = |a: f64, b: f64| (a - b).abs() <= SAME_VALUE * a.abs().max(b.abs()).max(SAME_VALUE);
         let same_joints = joints(a).iter().zip(joints(b)).all(|(a, b)| {
             close(a.damping, b.damping) && close(a.friction, b.friction) && close(a.armature, b.armature)
         });
-        let same_gravity = (gravity(a) - gravity(b)).norm() <= SAME_FIGURE * side.gravity_m_s2.norm();
+        let same_gravity = (gravity(a) - gravity(b)).norm() <= SAME_VALUE * side.gravity_m_s2.norm();
         links(a, b) && links(b, a) && same_joints && same_gravity
     }
 }
@@ -129,15 +130,15 @@ impl Corrected {
     /// The first link that would be no body, and the law that it breaks.
     pub(crate) fn law_broken(&self, side: &Side) -> Option<(usize, BodyLaw)> {
         let mut links = self.links.iter();
-        links.find_map(|(link, figures)| Some((*link, law_broken(side, *link, figures)?)))
+        links.find_map(|(link, parameters)| Some((*link, law_broken(side, *link, parameters)?)))
     }
 }
 
 impl Fit {
-    /// Whether more than rounding of a link's figures is corrected, or anything else.
+    /// Whether more than rounding of a link's parameters is corrected, or anything else.
     pub(super) fn is_more_than_rounding(&self, side: &Side) -> bool {
-        let is_same = |(link, figures): &(usize, Inertial)| {
-            side.inertials[*link].is_some_and(|written| is_same(&written, figures))
+        let is_same = |(link, parameters): &(usize, Inertial)| {
+            side.inertials[*link].is_some_and(|written| is_same(&written, parameters))
         };
         let is_of_links = self.corrected.joints.is_none() && self.corrected.gravity.is_none();
         !(is_of_links && self.corrected.links.iter().all(is_same))
@@ -161,7 +162,7 @@ impl Fit {
         }
     }
 
-    /// Free numbers that torque shows, or less if the file lacks the figure.
+    /// Free numbers that torque shows, or less if the file lacks the parameter.
     pub(super) fn price(&self) -> f64 {
         if self.hypothesis.is_missing {
             return PRICE_OF_MISSING;
@@ -170,7 +171,7 @@ impl Fit {
     }
 }
 
-/// Exactly, as figures that nobody has touched are.
+/// Exactly, as parameters that nobody has touched are.
 fn is_equal(a: f64, b: f64) -> bool {
     a.total_cmp(&b).is_eq()
 }
@@ -186,24 +187,25 @@ fn added(new: &JointResistance, old: &JointResistance, before: JointResistance) 
     sum
 }
 
-/// The law that corrected figures break; figures that the correction leaves as they are written are not judged.
-fn law_broken(side: &Side, link: usize, figures: &Inertial) -> Option<BodyLaw> {
-    let broken = figures.law_broken(side.frames.reach_m)?;
+/// The law that corrected parameters break; parameters that the correction leaves as they are written are not judged.
+fn law_broken(side: &Side, link: usize, parameters: &Inertial) -> Option<BodyLaw> {
+    let broken = parameters.law_broken(side.frames.reach_m)?;
     let keeps_tensor =
-        side.inertials[link].is_some_and(|written| written.tensor_kg_m2 == figures.tensor_kg_m2);
+        side.inertials[link].is_some_and(|written| written.tensor_kg_m2 == parameters.tensor_kg_m2);
     (broken == BodyLaw::Mass || !keeps_tensor).then_some(broken)
 }
 
-/// Whether a correction changes a figure that is the same in both descriptions.
+/// Whether a correction changes a parameter that is the same in both descriptions.
 fn is_contradicted(side: &Side, reference: &Side, corrected: &Corrected) -> bool {
-    let links = corrected.links.iter().any(|(link, figures)| {
+    let links = corrected.links.iter().any(|(link, parameters)| {
         let name = side.frames.link_name(*link);
         let Some(other) = reference.frames.find_link(name) else { return false };
         let written = side.inertials[*link];
         let (Some(written), Some(other)) = (written, reference.inertials[other]) else {
             return written.is_none() && reference.inertials[other].is_none();
         };
-        Differences::between(&written, figures).change_what_is_equal(Differences::between(&written, &other))
+        Differences::between(&written, parameters)
+            .change_what_is_equal(Differences::between(&written, &other))
     });
     let joints = corrected.joints.iter().flatten().enumerate().any(|(joint, new)| {
         let name = side.frames.joint_name(joint);
@@ -217,13 +219,13 @@ fn is_contradicted(side: &Side, reference: &Side, corrected: &Corrected) -> bool
     links || joints
 }
 
-/// Which of a link's figures differ: mass, centre of mass, tensor.
+/// Which of a link's parameters differ: mass, centre of mass, tensor.
 #[derive(Clone, Copy, PartialEq)]
 struct Differences([bool; 3]);
 
 impl Differences {
     fn between(a: &Inertial, b: &Inertial) -> Self {
-        Self::above(SAME_FIGURE, a, b)
+        Self::above(SAME_VALUE, a, b)
     }
 
     fn above(share: f64, a: &Inertial, b: &Inertial) -> Self {
@@ -241,7 +243,7 @@ impl Differences {
     }
 }
 
-/// Whether two figures describe the same body.
+/// Whether two parameters describe the same body.
 fn is_same(a: &Inertial, b: &Inertial) -> bool {
     Differences::between(a, b) == Differences([false; 3])
 }

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 
 use super::{
     content::{DynamicsPremise, DynamicsReport, DynamicsVerdict, Sides, TorqueCertificates},
-    link_by_link::link_by_link,
+    link_by_link::{is_simpler, link_by_link},
     places::Files,
     told::{NamedSide, Told},
 };
@@ -34,8 +34,8 @@ pub enum CompareError {
     /// Nothing moves.
     #[error("no joint moves: there is no joint torque to compare")]
     NoJoint,
-    /// A figure is no number, or so large that torques overflow.
-    #[error("a figure is not finite, or too large to compute torques with")]
+    /// A parameter is no number, or so large that torques overflow.
+    #[error("a value is not finite, or too large to compute torques with")]
     NotFinite,
     /// The source of accelerations failed.
     #[error("the source of accelerations: {message}")]
@@ -54,7 +54,7 @@ pub enum CompareError {
 /// comparison before this one.
 ///
 /// # Errors
-/// [`CompareError`] if a joint is missing in one of them, or if figures are not finite.
+/// [`CompareError`] if a joint is missing in one of them, or if parameters are not finite.
 ///
 /// # Examples
 /// A mass that is given in grams:
@@ -95,8 +95,13 @@ pub fn compare(
     let files = Files { found: candidate.places, expected: reference.places };
     let expected = Expected { states: &states, torques: &expected };
     let mut told = Told::new(&setting, files, &torque, expected)?;
-    if !told.same && told.explanations.is_empty() {
-        told.explanations = link_by_link(&setting, files, (reference.side, &seen_as_candidate), &states)?;
+    // A slip without a free number is taken at its word.
+    if told.explanations.first().map_or(!told.same, |first| first.contradicted || first.numbers > 0.0) {
+        let by_link = link_by_link(&setting, files, (reference.side, &seen_as_candidate), &states)?;
+        if is_simpler(&by_link, &told.explanations) {
+            told.explanations = by_link;
+            told.indistinguishable.clear();
+        }
     }
     let mut differences = hidden::differences(candidate.side, reference.side);
     files.place(&mut differences);
@@ -178,7 +183,7 @@ fn matched(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareErro
     candidate.frames.joints.iter().map(|joint| place(&joint.name)).collect()
 }
 
-/// Larger figures overflow in squares of torques. Kind: range of numbers.
+/// Larger parameters overflow in squares of torques. Kind: range of numbers.
 const LARGEST_NUMBER: f64 = 1e60;
 
 pub(super) fn has_usable_numbers(side: &Side) -> bool {
@@ -187,7 +192,7 @@ pub(super) fn has_usable_numbers(side: &Side) -> bool {
     terms.chain(numbers).chain(side.gravity_m_s2.iter().copied()).all(|number| number.abs() < LARGEST_NUMBER)
 }
 
-/// The figures of a reference in a candidate's geometry: one inertial for each body, at the link that its joint carries.
+/// The parameters of a reference in a candidate's geometry: one inertial for each body, at the link that its joint carries.
 fn in_geometry_of(candidate: &Side, reference: &Side, joints: &[usize]) -> Side {
     let bodies = reference.bodies();
     let mut seen = candidate.clone();
@@ -199,6 +204,7 @@ fn in_geometry_of(candidate: &Side, reference: &Side, joints: &[usize]) -> Side 
         seen.inertials[link] = Some(Inertial::from_origin(&in_link, Matrix3::identity()));
         seen.resistances[joint] = reference.resistances[other];
         seen.limits[joint] = reference.limits[other];
+        seen.accelerations[joint] = reference.accelerations[other];
     }
     seen.gravity_m_s2 = reference.gravity_m_s2;
     seen

@@ -18,12 +18,12 @@ use crate::{
 };
 
 /// Compares a description with a source of accelerations of the same robot: what of the source would have to be other
-/// for the description's torques? The source is taken to be wrong, so figures are found there and expected in the description.
+/// for the description's torques? The source is taken to be wrong, so parameters are found there and expected in the description.
 ///
 /// Mimic joints must be free of their masters in the source.
 ///
 /// # Errors
-/// [`CompareError`] if the source fails, or if figures are not finite.
+/// [`CompareError`] if the source fails, or if parameters are not finite.
 pub fn compare_with_source(
     candidate: &NamedSide<'_>,
     (name, source): (&str, &mut dyn AccelerationSource),

@@ -4,7 +4,7 @@ use congruent_description::ChangedLines;
 
 use crate::{
     bound::{CoveredMotion, TorqueCertificate},
-    compare::{FigureDifference, Invariants, LimitDifference},
+    compare::{Invariants, LimitDifference, ParameterDifference},
     diagnosis::{DynamicsCause, EquivalenceReason, FaultySide},
     torque::SeenNumbers,
 };
@@ -27,15 +27,15 @@ pub struct DynamicsReport {
     /// Links whose numbers alone can contain the difference.
     #[serde(rename = "where")]
     pub links: Vec<String>,
-    /// Figures of links that differ between two descriptions; tensors in the axes of the inertial frame if both have the
+    /// Parameters of links that differ between two descriptions; tensors in the axes of the inertial frame if both have the
     /// same, else in those of the link.
-    pub differences: Vec<FigureDifference>,
+    pub differences: Vec<ParameterDifference>,
     /// Those of them that no joint torque shows.
-    pub hidden_differences: Vec<FigureDifference>,
+    pub hidden_differences: Vec<ParameterDifference>,
     /// What explains the difference best; empty if there is none, or if nothing explains it. More than one if the
     /// difference is that of more than two links: then each explains its own link, joints or gravity.
     pub explanations: Vec<DynamicsExplanation>,
-    /// What leaves the same torques with other figures.
+    /// What leaves the same torques with other parameters.
     pub indistinguishable: Vec<DynamicsExplanation>,
     /// Limits of joints that differ.
     pub limits: Vec<LimitDifference>,
@@ -74,7 +74,7 @@ pub struct TorqueCertificates {
 /// Names of the two sides.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 pub struct Sides {
-    /// Whose figures are known and corrected.
+    /// Whose parameters are known and corrected.
     pub candidate: String,
     /// What it is held against.
     pub reference: String,
@@ -86,9 +86,9 @@ pub struct Sides {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DynamicsVerdict {
-    /// Torques and figures are the same.
+    /// Torques and parameters are the same.
     Same,
-    /// Torques are the same, but figures differ that no torque shows.
+    /// Torques are the same, but parameters differ that no torque shows.
     SameTorques,
     /// Torques differ, and an explanation leaves nothing of the difference.
     Explained,
@@ -116,17 +116,20 @@ pub struct DynamicsExplanation {
     pub detail: String,
     /// Links or joints; `*` for all of them, `gravity`.
     pub place: Vec<String>,
-    /// The figures that it corrects, as they are written and as they should be.
-    pub figures: Vec<FigureDifference>,
-    /// What it costs: free numbers that torque shows, 0.5 for a figure that the file does not have, 1 for each further part.
+    /// The parameters that it corrects, as they are written and as they should be.
+    #[serde(rename = "figures")]
+    pub parameters: Vec<ParameterDifference>,
+    /// What it costs: free numbers that torque shows, 0.5 for a parameter that the file does not have, 1 for each further part.
     pub numbers: f64,
     /// What is left of the difference.
     pub left_relative: f64,
-    /// Whether the corrected figures are those of a body.
+    /// Whether the corrected parameters are those of a body.
     pub is_a_body: bool,
     /// The law that they break.
     pub body_law: Option<String>,
-    /// Whether it changes a figure that is the same in both descriptions.
+    /// Why no body has the values as they are written, each link with its law; empty if bodies have them.
+    pub impossible_as_written: Vec<String>,
+    /// Whether it changes a parameter that is the same in both descriptions.
     pub contradicted: bool,
     /// Other names of the same correction.
     pub also_named: Vec<PlacedCause>,
@@ -136,7 +139,7 @@ pub struct DynamicsExplanation {
     pub parts: Vec<PlacedCause>,
     /// The file that is to be corrected.
     pub file: Option<String>,
-    /// The line of the first figure.
+    /// The line of the first parameter.
     pub line: Option<usize>,
     /// What to write instead.
     pub suggestion: Option<String>,

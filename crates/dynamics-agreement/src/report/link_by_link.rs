@@ -1,19 +1,20 @@
-//! More faults than two at once: where both sides are descriptions, the difference of each link has its own cause.
+//! Where both sides are descriptions, the difference of each link has its own cause, whatever else differs.
 
 use congruent_dynamics::DynamicsError;
 
-use super::{content::DynamicsExplanation, places::Files, told::Told};
+use super::{content::DynamicsExplanation, places::Files, told::Told, unmatched::Unmatched};
 use crate::{
     diagnosis::{Expected, Setting},
     side::Side,
+    thresholds::PRICE_OF_PART,
     torque::{
         compressed::{Compressed, torques},
         states::State,
     },
 };
 
-/// The best explanation of each link, of the joints and of gravity alone; empty if the links of the same names do not
-/// make up the whole difference.
+/// The best explanation of each link, of the joints and of gravity alone; empty if the links by their names do not make
+/// up the whole difference.
 pub(super) fn link_by_link(
     setting: &Setting<'_>,
     files: Files<'_>,
@@ -34,10 +35,12 @@ pub(super) fn link_by_link(
             corrected.push(one);
         }
     }
+    let unmatched = Unmatched::new(side, reference);
+    unmatched.correct(&mut whole);
     if !is_same(&whole, seen_as_candidate, setting, states)? {
         return Ok(Vec::new());
     }
-    let mut explanations = Vec::new();
+    let mut explanations = unmatched.explanations(files);
     for one in &corrected {
         let expected = torques(one, states)?;
         let torque = Compressed::new(side, states, &expected)?;
@@ -49,6 +52,18 @@ pub(super) fn link_by_link(
         explanations.extend(told.explanations);
     }
     Ok(explanations)
+}
+
+/// Whether an account link by link is simpler than the first explanation by torques: it costs less, or the other names
+/// what is the same in both files.
+pub(super) fn is_simpler(by_link: &[DynamicsExplanation], by_torque: &[DynamicsExplanation]) -> bool {
+    let Some(first) = by_torque.first() else { return true };
+    let parts = f64::from(u32::try_from(by_link.len().saturating_sub(1)).unwrap_or(u32::MAX));
+    let price = by_link.iter().map(|explanation| explanation.numbers).sum::<f64>() + parts * PRICE_OF_PART;
+    // Of one link both say the same, unless the other file does not have it.
+    let says_the_same =
+        matches!(by_link, [only] if only.place == first.place && !only.cause.is_of_one_file());
+    !by_link.is_empty() && !says_the_same && (first.contradicted || price < first.numbers)
 }
 
 /// Whether two sides have the same torques.

@@ -7,6 +7,7 @@ mod explained;
 mod link_by_link;
 mod places;
 mod told;
+mod unmatched;
 mod words;
 
 pub use compare_descriptions::{CompareError, certify, compare};
@@ -15,5 +16,5 @@ pub use content::{
     DynamicsExplanation, DynamicsPremise, DynamicsReport, DynamicsVerdict, PlacedCause, Sides,
     TorqueCertificates,
 };
-pub use places::FigurePlaces;
+pub use places::ParameterPlaces;
 pub use told::NamedSide;

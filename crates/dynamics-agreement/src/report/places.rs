@@ -1,4 +1,4 @@
-//! Where a file says a figure, and how its text becomes another one.
+//! Where a file says a parameter, and how its text becomes another one.
 
 use std::{fmt::Debug, ops::Range};
 
@@ -9,21 +9,21 @@ use congruent_dynamics::JointResistance;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::{
-    compare::{FigureDifference, LimitDifference},
+    compare::{LimitDifference, ParameterDifference},
     side::Inertial,
-    thresholds::{SAME_FIGURE, ZERO_FIGURE},
+    thresholds::{SAME_VALUE, ZERO_VALUE},
 };
 
-/// A file that says figures of links, joints or gravity.
-pub trait FigurePlaces: Debug {
+/// A file that says parameters of links, joints or gravity.
+pub trait ParameterPlaces: Debug {
     /// The file.
     fn source(&self) -> &SourceFile;
 
-    /// Place of a figure, such as `mass` or `com_x`, of a link, of a joint, or of gravity, which has no name.
-    fn figure(&self, of: &str, figure: &str) -> Option<Range<usize>>;
+    /// Place of a parameter, such as `mass` or `com_x`, of a link, of a joint, or of gravity, which has no name.
+    fn parameter(&self, of: &str, parameter: &str) -> Option<Range<usize>>;
 
-    /// The edits after which a link has these figures; empty if the file cannot say them.
-    fn set_inertial(&self, link: &str, figures: &Inertial) -> Vec<TextEdit>;
+    /// The edits after which a link has these parameters; empty if the file cannot say them.
+    fn set_inertial(&self, link: &str, parameters: &Inertial) -> Vec<TextEdit>;
 
     /// The edits after which a joint has these terms; empty if the file cannot say them.
     fn set_terms(&self, joint: &str, terms: &JointResistance) -> Vec<TextEdit>;
@@ -32,14 +32,14 @@ pub trait FigurePlaces: Debug {
     fn set_gravity(&self, gravity_m_s2: &Vector3<f64>) -> Vec<TextEdit>;
 
     /// The edits after which a limit of a joint, such as `effort`, is this; empty if the file cannot say it.
-    fn set_limit(&self, _joint: &str, _figure: &str, _value: f64) -> Vec<TextEdit> {
+    fn set_limit(&self, _joint: &str, _parameter: &str, _value: f64) -> Vec<TextEdit> {
         Vec::new()
     }
 }
 
-impl dyn FigurePlaces + '_ {
-    fn line(&self, of: &str, figure: &str) -> Option<usize> {
-        let at = self.figure(of, figure)?;
+impl dyn ParameterPlaces + '_ {
+    fn line(&self, of: &str, parameter: &str) -> Option<usize> {
+        let at = self.parameter(of, parameter)?;
         Some(line_column(&self.source().text, at.start).0)
     }
 
@@ -51,26 +51,27 @@ impl dyn FigurePlaces + '_ {
 /// The files of the two sides; `None` if the places are not known.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Files<'a> {
-    pub(super) found: Option<&'a dyn FigurePlaces>,
-    pub(super) expected: Option<&'a dyn FigurePlaces>,
+    pub(super) found: Option<&'a dyn ParameterPlaces>,
+    pub(super) expected: Option<&'a dyn ParameterPlaces>,
 }
 
 impl Files<'_> {
-    pub(super) fn place(&self, differences: &mut [FigureDifference]) {
+    pub(super) fn place(&self, differences: &mut [ParameterDifference]) {
         for difference in differences {
-            let line = |file: Option<&dyn FigurePlaces>| file?.line(&difference.of, &difference.figure);
+            let line = |file: Option<&dyn ParameterPlaces>| file?.line(&difference.of, &difference.parameter);
             (difference.line, difference.expected_line) = (line(self.found), line(self.expected));
         }
     }
 
     pub(super) fn place_limits(&self, differences: &mut [LimitDifference]) {
         for difference in &mut *differences {
-            let line = |file: Option<&dyn FigurePlaces>| file?.line(&difference.joint, &difference.figure);
+            let line =
+                |file: Option<&dyn ParameterPlaces>| file?.line(&difference.joint, &difference.parameter);
             (difference.line, difference.expected_line) = (line(self.found), line(self.expected));
         }
         let Some(file) = self.found else { return };
         let set = |of: &LimitDifference| {
-            of.expected.map_or_else(Vec::new, |value| file.set_limit(&of.joint, &of.figure, value))
+            of.expected.map_or_else(Vec::new, |value| file.set_limit(&of.joint, &of.parameter, value))
         };
         let edits: Vec<Vec<TextEdit>> = differences.iter().map(set).collect();
         let joints: Vec<String> = differences.iter().map(|of| of.joint.clone()).collect();
@@ -85,13 +86,13 @@ impl Files<'_> {
     }
 }
 
-impl FigurePlaces for UrdfPlaces {
+impl ParameterPlaces for UrdfPlaces {
     fn source(&self) -> &SourceFile {
         UrdfPlaces::source(self)
     }
 
-    fn figure(&self, of: &str, figure: &str) -> Option<Range<usize>> {
-        match figure {
+    fn parameter(&self, of: &str, parameter: &str) -> Option<Range<usize>> {
+        match parameter {
             "mass" => self.inertial_part(of, "mass"),
             "com_x" | "com_y" | "com_z" => self.inertial_part(of, "origin"),
             "ixx" | "ixy" | "ixz" | "iyy" | "iyz" | "izz" => self.inertial_part(of, "inertia"),
@@ -101,15 +102,15 @@ impl FigurePlaces for UrdfPlaces {
         }
     }
 
-    fn set_inertial(&self, link: &str, figures: &Inertial) -> Vec<TextEdit> {
-        let rotation = Rotation3::from_matrix_unchecked(figures.link_from_axes);
+    fn set_inertial(&self, link: &str, parameters: &Inertial) -> Vec<TextEdit> {
+        let rotation = Rotation3::from_matrix_unchecked(parameters.link_from_axes);
         let inertia = Inertia {
-            mass_kg: figures.mass_kg,
+            mass_kg: parameters.mass_kg,
             link_from_inertial: Isometry3::from_parts(
-                Translation3::from(figures.com_m),
+                Translation3::from(parameters.com_m),
                 UnitQuaternion::from_rotation_matrix(&rotation),
             ),
-            tensor_kg_m2: figures.tensor_kg_m2,
+            tensor_kg_m2: parameters.tensor_kg_m2,
         };
         self.set_inertia(link, &inertia)
     }
@@ -122,38 +123,38 @@ impl FigurePlaces for UrdfPlaces {
         Vec::new()
     }
 
-    fn set_limit(&self, joint: &str, figure: &str, value: f64) -> Vec<TextEdit> {
-        self.set_joint_limit(joint, figure, value)
+    fn set_limit(&self, joint: &str, parameter: &str, value: f64) -> Vec<TextEdit> {
+        self.set_joint_limit(joint, parameter, value)
     }
 }
 
-/// Corrected figures as they are worth writing: what is the same but for rounding stays as it is written, and what is
+/// Corrected parameters as they are worth writing: what is the same but for rounding stays as it is written, and what is
 /// zero but for rounding is zero.
 pub(super) fn without_rounding(written: Option<&Inertial>, corrected: &Inertial) -> Inertial {
     let nothing = Inertial::nothing();
     let written = written.unwrap_or(&nothing);
     let kept = |old: f64, new: f64, size: f64| match new {
-        _ if (old - new).abs() <= SAME_FIGURE * size => old,
-        _ if new.abs() <= ZERO_FIGURE * size => 0.0,
+        _ if (old - new).abs() <= SAME_VALUE * size => old,
+        _ if new.abs() <= ZERO_VALUE * size => 0.0,
         _ => new,
     };
     let mass = written.mass_kg.abs().max(corrected.mass_kg.abs());
     let length = corrected.com_m.amax();
-    let mut figures = Inertial {
+    let mut parameters = Inertial {
         mass_kg: kept(written.mass_kg, corrected.mass_kg, mass),
         com_m: written.com_m.zip_map(&corrected.com_m, |old, new| kept(old, new, length)),
         ..*corrected
     };
     let size = corrected.tensor_kg_m2.amax();
-    figures.tensor_kg_m2 = if written.link_from_axes == corrected.link_from_axes {
+    parameters.tensor_kg_m2 = if written.link_from_axes == corrected.link_from_axes {
         written.tensor_kg_m2.zip_map(&corrected.tensor_kg_m2, |old, new| kept(old, new, size))
     } else {
         corrected.tensor_kg_m2.map(|new| kept(0.0, new, size))
     };
     // Both halves of the tensor are rounded alike.
-    figures.tensor_kg_m2 = Matrix3::from_fn(|row, column| {
+    parameters.tensor_kg_m2 = Matrix3::from_fn(|row, column| {
         let at = if row <= column { (row, column) } else { (column, row) };
-        figures.tensor_kg_m2[at]
+        parameters.tensor_kg_m2[at]
     });
-    figures
+    parameters
 }

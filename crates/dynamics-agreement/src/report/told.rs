@@ -5,7 +5,7 @@ use congruent_dynamics::DynamicsError;
 use super::{
     content::{DynamicsExplanation, DynamicsVerdict},
     explained::Teller,
-    places::{FigurePlaces, Files},
+    places::{Files, ParameterPlaces},
 };
 use crate::{
     diagnosis::{Expected, Setting, diagnose_in_stages},
@@ -21,7 +21,7 @@ pub struct NamedSide<'a> {
     /// What it says.
     pub side: &'a Side,
     /// Where it says it, for messages with lines.
-    pub places: Option<&'a dyn FigurePlaces>,
+    pub places: Option<&'a dyn ParameterPlaces>,
 }
 
 /// A diagnosis in names.

@@ -2,34 +2,36 @@
 
 use congruent_description::display::{length, number, quantity, quantity_in_full};
 
-use super::content::{DynamicsExplanation, DynamicsReport, DynamicsVerdict};
+use super::content::{DynamicsExplanation, DynamicsReport, DynamicsVerdict, TorqueCertificates};
 use crate::{
-    bound::TorqueBracket,
-    compare::{Compared, FigureDifference, Invariants, LimitDifference},
+    bound::{CoveredMotion, TorqueBracket},
+    compare::{Compared, Invariants, LimitDifference, ParameterDifference},
     diagnosis::{DynamicsCause, FaultySide},
-    thresholds::{Precision, SAME_FIGURE},
+    thresholds::{LARGEST_ACCELERATION, LARGEST_SPEED, Precision, SAME_VALUE},
 };
 
-/// Figures that a suggestion names one by one.
-const MOST_FIGURES: usize = 10;
+/// Parameters that a suggestion names one by one.
+const MOST_PARAMETERS: usize = 10;
 
 /// What to write into the file; `None` if the file is right, or if too much of it would have to change.
-pub(super) fn suggestion(faulty: FaultySide, figures: &[FigureDifference]) -> Option<String> {
-    if faulty == FaultySide::Reference || figures.is_empty() || figures.len() > MOST_FIGURES {
+pub(super) fn suggestion(faulty: FaultySide, parameters: &[ParameterDifference]) -> Option<String> {
+    if faulty == FaultySide::Reference || parameters.is_empty() || parameters.len() > MOST_PARAMETERS {
         return None;
     }
-    let values: Vec<String> = figures
+    let values: Vec<String> = parameters
         .iter()
-        .filter_map(|figure| Some(format!("{}: {} = {}", figure.of, figure.figure, figure.expected?)))
+        .filter_map(|parameter| {
+            Some(format!("{}: {} = {}", parameter.of, parameter.parameter, parameter.expected?))
+        })
         .collect();
     Some(values.join(", ").trim_start_matches(": ").to_owned())
 }
 
-impl FigureDifference {
+impl ParameterDifference {
     /// `shoulder_link: mass is 2.63 kg, expected 3.76 kg`.
     pub fn sentence(&self) -> String {
         let [found, expected] = told_apart(self.found, self.expected, &self.unit, "not given");
-        let what = format!("{} is {found}, expected {expected}", self.figure);
+        let what = format!("{} is {found}, expected {expected}", self.parameter);
         if self.of.is_empty() { what } else { format!("{}: {what}", self.of) }
     }
 }
@@ -42,22 +44,52 @@ impl DynamicsExplanation {
             all if all == "*" => "all links".to_owned(),
             place => place,
         };
-        let text = if self.cause == DynamicsCause::Several {
-            let parts =
-                self.parts.iter().map(|part| format!("{}: {}", part.place.join(", "), part.cause.text()));
+        if self.cause == DynamicsCause::Several {
+            let parts = self
+                .parts
+                .iter()
+                .map(|part| format!("{}: {}", part.place.join(", "), part.cause.with_detail(&part.detail)));
             return parts.collect::<Vec<String>>().join("; ");
-        } else {
-            self.cause.text()
-        };
-        if self.detail.is_empty() {
-            format!("{place}: {text}")
-        } else {
-            format!("{place}: {text} ({})", self.detail)
         }
+        format!("{place}: {}", self.cause.with_detail(&self.detail))
     }
 }
 
 impl DynamicsCause {
+    /// `the centre of mass is given in another unit (mm)`.
+    fn with_detail(self, detail: &str) -> String {
+        match (self, detail) {
+            (_, "") => self.text().to_owned(),
+            (Self::InertiaAboutOrigin, _) => {
+                "the step from the link's origin to the centre of mass is taken off an \
+                                              inertia that is about the centre of mass already"
+                    .to_owned()
+            }
+            _ => format!("{} ({detail})", self.text()),
+        }
+    }
+
+    /// Whether only one of two files has the link.
+    pub fn is_of_one_file(self) -> bool {
+        matches!(self, Self::LinkMissing | Self::LinkAdded)
+    }
+
+    /// Whether it says only which values are off.
+    pub(super) fn is_of_free_values(self) -> bool {
+        matches!(
+            self,
+            Self::Mass
+                | Self::Density
+                | Self::ComEntry
+                | Self::Com
+                | Self::InertiaScale
+                | Self::InertiaEntry
+                | Self::Inertia
+                | Self::Inertial
+                | Self::Damping
+        )
+    }
+
     fn is_of_joints(self) -> bool {
         (Self::JointTermsMissing..=Self::Armature).contains(&self)
     }
@@ -71,7 +103,10 @@ impl LimitDifference {
         let unit = if self.detail.is_empty() { String::new() } else { format!(": in {}?", self.detail) };
         let remark =
             if self.decides { "" } else { "; only one of the two states it, which is no disagreement" };
-        format!("{}: {} limit is {found}, expected {expected}{factor}{unit}{remark}", self.joint, self.figure)
+        format!(
+            "{}: {} limit is {found}, expected {expected}{factor}{unit}{remark}",
+            self.joint, self.parameter
+        )
     }
 }
 
@@ -91,13 +126,13 @@ impl Invariants {
     /// Masses, centre of mass, gravity torque and mass matrix, as far as they differ.
     pub fn sentences(&self) -> Vec<String> {
         let mass = |what: &str, Compared { found, expected }: Compared| {
-            let differs = (found - expected).abs() > SAME_FIGURE * expected.abs();
+            let differs = (found - expected).abs() > SAME_VALUE * expected.abs();
             let values = told_apart(Some(found), Some(expected), "kg", "");
             differs.then(|| format!("{what} {}, expected {}", values[0], values[1]))
         };
-        let com = self.com_distance_m.filter(|distance| *distance > SAME_FIGURE);
-        let gravity = self.gravity_joint.as_ref().filter(|_| self.gravity_n_m > SAME_FIGURE);
-        let matrix = self.mass_matrix_relative.filter(|relative| *relative > SAME_FIGURE);
+        let com = self.com_distance_m.filter(|distance| *distance > SAME_VALUE);
+        let gravity = self.gravity_joint.as_ref().filter(|_| self.gravity_n_m > SAME_VALUE);
+        let matrix = self.mass_matrix_relative.filter(|relative| *relative > SAME_VALUE);
         let sentences = [
             mass("total mass", self.total_mass_kg),
             mass("moving mass", self.moving_mass_kg),
@@ -122,7 +157,7 @@ impl DynamicsReport {
         let mut sentences = vec![self.headline()];
         for explanation in &self.explanations {
             sentences.push(explanation.sentence());
-            sentences.extend(explanation.figures.iter().map(FigureDifference::sentence));
+            sentences.extend(explanation.parameters.iter().map(ParameterDifference::sentence));
         }
         sentences.extend(self.limits.iter().map(LimitDifference::sentence));
         sentences.extend(self.hidden_sentences());
@@ -166,10 +201,15 @@ impl DynamicsReport {
         self.certificates.as_ref()?.gravity.worst.as_ref()
     }
 
+    /// The largest difference of torque in any motion, if it was asked for and there is one.
+    pub fn worst_in_motion(&self) -> Option<&TorqueBracket> {
+        self.certificates.as_ref()?.together.worst.as_ref()
+    }
+
     /// What no torque shows, in words with the numbers that are meant.
     pub fn hidden_sentences(&self) -> Vec<String> {
         let hidden = self.hidden_differences.iter();
-        hidden.map(|figure| format!("{}; no joint torque shows it", figure.sentence())).collect()
+        hidden.map(|parameter| format!("{}; no joint torque shows it", parameter.sentence())).collect()
     }
 
     /// How much of the inertial numbers torques tell.
@@ -187,13 +227,47 @@ impl TorqueBracket {
     /// `3.43 N m at shoulder_lift_joint (2.3 % of its effort), certified below 3.44 N m over the whole joint range`.
     pub fn sentence(&self) -> String {
         let share = self.share_of_effort.map(|share| format!(" ({} % of its effort)", number(share * 100.0)));
+        let loose = self.ratio.filter(|ratio| *ratio > LOOSE);
+        let loose = loose.map(|ratio| format!(", {} times as much,", number(ratio)));
         format!(
-            "{} at {}{}, certified below {} over the whole joint range",
+            "{} at {}{}, certified below {}{} over the whole joint range",
             quantity(self.attained_n_m, &self.unit),
             self.joint,
             share.unwrap_or_default(),
             quantity(self.certified_n_m, &self.unit),
+            loose.unwrap_or_default(),
         )
+    }
+}
+
+/// A bound that is this many times what was found is said to be loose. No unit; kind: choice.
+const LOOSE: f64 = 1.1;
+
+impl TorqueCertificates {
+    /// The speeds and accelerations that are covered, and who says so.
+    pub fn covered_sentence(&self) -> String {
+        let named = |is: fn(&CoveredMotion) -> bool| -> Vec<&str> {
+            self.covered.iter().filter(|covered| is(covered)).map(|covered| covered.joint.as_str()).collect()
+        };
+        let assumed = |what: &str, assumed: &[&str], most: f64| match assumed.len() {
+            0 => format!("{what} as they are stated"),
+            all if all == self.covered.len() => format!("{what} up to {} rad/s or m/s assumed", number(most)),
+            _ => format!(
+                "{what} as they are stated, up to {} rad/s or m/s assumed of {}",
+                number(most),
+                assumed.join(", ")
+            ),
+        };
+        let speeds = assumed("speeds", &named(|covered| !covered.speed_is_stated), LARGEST_SPEED);
+        let without = named(|covered| !covered.acceleration_is_declared);
+        let accelerations = assumed("accelerations", &without, LARGEST_ACCELERATION);
+        let accelerations = accelerations.replace("rad/s or m/s", "rad/s^2 or m/s^2");
+        let how = if without.is_empty() {
+            ""
+        } else {
+            " ([limits] acceleration_rad_s2 of robot.toml declares them)"
+        };
+        format!("{speeds}; {accelerations}{how}")
     }
 }
 

@@ -1,4 +1,4 @@
-//! Where the links of a robot are at zero: what a figure in a wrong frame is measured against. Both sides share it.
+//! Where the links of a robot are at zero: what a parameter in a wrong frame is measured against. Both sides share it.
 
 use congruent_description::{DhTable, JointIndex, LinkIndex, Robot, RobotQ};
 use congruent_dynamics::BodyTree;
@@ -35,13 +35,15 @@ pub(crate) struct JointPlace {
     /// The moving joint before it.
     pub(crate) parent: Option<usize>,
     pub(crate) is_angular: bool,
-    /// The range of positions: one turn if it has no limits.
+    /// The range of positions: one turn if it has no limits; of mimic joints and their masters what both allow.
     pub(crate) range: (f64, f64),
+    /// Master, ratio and offset of a mimic joint.
+    pub(crate) follows: Option<(usize, f64, f64)>,
     /// The link that it carries.
     pub(crate) link: usize,
 }
 
-/// A frame beside the link's own in which figures of a link could have been given.
+/// A frame beside the link's own in which parameters of a link could have been given.
 #[derive(Debug, Clone)]
 pub(crate) struct OtherFrame {
     /// At all links.
@@ -90,12 +92,14 @@ impl Frames {
             let name = link.name.clone();
             links.push(LinkPlace { name, body, body_from_link, root_from_link, has_shape });
         }
-        let joints = robot.movable_joints().iter().map(|&joint| joint_place(robot, joint, &links)).collect();
+        let mut joints: Vec<JointPlace> =
+            robot.movable_joints().iter().map(|&joint| joint_place(robot, joint, &links)).collect();
+        keep_within_followers(&mut joints);
         let others = others(robot, &links);
         Self { tree, links, joints, others, reach_m: reach_m.into_iter().fold(0.0, f64::max) }
     }
 
-    /// With one more frame that figures could have been given in, such as a DH frame: one for each link that has it.
+    /// With one more frame that parameters could have been given in, such as a DH frame: one for each link that has it.
     ///
     /// # Panics
     /// If there is not one entry for each link of the robot.
@@ -106,7 +110,7 @@ impl Frames {
         self
     }
 
-    /// With the frames of a table of the same robot, in which vendors publish figures: frame `dhk` at each link that the
+    /// With the frames of a table of the same robot, in which vendors publish parameters: frame `dhk` at each link that the
     /// joint of row `k` carries.
     ///
     /// # Errors
@@ -139,7 +143,7 @@ impl Frames {
         Ok(self)
     }
 
-    /// The frame of the table that a link's figures could have been given in, in the link; `None` if it has none.
+    /// The frame of the table that a link's parameters could have been given in, in the link; `None` if it has none.
     pub fn dh_frame(&self, link: &str) -> Option<Pose> {
         let link = self.find_link(link)?;
         let mut numbered = self.others.iter().filter(|other| other.names_at_links[link].is_some());
@@ -200,7 +204,33 @@ fn joint_place(robot: &Robot, index: JointIndex, links: &[LinkPlace]) -> JointPl
         parent: links[joint.parent.get()].body,
         is_angular: joint.kind.is_angular(),
         range: congruent_kinematics::range(joint),
+        follows: joint
+            .mimic
+            .and_then(|mimic| Some((robot.coordinate(mimic.master)?, mimic.multiplier, mimic.offset))),
         link: joint.child.get(),
+    }
+}
+
+/// Ranges of masters where their followers are within their own, and of followers what that makes of them.
+fn keep_within_followers(joints: &mut [JointPlace]) {
+    let image = |(lower, upper): (f64, f64), of: &dyn Fn(f64) -> f64| {
+        let [a, b] = [of(lower), of(upper)];
+        (a.min(b), a.max(b))
+    };
+    for at in 0..joints.len() {
+        let Some((master, ratio, offset)) = joints[at].follows.filter(|(_, ratio, _)| *ratio != 0.0) else {
+            continue;
+        };
+        let (lower, upper) = image(joints[at].range, &|q| (q - offset) / ratio);
+        let range = (joints[master].range.0.max(lower), joints[master].range.1.min(upper));
+        if range.0 <= range.1 {
+            joints[master].range = range;
+        }
+    }
+    for at in 0..joints.len() {
+        if let Some((master, ratio, offset)) = joints[at].follows {
+            joints[at].range = image(joints[master].range, &|q| ratio * q + offset);
+        }
     }
 }
 

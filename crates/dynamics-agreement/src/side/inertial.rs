@@ -1,13 +1,13 @@
-//! What a description says of one link's inertia, as it is written: hypotheses are about these figures.
+//! What a description says of one link's inertia, as it is written: hypotheses are about these parameters.
 
-use congruent_description::Inertia;
+use congruent_description::{Inertia, principal_moments};
 use congruent_dynamics::{PARAMETERS, SpatialInertia};
-use nalgebra::{Matrix3, SVector, SymmetricEigen, Vector3};
+use nalgebra::{Matrix3, SVector, Vector3};
 
 /// The ten numbers of a link about its origin, in the order of [`SpatialInertia::parameters`].
 pub(crate) type TenNumbers = SVector<f64, PARAMETERS>;
 
-/// The figures of an `<inertial>` element.
+/// The parameters of an `<inertial>` element.
 ///
 /// | field | shape | unit | frame |
 /// |---|---|---|---|
@@ -40,11 +40,9 @@ impl Inertial {
 
     /// The inertia about the link's origin, in the link's axes.
     pub fn about_origin(&self) -> SpatialInertia {
-        SpatialInertia {
-            mass_kg: self.mass_kg,
-            first_moment_kg_m: self.com_m * self.mass_kg,
-            tensor_kg_m2: self.tensor_in_link() + self.shift(),
-        }
+        let mut inertia = SpatialInertia::point_mass(self.mass_kg, self.com_m);
+        inertia.tensor_kg_m2 += self.tensor_in_link();
+        inertia
     }
 
     /// The tensor about the centre of mass, in the link's axes.
@@ -54,11 +52,10 @@ impl Inertial {
 
     /// What the tensor about the link's origin has more than the one about the centre of mass, in the link's axes.
     pub fn shift(&self) -> Matrix3<f64> {
-        let c = self.com_m;
-        (Matrix3::from_diagonal_element(c.norm_squared()) - c * c.transpose()) * self.mass_kg
+        SpatialInertia::point_mass(self.mass_kg, self.com_m).tensor_kg_m2
     }
 
-    /// The figures of an inertia about the link's origin, with the tensor in these axes; without mass, the centre of
+    /// The parameters of an inertia about the link's origin, with the tensor in these axes; without mass, the centre of
     /// mass is the origin.
     pub(crate) fn from_origin(inertia: &SpatialInertia, link_from_axes: Matrix3<f64>) -> Self {
         let com_m = if inertia.mass_kg == 0.0 {
@@ -66,11 +63,11 @@ impl Inertial {
         } else {
             inertia.first_moment_kg_m / inertia.mass_kg
         };
-        let mut figures =
+        let mut parameters =
             Self { mass_kg: inertia.mass_kg, com_m, link_from_axes, tensor_kg_m2: Matrix3::zeros() };
-        let about_com = inertia.tensor_kg_m2 - figures.shift();
-        figures.tensor_kg_m2 = link_from_axes.transpose() * about_com * link_from_axes;
-        figures
+        let about_com = inertia.tensor_kg_m2 - parameters.shift();
+        parameters.tensor_kg_m2 = link_from_axes.transpose() * about_com * link_from_axes;
+        parameters
     }
 
     /// With the tensor in the link's axes replaced; the axes stay.
@@ -83,27 +80,20 @@ impl Inertial {
         self.about_origin().parameters().into()
     }
 
-    /// Why no body has these figures; `None` if one has.
+    /// Why no body has these parameters; `None` if one has.
     pub fn law_broken(&self, reach_m: f64) -> Option<BodyLaw> {
         if self.mass_kg <= 0.0 {
             return Some(BodyLaw::Mass);
         }
-        let largest = self.tensor_kg_m2.amax();
-        if !largest.is_finite() {
+        if !self.tensor_kg_m2.amax().is_finite() {
             return Some(BodyLaw::Size);
         }
-        if largest == 0.0 {
-            return None;
-        }
-        // Scaled: entries near the largest double overflow inside the solver.
-        let mut moments: [f64; 3] = SymmetricEigen::new(self.tensor_kg_m2 / largest).eigenvalues.into();
-        moments.sort_by(f64::total_cmp);
-        let [least, middle, most] = moments;
+        let [least, middle, most] = principal_moments(&self.tensor_kg_m2);
         if least < -MOMENT * most.abs() || most < 0.0 {
             Some(BodyLaw::Moments)
         } else if least + middle < most * (1.0 - MOMENT) {
             Some(BodyLaw::Triangle)
-        } else if most * largest / self.mass_kg > reach_m * reach_m {
+        } else if most / self.mass_kg > reach_m * reach_m {
             Some(BodyLaw::Size)
         } else {
             None
@@ -130,6 +120,16 @@ pub enum BodyLaw {
 }
 
 impl BodyLaw {
+    /// What is wrong with values as they are written.
+    pub fn is_broken(self) -> &'static str {
+        match self {
+            Self::Mass => "its mass is not positive",
+            Self::Moments => "a principal moment of inertia is negative",
+            Self::Triangle => "its largest principal moment of inertia exceeds the sum of the others",
+            Self::Size => "its radius of gyration exceeds the reach of the arm",
+        }
+    }
+
     /// What is wrong, as the end of a sentence about a link.
     pub fn broken(self) -> &'static str {
         match self {
@@ -166,20 +166,20 @@ mod tests {
     }
 
     #[test]
-    fn figures_come_back_from_the_ten_numbers() {
-        let figures = turned();
-        let back = Inertial::from_origin(&figures.about_origin(), figures.link_from_axes);
-        assert!((back.tensor_kg_m2 - figures.tensor_kg_m2).amax() < 1e-16, "{back:?}");
-        assert!((back.com_m - figures.com_m).amax() < 1e-16);
+    fn parameters_come_back_from_the_ten_numbers() {
+        let parameters = turned();
+        let back = Inertial::from_origin(&parameters.about_origin(), parameters.link_from_axes);
+        assert!((back.tensor_kg_m2 - parameters.tensor_kg_m2).amax() < 1e-16, "{back:?}");
+        assert!((back.com_m - parameters.com_m).amax() < 1e-16);
     }
 
     #[test]
     fn each_law_is_noticed() {
-        let figures = turned();
+        let parameters = turned();
         let moments =
-            |x, y, z| Inertial { tensor_kg_m2: Matrix3::from_diagonal(&Vector3::new(x, y, z)), ..figures };
-        assert_eq!(figures.law_broken(1.0), None);
-        assert_eq!(Inertial { mass_kg: -1.0, ..figures }.law_broken(1.0), Some(BodyLaw::Mass));
+            |x, y, z| Inertial { tensor_kg_m2: Matrix3::from_diagonal(&Vector3::new(x, y, z)), ..parameters };
+        assert_eq!(parameters.law_broken(1.0), None);
+        assert_eq!(Inertial { mass_kg: -1.0, ..parameters }.law_broken(1.0), Some(BodyLaw::Mass));
         assert_eq!(moments(1.0, -0.1, 1.0).law_broken(1.0), Some(BodyLaw::Moments));
         assert_eq!(moments(1.0, 1.0, 2.1).law_broken(1.0), Some(BodyLaw::Triangle));
         assert_eq!(moments(3.0, 3.0, 3.0).law_broken(1.0), Some(BodyLaw::Size));

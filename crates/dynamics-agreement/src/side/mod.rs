@@ -15,9 +15,7 @@ pub use frames::Frames;
 pub use inertial::{BodyLaw, Inertial};
 pub(crate) use joint_terms::JointTerm;
 
-use crate::thresholds::LARGEST_ACCELERATION;
-
-/// A description of a robot's dynamics, with every figure as it is written.
+/// A description of a robot's dynamics, with every parameter as it is written.
 ///
 /// Links and moving joints are numbered as in [`congruent_description::Robot`]; mimic joints are independent.
 #[derive(Debug, Clone)]
@@ -31,8 +29,9 @@ pub struct Side {
     pub gravity_m_s2: Vector3<f64>,
     /// One for each moving joint.
     pub limits: Vec<Option<JointLimit>>,
-    /// Largest accelerations that certificates cover, rad/s^2 or m/s^2: 10 if nobody declares others.
-    pub largest_accelerations: Vec<f64>,
+    /// Largest accelerations as they are declared, rad/s^2 or m/s^2; one for each moving joint. Certificates assume 10
+    /// where none is.
+    pub accelerations: Vec<Option<f64>>,
 }
 
 impl Side {
@@ -41,7 +40,7 @@ impl Side {
         Self::with_frames(robot, Arc::new(Frames::new(robot)))
     }
 
-    /// What a description says, with the frames of its Denavit-Hartenberg table if it has one: figures may have been
+    /// What a description says, with the frames of its Denavit-Hartenberg table if it has one: parameters may have been
     /// given in these.
     ///
     /// # Errors
@@ -52,7 +51,7 @@ impl Side {
         if let Some(table) = &description.dh {
             frames = frames.with_dh_frames(table, robot, description.base)?;
         }
-        Ok(Self::with_frames(robot, Arc::new(frames)))
+        Ok(Self::with_frames(robot, Arc::new(frames)).with_accelerations(&description.accelerations))
     }
 
     /// The same with frames that were made before, of the same robot.
@@ -69,8 +68,14 @@ impl Side {
             resistances: moving().map(resistance).collect(),
             gravity_m_s2: GRAVITY_M_S2.into(),
             limits: moving().map(|joint| joint.limit).collect(),
-            largest_accelerations: moving().map(|_| LARGEST_ACCELERATION).collect(),
+            accelerations: moving().map(|_| None).collect(),
         }
+    }
+
+    /// The same with the largest accelerations that somebody declares, one for each moving joint.
+    #[must_use]
+    pub fn with_accelerations(self, accelerations: &[Option<f64>]) -> Self {
+        Self { accelerations: accelerations.to_vec(), ..self }
     }
 
     /// The geometry.
@@ -90,16 +95,16 @@ impl Side {
     }
 
     /// The same torques with one inertial for each body, at the link that its joint carries: what can be compared with a
-    /// description that knows no other links. A body whose other links say nothing keeps its figures as they are written.
+    /// description that knows no other links. A body whose other links say nothing keeps its parameters as they are written.
     #[must_use]
     pub fn by_bodies(&self) -> Self {
         let bodies = self.bodies();
         let mut lumped = self.clone();
         lumped.inertials.fill(None);
         for (body, joint) in self.frames.joints.iter().enumerate() {
-            let with_figures: Vec<usize> =
+            let with_parameters: Vec<usize> =
                 self.frames.links_of(body).filter(|&link| self.inertials[link].is_some()).collect();
-            lumped.inertials[joint.link] = match with_figures[..] {
+            lumped.inertials[joint.link] = match with_parameters[..] {
                 [] => None,
                 [only] if only == joint.link => self.inertials[only],
                 _ => Some(Inertial::from_origin(&bodies[body], Matrix3::identity())),
@@ -108,7 +113,7 @@ impl Side {
         lumped
     }
 
-    /// The same with some links in other frames, each by its number and the pose of the frame in it: figures are then
+    /// The same with some links in other frames, each by its number and the pose of the frame in it: parameters are then
     /// those of the frame, and what a person may have mistaken is mistaken there. The link's own frame is one of the
     /// others.
     ///
@@ -129,9 +134,9 @@ impl Side {
                 *there = there.map(|link_from_other| frame_from_link * link_from_other);
             }
             own[*link] = Some(frame_from_link);
-            if let Some(figures) = &mut moved.inertials[*link] {
-                figures.com_m = frame_from_link.rotation * figures.com_m + frame_from_link.translation;
-                figures.link_from_axes = frame_from_link.rotation * figures.link_from_axes;
+            if let Some(parameters) = &mut moved.inertials[*link] {
+                parameters.com_m = frame_from_link.rotation * parameters.com_m + frame_from_link.translation;
+                parameters.link_from_axes = frame_from_link.rotation * parameters.link_from_axes;
             }
         }
         moved.frames = Arc::new(frames.with_other_frame("link", own));
@@ -144,7 +149,7 @@ impl Side {
         DVector::from_vec(numbers)
     }
 
-    /// The robot with these figures, ready for the algorithms of dynamics.
+    /// The robot with these parameters, ready for the algorithms of dynamics.
     ///
     /// # Panics
     /// If a list has not one entry for each moving joint.

@@ -24,7 +24,7 @@ pub struct SeenNumbers {
     pub weak: usize,
 }
 
-/// The difference of torque between a reference and a candidate, and what each figure could do about it.
+/// The difference of torque between a reference and a candidate, and what each parameter could do about it.
 #[derive(Debug, Clone)]
 pub(crate) struct Compressed {
     /// Reference minus candidate, the part that the candidate's numbers could explain.

@@ -1,4 +1,4 @@
-//! A source of accelerations whose figures are unknown: a physics engine, another library. What it accelerates by under
+//! A source of accelerations whose parameters are unknown: a physics engine, another library. What it accelerates by under
 //! a torque is an exact probe of its inverse dynamics.
 
 use congruent_description::RobotQ;

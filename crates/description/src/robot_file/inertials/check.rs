@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use toml::Spanned;
 
 use super::{
-    declared::{DeclaredDynamics, DeclaredInertial, InertialFrame},
+    declared::{DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPoint},
     written::{WrittenDynamics, WrittenInertial, WrittenTensor, WrittenTerm},
 };
 use crate::{
@@ -71,8 +71,15 @@ fn inertial(
     }));
     let mass_kg = diagnostics.keep(positive("mass_kg", &entry.mass_kg));
     let com = Unit::Length.vector("com", entry.com_m.as_ref(), entry.com_mm.as_ref());
-    let com =
-        diagnostics.keep(com.and_then(|com| com.ok_or_else(|| missing("com_m or com_mm", entry).at(at()))));
+    let com = diagnostics.keep(com.and_then(|com| match (com, entry.about.as_ref(), &entry.inertia_kg_m2) {
+        (None, Some(about), Some(_)) if *about.get_ref() == InertialPoint::Frame => {
+            Err(missing("com_m or com_mm", entry).at(about.span()).with_help(
+                "an inertia about the frame's origin says nothing without the centre of mass; what is left out with \
+                 about = \"com\" is not compared",
+            ))
+        }
+        (com, ..) => Ok(com.map(Vector3::from)),
+    }));
     let tensor = entry.inertia_kg_m2.as_ref().map(|tensor| diagnostics.keep(self::tensor(tensor.get_ref())));
     let frame = diagnostics.keep(entry.frame.as_ref().ok_or_else(|| {
         missing("frame", entry).at(at()).with_help(
@@ -93,7 +100,7 @@ fn inertial(
         frame: frame?,
         about: about?,
         mass_kg: mass_kg?,
-        com_m: Vector3::from(com?),
+        com_m: com?,
         tensor_kg_m2: match tensor {
             Some(tensor) => Some(tensor?),
             None => None,

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::model::JointIndex;
 
-/// The frame of the figures of a body.
+/// The frame of the parameters of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InertialFrame {
     /// The frame of the link that the joint carries.
@@ -21,7 +21,7 @@ pub enum InertialFrame {
 pub enum InertialPoint {
     /// The centre of mass.
     Com,
-    /// The origin of the frame of the figures.
+    /// The origin of the frame of the parameters.
     Frame,
 }
 
@@ -36,8 +36,8 @@ pub struct DeclaredInertial {
     pub about: InertialPoint,
     /// Mass.
     pub mass_kg: f64,
-    /// Centre of mass.
-    pub com_m: Vector3<f64>,
+    /// Centre of mass; `None` if it is not declared.
+    pub com_m: Option<Vector3<f64>>,
     /// Rotational inertia; `None` if it is not declared.
     pub tensor_kg_m2: Option<Matrix3<f64>>,
     /// Inertia of the motor behind its gear, kg m^2 or kg; `None` if it is not declared.

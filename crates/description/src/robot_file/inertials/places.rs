@@ -1,4 +1,4 @@
-//! Where the figures of `[[inertial]]` entries stand, and how they become others.
+//! Where the parameters of `[[inertial]]` entries stand, and how they become others.
 
 use std::{ops::Range, sync::Arc};
 
@@ -31,11 +31,11 @@ impl InertialPlaces {
         &self.source
     }
 
-    /// Place of a figure of an entry, by the entry's number from 0: `mass`, `com_x`, `ixx`, `damping` and so on; the
-    /// entry's joint if the figure is not written.
-    pub fn figure(&self, entry: usize, figure: &str) -> Option<Range<usize>> {
+    /// Place of a parameter of an entry, by the entry's number from 0: `mass`, `com_x`, `ixx`, `damping` and so on; the
+    /// entry's joint if the parameter is not written.
+    pub fn parameter(&self, entry: usize, parameter: &str) -> Option<Range<usize>> {
         let entry = self.entries.get(entry)?.get_ref();
-        let written = match figure {
+        let written = match parameter {
             "mass" => Some(entry.mass_kg.span()),
             "com_x" | "com_y" | "com_z" => entry.com_m.as_ref().or(entry.com_mm.as_ref()).map(Spanned::span),
             "armature" => written_term(entry, WrittenTerm::Armature).map(Spanned::span),

@@ -61,7 +61,7 @@ fn a_good_file_is_read() {
     assert_eq!(dynamics.gravity_in_base_m_s2, Some(Vector3::new(0.0, 0.0, -9.81)));
     let [turn, slide] = &dynamics.inertials[..] else { panic!("{dynamics:?}") };
     assert_eq!((turn.frame, turn.about), (InertialFrame::Dh(1), InertialPoint::Com));
-    assert_eq!((turn.mass_kg, turn.com_m), (3.5, Vector3::new(0.001, -0.02, 0.3)));
+    assert_eq!((turn.mass_kg, turn.com_m), (3.5, Some(Vector3::new(0.001, -0.02, 0.3))));
     assert_eq!((turn.damping, turn.friction, turn.tensor_kg_m2), (Some(0.5), None, None));
     assert_eq!((slide.frame, slide.about), (InertialFrame::Link, InertialPoint::Frame));
     assert_eq!(slide.friction, Some(0.25));
@@ -117,6 +117,14 @@ fn wrong_names_have_the_nearest_one() {
 }
 
 #[test]
+fn a_mass_may_stand_alone() {
+    let description = parsed(&GOOD.replacen("com_mm = [1, -20, 300]\n", "", 1)).unwrap();
+    let [turn, slide] = &description.dynamics.unwrap().inertials[..] else { panic!("two entries") };
+    assert_eq!((turn.mass_kg, turn.com_m), (3.5, None));
+    assert!(slide.com_m.is_some());
+}
+
+#[test]
 fn a_frame_of_another_joint_leaves_the_geometry_to_be_checked() {
     let description = parsed(&GOOD.replacen("'dh1'", "'dh2'", 1)).unwrap();
     assert!(description.dynamics.is_none());
@@ -129,7 +137,7 @@ fn a_frame_of_another_joint_leaves_the_geometry_to_be_checked() {
 fn wrong_values_are_refused() {
     refused("mass_kg = 3.5", "mass_kg = 0", "mass_kg must be greater than 0", "", "mass_kg");
     refused("mass_kg = 3.5", "mass_kg = nan", "mass_kg is NaN", "", "mass_kg");
-    refused("com_mm = [1, -20, 300]", "", "has no com_m or com_mm", "", "[[inertial]]");
+    refused("com_m = [0, 0, 0.5]\n", "", "has no com_m or com_mm", "without the centre of mass", "'frame'");
     refused(
         "com_mm = [1,",
         "com_m = [0, 0, 0]\ncom_mm = [1,",
@@ -175,12 +183,12 @@ fn corrections_are_written_in_the_files_units() {
 }
 
 #[test]
-fn figures_have_their_places() {
+fn parameters_have_their_places() {
     let description = parsed(GOOD).unwrap();
     let places = description.places.inertials.unwrap();
-    let at = |entry, figure| &GOOD[places.figure(entry, figure).unwrap()];
+    let at = |entry, parameter| &GOOD[places.parameter(entry, parameter).unwrap()];
     assert_eq!([at(0, "mass"), at(0, "com_y"), at(0, "friction")], ["3.5", "[1, -20, 300]", "'turn'"]);
     assert_eq!([at(1, "ixz"), at(1, "friction")], ["0.2", "0.25"]);
     assert_eq!(places.gravity().map(|at| &GOOD[at]), Some("[0, 0, -9.81]"));
-    assert_eq!(places.figure(2, "mass"), None);
+    assert_eq!(places.parameter(2, "mass"), None);
 }

@@ -42,7 +42,7 @@ pub(crate) struct WrittenInertial {
     /// Mass in kg.
     #[schemars(with = "f64")]
     pub(crate) mass_kg: Spanned<f64>,
-    /// Centre of mass in metres.
+    /// Centre of mass in metres; if it is left out, as its other key is, it is not compared.
     #[serde(default, deserialize_with = "fixed_array")]
     #[schemars(with = "[f64; 3]")]
     pub(crate) com_m: Option<Spanned<[f64; 3]>>,

@@ -7,13 +7,13 @@ use nalgebra::Isometry3;
 use roxmltree::Node;
 
 use super::{
-    possible::{Impossible, UNIT, principal_moments, suspicious_size},
+    possible::{Impossible, UNIT, suspicious_size},
     repair::{Repairs, nearest_possible},
 };
 use crate::{
     diagnostic::{Diagnostic, Diagnostics, Use, known_names},
     display::quantity,
-    model::{Inertia, LinkIndex, Robot},
+    model::{Inertia, LinkIndex, Robot, principal_moments},
     urdf::node::{element, elements, place, tag},
 };
 
@@ -198,10 +198,15 @@ impl Judge<'_, '_> {
             if self.bodies.0[index].0 != index || mass_kg[index] > 0.0 || judged.get(&index) == Some(&false) {
                 continue;
             }
+            // An <inertial> that cannot be read is told already.
+            let node = self.nodes.get(link.name.as_str());
+            if node.is_some_and(|node| self.diagnostics.stops_physics_within(&node.range())) {
+                continue;
+            }
             let what = if link.inertia.is_some() { "its mass is zero" } else { "has no <inertial>" };
             let message =
                 format!("link \"{}\" moves but {what}: it cannot be simulated with forces", link.name);
-            let at = self.nodes.get(link.name.as_str()).map_or(0..0, |node| tag(*node));
+            let at = node.map_or(0..0, |node| tag(*node));
             self.diagnostics.push(
                 Diagnostic::warning("urdf::massless", message)
                     .one_of(

@@ -1,10 +1,8 @@
 //! Which mass and which tensor a rigid body can have.
 
-use nalgebra::{Matrix3, SymmetricEigen};
-
 use crate::{
     display::{length, quantity},
-    model::Inertia,
+    model::{Inertia, principal_moments},
 };
 
 /// Rounding in files: principal moments may miss a bound by so much of the largest one. Real
@@ -92,22 +90,9 @@ pub(super) fn suspicious_size(inertia: &Inertia) -> Option<String> {
         .then(|| format!("inertia is that of a body with a radius of gyration of {}", length(gyration_m)))
 }
 
-/// In ascending order.
-pub(super) fn principal_moments(tensor_kg_m2: &Matrix3<f64>) -> [f64; 3] {
-    // Entries near the largest double overflow inside the solver, which then never ends.
-    let largest = tensor_kg_m2.amax();
-    if largest == 0.0 {
-        return [0.0; 3];
-    }
-    let mut moments: [f64; 3] =
-        SymmetricEigen::new(tensor_kg_m2.map(|entry| entry / largest)).eigenvalues.into();
-    moments.sort_by(f64::total_cmp);
-    moments.map(|moment| moment * largest)
-}
-
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Isometry3, Vector3};
+    use nalgebra::{Isometry3, Matrix3, Vector3};
 
     use super::*;
 

@@ -21,23 +21,24 @@ const ORDERS: [(&str, [usize; 3]); 5] = [
 
 pub(super) fn slips<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
     let mut slips = Vec::new();
-    let com = |figures: &Inertial, com_m: Vector3<f64>| Inertial { com_m, ..*figures };
+    let com = |parameters: &Inertial, com_m: Vector3<f64>| Inertial { com_m, ..*parameters };
     for (axis, name) in AXES.into_iter().enumerate() {
-        slips.push(Slip::new(DynamicsCause::ComSign, name, move |figures| {
-            com(figures, mirror(axis) * figures.com_m)
+        slips.push(Slip::new(DynamicsCause::ComSign, name, move |parameters| {
+            com(parameters, mirror(axis) * parameters.com_m)
         }));
     }
-    slips.push(Slip::new(DynamicsCause::ComSign, "all", move |figures| com(figures, -figures.com_m)));
+    slips
+        .push(Slip::new(DynamicsCause::ComSign, "all", move |parameters| com(parameters, -parameters.com_m)));
     for (name, order) in ORDERS {
-        slips.push(Slip::new(DynamicsCause::ComAxesSwapped, name, move |figures| {
-            com(figures, reordered(faulty, order, &figures.com_m))
+        slips.push(Slip::new(DynamicsCause::ComAxesSwapped, name, move |parameters| {
+            com(parameters, reordered(faulty, order, &parameters.com_m))
         }));
     }
     for (axis, name) in AXES.into_iter().enumerate() {
         let mirror = mirror(axis);
-        slips.push(Slip::new(DynamicsCause::Mirrored, name, move |figures| {
-            com(figures, mirror * figures.com_m)
-                .with_tensor_in_link(&(mirror * figures.tensor_in_link() * mirror))
+        slips.push(Slip::new(DynamicsCause::Mirrored, name, move |parameters| {
+            com(parameters, mirror * parameters.com_m)
+                .with_tensor_in_link(&(mirror * parameters.tensor_in_link() * mirror))
         }));
     }
     slips

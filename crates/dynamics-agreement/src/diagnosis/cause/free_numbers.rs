@@ -1,4 +1,4 @@
-//! Figures that are simply off: numbers to fit.
+//! Parameters that are simply off: numbers to fit.
 
 use nalgebra::Matrix3;
 
@@ -10,14 +10,14 @@ use crate::{
         hypothesis::{Change, FaultySide, Hypothesis, Place},
     },
     side::{Inertial, Side},
-    thresholds::ZERO_FIGURE,
+    thresholds::ZERO_VALUE,
 };
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 const ENTRY_NAMES: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
 
 pub(super) fn of_link(side: &Side, faulty: FaultySide, link: usize) -> Vec<Hypothesis> {
-    let Some(figures) = &side.inertials[link] else { return Vec::new() };
+    let Some(parameters) = &side.inertials[link] else { return Vec::new() };
     let free = |cause, detail: &str, free| {
         Hypothesis::new(cause, detail, Place::Links(vec![link]), Change::FreeLink { link, free })
     };
@@ -42,25 +42,25 @@ pub(super) fn of_link(side: &Side, faulty: FaultySide, link: usize) -> Vec<Hypot
     }
     let rotation = Free::Rotation(Matrix3::identity());
     hypotheses.push(free(DynamicsCause::InertiaRotation, "", rotation));
-    if faulty == FaultySide::Candidate && is_principal(figures) {
+    if faulty == FaultySide::Candidate && is_principal(parameters) {
         hypotheses.push(free(DynamicsCause::PrincipalAxesMissing, "", rotation));
     }
-    if faulty == FaultySide::Candidate && could_be_by_rows(figures) {
-        hypotheses.push(by_rows(link, figures));
+    if faulty == FaultySide::Candidate && could_be_by_rows(parameters) {
+        hypotheses.push(by_rows(link, parameters));
     }
     hypotheses
 }
 
 /// Whether different moments are given in the link's own axes, without products.
-fn is_principal(figures: &Inertial) -> bool {
-    let tensor = figures.tensor_in_link();
+fn is_principal(parameters: &Inertial) -> bool {
+    let tensor = parameters.tensor_in_link();
     let off_diagonal = tensor - Matrix3::from_diagonal(&tensor.diagonal());
-    off_diagonal.amax() <= ZERO_FIGURE * tensor.amax()
+    off_diagonal.amax() <= ZERO_VALUE * tensor.amax()
 }
 
 /// Nine numbers by rows, cut to six: five are put back, the last moment is free.
-fn by_rows(link: usize, figures: &Inertial) -> Hypothesis {
+fn by_rows(link: usize, parameters: &Inertial) -> Hypothesis {
     let change =
-        Change::FreeLinkFrom { link, from: put_back_from_rows(figures), free: Free::InertiaEntry(2, 2) };
+        Change::FreeLinkFrom { link, from: put_back_from_rows(parameters), free: Free::InertiaEntry(2, 2) };
     Hypothesis::new(DynamicsCause::InertiaOrder, "row_major_upper", Place::Links(vec![link]), change)
 }

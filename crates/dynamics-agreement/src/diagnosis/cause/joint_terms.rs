@@ -8,7 +8,7 @@ use crate::{
         hypothesis::{Change, FaultySide, Hypothesis, Place},
     },
     side::{JointTerm, Side},
-    thresholds::SAME_FIGURE,
+    thresholds::SAME_VALUE,
 };
 
 /// What physics engines give joints without damping, in N m s/rad.
@@ -104,7 +104,7 @@ fn slips(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
 fn left_out(side: &Side) -> Vec<Hypothesis> {
     let n = side.frames.dof();
     let all = |is: &dyn Fn(&JointResistance) -> bool| side.resistances.iter().all(is);
-    let is_default = |damping: f64| (damping - DEFAULT_DAMPING).abs() <= SAME_FIGURE * DEFAULT_DAMPING;
+    let is_default = |damping: f64| (damping - DEFAULT_DAMPING).abs() <= SAME_VALUE * DEFAULT_DAMPING;
     let mut names = Vec::new();
     if all(&|of| of.damping == 0.0) {
         names.push((DynamicsCause::DampingMissing, "", JointTerm::Damping));

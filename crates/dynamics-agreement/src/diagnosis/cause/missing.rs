@@ -1,4 +1,4 @@
-//! Figures that a file does not have: zeros and placeholders stand there. The zeros are the evidence; what should
+//! Parameters that a file does not have: zeros and placeholders stand there. The zeros are the evidence; what should
 //! stand there is free. If the reference is taken to be wrong, it is the importer that put them there.
 
 use nalgebra::{Matrix3, Vector3};
@@ -11,7 +11,7 @@ use crate::{
         hypothesis::{Change, Hypothesis, Place},
     },
     side::{Inertial, Side},
-    thresholds::{PLACEHOLDER, ZERO_FIGURE},
+    thresholds::{PLACEHOLDER, ZERO_VALUE},
 };
 
 const PLACEHOLDERS: [(&str, f64); 3] = [("identity", 1.0), ("tenth", 0.1), ("milli", 0.001)];
@@ -19,22 +19,25 @@ const PLACEHOLDERS: [(&str, f64); 3] = [("identity", 1.0), ("tenth", 0.1), ("mil
 /// What an importer leaves out.
 pub(super) fn slips_of_importers<'a>() -> Vec<Slip<'a>> {
     let mut slips = vec![
-        Slip::new(DynamicsCause::ComMissing, "", |figures| Inertial { com_m: Vector3::zeros(), ..*figures }),
-        Slip::new(DynamicsCause::ProductsMissing, "", |figures| Inertial {
-            tensor_kg_m2: Matrix3::from_diagonal(&figures.tensor_kg_m2.diagonal()),
-            ..*figures
+        Slip::new(DynamicsCause::ComMissing, "", |parameters| Inertial {
+            com_m: Vector3::zeros(),
+            ..*parameters
         }),
-        Slip::new(DynamicsCause::InertiaMissing, "", |figures| Inertial {
+        Slip::new(DynamicsCause::ProductsMissing, "", |parameters| Inertial {
+            tensor_kg_m2: Matrix3::from_diagonal(&parameters.tensor_kg_m2.diagonal()),
+            ..*parameters
+        }),
+        Slip::new(DynamicsCause::InertiaMissing, "", |parameters| Inertial {
             tensor_kg_m2: Matrix3::zeros(),
-            ..*figures
+            ..*parameters
         }),
         Slip::new(DynamicsCause::InertialLeftOut, "", |_| Inertial::nothing()),
     ];
     for (name, moment) in PLACEHOLDERS {
-        slips.push(Slip::new(DynamicsCause::InertiaPlaceholder, name, move |figures| Inertial {
+        slips.push(Slip::new(DynamicsCause::InertiaPlaceholder, name, move |parameters| Inertial {
             tensor_kg_m2: Matrix3::from_diagonal_element(moment),
             link_from_axes: Matrix3::identity(),
-            ..*figures
+            ..*parameters
         }));
     }
     slips
@@ -45,20 +48,20 @@ pub(super) fn of_link(side: &Side, reference: Option<&Side>, link: usize) -> Vec
     let free = |cause, detail: &str, free| {
         Hypothesis::new(cause, detail, Place::Links(vec![link]), Change::FreeLink { link, free })
     };
-    let Some(figures) = &side.inertials[link] else {
+    let Some(parameters) = &side.inertials[link] else {
         let missing = free(DynamicsCause::InertialMissing, "", Free::Inertial).missing();
         return if could_have_inertial(side, reference, link) { vec![missing] } else { Vec::new() };
     };
     let mut hypotheses = Vec::new();
-    let tensor = &figures.tensor_kg_m2;
+    let tensor = &parameters.tensor_kg_m2;
     let off_diagonal = tensor - Matrix3::from_diagonal(&tensor.diagonal());
     let largest = tensor.amax();
-    if figures.com_m.amax() <= ZERO_FIGURE {
+    if parameters.com_m.amax() <= ZERO_VALUE {
         hypotheses.push(free(DynamicsCause::ComMissing, "", Free::Com));
     }
     if largest == 0.0 {
         hypotheses.push(free(DynamicsCause::InertiaMissing, "", Free::Inertia).missing());
-    } else if off_diagonal.amax() <= ZERO_FIGURE * largest {
+    } else if off_diagonal.amax() <= ZERO_VALUE * largest {
         hypotheses.push(free(DynamicsCause::ProductsMissing, "", Free::Products));
         if is_placeholder(tensor) {
             let name = PLACEHOLDERS.iter().find(|(_, moment)| is_near(largest, *moment));

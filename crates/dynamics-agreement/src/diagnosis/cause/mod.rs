@@ -12,10 +12,14 @@ mod two_links;
 mod units;
 
 use self::slip::Slip;
-use super::hypothesis::{Change, FaultySide, Hypothesis, Place};
+pub(crate) use self::units::{rounded_damping_unit, rounded_unit};
+use super::{
+    cause_names::DynamicsCause,
+    hypothesis::{Change, FaultySide, Hypothesis, Place, Scale},
+};
 use crate::side::{Frames, Side};
 
-/// Slips with one link's figures.
+/// Slips with one link's parameters.
 pub(super) fn slips(frames: &Frames, faulty: FaultySide) -> Vec<Slip<'_>> {
     let mut slips = units::slips(faulty);
     slips.extend(com::slips(faulty));
@@ -27,7 +31,7 @@ pub(super) fn slips(frames: &Frames, faulty: FaultySide) -> Vec<Slip<'_>> {
     slips
 }
 
-/// What can be wrong at one link; a figure that the other description has, if there is one, can be missing.
+/// What can be wrong at one link; a parameter that the other description has, if there is one, can be missing.
 pub(super) fn of_link(
     side: &Side,
     reference: Option<&Side>,
@@ -36,9 +40,9 @@ pub(super) fn of_link(
     link: usize,
 ) -> Vec<Hypothesis> {
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
-    if let Some(figures) = &side.inertials[link] {
+    if let Some(parameters) = &side.inertials[link] {
         for slip in slips {
-            if let Some(changed) = (slip.change)(link, figures).filter(|changed| changed != figures) {
+            if let Some(changed) = (slip.change)(link, parameters).filter(|changed| changed != parameters) {
                 let (place, change) = (Place::Links(vec![link]), Change::Links(vec![(link, changed)]));
                 hypotheses.push(Hypothesis::new(slip.cause, slip.detail_at(link), place, change));
             }
@@ -58,8 +62,21 @@ pub(super) fn of_two_links(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {
 
 /// What can be wrong at all links.
 pub(super) fn of_all_links(side: &Side, slips: &[Slip<'_>]) -> Vec<Hypothesis> {
-    slips.iter().filter_map(|slip| two_links::everywhere(side, slip)).collect()
+    let slips = slips.iter().filter_map(|slip| two_links::everywhere(side, slip));
+    slips
+        .chain(
+            SCALES
+                .map(|(cause, scale)| Hypothesis::new(cause, "", Place::AllLinks, Change::FreeScale(scale))),
+        )
+        .collect()
 }
+
+/// One factor of all links.
+const SCALES: [(DynamicsCause, Scale); 3] = [
+    (DynamicsCause::MassScale, Scale::Masses),
+    (DynamicsCause::InertiaScale, Scale::Tensors),
+    (DynamicsCause::Density, Scale::Both),
+];
 
 /// What can be wrong with joints and gravity.
 pub(super) fn of_joints_and_gravity(side: &Side, faulty: FaultySide) -> Vec<Hypothesis> {

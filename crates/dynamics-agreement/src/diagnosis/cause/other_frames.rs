@@ -1,4 +1,4 @@
-//! Figures in the frame, or only in the axes, of another frame; and slips with the rotation of the inertial frame.
+//! Parameters in the frame, or only in the axes, of another frame; and slips with the rotation of the inertial frame.
 
 use congruent_kinematics::{Pose, rotation_exp, rotation_log};
 use nalgebra::Matrix3;
@@ -7,40 +7,40 @@ use super::slip::Slip;
 use crate::{
     diagnosis::{cause_names::DynamicsCause, hypothesis::FaultySide},
     side::{Frames, Inertial},
-    thresholds::ZERO_FIGURE,
+    thresholds::ZERO_VALUE,
 };
 
-/// Figures in the other frame.
+/// Parameters in the other frame.
 #[derive(Clone, Copy)]
 struct Wrong {
     cause: DynamicsCause,
-    figures: Figures,
+    parameters: Parameters,
     /// Only the axes, not the origin.
     axes_only: bool,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Figures {
+enum Parameters {
     Com,
     Tensor,
     Both,
 }
 
 const KINDS: [Wrong; 5] = [
-    Wrong { cause: DynamicsCause::ComFrame, figures: Figures::Com, axes_only: false },
-    Wrong { cause: DynamicsCause::ComAxes, figures: Figures::Com, axes_only: true },
-    Wrong { cause: DynamicsCause::InertialFrame, figures: Figures::Both, axes_only: false },
-    Wrong { cause: DynamicsCause::InertialAxes, figures: Figures::Both, axes_only: true },
-    Wrong { cause: DynamicsCause::InertiaAxes, figures: Figures::Tensor, axes_only: true },
+    Wrong { cause: DynamicsCause::ComFrame, parameters: Parameters::Com, axes_only: false },
+    Wrong { cause: DynamicsCause::ComAxes, parameters: Parameters::Com, axes_only: true },
+    Wrong { cause: DynamicsCause::InertialFrame, parameters: Parameters::Both, axes_only: false },
+    Wrong { cause: DynamicsCause::InertialAxes, parameters: Parameters::Both, axes_only: true },
+    Wrong { cause: DynamicsCause::InertiaAxes, parameters: Parameters::Tensor, axes_only: true },
 ];
 
 pub(super) fn slips(frames: &Frames, faulty: FaultySide) -> Vec<Slip<'_>> {
     let mut slips = Vec::new();
     for other in &frames.others {
         for kind in KINDS {
-            let slip = Slip::at_link(kind.cause, other.name.clone(), move |link, figures| {
+            let slip = Slip::at_link(kind.cause, other.name.clone(), move |link, parameters| {
                 let link_from_frame = other.link_from_frame[link].as_ref()?;
-                Some(kind.apply(faulty, link_from_frame, figures))
+                Some(kind.apply(faulty, link_from_frame, parameters))
             });
             slips.push(slip.with_details_at_links(&other.names_at_links));
         }
@@ -50,7 +50,7 @@ pub(super) fn slips(frames: &Frames, faulty: FaultySide) -> Vec<Slip<'_>> {
 }
 
 impl Wrong {
-    fn apply(self, faulty: FaultySide, link_from_frame: &Pose, figures: &Inertial) -> Inertial {
+    fn apply(self, faulty: FaultySide, link_from_frame: &Pose, parameters: &Inertial) -> Inertial {
         let mut moved = match faulty {
             FaultySide::Candidate => *link_from_frame,
             FaultySide::Reference => link_from_frame.inverse(),
@@ -58,38 +58,39 @@ impl Wrong {
         if self.axes_only {
             moved.translation = nalgebra::Vector3::zeros();
         }
-        let mut figures = *figures;
-        if self.figures != Figures::Tensor {
-            figures.com_m = moved.rotation * figures.com_m + moved.translation;
+        let mut parameters = *parameters;
+        if self.parameters != Parameters::Tensor {
+            parameters.com_m = moved.rotation * parameters.com_m + moved.translation;
         }
-        if self.figures != Figures::Com {
-            figures.link_from_axes = moved.rotation * figures.link_from_axes;
+        if self.parameters != Parameters::Com {
+            parameters.link_from_axes = moved.rotation * parameters.link_from_axes;
         }
-        figures
+        parameters
     }
 }
 
 fn rotations<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
-    let turned = |figures: &Inertial, link_from_axes: Matrix3<f64>| Inertial { link_from_axes, ..*figures };
+    let turned =
+        |parameters: &Inertial, link_from_axes: Matrix3<f64>| Inertial { link_from_axes, ..*parameters };
     let has_rotation =
-        |figures: &Inertial| (figures.link_from_axes - Matrix3::identity()).amax() > ZERO_FIGURE;
+        |parameters: &Inertial| (parameters.link_from_axes - Matrix3::identity()).amax() > ZERO_VALUE;
     let mut slips = vec![
-        Slip::at_link(DynamicsCause::RpyInverted, "", move |_, figures| {
-            has_rotation(figures).then(|| turned(figures, figures.link_from_axes.transpose()))
+        Slip::at_link(DynamicsCause::RpyInverted, "", move |_, parameters| {
+            has_rotation(parameters).then(|| turned(parameters, parameters.link_from_axes.transpose()))
         }),
-        Slip::at_link(DynamicsCause::RpyTwice, "", move |_, figures| {
-            let turn = figures.link_from_axes;
+        Slip::at_link(DynamicsCause::RpyTwice, "", move |_, parameters| {
+            let turn = parameters.link_from_axes;
             let changed = match faulty {
                 FaultySide::Candidate => rotation_exp(&(rotation_log(&turn) * 0.5)),
                 FaultySide::Reference => turn * turn,
             };
-            has_rotation(figures).then(|| turned(figures, changed))
+            has_rotation(parameters).then(|| turned(parameters, changed))
         }),
     ];
     // A rotation that is missing in the file cannot be put back without numbers.
     if faulty == FaultySide::Reference {
-        slips.push(Slip::at_link(DynamicsCause::RpyMissing, "", move |_, figures| {
-            has_rotation(figures).then(|| turned(figures, Matrix3::identity()))
+        slips.push(Slip::at_link(DynamicsCause::RpyMissing, "", move |_, parameters| {
+            has_rotation(parameters).then(|| turned(parameters, Matrix3::identity()))
         }));
     }
     slips

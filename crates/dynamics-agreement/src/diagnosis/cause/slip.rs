@@ -1,11 +1,11 @@
-//! A slip: a change of one link's figures without a free number.
+//! A slip: a change of one link's parameters without a free number.
 
 use crate::{
     diagnosis::{cause_names::DynamicsCause, hypothesis::FaultySide},
     side::Inertial,
 };
 
-/// What becomes of one link's figures; `None` if the slip cannot have happened there.
+/// What becomes of one link's parameters; `None` if the slip cannot have happened there.
 pub(in crate::diagnosis) type Change<'a> = Box<dyn Fn(usize, &Inertial) -> Option<Inertial> + 'a>;
 
 /// One slip, for any link.
@@ -24,7 +24,7 @@ impl<'a> Slip<'a> {
         detail: impl Into<String>,
         change: impl Fn(&Inertial) -> Inertial + 'a,
     ) -> Self {
-        Self::at_link(cause, detail, move |_, figures| Some(change(figures)))
+        Self::at_link(cause, detail, move |_, parameters| Some(change(parameters)))
     }
 
     /// A slip that depends on the link.

@@ -9,6 +9,7 @@ use crate::{
 };
 
 const PRODUCTS: [(&str, (usize, usize)); 3] = [("ixy", (0, 1)), ("ixz", (0, 2)), ("iyz", (1, 2))];
+const MOMENTS: [(&str, usize); 3] = [("ixx", 0), ("iyy", 1), ("izz", 2)];
 const MOMENT_PAIRS: [(&str, [usize; 2]); 3] = [("ixx_iyy", [0, 1]), ("ixx_izz", [0, 2]), ("iyy_izz", [1, 2])];
 const PRODUCT_PAIRS: [(&str, [usize; 2]); 3] =
     [("ixy_ixz", [0, 1]), ("ixy_iyz", [0, 2]), ("ixz_iyz", [1, 2])];
@@ -44,6 +45,9 @@ pub(super) fn slips<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
             changed
         }));
     }
+    if faulty == FaultySide::Candidate {
+        slips.extend(MOMENTS.map(|(name, at)| negative_moment(name, at)));
+    }
     for (name, [a, b]) in MOMENT_PAIRS {
         slips.push(tensor_slip(DynamicsCause::MomentsSwapped, name, move |tensor| {
             exchanged(tensor, (a, a), (b, b))
@@ -72,18 +76,27 @@ pub(super) fn slips<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
     slips
 }
 
-/// The figures of a file in which nine numbers by rows were cut to six, with zero for the moment that is lost.
-pub(super) fn put_back_from_rows(figures: &Inertial) -> Inertial {
-    let mut tensor = reordered(FaultySide::Candidate, BY_ROWS, &figures.tensor_kg_m2);
+/// The parameters of a file in which nine numbers by rows were cut to six, with zero for the moment that is lost.
+pub(super) fn put_back_from_rows(parameters: &Inertial) -> Inertial {
+    let mut tensor = reordered(FaultySide::Candidate, BY_ROWS, &parameters.tensor_kg_m2);
     tensor[(2, 2)] = 0.0;
-    Inertial { tensor_kg_m2: tensor, ..*figures }
+    Inertial { tensor_kg_m2: tensor, ..*parameters }
 }
 
 /// Whether six numbers could be the first of nine by rows.
-pub(super) fn could_be_by_rows(figures: &Inertial) -> bool {
-    let tensor = &figures.tensor_kg_m2;
-    let scale = tensor.amax() * crate::thresholds::SAME_FIGURE;
+pub(super) fn could_be_by_rows(parameters: &Inertial) -> bool {
+    let tensor = &parameters.tensor_kg_m2;
+    let scale = tensor.amax() * crate::thresholds::SAME_VALUE;
     (tensor[(0, 1)] - tensor[(1, 1)]).abs() <= scale && tensor[(1, 2)] != 0.0
+}
+
+/// No moment is negative: a minus that stands there is a slip.
+fn negative_moment<'a>(name: &str, at: usize) -> Slip<'a> {
+    Slip::at_link(DynamicsCause::MomentSign, name, move |_, parameters| {
+        let mut tensor = parameters.tensor_kg_m2;
+        tensor[(at, at)] = tensor[(at, at)].abs();
+        (parameters.tensor_kg_m2[(at, at)] < 0.0).then_some(Inertial { tensor_kg_m2: tensor, ..*parameters })
+    })
 }
 
 fn tensor_slip<'a>(
@@ -91,16 +104,16 @@ fn tensor_slip<'a>(
     detail: &str,
     change: impl Fn(&Matrix3<f64>) -> Matrix3<f64> + 'a,
 ) -> Slip<'a> {
-    Slip::new(cause, detail, move |figures| Inertial {
-        tensor_kg_m2: change(&figures.tensor_kg_m2),
-        ..*figures
+    Slip::new(cause, detail, move |parameters| Inertial {
+        tensor_kg_m2: change(&parameters.tensor_kg_m2),
+        ..*parameters
     })
 }
 
 /// The tensor is shifted away from the centre of mass, or with sign -1 to it.
 fn about_origin<'a>(detail: &str, sign: f64) -> Slip<'a> {
-    Slip::new(DynamicsCause::InertiaAboutOrigin, detail, move |figures| {
-        figures.with_tensor_in_link(&(figures.tensor_in_link() + figures.shift() * sign))
+    Slip::new(DynamicsCause::InertiaAboutOrigin, detail, move |parameters| {
+        parameters.with_tensor_in_link(&(parameters.tensor_in_link() + parameters.shift() * sign))
     })
 }
 

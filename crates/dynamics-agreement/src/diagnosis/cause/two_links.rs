@@ -42,7 +42,7 @@ fn carries(frames: &Frames, first: usize, second: usize) -> bool {
     holder == part || part.is_some_and(|part| frames.joints[part].parent == holder)
 }
 
-/// The figures of the first link with those of the second at joints zero put to them, or taken from them.
+/// The parameters of the first link with those of the second at joints zero put to them, or taken from them.
 fn with_other(
     frames: &Frames,
     faulty: FaultySide,
@@ -61,8 +61,8 @@ pub(super) fn everywhere(side: &Side, slip: &Slip<'_>) -> Option<Hypothesis> {
     let changed: Vec<(usize, Inertial)> = (0..side.inertials.len())
         .filter(|&link| side.frames.links[link].body.is_some())
         .filter_map(|link| {
-            let figures = side.inertials[link].as_ref()?;
-            Some((link, (slip.change)(link, figures).filter(|changed| changed != figures)?))
+            let parameters = side.inertials[link].as_ref()?;
+            Some((link, (slip.change)(link, parameters).filter(|changed| changed != parameters)?))
         })
         .collect();
     (changed.len() > 1)

@@ -1,9 +1,12 @@
 //! Wrong units.
 
 use super::slip::Slip;
+use congruent_dynamics::JointResistance;
+
 use crate::{
     diagnosis::{cause_names::DynamicsCause, hypothesis::FaultySide},
     side::Inertial,
+    thresholds::SAME_VALUE,
 };
 
 const POUND_KG: f64 = 0.453_592_37;
@@ -27,40 +30,112 @@ const INERTIAS: [(&str, f64); 8] = [
     ("lb_ft2", 1.0 / (POUND_KG * FOOT_M * FOOT_M)),
     ("slug_ft2", 1.0 / (SLUG_KG * FOOT_M * FOOT_M)),
 ];
-/// Units of mass and length that CAD programs write all figures in.
-const CAD: [(&str, f64, f64); 2] = [("g_mm", 1e3, 1e3), ("kg_mm", 1.0, 1e3)];
+/// Units of mass and length that CAD programs write all parameters in.
+const CAD: [(&str, f64, f64); 3] =
+    [("g_mm", 1e3, 1e3), ("kg_mm", 1.0, 1e3), ("lb_in", 1.0 / POUND_KG, 1.0 / INCH_M)];
+/// A converted value with three digits is off by so much of itself. No unit; kind: digits of a file.
+const ROUNDED: f64 = 5e-3;
 
 pub(super) fn slips<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
     let mut slips = Vec::new();
     for (unit, count) in MASSES {
         let factor = faulty.factor(count);
-        slips.push(Slip::new(DynamicsCause::MassUnit, unit, move |figures| Inertial {
-            mass_kg: figures.mass_kg * factor,
-            ..*figures
+        slips.push(Slip::new(DynamicsCause::MassUnit, unit, move |parameters| Inertial {
+            mass_kg: parameters.mass_kg * factor,
+            ..*parameters
         }));
     }
     for (unit, count) in LENGTHS {
         let factor = faulty.factor(count);
-        slips.push(Slip::new(DynamicsCause::ComUnit, unit, move |figures| Inertial {
-            com_m: figures.com_m * factor,
-            ..*figures
+        slips.push(Slip::new(DynamicsCause::ComUnit, unit, move |parameters| Inertial {
+            com_m: parameters.com_m * factor,
+            ..*parameters
         }));
     }
     for (unit, count) in INERTIAS {
         let factor = faulty.factor(count);
-        slips.push(Slip::new(DynamicsCause::InertiaUnit, unit, move |figures| Inertial {
-            tensor_kg_m2: figures.tensor_kg_m2 * factor,
-            ..*figures
+        slips.push(Slip::new(DynamicsCause::InertiaUnit, unit, move |parameters| Inertial {
+            tensor_kg_m2: parameters.tensor_kg_m2 * factor,
+            ..*parameters
         }));
     }
     for (unit, masses, lengths) in CAD {
         let (mass, length) = (faulty.factor(masses), faulty.factor(lengths));
-        slips.push(Slip::new(DynamicsCause::CadUnits, unit, move |figures| Inertial {
-            mass_kg: figures.mass_kg * mass,
-            com_m: figures.com_m * length,
-            tensor_kg_m2: figures.tensor_kg_m2 * (mass * length * length),
-            ..*figures
+        slips.push(Slip::new(DynamicsCause::CadUnits, unit, move |parameters| Inertial {
+            mass_kg: parameters.mass_kg * mass,
+            com_m: parameters.com_m * length,
+            tensor_kg_m2: parameters.tensor_kg_m2 * (mass * length * length),
+            ..*parameters
         }));
     }
     slips
+}
+
+/// The unit of parameters that were rounded to three digits when they were converted, so that no slip is exact: what
+/// stands there, and what should. `None` if it is no unit.
+pub(crate) fn rounded_unit(written: &Inertial, right: &Inertial) -> Option<(DynamicsCause, &'static str)> {
+    let tensors = [written, right].map(Inertial::tensor_in_link);
+    let mass = |count: f64| is_in_unit(count, &[written.mass_kg], &[right.mass_kg]);
+    let com = |count: f64| is_in_unit(count, written.com_m.as_slice(), right.com_m.as_slice());
+    let tensor = |count: f64| is_in_unit(count, tensors[0].as_slice(), tensors[1].as_slice());
+    let is_equal = |found: &[f64], expected: &[f64]| {
+        let size = largest(found).max(largest(expected));
+        found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() <= SAME_VALUE * size)
+    };
+    let equal = [
+        is_equal(&[written.mass_kg], &[right.mass_kg]),
+        is_equal(written.com_m.as_slice(), right.com_m.as_slice()),
+        is_equal(tensors[0].as_slice(), tensors[1].as_slice()),
+    ];
+    let named = |cause, unit: Option<&'static str>| unit.map(|unit| (cause, unit));
+    let find = |units: &[(&'static str, f64)], is: &dyn Fn(f64) -> bool| {
+        units.iter().find(|(_, count)| is(*count)).map(|(unit, _)| *unit)
+    };
+    match equal {
+        [false, true, true] => named(DynamicsCause::MassUnit, find(&MASSES, &mass)),
+        [true, false, true] => named(DynamicsCause::ComUnit, find(&LENGTHS, &com)),
+        [true, true, false] => named(DynamicsCause::InertiaUnit, find(&INERTIAS, &tensor)),
+        _ => {
+            let all = |(_, masses, lengths): &&(&str, f64, f64)| {
+                mass(*masses) && com(*lengths) && tensor(masses * lengths * lengths)
+            };
+            named(DynamicsCause::CadUnits, CAD.iter().find(all).map(|(unit, ..)| *unit))
+        }
+    }
+}
+
+/// The same of damping, which may be given per degree instead of per radian, or the reverse.
+pub(crate) fn rounded_damping_unit(
+    written: &[JointResistance],
+    right: &[JointResistance],
+) -> Option<(DynamicsCause, &'static str)> {
+    let differs = |a: f64, b: f64| a.total_cmp(&b).is_ne();
+    let changed =
+        || written.iter().zip(right).filter(|(written, right)| differs(written.damping, right.damping));
+    let is_other = written.iter().zip(right).any(|(written, right)| {
+        differs(written.friction, right.friction) || differs(written.armature, right.armature)
+    });
+    let is_in = |count: f64| {
+        changed().all(|(written, right)| is_in_unit(count, &[written.damping], &[right.damping]))
+    };
+    if is_other || changed().next().is_none() {
+        return None;
+    }
+    let units = [("degrees", std::f64::consts::PI / 180.0), ("radians", 180.0 / std::f64::consts::PI)];
+    let unit = units.into_iter().find(|(_, count)| is_in(*count));
+    unit.map(|(unit, _)| (DynamicsCause::DampingUnit, unit))
+}
+
+/// Whether values are those that are expected in a unit of which so many make the right one, but for the digits.
+fn is_in_unit(count: f64, found: &[f64], expected: &[f64]) -> bool {
+    let size = largest(expected);
+    size > 0.0
+        && found
+            .iter()
+            .zip(expected)
+            .all(|(found, expected)| (found / count - expected).abs() <= ROUNDED * size)
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest, value| largest.max(value.abs()))
 }

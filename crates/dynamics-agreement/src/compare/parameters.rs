@@ -1,20 +1,21 @@
-//! Figures that differ, one by one.
+//! Parameters that differ, one by one.
 
 use congruent_dynamics::JointResistance;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
     side::{Frames, Inertial, JointTerm},
-    thresholds::SAME_FIGURE,
+    thresholds::SAME_VALUE,
 };
 
-/// One figure of a link, a joint or of gravity on both sides.
+/// One parameter of a link, a joint or of gravity on both sides.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
-pub struct FigureDifference {
+pub struct ParameterDifference {
     /// The link or the joint that it belongs to; empty for gravity.
     pub of: String,
     /// `mass`, `com_x`, `ixx`, `damping`, ...
-    pub figure: String,
+    #[serde(rename = "figure")]
+    pub parameter: String,
     /// What the candidate says; `null` if it says nothing.
     pub found: Option<f64>,
     /// What should stand there, or what the reference says; `null` if nothing.
@@ -27,7 +28,7 @@ pub struct FigureDifference {
     pub expected_line: Option<usize>,
 }
 
-const FIGURES: [(&str, &str); 10] = [
+const PARAMETER_UNITS: [(&str, &str); 10] = [
     ("mass", "kg"),
     ("com_x", "m"),
     ("com_y", "m"),
@@ -40,8 +41,8 @@ const FIGURES: [(&str, &str); 10] = [
     ("izz", "kg m^2"),
 ];
 
-/// The ten figures, each with the size that it is compared with.
-fn figures(inertial: &Inertial, t: &Matrix3<f64>) -> ([f64; 10], [f64; 10]) {
+/// The ten parameters, each with the size that it is compared with.
+fn parameters(inertial: &Inertial, t: &Matrix3<f64>) -> ([f64; 10], [f64; 10]) {
     let (m, c) = (inertial.mass_kg, inertial.com_m);
     let (length, size) = (c.amax(), t.amax());
     let values = [m, c.x, c.y, c.z, t[(0, 0)], t[(0, 1)], t[(0, 2)], t[(1, 1)], t[(1, 2)], t[(2, 2)]];
@@ -51,13 +52,13 @@ fn figures(inertial: &Inertial, t: &Matrix3<f64>) -> ([f64; 10], [f64; 10]) {
     (values, sizes)
 }
 
-/// The figures of a link that differ. Tensors are compared as they are written if the axes are the same, else in the
+/// The parameters of a link that differ. Tensors are compared as they are written if the axes are the same, else in the
 /// axes of the link.
 pub(crate) fn of_link(
     name: &str,
     found: Option<&Inertial>,
     expected: Option<&Inertial>,
-) -> Vec<FigureDifference> {
+) -> Vec<ParameterDifference> {
     let as_written = match (found, expected) {
         (Some(found), Some(expected)) => found.link_from_axes == expected.link_from_axes,
         _ => true,
@@ -65,19 +66,19 @@ pub(crate) fn of_link(
     let tensor = |inertial: &Inertial| {
         if as_written { inertial.tensor_kg_m2 } else { inertial.tensor_in_link() }
     };
-    let values = [found, expected].map(|side| side.map(|inertial| figures(inertial, &tensor(inertial))));
+    let values = [found, expected].map(|side| side.map(|inertial| parameters(inertial, &tensor(inertial))));
     let differs = |at: usize| match &values {
         [Some((a, sizes)), Some((b, other_sizes))] => {
-            (a[at] - b[at]).abs() > SAME_FIGURE * sizes[at].max(other_sizes[at])
+            (a[at] - b[at]).abs() > SAME_VALUE * sizes[at].max(other_sizes[at])
         }
         [None, None] => false,
         _ => true,
     };
     let value = |side: usize, at: usize| values[side].as_ref().map(|(values, _)| values[at]);
-    let all = FIGURES.into_iter().enumerate().filter(|(at, _)| differs(*at));
-    all.map(|(at, (figure, unit))| FigureDifference {
+    let all = PARAMETER_UNITS.into_iter().enumerate().filter(|(at, _)| differs(*at));
+    all.map(|(at, (parameter, unit))| ParameterDifference {
         of: name.to_owned(),
-        figure: figure.to_owned(),
+        parameter: parameter.to_owned(),
         found: value(0, at),
         expected: value(1, at),
         unit: unit.to_owned(),
@@ -92,15 +93,15 @@ pub(crate) fn of_joints(
     frames: &Frames,
     found: &[JointResistance],
     expected: &[JointResistance],
-) -> Vec<FigureDifference> {
+) -> Vec<ParameterDifference> {
     let mut differences = Vec::new();
     for (joint, (found, expected)) in frames.joints.iter().zip(found.iter().zip(expected)) {
         for term in JointTerm::ALL {
             let (found, expected) = (term.of(found), term.of(expected));
-            if (found - expected).abs() > SAME_FIGURE * found.abs().max(expected.abs()) {
-                differences.push(FigureDifference {
+            if (found - expected).abs() > SAME_VALUE * found.abs().max(expected.abs()) {
+                differences.push(ParameterDifference {
                     of: joint.name.clone(),
-                    figure: term.name().to_owned(),
+                    parameter: term.name().to_owned(),
                     found: Some(found),
                     expected: Some(expected),
                     unit: term.unit(joint).to_owned(),
@@ -114,14 +115,14 @@ pub(crate) fn of_joints(
 }
 
 /// The components of gravity that differ.
-pub(crate) fn of_gravity(found: &Vector3<f64>, expected: &Vector3<f64>) -> Vec<FigureDifference> {
+pub(crate) fn of_gravity(found: &Vector3<f64>, expected: &Vector3<f64>) -> Vec<ParameterDifference> {
     let size = found.amax().max(expected.amax());
     let names = ["gravity_x", "gravity_y", "gravity_z"].into_iter().enumerate();
-    let differing = names.filter(|(at, _)| (found[*at] - expected[*at]).abs() > SAME_FIGURE * size);
+    let differing = names.filter(|(at, _)| (found[*at] - expected[*at]).abs() > SAME_VALUE * size);
     differing
-        .map(|(at, name)| FigureDifference {
+        .map(|(at, name)| ParameterDifference {
             of: String::new(),
-            figure: name.to_owned(),
+            parameter: name.to_owned(),
             found: Some(found[at]),
             expected: Some(expected[at]),
             unit: "m/s^2".to_owned(),

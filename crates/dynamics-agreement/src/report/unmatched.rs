@@ -1,0 +1,112 @@
+//! Links that only one of two descriptions has, such as a camera on a bracket: their mass is in one of the two alone.
+
+use super::{content::DynamicsExplanation, places::Files};
+use crate::{
+    compare::parameters,
+    diagnosis::DynamicsCause,
+    side::{Inertial, Side},
+    thresholds::PRICE_OF_MISSING,
+};
+
+/// Links with an inertial on a moving body that only one side has, by number there.
+pub(super) struct Unmatched<'a> {
+    candidate: &'a Side,
+    reference: &'a Side,
+    added: Vec<usize>,
+    missing: Vec<usize>,
+}
+
+impl<'a> Unmatched<'a> {
+    pub(super) fn new(candidate: &'a Side, reference: &'a Side) -> Self {
+        let only_in = |one: &Side, other: &Side| {
+            let links = one.frames.links.iter().zip(&one.inertials).enumerate();
+            links
+                .filter(|(_, (place, inertial))| place.body.is_some() && inertial.is_some())
+                .filter(|(_, (place, _))| other.frames.find_link(&place.name).is_none())
+                .map(|(link, _)| link)
+                .collect()
+        };
+        let (added, missing) = (only_in(candidate, reference), only_in(reference, candidate));
+        Self { candidate, reference, added, missing }
+    }
+
+    /// Puts the mass of missing links on their bodies, and takes away that of links that are too many.
+    pub(super) fn correct(&self, side: &mut Side) {
+        for &link in &self.added {
+            side.inertials[link] = None;
+        }
+        for &link in &self.missing {
+            let place = &self.reference.frames.links[link];
+            let (Some(body), Some(inertial)) = (place.body, &self.reference.inertials[link]) else {
+                continue;
+            };
+            let Some(joint) = side.frames.find_joint(self.reference.frames.joint_name(body)) else {
+                continue;
+            };
+            // The frame of a body is that of the link that its joint carries, in both.
+            let in_body = inertial.about_origin().transformed_by(&place.body_from_link);
+            let carried = side.frames.joints[joint].link;
+            let before = side.inertials[carried].unwrap_or_else(Inertial::nothing);
+            let sum = Inertial::from_origin(&(before.about_origin() + in_body), before.link_from_axes);
+            side.inertials[carried] = Some(sum);
+        }
+    }
+
+    /// One for each of these links.
+    pub(super) fn explanations(&self, files: Files<'_>) -> Vec<DynamicsExplanation> {
+        let added = self.added.iter().map(|&link| {
+            let name = self.candidate.frames.link_name(link);
+            let nothing = Inertial::nothing();
+            let edits = files.found.map(|file| file.lines(&file.set_inertial(name, &nothing)));
+            let explanation = self.explanation(
+                (DynamicsCause::LinkAdded, name),
+                [self.candidate.inertials[link].as_ref(), None],
+                files,
+            );
+            let suggestion =
+                format!("remove the <inertial> of {name}, or add the link to the other description");
+            DynamicsExplanation {
+                changes: edits.unwrap_or_default(),
+                suggestion: Some(suggestion),
+                ..explanation
+            }
+        });
+        let missing = self.missing.iter().map(|&link| {
+            let name = self.reference.frames.link_name(link);
+            let found = self.reference.inertials[link].as_ref();
+            let explanation = self.explanation((DynamicsCause::LinkMissing, name), [None, found], files);
+            let suggestion = format!("add link {name} with its fixed joint, as the other description has it");
+            DynamicsExplanation { suggestion: Some(suggestion), ..explanation }
+        });
+        added.chain(missing).collect()
+    }
+
+    fn explanation(
+        &self,
+        (cause, name): (DynamicsCause, &str),
+        [found, expected]: [Option<&Inertial>; 2],
+        files: Files<'_>,
+    ) -> DynamicsExplanation {
+        let mut parameters = parameters::of_link(name, found, expected);
+        files.place(&mut parameters);
+        DynamicsExplanation {
+            cause,
+            detail: String::new(),
+            place: vec![name.to_owned()],
+            line: parameters.iter().find_map(|parameter| parameter.line),
+            parameters,
+            numbers: PRICE_OF_MISSING,
+            left_relative: 0.0,
+            is_a_body: true,
+            body_law: None,
+            impossible_as_written: Vec::new(),
+            contradicted: false,
+            also_named: Vec::new(),
+            reason: None,
+            parts: Vec::new(),
+            file: files.found.map(|file| file.source().path.display().to_string()),
+            suggestion: None,
+            changes: Vec::new(),
+        }
+    }
+}
