@@ -51,11 +51,16 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
     }
     let mut lines: Vec<String> = limits(&report.limits);
     if !report.has_same_torques() {
-        for other in report.indistinguishable.iter().take(SHOWN) {
+        let others: Vec<&DynamicsExplanation> = report
+            .indistinguishable
+            .iter()
+            .filter(|other| !report.explanations.iter().any(|first| has_parts_of(first, other)))
+            .collect();
+        for other in others.iter().take(SHOWN) {
             let reason = other.reason.map_or_else(String::new, |reason| format!(" ({})", reason.text()));
             lines.push(format!("indistinguishable: {}{reason}", other.sentence()));
         }
-        lines.extend(more(report.indistinguishable.len(), "that cannot be distinguished"));
+        lines.extend(more(others.len(), "that cannot be distinguished"));
         lines.extend(report.invariants.iter().flat_map(congruent::dynamics_agreement::Invariants::sentences));
     }
     lines.extend(report.hidden_sentences().into_iter().take(SHOWN));
@@ -70,6 +75,12 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
         certified(text, ("torque difference in motion", worst), robot);
         let _ = writeln!(text, "      {}", all.covered_sentence());
     }
+}
+
+/// Whether two explanations of several faults name the same faults, whatever their order and the last digits.
+fn has_parts_of(one: &DynamicsExplanation, other: &DynamicsExplanation) -> bool {
+    let is_same = one.parts.len() == other.parts.len() && !one.parts.is_empty();
+    is_same && one.parts.iter().all(|part| other.parts.contains(part))
 }
 
 fn more(all: usize, what: &str) -> Option<String> {

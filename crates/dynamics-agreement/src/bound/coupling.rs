@@ -73,6 +73,15 @@ impl Coupling {
         }
     }
 
+    /// Puts the masters of some joints where these want them.
+    pub(super) fn lead(&self, q: &mut RobotQ, joints: &[usize]) {
+        for (joint, of) in
+            self.followers.iter().filter(|(joint, of)| joints.contains(joint) && of.ratio != 0.0)
+        {
+            q[of.master] = (q[*joint] - of.offset) / of.ratio;
+        }
+    }
+
     /// Gives followers the speeds or accelerations of their masters.
     pub(super) fn spread(&self, values: &mut [f64]) {
         for (joint, of) in &self.followers {
@@ -94,6 +103,7 @@ impl Coupling {
         joints: &[usize],
         mut value: impl FnMut(&RobotQ) -> Result<f64, E>,
     ) -> Result<f64, E> {
+        self.lead(q, joints);
         self.place(q);
         let mut driven: Vec<usize> = joints.iter().map(|&joint| self.driver(joint)).collect();
         driven.sort_unstable();
@@ -102,25 +112,34 @@ impl Coupling {
         for _ in 0..ROUNDS {
             let before = best;
             for &joint in &driven {
-                let (lower, upper) = self.ranges[joint];
-                let mut step = (upper - lower) / f64::from(POSITIONS);
-                let grid = (0..=POSITIONS).map(|index| lower + step * f64::from(index));
-                for position in grid {
-                    self.try_at((joint, position), (q, &mut best), &mut value)?;
-                }
-                for _ in 0..HALVINGS {
-                    for by in [-step, step] {
-                        let position = (q[joint] + by).clamp(lower, upper);
-                        self.try_at((joint, position), (q, &mut best), &mut value)?;
-                    }
-                    step /= 2.0;
-                }
+                self.climb_one(joint, (q, &mut best), &mut value)?;
             }
             if best <= before * (1.0 + LEAST_GAIN) {
                 break;
             }
         }
         Ok(best)
+    }
+
+    fn climb_one<E>(
+        &self,
+        joint: usize,
+        (q, best): (&mut RobotQ, &mut f64),
+        value: &mut impl FnMut(&RobotQ) -> Result<f64, E>,
+    ) -> Result<(), E> {
+        let (lower, upper) = self.ranges[joint];
+        let mut step = (upper - lower) / f64::from(POSITIONS);
+        for index in 0..=POSITIONS {
+            self.try_at((joint, lower + step * f64::from(index)), (q, best), value)?;
+        }
+        for _ in 0..HALVINGS {
+            for by in [-step, step] {
+                let position = (q[joint] + by).clamp(lower, upper);
+                self.try_at((joint, position), (q, best), value)?;
+            }
+            step /= 2.0;
+        }
+        Ok(())
     }
 
     fn try_at<E>(

@@ -266,6 +266,8 @@ impl OneJoint<'_> {
         for (variable, position) in function.variables.iter().zip(positions) {
             at.q[variable.joint] = *position;
         }
+        let places: Vec<usize> = function.variables.iter().map(|variable| variable.joint).collect();
+        self.motions.rows.ways.coupling.lead(&mut at.q, &places);
         for (&joint, share) in moving.iter().zip(&largest.accelerations) {
             at.qdd[joint] = share * covered[joint].acceleration;
         }

@@ -58,7 +58,7 @@ impl<'a> Unmatched<'a> {
             let name = self.candidate.frames.link_name(link);
             let nothing = Inertial::nothing();
             let edits = files.found.map(|file| file.lines(&file.set_inertial(name, &nothing)));
-            let explanation = self.explanation(
+            let explanation = explanation(
                 (DynamicsCause::LinkAdded, name),
                 [self.candidate.inertials[link].as_ref(), None],
                 files,
@@ -74,39 +74,38 @@ impl<'a> Unmatched<'a> {
         let missing = self.missing.iter().map(|&link| {
             let name = self.reference.frames.link_name(link);
             let found = self.reference.inertials[link].as_ref();
-            let explanation = self.explanation((DynamicsCause::LinkMissing, name), [None, found], files);
+            let explanation = explanation((DynamicsCause::LinkMissing, name), [None, found], files);
             let suggestion = format!("add link {name} with its fixed joint, as the other description has it");
             DynamicsExplanation { suggestion: Some(suggestion), ..explanation }
         });
         added.chain(missing).collect()
     }
+}
 
-    fn explanation(
-        &self,
-        (cause, name): (DynamicsCause, &str),
-        [found, expected]: [Option<&Inertial>; 2],
-        files: Files<'_>,
-    ) -> DynamicsExplanation {
-        let mut parameters = parameters::of_link(name, found, expected);
-        files.place(&mut parameters);
-        DynamicsExplanation {
-            cause,
-            detail: String::new(),
-            place: vec![name.to_owned()],
-            line: parameters.iter().find_map(|parameter| parameter.line),
-            parameters,
-            numbers: PRICE_OF_MISSING,
-            left_relative: 0.0,
-            is_a_body: true,
-            body_law: None,
-            impossible_as_written: Vec::new(),
-            contradicted: false,
-            also_named: Vec::new(),
-            reason: None,
-            parts: Vec::new(),
-            file: files.found.map(|file| file.source().path.display().to_string()),
-            suggestion: None,
-            changes: Vec::new(),
-        }
+fn explanation(
+    (cause, name): (DynamicsCause, &str),
+    [found, expected]: [Option<&Inertial>; 2],
+    files: Files<'_>,
+) -> DynamicsExplanation {
+    let mut parameters = parameters::of_link(name, found, expected);
+    files.place(&mut parameters);
+    DynamicsExplanation {
+        cause,
+        detail: String::new(),
+        place: vec![name.to_owned()],
+        line: parameters.iter().find_map(|parameter| parameter.line),
+        parameters,
+        numbers: PRICE_OF_MISSING,
+        left_relative: 0.0,
+        is_a_body: true,
+        body_law: None,
+        impossible_as_written: Vec::new(),
+        contradicted: false,
+        also_named: Vec::new(),
+        reason: None,
+        parts: Vec::new(),
+        file: files.found.map(|file| file.source().path.display().to_string()),
+        suggestion: None,
+        changes: Vec::new(),
     }
 }
