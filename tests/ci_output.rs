@@ -81,6 +81,7 @@ fn a_robot_that_disagrees_is_shown_at_the_wrong_line() {
 fn what_cannot_start_is_an_error_at_the_line_of_the_finding() {
     let bench = Bench::new();
     let scenario = fs::read_to_string(workspace().join("scenarios/ur5e_pick.toml")).unwrap();
+    let scenario = scenario.replace("../robots", &text(&workspace().join("robots")));
     let path = bench.write("typo.toml", &format!("sed = 1\n{scenario}"));
     let (answer, junit, summary) = with_ci(&bench, &["run", &path]);
     assert_eq!(answer.code, 2, "{}", answer.stderr);
