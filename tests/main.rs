@@ -13,6 +13,7 @@ mod chains;
 mod check_configurations;
 mod check_dynamics;
 mod check_tables;
+mod ci_output;
 mod clearance_goldens;
 mod clearance_pairs;
 mod command;

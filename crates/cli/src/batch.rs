@@ -9,11 +9,12 @@ use std::{
 
 use congruent::{
     description::{Diagnostic, Finding},
-    twin::report::{OutputError, Reason, TestResult, TestSuite, write_junit},
+    twin::report::{CasePlace, OutputError, Reason, TestResult, TestSuite},
 };
 use serde::Serialize;
 
 use crate::{
+    ci::CiArguments,
     failure::{BAD_INPUT, BROKEN, FAILED, Failure, NOTHING, worse},
     print::{Printer, Refusal},
 };
@@ -52,28 +53,24 @@ enum Entry<'a, R> {
 pub(crate) struct Batch<'a> {
     printer: &'a Printer,
     inputs: &'a [PathBuf],
-    junit: Option<&'a Path>,
+    ci: &'a CiArguments,
 }
 
 impl<'a> Batch<'a> {
-    /// Finds out at once whether the JUnit file can be written. Until the end it has an error for every input, so that a
-    /// call that is killed is no success.
+    /// Finds out at once whether the files for CI can be written. Until the end the JUnit file has an error for every
+    /// input, so that a call that is killed is no success.
     pub(crate) fn begin(
         inputs: &'a [PathBuf],
-        junit: Option<&'a Path>,
+        ci: &'a CiArguments,
         printer: &'a Printer,
     ) -> Result<Self, Failure> {
-        if let Some(path) = junit {
-            let unfinished = |input: &PathBuf| {
-                let message = "the call ended before this input was answered".to_owned();
-                let reason = Reason { kind: "unfinished".to_owned(), message };
-                TestSuite::of_case(shown(input), "end", TestResult::Error(reason))
-            };
-            let suites: Vec<TestSuite> = inputs.iter().map(unfinished).collect();
-            write_junit(path, &suites)
-                .map_err(|error| unwritable(&error, "choose another file with --junit"))?;
-        }
-        Ok(Self { printer, inputs, junit })
+        let unfinished = |input: &PathBuf| {
+            let message = "the call ended before this input was answered".to_owned();
+            let reason = Reason { kind: "unfinished".to_owned(), message };
+            TestSuite::of_case(shown(input), "end", TestResult::Error(reason))
+        };
+        ci.begin(|| inputs.iter().map(unfinished).collect())?;
+        Ok(Self { printer, inputs, ci })
     }
 
     /// The name of an input in front of its findings, if there are several inputs.
@@ -117,14 +114,14 @@ impl<'a> Batch<'a> {
         }
     }
 
-    /// Writes the JUnit file, prints all answers, and returns the worst exit code. Answers are in the order of the inputs;
+    /// Writes the files for CI, prints all answers, and returns the worst exit code. Answers are in the order of the inputs;
     /// for people the worst come first.
     pub(crate) fn finish<R: BatchReport>(&self, mut answers: Vec<Answer<R>>) -> Result<u8, Failure> {
         let mut code = answers.iter().map(Answer::exit_code).fold(0, worse);
-        if let Some(path) = self.junit {
+        if self.ci.is_wanted() {
             let suites: Vec<TestSuite> = answers.iter().map(Answer::suite).collect();
-            if let Err(error) = write_junit(path, &suites) {
-                Printer::explain(None, &Failure::Machine(error.to_string()));
+            for failure in self.ci.finish(&suites) {
+                Printer::explain(None, &failure);
                 code = BROKEN;
             }
         }
@@ -157,7 +154,10 @@ impl<R: BatchReport> Answer<R> {
         let suite = match &self.result {
             Ok(report) => report.test_suite(&shown(&self.input)),
             Err(failure) => {
-                TestSuite::of_case(shown(&self.input), "start", TestResult::Error(reason(failure)))
+                let result = TestResult::Error(reason(failure));
+                let mut suite = TestSuite::of_case(shown(&self.input), "start", result);
+                suite.cases.iter_mut().for_each(|case| case.place = place(failure));
+                suite
             }
         };
         suite.measured(self.wall_s)
@@ -221,6 +221,13 @@ fn reason(failure: &Failure) -> Reason {
     }
 }
 
+/// The line of the first finding that has one.
+fn place(failure: &Failure) -> Option<CasePlace> {
+    let Failure::Input(findings) = failure else { return None };
+    let of = |finding: Finding| CasePlace::of(finding.file.as_deref(), finding.line);
+    findings.iter().map(Finding::from).find_map(of)
+}
+
 /// A path that cannot be written is bad input, a full disk is a failure of the machine.
 pub(crate) fn unwritable(error: &OutputError, help: &str) -> Failure {
     if error.is_full() {
@@ -261,7 +268,8 @@ mod tests {
         let junit = folder.path().join("junit.xml");
         let inputs = ["a.toml", "b.toml", "c.toml"].map(PathBuf::from);
         let printer = Printer::new(Format::Human);
-        let batch = Batch::begin(&inputs, Some(&junit), &printer).unwrap();
+        let ci = CiArguments::of_junit(&junit);
+        let batch = Batch::begin(&inputs, &ci, &printer).unwrap();
         // On threads of their own, as scenarios run.
         let work = |input: &Path| {
             assert!(input != Path::new("b.toml"), "a fault of the program");

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::{
     batch::{Batch, BatchReport},
+    ci::CiArguments,
     failure::{FAILED, Failure},
     print::Printer,
 };
@@ -22,9 +23,8 @@ pub(crate) struct Arguments {
     /// Recordings (.rrd).
     #[arg(required = true)]
     recordings: Vec<PathBuf>,
-    /// Also write a JUnit file: a suite for each recording, with its verdict as the only case.
-    #[arg(long, value_name = "FILE")]
-    junit: Option<PathBuf>,
+    #[command(flatten)]
+    ci: CiArguments,
 }
 
 impl BatchReport for RecordingSummary {
@@ -48,7 +48,7 @@ impl BatchReport for RecordingSummary {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let batch = Batch::begin(&arguments.recordings, arguments.junit.as_deref(), printer)?;
+    let batch = Batch::begin(&arguments.recordings, &arguments.ci, printer)?;
     let read = |path: &Path| {
         inspect(path).map_err(|error| Diagnostic::error("inspect::recording", error.to_string()).into())
     };

@@ -3,6 +3,7 @@
 
 mod arm;
 mod batch;
+mod ci;
 mod compare;
 mod failure;
 mod faults;

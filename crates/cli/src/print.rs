@@ -143,6 +143,11 @@ impl Printer {
         to_stderr(&text);
     }
 
+    /// Lines for a CI host, which reads them from standard error as well as from standard output.
+    pub(crate) fn annotations(lines: &str) {
+        to_stderr(lines);
+    }
+
     /// Whether progress may be drawn.
     pub(crate) fn is_interactive(&self) -> bool {
         self.format == Format::Human && io::stderr().is_terminal()

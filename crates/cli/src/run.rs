@@ -23,6 +23,7 @@ use serde::{Serialize, Serializer};
 
 use crate::{
     batch::{Answer, Batch, BatchReport, unwritable},
+    ci::CiArguments,
     failure::{BROKEN, Failure},
     input::PackageArguments,
     print::Printer,
@@ -52,10 +53,8 @@ pub(crate) struct Arguments {
     /// Write no recording.
     #[arg(long)]
     no_recording: bool,
-    /// Also write one JUnit file over all scenarios, with an error for each that cannot start. Its times are those of
-    /// the machine; the times of each scenario's own junit.xml are simulated.
-    #[arg(long, value_name = "FILE")]
-    junit: Option<PathBuf>,
+    #[command(flatten)]
+    ci: CiArguments,
     #[command(flatten)]
     packages: PackageArguments,
 }
@@ -109,14 +108,19 @@ impl BatchReport for Ran {
         if let Err(message) = &self.results {
             let reason = Reason { kind: "machine".to_owned(), message: message.clone() };
             let result = TestResult::Error(reason);
-            suite.cases.push(TestCase { name: "results".to_owned(), result, output: String::new() });
+            suite.cases.push(TestCase {
+                name: "results".to_owned(),
+                result,
+                output: String::new(),
+                place: None,
+            });
         }
         suite
     }
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let batch = Batch::begin(&arguments.scenarios, arguments.junit.as_deref(), printer)?;
+    let batch = Batch::begin(&arguments.scenarios, &arguments.ci, printer)?;
     let loaded = load(arguments, &batch);
     let bars = printer.is_interactive().then(MultiProgress::new);
     batch.finish(run_all(loaded, arguments, (&batch, bars.as_ref())))

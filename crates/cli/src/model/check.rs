@@ -18,6 +18,7 @@ use super::{
 };
 use crate::{
     batch::{Batch, BatchReport},
+    ci::CiArguments,
     failure::{FAILED, Failure, NOTHING},
     input::{ChainArguments, PackageArguments},
     print::Printer,
@@ -58,10 +59,8 @@ pub(crate) struct Arguments {
     basics: bool,
     #[command(flatten)]
     packages: PackageArguments,
-    /// Also write a JUnit file: a suite for each robot, a case for each comparison, and an error for each robot that
-    /// cannot be loaded.
-    #[arg(long, value_name = "FILE")]
-    junit: Option<PathBuf>,
+    #[command(flatten)]
+    ci: CiArguments,
 }
 
 /// The report on one robot, and whether its first checks are shown too.
@@ -97,7 +96,7 @@ impl BatchReport for Checked {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let batch = Batch::begin(&arguments.robots, arguments.junit.as_deref(), printer)?;
+    let batch = Batch::begin(&arguments.robots, &arguments.ci, printer)?;
     let robots = arguments.robots.iter();
     batch.finish(robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect())
 }

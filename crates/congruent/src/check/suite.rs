@@ -6,7 +6,7 @@ use congruent_agreement::{
 };
 use congruent_description::{display::length_and_angle, serde_name};
 use congruent_dynamics_agreement::DynamicsReport;
-use congruent_twin::report::{Clock, Reason, TestCase, TestResult, TestSuite};
+use congruent_twin::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
 use super::robot_check::RobotCheck;
 
@@ -22,6 +22,7 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
         name: "dynamics against the other description".to_owned(),
         result: TestResult::Failed(Reason { kind: "other_chain".to_owned(), message: why.clone() }),
         output: why.clone(),
+        place: None,
     }));
     cases.extend(report.all_dynamics().map(dynamics_case));
     // Nothing moves, so that no time passes but the machine's.
@@ -45,7 +46,8 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
         let kind = serde_name(&comparison.name).to_owned();
         TestResult::Failed(Reason { kind, message: lines.join("\n") })
     };
-    TestCase { name: comparison.title.to_owned(), result, output: lines.join("\n") }
+    let place = diagnosis_of(comparison, report).filter(|_| result.reason().is_some()).and_then(place);
+    TestCase { name: comparison.title.to_owned(), result, output: lines.join("\n"), place }
 }
 
 fn dynamics_case(report: &DynamicsReport) -> TestCase {
@@ -60,6 +62,7 @@ fn dynamics_case(report: &DynamicsReport) -> TestCase {
         name: format!("dynamics of {} against {}", report.sides.candidate, report.sides.reference),
         result,
         output,
+        place: report.explanations.first().and_then(|first| CasePlace::of(first.file.as_deref(), first.line)),
     }
 }
 
@@ -76,12 +79,22 @@ fn certified(comparison: &Comparison, report: &CheckReport) -> Option<String> {
 
 /// The cause by the diagnosis of the same two sources, otherwise by the first that has one.
 fn causes(comparison: &Comparison, report: &CheckReport) -> Vec<String> {
-    let same = report.diagnoses.iter().find(|diagnosis| diagnosis.name == comparison.name);
-    let diagnosis = same.filter(|diagnosis| diagnosis.is_explained()).or(foremost(&report.diagnoses));
-    let statements = diagnosis.map(ReportedDiagnosis::statements).unwrap_or_default();
+    let statements = diagnosis_of(comparison, report).map(ReportedDiagnosis::statements).unwrap_or_default();
     if statements.is_empty() {
         return vec!["no known cause explains it".to_owned()];
     }
     let starts = std::iter::once("cause: ").chain(std::iter::repeat("and: "));
     starts.zip(statements).map(|(start, line)| format!("{start}{line}")).collect()
+}
+
+fn diagnosis_of<'a>(comparison: &Comparison, report: &'a CheckReport) -> Option<&'a ReportedDiagnosis> {
+    let same = report.diagnoses.iter().find(|diagnosis| diagnosis.name == comparison.name);
+    same.filter(|diagnosis| diagnosis.is_explained()).or(foremost(&report.diagnoses))
+}
+
+/// The line that is wrong, if the cause has one.
+fn place(diagnosis: &ReportedDiagnosis) -> Option<CasePlace> {
+    let first = diagnosis.findings.first()?;
+    let (line, _) = first.line_column()?;
+    CasePlace::of(first.source.as_ref()?.path.to_str(), Some(line))
 }

@@ -1,82 +1,13 @@
-//! Test suites as a JUnit file, which CI reads: a suite for each input, a case for each check of it. The one file that
-//! knows the XML.
+//! Test suites as a JUnit file. The one file that knows the XML.
 
 use std::{fs, io, path::Path, time::Duration};
 
 use quick_junit::{NonSuccessKind, Property, Report, TestCaseStatus};
 
-use super::files::{OutputError, write_whole};
-
-/// The cases of one input: a scenario, a robot.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TestSuite {
-    /// Its name.
-    pub name: String,
-    /// Its cases.
-    pub cases: Vec<TestCase>,
-    /// How long it took. The cases are computed together: each gets an equal share, so that sums are right.
-    pub time_s: f64,
-    /// The clock of that time.
-    pub clock: Clock,
-}
-
-/// The clock of a suite's time; the file names it in the suite's property `clock`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Clock {
-    /// Time in the simulation, the same in every run.
-    Simulated,
-    /// Time of the machine, different in every run.
-    Wall,
-}
-
-/// One check.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TestCase {
-    /// Its name.
-    pub name: String,
-    /// Its result.
-    pub result: TestResult,
-    /// What it has found, also if it passed.
-    pub output: String,
-}
-
-/// The result of a test case.
-#[derive(Debug, Clone, PartialEq)]
-pub enum TestResult {
-    /// As expected.
-    Passed,
-    /// Checked, and not as expected.
-    Failed(Reason),
-    /// It could not be checked.
-    Error(Reason),
-    /// There was nothing to check.
-    Skipped(String),
-}
-
-/// Why a test case did not pass.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Reason {
-    /// Its kind, for programs: a check, or the code of a finding.
-    pub kind: String,
-    /// The reason for people.
-    pub message: String,
-}
-
-impl TestSuite {
-    /// The suite of an input with a single case, that gets no time of its own.
-    pub fn of_case(name: impl Into<String>, case: &str, result: TestResult) -> Self {
-        let output = String::new();
-        let cases = vec![TestCase { name: case.to_owned(), result, output }];
-        Self { name: name.into(), cases, time_s: 0.0, clock: Clock::Wall }
-    }
-
-    /// The same suite with the time that was measured.
-    #[must_use]
-    pub fn measured(mut self, wall_s: f64) -> Self {
-        (self.time_s, self.clock) = (wall_s, Clock::Wall);
-        self
-    }
-}
+use super::{
+    files::{OutputError, write_whole},
+    suite::{Clock, TestResult, TestSuite},
+};
 
 /// Writes suites as one JUnit file; makes the folder that it goes to.
 ///
@@ -106,6 +37,11 @@ fn written_suite(suite: &TestSuite) -> quick_junit::TestSuite {
     written.add_test_cases(suite.cases.iter().map(|case| {
         let mut written = quick_junit::TestCase::new(printable(&case.name), status(&case.result));
         written.set_classname(printable(&suite.name)).set_time(share);
+        if let Some(place) = &case.place {
+            // Attributes that GitLab and GitHub's reporters read; the format has no place of its own.
+            let attributes = [("file", printable(&place.file)), ("line", place.line.to_string())];
+            written.extra.extend(attributes.map(|(name, value)| (name.into(), value.into())));
+        }
         if !case.output.is_empty() {
             written.set_system_out(printable(&case.output));
         }

@@ -1,16 +1,23 @@
-//! Results of a run for programs: `report.json` has everything, `junit.xml` the checks in the format of CI.
+//! Results of a run for programs: `report.json` has everything, `junit.xml`, annotations and the summary the checks in the
+//! formats of CI.
 
+mod annotations;
 mod causes;
 mod fault_table;
 mod files;
 mod junit;
 mod run_report;
 mod sentence;
+mod step_summary;
+mod suite;
 mod test_suite;
 
+pub use annotations::github_annotations;
 pub(crate) use causes::explain;
 pub use fault_table::{FaultRow, FaultTable, SeenBy};
 pub use files::{OutputError, OutputFolder, write_whole};
-pub use junit::{Clock, Reason, TestCase, TestResult, TestSuite, write_junit};
+pub use junit::write_junit;
 pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
 pub use sentence::{lines, sentence_at};
+pub use step_summary::step_summary;
+pub use suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};

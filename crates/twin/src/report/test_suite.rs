@@ -1,9 +1,9 @@
 //! A report as a test suite: one case for each check, judged against what the scenario expects.
 
 use super::{
-    junit::{Clock, Reason, TestCase, TestResult, TestSuite},
     run_report::RunReport,
     sentence::lines,
+    suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite},
 };
 use crate::{
     diagnosis::RunDiagnosis,
@@ -20,7 +20,7 @@ impl RunReport {
             let message = self.error.clone().unwrap_or_else(|| "nothing was checked".to_owned());
             let reason = Reason { kind: "run".to_owned(), message };
             let result = TestResult::Error(reason);
-            cases.push(TestCase { name: "run".to_owned(), result, output: String::new() });
+            cases.push(TestCase { name: "run".to_owned(), result, output: String::new(), place: None });
         }
         TestSuite {
             name: self.scenario.clone(),
@@ -50,5 +50,6 @@ fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
         Status::Error => TestResult::Error(reason(output.clone())),
         Status::Fail => TestResult::Failed(reason(output.clone())),
     };
-    TestCase { name: format!("{}_{}", index + 1, check.check.word()), result, output }
+    let place = CasePlace::of(report.scenario_file.as_deref(), check.line);
+    TestCase { name: format!("{}_{}", index + 1, check.check.word()), result, output, place }
 }

@@ -1,0 +1,87 @@
+//! What CI reads of a call: a JUnit file, a summary in Markdown, and annotations at lines.
+
+use std::{
+    fs::{self, OpenOptions},
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+
+use clap::ValueEnum;
+use congruent::{
+    description::Diagnostic,
+    twin::report::{TestSuite, github_annotations, step_summary, write_junit},
+};
+
+use crate::{batch::unwritable, failure::Failure, print::Printer};
+
+/// Files and lines for CI.
+#[derive(Debug, Default, clap::Args)]
+pub(crate) struct CiArguments {
+    /// Also write one JUnit file: a suite for each input, a case for each check of it, and an error for each input
+    /// that could not start. Its times are those of the machine.
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Also append a summary in Markdown to this file, the worst first: on GitHub, --summary "$GITHUB_STEP_SUMMARY".
+    #[arg(long, value_name = "FILE")]
+    summary: Option<PathBuf>,
+    /// Also print what did not pass to standard error so that CI shows it at its line.
+    #[arg(long, value_enum, value_name = "HOST")]
+    annotate: Option<Host>,
+}
+
+/// Who shows annotations.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Host {
+    /// Workflow commands of GitHub Actions: `::error file=...,line=...::message`.
+    Github,
+}
+
+impl CiArguments {
+    /// A JUnit file alone.
+    #[cfg(test)]
+    pub(crate) fn of_junit(path: &Path) -> Self {
+        Self { junit: Some(path.to_owned()), ..Self::default() }
+    }
+
+    /// Finds out at once whether the files can be written. Until the end the JUnit file has these suites.
+    pub(crate) fn begin(&self, unfinished: impl FnOnce() -> Vec<TestSuite>) -> Result<(), Failure> {
+        if let Some(path) = &self.junit {
+            write_junit(path, &unfinished())
+                .map_err(|error| unwritable(&error, "choose another file with --junit"))?;
+        }
+        if let Some(path) = &self.summary {
+            append_to(path, "").map_err(|error| {
+                let message = format!("cannot write {}: {error}", path.display());
+                Diagnostic::error("run::output", message).with_help("choose another file with --summary")
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Whether any of it was asked for.
+    pub(crate) fn is_wanted(&self) -> bool {
+        self.junit.is_some() || self.summary.is_some() || self.annotate.is_some()
+    }
+
+    /// Writes all that was asked for; what cannot be written loses nothing of the others.
+    pub(crate) fn finish(&self, suites: &[TestSuite]) -> Vec<Failure> {
+        let junit = self.junit.as_deref().and_then(|path| write_junit(path, suites).err());
+        if let Some(Host::Github) = self.annotate {
+            Printer::annotations(&github_annotations(suites));
+        }
+        let append = |path: &PathBuf| {
+            let error = append_to(path, &step_summary(suites)).err()?;
+            Some(format!("cannot write {}: {error}", path.display()))
+        };
+        let summary = self.summary.as_ref().and_then(append);
+        junit.map(|error| error.to_string()).into_iter().chain(summary).map(Failure::Machine).collect()
+    }
+}
+
+/// Appends to a file; makes it and its folder.
+fn append_to(path: &Path, text: &str) -> io::Result<()> {
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    OpenOptions::new().append(true).create(true).open(path)?.write_all(text.as_bytes())
+}
