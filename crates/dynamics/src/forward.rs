@@ -184,10 +184,11 @@ impl ArticulatedBodies<'_> {
     fn velocities(&mut self) {
         for (joint, body) in self.tree.bodies.iter().enumerate() {
             let (q, qd) = (self.state.q[joint], self.state.qd[joint]);
-            let parent = body.parent.map(|parent| &self.buffer.values[parent]);
-            let rooted =
-                body.frame.rooted(parent.map(|parent| &parent.rooted.axes), q, &self.buffer.turns[joint]);
-            let turning = parent.map_or(Column::ZERO, |parent| parent.motion.angular_velocity);
+            let (axes, turning) = match body.parent.map(|parent| &self.buffer.values[parent]) {
+                Some(parent) => (Some(&parent.rooted.axes), parent.motion.angular_velocity),
+                None => (None, Column::ZERO),
+            };
+            let rooted = body.frame.rooted(axes, q, &self.buffer.turns[joint]);
             let acceleration = body.frame.velocity_products(&rooted, turning, qd);
             let angular_velocity = if body.frame.turns { turning + rooted.axis() * qd } else { turning };
             let inertia = body.inertia.turned(&rooted.axes);
@@ -205,7 +206,7 @@ impl ArticulatedBodies<'_> {
         let (body, resistance) = (&self.tree.bodies[joint], &self.tree.resistances[joint]);
         let values = &mut self.buffer.values[joint];
         let (rooted, frame) = (values.rooted, &body.frame);
-        let along = values.articulated.accelerated_along(rooted.axis(), frame.turns);
+        let along = values.articulated.accelerated_along(rooted.axis(), frame);
         let inertia = frame.along(rooted.axis(), &along) + resistance.armature;
         if !(inertia.is_finite() && inertia > 0.0) {
             return Err(self.tree.no_inertia(joint));
@@ -229,10 +230,10 @@ impl ArticulatedBodies<'_> {
     #[inline(always)]
     fn accelerate(&mut self) {
         for (joint, body) in self.tree.bodies.iter().enumerate() {
-            let parent = body.parent.map_or_else(
-                || self.tree.root_acceleration(),
-                |parent| self.buffer.values[parent].motion.acceleration,
-            );
+            let parent = match body.parent {
+                Some(parent) => self.buffer.values[parent].motion.acceleration,
+                None => self.tree.root_acceleration(),
+            };
             let BodyValues { rooted, motion, release, .. } = &mut self.buffer.values[joint];
             let own = motion.acceleration.plus(rooted.carried(&parent));
             let qdd = (release.torque - release.along.power(&own)) * release.mobility;

@@ -61,7 +61,7 @@ impl WithSimd for CompositeBodies<'_> {
         }
         for (joint, body) in tree.bodies.iter().enumerate().rev() {
             let BodyValues { composite, rooted, .. } = buffer.values[joint];
-            let own = composite.accelerated_along(rooted.axis(), body.frame.turns);
+            let own = composite.accelerated_along(rooted.axis(), &body.frame);
             buffer.values[joint].wrench = own;
             mass_matrix[(joint, joint)] =
                 body.frame.along(rooted.axis(), &own) + tree.resistances[joint].armature;

@@ -54,6 +54,7 @@ pub(crate) fn build(
         let links = add_colliders(&mut sets, &handles, robot, bodies)?;
         let standing;
         (moving, standing) = add_obstacles(&mut sets, settings)?;
+        // Obstacles that move would have to be followed: beside one, all shapes stay as they are.
         if moving.is_empty() {
             sets.near = NearShapes::new(&sets.colliders, &links, &standing);
         }

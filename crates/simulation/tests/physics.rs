@@ -263,13 +263,13 @@ fn an_obstacle_stops_a_servo() {
 }
 
 #[test]
-fn shapes_that_are_left_out_while_they_are_far_change_no_motion() {
+fn shapes_that_are_balls_while_they_are_far_change_no_motion() {
     let floor = Obstacle {
         name: "floor".into(),
         world_from_obstacle: Isometry3::translation(1.0, 0.0, -0.4),
         geometry: Geometry::Box { size_m: Vector3::new(1.0, 1.0, 0.1) },
     };
-    // Beside an obstacle that may move, no shape is left out.
+    // Beside an obstacle that may move, every shape stays its own.
     let world_from_obstacle = Isometry3::translation(50.0, 0.0, 0.0);
     let moving = Obstacle { name: "moving".into(), world_from_obstacle, ..floor.clone() };
     let motion = |obstacles: Vec<Obstacle>| {

@@ -59,12 +59,13 @@ impl JointFrame {
     /// The joint's body in the axes of the root, from the axes of its parent.
     #[inline(always)]
     pub(crate) fn rooted(&self, parent_axes: Option<&Block>, q: f64, turn: &SinCos) -> RootedBody {
-        // The turn first: it waits for no parent.
+        // The turn first: it waits for no parent. A closure would be compiled for the narrowest vectors.
         let Placement { rotation, origin } = self.placement(q, turn);
-        parent_axes.map_or(RootedBody { axes: rotation, offset: origin }, |parent| RootedBody {
-            axes: parent.times(&rotation),
-            offset: *parent * origin,
-        })
+        if let Some(parent) = parent_axes {
+            RootedBody { axes: parent.times(&rotation), offset: *parent * origin }
+        } else {
+            RootedBody { axes: rotation, offset: origin }
+        }
     }
 
     /// The part of a wrench that the joint takes up, whose axis is given.
@@ -100,11 +101,11 @@ impl BodyInertia {
         }
     }
 
-    /// The wrench of a unit acceleration along an axis.
+    /// The wrench of a unit acceleration of a joint along its axis.
     #[inline(always)]
-    pub(crate) fn accelerated_along(&self, axis: Column, turns: bool) -> BodyWrench {
+    pub(crate) fn accelerated_along(&self, axis: Column, joint: &JointFrame) -> BodyWrench {
         let h = self.first_moment;
-        if turns {
+        if joint.turns {
             BodyWrench { moment: self.tensor * axis, force: axis.cross(h) }
         } else {
             BodyWrench { moment: h.cross(axis), force: axis * self.mass_kg }
@@ -148,10 +149,10 @@ impl ArticulatedInertia {
         }
     }
 
-    /// The wrench of a unit acceleration along an axis.
+    /// The wrench of a unit acceleration of a joint along its axis.
     #[inline(always)]
-    pub(crate) fn accelerated_along(&self, axis: Column, turns: bool) -> BodyWrench {
-        if turns {
+    pub(crate) fn accelerated_along(&self, axis: Column, joint: &JointFrame) -> BodyWrench {
+        if joint.turns {
             BodyWrench { moment: self.angular * axis, force: self.coupling * axis }
         } else {
             BodyWrench { moment: self.coupling.transposed() * axis, force: self.linear * axis }
