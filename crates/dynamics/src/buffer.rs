@@ -4,7 +4,10 @@ use congruent_kinematics::SinCos;
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
-    algebra::rigid::{ArticulatedInertia, BodyInertia, BodyMotion, BodyWrench, Placement},
+    algebra::{
+        rigid::{BodyInertia, BodyMotion, BodyWrench, Placement},
+        rooted::{ArticulatedInertia, RootedBody},
+    },
     body_tree::BodyTree,
     error::DynamicsError,
 };
@@ -28,6 +31,7 @@ pub(crate) struct BodyValues {
     pub(crate) placement: Placement,
     pub(crate) motion: BodyMotion,
     pub(crate) wrench: BodyWrench,
+    pub(crate) rooted: RootedBody,
     /// The body with all that it carries, as if rigid.
     pub(crate) composite: BodyInertia,
     pub(crate) articulated: ArticulatedInertia,
@@ -39,8 +43,8 @@ pub(crate) struct BodyValues {
 pub(crate) struct Release {
     /// Wrench for a unit acceleration of the joint.
     pub(crate) along: BodyWrench,
-    /// Inertia against the joint's own motion.
-    pub(crate) inertia: f64,
+    /// One over the inertia against the joint's own motion.
+    pub(crate) mobility: f64,
     /// Torque less what bias wrenches take.
     pub(crate) torque: f64,
 }
@@ -50,9 +54,10 @@ impl BodyValues {
         placement: Placement::NONE,
         motion: BodyMotion::ZERO,
         wrench: BodyWrench::ZERO,
+        rooted: RootedBody::NONE,
         composite: BodyInertia::ZERO,
         articulated: ArticulatedInertia::ZERO,
-        release: Release { along: BodyWrench::ZERO, inertia: 0.0, torque: 0.0 },
+        release: Release { along: BodyWrench::ZERO, mobility: 0.0, torque: 0.0 },
     };
 }
 

@@ -7,10 +7,13 @@ use nalgebra::DMatrix;
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::{
-    algebra::columns::Column,
-    algebra::rigid::{ArticulatedInertia, BodyMotion, BodyTwist},
+    algebra::{
+        columns::Column,
+        rigid::{BodyMotion, BodyTwist},
+        rooted::ArticulatedInertia,
+    },
     body_tree::BodyTree,
-    buffer::{DynamicsBuffer, Release},
+    buffer::{BodyValues, DynamicsBuffer, Release},
     error::DynamicsError,
 };
 
@@ -180,16 +183,20 @@ impl ArticulatedBodies<'_> {
     #[inline(always)]
     fn velocities(&mut self) {
         for (joint, body) in self.tree.bodies.iter().enumerate() {
-            let angular_velocity =
-                body.parent.map_or(Column::ZERO, |parent| self.buffer.values[parent].motion.angular_velocity);
-            let parent = BodyMotion { angular_velocity, ..BodyMotion::ZERO };
-            let turn = &self.buffer.turns[joint];
-            let placement = body.frame.placement(self.state.q[joint], turn);
-            let motion = body.frame.carried(&parent, (placement.origin, turn), self.state.qd[joint]);
+            let (q, qd) = (self.state.q[joint], self.state.qd[joint]);
+            let (axes, turning) = match body.parent.map(|parent| &self.buffer.values[parent]) {
+                Some(parent) => (Some(&parent.rooted.axes), parent.motion.angular_velocity),
+                None => (None, Column::ZERO),
+            };
+            let rooted = body.frame.rooted(axes, q, &self.buffer.turns[joint]);
+            let acceleration = body.frame.velocity_products(&rooted, turning, qd);
+            let angular_velocity = if body.frame.turns { turning + rooted.axis() * qd } else { turning };
+            let inertia = body.inertia.turned(&rooted.axes);
             let values = &mut self.buffer.values[joint];
-            (values.placement, values.motion) = (placement, motion);
-            values.wrench = body.inertia.velocity_wrench(motion.angular_velocity);
-            values.articulated = ArticulatedInertia::of_rigid(&body.inertia);
+            values.rooted = rooted;
+            values.motion = BodyMotion { angular_velocity, acceleration };
+            values.wrench = inertia.velocity_wrench(angular_velocity);
+            values.articulated = ArticulatedInertia::of_rigid(&inertia);
         }
     }
 
@@ -198,22 +205,24 @@ impl ArticulatedBodies<'_> {
     fn release(&mut self, joint: usize) -> Result<(), DynamicsError> {
         let (body, resistance) = (&self.tree.bodies[joint], &self.tree.resistances[joint]);
         let values = &mut self.buffer.values[joint];
-        let along = values.articulated.along_axis(&body.frame);
-        let inertia = body.frame.along_axis(&along) + resistance.armature;
+        let (rooted, frame) = (values.rooted, &body.frame);
+        let along = values.articulated.accelerated_along(rooted.axis(), frame);
+        let inertia = frame.along(rooted.axis(), &along) + resistance.armature;
         if !(inertia.is_finite() && inertia > 0.0) {
             return Err(self.tree.no_inertia(joint));
         }
         let driving = self.state.tau[joint] - resistance.against_speed(self.state.qd[joint]);
-        let torque = driving - body.frame.along_axis(&values.wrench);
-        values.release = Release { along, inertia, torque };
+        let torque = driving - frame.along(rooted.axis(), &values.wrench);
+        let mobility = 1.0 / inertia;
+        values.release = Release { along, mobility, torque };
         let Some(parent) = body.parent else { return Ok(()) };
-        let yielding = values.articulated.yielding(&along, inertia);
+        let scaled = along.times(mobility);
+        let yielding = values.articulated.yielding(&along, &scaled);
         let bias = yielding.wrench(&values.motion.acceleration);
-        let wrench = values.wrench.plus(bias).plus(along.times(torque / inertia));
-        let placement = values.placement;
+        let wrench = values.wrench.plus(bias).plus(scaled.times(torque));
         let parent = &mut self.buffer.values[parent];
-        parent.articulated = parent.articulated.with_child(&yielding, &placement);
-        parent.wrench = parent.wrench.plus(placement.wrench(&wrench));
+        parent.articulated = parent.articulated.with_child(&yielding, rooted.offset);
+        parent.wrench = parent.wrench.plus(rooted.wrench_on_parent(&wrench));
         Ok(())
     }
 
@@ -221,22 +230,20 @@ impl ArticulatedBodies<'_> {
     #[inline(always)]
     fn accelerate(&mut self) {
         for (joint, body) in self.tree.bodies.iter().enumerate() {
-            let acceleration = body.parent.map_or_else(
-                || self.tree.root_acceleration(),
-                |parent| self.buffer.values[parent].motion.acceleration,
-            );
-            let still = BodyMotion { acceleration, ..BodyMotion::ZERO };
-            let values = &mut self.buffer.values[joint];
-            let carried =
-                body.frame.carried(&still, (values.placement.origin, &self.buffer.turns[joint]), 0.0);
-            let (products, carried) = (values.motion.acceleration, carried.acceleration);
-            let own = BodyTwist {
-                angular: products.angular + carried.angular,
-                linear: products.linear + carried.linear,
+            let parent = match body.parent {
+                Some(parent) => self.buffer.values[parent].motion.acceleration,
+                None => self.tree.root_acceleration(),
             };
-            let Release { along, inertia, torque } = &values.release;
-            self.qdd[joint] = (torque - along.power(&own)) / inertia;
-            values.motion.acceleration = body.frame.accelerated(own, self.qdd[joint]);
+            let BodyValues { rooted, motion, release, .. } = &mut self.buffer.values[joint];
+            let own = motion.acceleration.plus(rooted.carried(&parent));
+            let qdd = (release.torque - release.along.power(&own)) * release.mobility;
+            self.qdd[joint] = qdd;
+            let by_joint = rooted.axis() * qdd;
+            motion.acceleration = if body.frame.turns {
+                BodyTwist { angular: own.angular + by_joint, ..own }
+            } else {
+                BodyTwist { linear: own.linear + by_joint, ..own }
+            };
         }
     }
 }

@@ -54,23 +54,27 @@ impl WithSimd for CompositeBodies<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { tree, q, buffer, mass_matrix } = self;
         for (joint, body) in tree.bodies.iter().enumerate() {
+            let parent_axes = body.parent.map(|parent| &buffer.values[parent].rooted.axes);
+            let rooted = body.frame.rooted(parent_axes, q[joint], &buffer.turns[joint]);
             let values = &mut buffer.values[joint];
-            values.placement = body.frame.placement(q[joint], &buffer.turns[joint]);
-            values.composite = body.inertia;
+            (values.rooted, values.composite) = (rooted, body.inertia.turned(&rooted.axes));
         }
         for (joint, body) in tree.bodies.iter().enumerate().rev() {
-            let BodyValues { composite, placement, .. } = buffer.values[joint];
-            let own = composite.along_axis(&body.frame);
+            let BodyValues { composite, rooted, .. } = buffer.values[joint];
+            let own = composite.accelerated_along(rooted.axis(), &body.frame);
             buffer.values[joint].wrench = own;
-            mass_matrix[(joint, joint)] = body.frame.along_axis(&own) + tree.resistances[joint].armature;
+            mass_matrix[(joint, joint)] =
+                body.frame.along(rooted.axis(), &own) + tree.resistances[joint].armature;
             let Some(parent) = body.parent else { continue };
             let above = &mut buffer.values[parent];
-            above.composite = above.composite.with_child(&composite, &placement);
+            above.composite = above.composite.with_child(&composite, rooted.offset);
             // The wrenches of all joints that this one carries go on together: none waits for another.
-            let frame = &tree.bodies[parent].frame;
-            for (carried, values) in (joint..body.subtree_end).zip(&mut buffer.values[joint..]) {
-                values.wrench = placement.wrench(&values.wrench);
-                mass_matrix[(carried, parent)] = frame.along_axis(&values.wrench);
+            let (frame, axis) = (&tree.bodies[parent].frame, above.rooted.axis());
+            let carried = &mut buffer.values[joint..body.subtree_end];
+            let column = &mut mass_matrix.column_mut(parent);
+            for (values, entry) in carried.iter_mut().zip(column.iter_mut().skip(joint)) {
+                values.wrench = rooted.wrench_on_parent(&values.wrench);
+                *entry = frame.along(axis, &values.wrench);
             }
         }
         mass_matrix.fill_upper_triangle_with_lower_triangle();

@@ -11,12 +11,14 @@ use nalgebra::Isometry3;
 use rapier3d_f64::{
     dynamics::MultibodyDofCoupling,
     prelude::{
-        GenericJoint, JointAxesMask, JointAxis, MultibodyIndex, Pose, RigidBodyBuilder, RigidBodyHandle,
+        Collider, ColliderHandle, GenericJoint, JointAxesMask, JointAxis, MultibodyIndex, Pose,
+        RigidBodyBuilder, RigidBodyHandle,
     },
 };
 
 use crate::{
-    adapter, contact,
+    adapter,
+    contact::{near::NearShapes, shapes},
     drive::Capability,
     error::SimulationError,
     lumping::Bodies,
@@ -49,8 +51,13 @@ pub(crate) fn build(
         .collect();
     let mut moving = BTreeMap::new();
     if settings.contacts && !settings.obstacles.is_empty() {
-        add_colliders(&mut sets, &handles, robot, bodies)?;
-        moving = add_obstacles(&mut sets, settings)?;
+        let links = add_colliders(&mut sets, &handles, robot, bodies)?;
+        let standing;
+        (moving, standing) = add_obstacles(&mut sets, settings)?;
+        // Obstacles that move would have to be followed: beside one, all shapes stay as they are.
+        if moving.is_empty() {
+            sets.near = NearShapes::new(&sets.colliders, &links, &standing);
+        }
     }
     let slots = slots(robot, settings)?;
     for (slot, &index) in slots.iter().zip(robot.movable_joints()) {
@@ -86,32 +93,33 @@ fn add_colliders(
     handles: &[RigidBodyHandle],
     robot: &Robot,
     bodies: &Bodies,
-) -> Result<(), SimulationError> {
-    for (body, collider) in contact::of_links(robot, bodies)? {
-        sets.colliders.insert_with_parent(collider, handles[body], &mut sets.bodies);
-    }
-    Ok(())
+) -> Result<Vec<ColliderHandle>, SimulationError> {
+    let colliders = shapes::of_links(robot, bodies)?;
+    let insert = |(body, collider): (usize, Collider)| {
+        sets.colliders.insert_with_parent(collider, handles[body], &mut sets.bodies)
+    };
+    Ok(colliders.into_iter().map(insert).collect())
 }
 
 /// Obstacles that stand still are colliders alone; those that may move hang on bodies whose poses are given.
 fn add_obstacles(
     sets: &mut EngineSets,
     settings: &WorldSettings,
-) -> Result<BTreeMap<usize, RigidBodyHandle>, SimulationError> {
-    let mut moving = BTreeMap::new();
+) -> Result<(BTreeMap<usize, RigidBodyHandle>, Vec<ColliderHandle>), SimulationError> {
+    let (mut moving, mut standing) = (BTreeMap::new(), Vec::new());
     for (index, obstacle) in settings.obstacles.iter().enumerate() {
         if settings.moving_obstacles.contains(&index) {
             let at_origin = Obstacle { world_from_obstacle: Isometry3::identity(), ..obstacle.clone() };
-            let Some(collider) = contact::of_obstacle(&at_origin)? else { continue };
+            let Some(collider) = shapes::of_obstacle(&at_origin)? else { continue };
             let pose = adapter::pose(&obstacle.world_from_obstacle);
             let body = sets.bodies.insert(RigidBodyBuilder::kinematic_position_based().pose(pose));
             sets.colliders.insert_with_parent(collider, body, &mut sets.bodies);
             moving.insert(index, body);
-        } else if let Some(collider) = contact::of_obstacle(obstacle)? {
-            sets.colliders.insert(collider);
+        } else if let Some(collider) = shapes::of_obstacle(obstacle)? {
+            standing.push(sets.colliders.insert(collider));
         }
     }
-    Ok(moving)
+    Ok((moving, standing))
 }
 
 fn slots(robot: &Robot, settings: &WorldSettings) -> Result<Vec<EngineSlot>, SimulationError> {

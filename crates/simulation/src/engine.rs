@@ -183,6 +183,7 @@ impl Engine {
         self.set_servos_and_limits();
         self.apply_torques();
         let sets = &mut self.sets;
+        sets.near.set_shapes(&mut sets.colliders, &sets.bodies);
         self.pipeline.step(
             self.gravity,
             &self.parameters,

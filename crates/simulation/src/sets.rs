@@ -5,7 +5,7 @@ use rapier3d_f64::prelude::{
     NarrowPhase, RigidBodySet, SoftBodySet,
 };
 
-use crate::drive::Capability;
+use crate::{contact::near::NearShapes, drive::Capability};
 
 /// Everything that a step or a change of the robot changes; a clone is a snapshot.
 #[derive(Clone, Default)]
@@ -19,6 +19,7 @@ pub(crate) struct EngineSets {
     pub broad_phase: BroadPhaseBvh,
     pub narrow_phase: NarrowPhase,
     pub ccd: CCDSolver,
+    pub near: NearShapes,
     /// The joints' own damping: rapier's has that of the servos in addition.
     pub damping: Vec<f64>,
 }

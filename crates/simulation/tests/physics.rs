@@ -262,6 +262,36 @@ fn an_obstacle_stops_a_servo() {
     assert!((0.2..0.5).contains(&stopped) && free > 1.1, "{stopped} {free}");
 }
 
+#[test]
+fn shapes_that_are_balls_while_they_are_far_change_no_motion() {
+    let floor = Obstacle {
+        name: "floor".into(),
+        world_from_obstacle: Isometry3::translation(1.0, 0.0, -0.4),
+        geometry: Geometry::Box { size_m: Vector3::new(1.0, 1.0, 0.1) },
+    };
+    // Beside an obstacle that may move, every shape stays its own.
+    let world_from_obstacle = Isometry3::translation(50.0, 0.0, 0.0);
+    let moving = Obstacle { name: "moving".into(), world_from_obstacle, ..floor.clone() };
+    let motion = |obstacles: Vec<Obstacle>| {
+        let moving_obstacles = (1..obstacles.len()).collect();
+        let settings =
+            WorldSettings { contacts: true, obstacles, moving_obstacles, ..WorldSettings::default() };
+        let mut world = at(&swinging_bar(), &settings, &RobotQ::from([-1.2]));
+        let mut bounced = false;
+        let mut part = |target: f64| {
+            run(&mut world, make("pd", 40.0, 2.0).as_mut(), &RobotQ::from([target]), 100);
+            bounced |= world.contact_acts();
+            bits(&world)
+        };
+        // Down onto the floor, up, and down again.
+        let parts: Vec<_> =
+            [1.2, -1.2, 1.2].into_iter().flat_map(|target| [target; 15]).map(&mut part).collect();
+        assert!(bounced, "the bar meets the floor");
+        parts
+    };
+    assert_eq!(motion(vec![floor.clone()]), motion(vec![floor.clone(), moving]));
+}
+
 /// Change of the penetration when the load goes from 100 N m/rad to the bar's own weight, rad;
 /// physics, contacts of 60 Hz give way; worst seen 7.8e-4.
 const RESTING_RAD: f64 = 5e-3;

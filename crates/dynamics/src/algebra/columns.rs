@@ -127,7 +127,7 @@ impl Block {
     }
 
     #[inline(always)]
-    pub(crate) fn row(&self, at: usize) -> Column {
+    fn row(&self, at: usize) -> Column {
         let [x, y, z] = &self.0;
         Column::new(x[at], y[at], z[at])
     }
@@ -137,17 +137,17 @@ impl Block {
         Self([self.row(0), self.row(1), self.row(2)])
     }
 
-    /// `self * other'`.
+    /// `self * other`.
     #[inline(always)]
-    fn times_transposed(&self, other: &Self) -> Self {
-        Self([*self * other.row(0), *self * other.row(1), *self * other.row(2)])
+    pub(crate) fn times(&self, other: &Self) -> Self {
+        let [x, y, z] = other.0;
+        Self([*self * x, *self * y, *self * z])
     }
 
     /// The matrix in the axes of frame a, given in those of frame b: `R M R'`.
     #[inline(always)]
     pub(crate) fn turned(&self, a_from_b: &Self) -> Self {
-        let [x, y, z] = self.0;
-        Self([*a_from_b * x, *a_from_b * y, *a_from_b * z]).times_transposed(a_from_b)
+        a_from_b.times(self).times(&a_from_b.transposed())
     }
 
     /// Times the matrix of the cross product: `M [p]`.
@@ -155,6 +155,19 @@ impl Block {
     pub(crate) fn times_cross(&self, p: Column) -> Self {
         let [x, y, z] = self.0;
         Self([y * p[2] - z * p[1], z * p[0] - x * p[2], x * p[1] - y * p[0]])
+    }
+
+    /// The matrix of the cross product by a vector, times this one: `[p] M`.
+    #[inline(always)]
+    pub(crate) fn crossed_by(&self, p: Column) -> Self {
+        let [x, y, z] = self.0;
+        Self([p.cross(x), p.cross(y), p.cross(z)])
+    }
+
+    /// The matrix of the cross product by a vector: `[v] w = v x w`.
+    #[inline(always)]
+    pub(crate) fn cross_matrix(v: Column) -> Self {
+        Self([Column::new(0.0, v[2], -v[1]), Column::new(-v[2], 0.0, v[0]), Column::new(v[1], -v[0], 0.0)])
     }
 
     /// Less `a b'`.

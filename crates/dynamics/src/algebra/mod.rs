@@ -3,3 +3,4 @@
 pub(crate) mod columns;
 pub(crate) mod lanes;
 pub(crate) mod rigid;
+pub(crate) mod rooted;

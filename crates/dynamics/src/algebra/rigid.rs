@@ -45,20 +45,6 @@ pub(crate) struct BodyInertia {
     pub(crate) tensor: Block,
 }
 
-/// Inertia of a body whose moving children are free to accelerate: wrench for an acceleration, as three blocks of a
-/// symmetric 6 x 6 matrix.
-///
-/// Source: Featherstone, *Rigid Body Dynamics Algorithms* (2008), section 7.2.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ArticulatedInertia {
-    /// Moment for an angular acceleration.
-    pub(crate) angular: Block,
-    /// Moment for a linear acceleration; its transpose is force for an angular acceleration.
-    pub(crate) coupling: Block,
-    /// Force for a linear acceleration.
-    pub(crate) linear: Block,
-}
-
 /// A joint as its body sees it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct JointFrame {
@@ -73,6 +59,11 @@ pub(crate) struct JointFrame {
 
 impl BodyTwist {
     pub(crate) const ZERO: Self = Self { angular: Column::ZERO, linear: Column::ZERO };
+
+    #[inline(always)]
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self { angular: self.angular + other.angular, linear: self.linear + other.linear }
+    }
 }
 
 impl BodyMotion {
@@ -188,33 +179,6 @@ impl BodyInertia {
             force: turning.cross(turning.cross(self.first_moment)),
         }
     }
-
-    /// The wrench of a unit acceleration of the body's joint.
-    #[inline(always)]
-    pub(crate) fn along_axis(&self, joint: &JointFrame) -> BodyWrench {
-        let h = self.first_moment;
-        if joint.turns {
-            BodyWrench { moment: self.tensor.0[2], force: Column::new(-h[1], h[0], 0.0) }
-        } else {
-            BodyWrench { moment: Column::new(h[1], -h[0], 0.0), force: Column::new(0.0, 0.0, self.mass_kg) }
-        }
-    }
-
-    /// The same body with what is given in the frame of a child.
-    #[inline(always)]
-    pub(crate) fn with_child(&self, child: &Self, placement: &Placement) -> Self {
-        let Placement { rotation, origin } = *placement;
-        let turned = rotation * child.first_moment;
-        let by_mass = origin * child.mass_kg;
-        // `-[p][b] - [b][p]` for `b = R h + m p / 2`, as in `SpatialInertia::transformed_by`.
-        let b = turned + by_mass * 0.5;
-        let shifted = Block::diagonal(2.0 * origin.dot(b)).minus_outer(origin, b).minus_outer(b, origin);
-        Self {
-            mass_kg: self.mass_kg + child.mass_kg,
-            first_moment: self.first_moment + turned + by_mass,
-            tensor: self.tensor + child.tensor.turned(&rotation) + shifted,
-        }
-    }
 }
 
 impl From<&SpatialInertia> for BodyInertia {
@@ -223,67 +187,6 @@ impl From<&SpatialInertia> for BodyInertia {
             mass_kg: inertia.mass_kg,
             first_moment: inertia.first_moment_kg_m.into(),
             tensor: inertia.tensor_kg_m2.into(),
-        }
-    }
-}
-
-impl ArticulatedInertia {
-    pub(crate) const ZERO: Self = Self { angular: Block::ZERO, coupling: Block::ZERO, linear: Block::ZERO };
-
-    #[inline(always)]
-    pub(crate) fn of_rigid(inertia: &BodyInertia) -> Self {
-        let h = inertia.first_moment;
-        Self {
-            angular: inertia.tensor,
-            coupling: Block::diagonal(1.0).times_cross(h),
-            linear: Block::diagonal(inertia.mass_kg),
-        }
-    }
-
-    /// The wrench that gives a body this acceleration.
-    #[inline(always)]
-    pub(crate) fn wrench(&self, acceleration: &BodyTwist) -> BodyWrench {
-        let BodyTwist { angular, linear } = *acceleration;
-        BodyWrench {
-            moment: self.angular * angular + self.coupling * linear,
-            force: self.coupling.transposed() * angular + self.linear * linear,
-        }
-    }
-
-    /// The wrench of a unit acceleration of the body's joint.
-    #[inline(always)]
-    pub(crate) fn along_axis(&self, joint: &JointFrame) -> BodyWrench {
-        if joint.turns {
-            BodyWrench { moment: self.angular.0[2], force: self.coupling.row(2) }
-        } else {
-            BodyWrench { moment: self.coupling.0[2], force: self.linear.0[2] }
-        }
-    }
-
-    /// Without the direction in which a joint yields: `I - U U' / d`.
-    #[inline(always)]
-    pub(crate) fn yielding(&self, along: &BodyWrench, inertia: f64) -> Self {
-        let scaled = along.times(1.0 / inertia);
-        Self {
-            angular: self.angular.minus_outer(along.moment, scaled.moment),
-            coupling: self.coupling.minus_outer(along.moment, scaled.force),
-            linear: self.linear.minus_outer(along.force, scaled.force),
-        }
-    }
-
-    /// The same body with what is given in the frame of a child.
-    #[inline(always)]
-    pub(crate) fn with_child(&self, child: &Self, placement: &Placement) -> Self {
-        let Placement { rotation, origin } = placement;
-        let [angular, coupling, linear] =
-            [child.angular, child.coupling, child.linear].map(|block| block.turned(rotation));
-        // `A - B [p] + [p] (B + [p] C)'` and `B + [p] C`, with `[p] C = -(C [p])'` as `C` is symmetric.
-        let moved = coupling - linear.times_cross(*origin).transposed();
-        let shifted = coupling.times_cross(*origin) + moved.times_cross(*origin).transposed();
-        Self {
-            angular: self.angular + (angular - shifted),
-            coupling: self.coupling + moved,
-            linear: self.linear + linear,
         }
     }
 }

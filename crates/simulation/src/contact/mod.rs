@@ -1,0 +1,4 @@
+//! Contact of links with obstacles: their shapes, and which of them rapier has to look at closely.
+
+pub(crate) mod near;
+pub(crate) mod shapes;
