@@ -61,6 +61,8 @@ pub struct RobotDescription {
     pub dh: Option<DhTable>,
     /// The dynamics that the robot file declares beside the URDF; `None` if it declares none.
     pub dynamics: Option<DeclaredDynamics>,
+    /// The largest acceleration of each moving joint that the robot file declares, rad/s^2 or m/s^2.
+    pub accelerations: Vec<Option<f64>>,
     /// Pose of the tool centre point in link `tip`; `None` if no tool is declared.
     pub tip_from_tcp: Option<Isometry3<f64>>,
     /// How far model and twin may be apart and still count as the same.

@@ -126,6 +126,7 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
         base,
         tip: choose_tip(&robot, base).tip,
         chain_ends: ChainEnds::default(),
+        accelerations: vec![None; robot.dof()],
         robot,
         dh: None,
         dynamics: None,
@@ -239,7 +240,7 @@ fn declared(
     diagnostics: &mut Diagnostics,
 ) -> Option<RobotDescription> {
     let declared = robot_file::check(&written, &robot_file.text, &robot, diagnostics);
-    let Declared { base, tip, chain_ends, dh, dynamics, tip_from_tcp, tolerance } = declared?;
+    let Declared { base, tip, chain_ends, dh, dynamics, accelerations, tip_from_tcp, tolerance } = declared?;
     let inertials = dynamics
         .is_some()
         .then(|| Arc::new(InertialPlaces::new(Arc::clone(robot_file), written.dynamics, written.inertial)));
@@ -254,6 +255,7 @@ fn declared(
         chain_ends,
         dh,
         dynamics,
+        accelerations,
         tip_from_tcp,
         tolerance,
         named_files: NamedFiles::default(),

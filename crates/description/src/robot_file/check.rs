@@ -5,6 +5,7 @@ use toml::Spanned;
 
 use super::{
     inertials::{self, DeclaredDynamics, InertialContext},
+    limits,
     rows::{self, ChainContext, first_line},
     written::{WrittenDh, WrittenRobot, WrittenTolerance},
 };
@@ -24,6 +25,7 @@ pub(crate) struct Declared {
     pub(crate) chain_ends: ChainEnds,
     pub(crate) dh: Option<DhTable>,
     pub(crate) dynamics: Option<DeclaredDynamics>,
+    pub(crate) accelerations: Vec<Option<f64>>,
     pub(crate) tip_from_tcp: Option<Isometry3<f64>>,
     pub(crate) tolerance: Tolerance,
 }
@@ -36,6 +38,7 @@ pub(crate) fn check(
     diagnostics: &mut Diagnostics,
 ) -> Option<Declared> {
     let tolerance = tolerance(written.tolerance.as_ref(), diagnostics);
+    let accelerations = limits::accelerations(written.limits.as_ref(), robot, diagnostics);
     let tcp = written.tcp.as_ref().map(Spanned::get_ref);
     let tip_from_tcp = tcp.and_then(|tcp| diagnostics.keep(tcp.isometry()));
     let (base, tip, chain) = chain(written, robot, diagnostics)?;
@@ -48,7 +51,7 @@ pub(crate) fn check(
     let dynamics = inertials::check(written.dynamics.as_ref(), &written.inertial, &context, diagnostics);
     let end = |written: &Option<_>| if written.is_some() { ChainEnd::Declared } else { ChainEnd::Chosen };
     let chain_ends = ChainEnds { base: end(&written.base), tip: end(&written.tip) };
-    Some(Declared { base, tip, chain_ends, dh, dynamics, tip_from_tcp, tolerance })
+    Some(Declared { base, tip, chain_ends, dh, dynamics, accelerations, tip_from_tcp, tolerance })
 }
 
 fn chain(

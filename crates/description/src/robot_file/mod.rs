@@ -3,6 +3,7 @@
 mod check;
 mod edits;
 mod inertials;
+mod limits;
 mod places;
 mod rows;
 mod write;

@@ -7,7 +7,10 @@ use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::inertials::{WrittenDynamics, WrittenInertial};
+use super::{
+    inertials::{WrittenDynamics, WrittenInertial},
+    limits::WrittenLimits,
+};
 use crate::{
     diagnostic::SourceFile,
     model::{DhConvention, DhRowKind},
@@ -64,6 +67,10 @@ pub(crate) struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "Vec<WrittenInertial>")]
     pub(crate) inertial: Vec<Spanned<WrittenInertial>>,
+    /// Limits that a URDF does not state.
+    #[serde(default)]
+    #[schemars(with = "WrittenLimits")]
+    pub(crate) limits: Option<WrittenLimits>,
     /// The tool centre point in the frame of the tip.
     #[serde(default)]
     #[schemars(with = "WrittenTransform")]

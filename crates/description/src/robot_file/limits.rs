@@ -1,0 +1,187 @@
+//! `[limits]` of a robot file: the largest accelerations of joints, which a URDF does not state.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::{
+    diagnostic::{Diagnostic, Diagnostics, known_names},
+    model::{Joint, Robot},
+    units::{Unit, UnitSystem, check_finite},
+};
+
+/// Values by joint; `*` stands for every joint of this kind (turning or sliding) that is not named.
+type ByJoint = BTreeMap<Spanned<String>, Spanned<f64>>;
+
+/// The name that stands for every joint of a kind.
+const EVERY: &str = "*";
+
+/// The largest accelerations of joints: the certificates of `congruent check` cover them. Of a joint that is not named
+/// 10 rad/s^2 or m/s^2 is assumed.
+#[derive(Debug, PartialEq, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "RobotLimits")]
+#[expect(clippy::struct_field_names, reason = "the keys of the file")]
+pub(crate) struct WrittenLimits {
+    /// Accelerations by joint, in radians per second squared.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, f64>")]
+    pub(crate) acceleration_rad_s2: ByJoint,
+    /// Accelerations by joint, in degrees per second squared.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, f64>")]
+    pub(crate) acceleration_deg_s2: ByJoint,
+    /// Accelerations by joint, in metres per second squared.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, f64>")]
+    pub(crate) acceleration_m_s2: ByJoint,
+    /// Accelerations by joint, in millimetres per second squared.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, f64>")]
+    pub(crate) acceleration_mm_s2: ByJoint,
+}
+
+/// The declared acceleration of each moving joint, in rad/s^2 or m/s^2; `None` for those without one.
+pub(super) fn accelerations(
+    written: Option<&WrittenLimits>,
+    robot: &Robot,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Option<f64>> {
+    let mut accelerations = vec![None; robot.dof()];
+    let Some(written) = written else { return accelerations };
+    // Named joints come after all others, so that they keep their own value.
+    for is_every in [true, false] {
+        let mut given_by: Vec<Option<&str>> = vec![None; robot.dof()];
+        for (key, by_joint) in written.keys() {
+            for entry in by_joint.iter().filter(|(name, _)| (name.get_ref() == EVERY) == is_every) {
+                let Some((joints, acceleration)) = diagnostics.keep(read(&key, entry, robot)) else {
+                    continue;
+                };
+                for joint in joints {
+                    accelerations[joint] = Some(acceleration);
+                    let twice = given_by[joint].replace(key.name).map(|first| twice(first, entry.0));
+                    diagnostics.extend(twice);
+                }
+            }
+        }
+    }
+    accelerations
+}
+
+/// A key with the unit of its values.
+struct Key {
+    name: &'static str,
+    unit: Unit,
+    system: UnitSystem,
+}
+
+impl WrittenLimits {
+    fn keys(&self) -> [(Key, &ByJoint); 4] {
+        let key = |name, unit, system| Key { name, unit, system };
+        [
+            (key("acceleration_rad_s2", Unit::Angle, UnitSystem::Si), &self.acceleration_rad_s2),
+            (key("acceleration_deg_s2", Unit::Angle, UnitSystem::Engineering), &self.acceleration_deg_s2),
+            (key("acceleration_m_s2", Unit::Length, UnitSystem::Si), &self.acceleration_m_s2),
+            (key("acceleration_mm_s2", Unit::Length, UnitSystem::Engineering), &self.acceleration_mm_s2),
+        ]
+    }
+}
+
+fn twice(first: &str, name: &Spanned<String>) -> Diagnostic {
+    let message = format!("the acceleration of \"{}\" is given by {first} already", name.get_ref());
+    Diagnostic::error("robot_file::limits", message).at(name.span()).with_help("keep exactly one of the two")
+}
+
+/// The joints of an entry, by number, and its value in SI units.
+fn read(
+    key: &Key,
+    (name, value): (&Spanned<String>, &Spanned<f64>),
+    robot: &Robot,
+) -> Result<(Vec<usize>, f64), Diagnostic> {
+    let value = positive(key.name, name.get_ref(), value)?;
+    let joints = named(key.name, name, key.unit, robot)?;
+    Ok((joints, if key.system == UnitSystem::Si { value } else { key.unit.convert(value) }))
+}
+
+fn positive(key: &str, name: &str, value: &Spanned<f64>) -> Result<f64, Diagnostic> {
+    let quantity = format!("{key} of \"{name}\"");
+    check_finite(&quantity, *value.get_ref(), value.span())?;
+    if *value.get_ref() > 0.0 {
+        return Ok(*value.get_ref());
+    }
+    let message = format!("{quantity} must be greater than 0, it is {}", value.get_ref());
+    Err(Diagnostic::error("robot_file::limits", message).at(value.span()))
+}
+
+/// The moving joints that a name means, by number.
+fn named(key: &str, name: &Spanned<String>, unit: Unit, robot: &Robot) -> Result<Vec<usize>, Diagnostic> {
+    let turns = matches!(unit, Unit::Angle);
+    let of_kind = |joint: &Joint| joint.kind.is_angular() == turns;
+    let moving = || robot.movable_joints().iter().map(|&joint| robot.joint(joint)).enumerate();
+    if name.get_ref() == EVERY {
+        return Ok(moving().filter(|(_, joint)| of_kind(joint)).map(|(at, _)| at).collect());
+    }
+    let Some((at, joint)) = moving().find(|(_, joint)| joint.name == *name.get_ref()) else {
+        let message = format!("{key}: the robot has no moving joint \"{}\"", name.get_ref());
+        let known = known_names(name.get_ref(), "moving joints", robot.movable_joint_names());
+        return Err(Diagnostic::error("robot_file::unknown_joint", message).at(name.span()).with_help(known));
+    };
+    if of_kind(joint) {
+        return Ok(vec![at]);
+    }
+    let (moves, right) = if turns { ("slides", "m_s2") } else { ("turns", "rad_s2") };
+    let message = format!("{key}: joint \"{}\" {moves}", joint.name);
+    let refused = Diagnostic::error("robot_file::limits", message).at(name.span());
+    Err(refused.with_help(format!("the key is acceleration_{right}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use crate::{diagnostic::Diagnostic, diagnostic::SourceFile, parse_robot};
+
+    const URDF: &str = "<robot name='r'><link name='base'/>\
+        <link name='one'/><joint name='turn' type='continuous'><parent link='base'/><child link='one'/></joint>\
+        <link name='two'/><joint name='next' type='continuous'><parent link='one'/><child link='two'/></joint>\
+        <link name='tip'/><joint name='slide' type='prismatic'><parent link='two'/><child link='tip'/>\
+        <limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>";
+
+    fn accelerations(limits: &str) -> Result<Vec<Option<f64>>, Vec<Diagnostic>> {
+        let source =
+            |name: &str, text: &str| Arc::new(SourceFile { path: name.into(), text: text.to_owned() });
+        let file = source("robot.toml", &format!("[limits]\n{limits}\n"));
+        Ok(parse_robot(Some(&file), &source("r.urdf", URDF))?.accelerations)
+    }
+
+    #[test]
+    fn named_joints_keep_their_own_value() {
+        let found =
+            accelerations("acceleration_deg_s2 = { '*' = 180 }\nacceleration_rad_s2 = { next = 7 }").unwrap();
+        assert_eq!(found, [Some(std::f64::consts::PI), Some(7.0), None]);
+        let found = accelerations("acceleration_mm_s2 = { slide = 2500 }").unwrap();
+        assert_eq!(found, [None, None, Some(2.5)]);
+    }
+
+    #[test]
+    fn what_is_no_acceleration_of_a_joint_is_refused() {
+        for (limits, message) in [
+            ("acceleration_rad_s2 = { trun = 1 }", "no moving joint \"trun\""),
+            ("acceleration_rad_s2 = { slide = 1 }", "joint \"slide\" slides"),
+            ("acceleration_m_s2 = { turn = 1 }", "joint \"turn\" turns"),
+            ("acceleration_rad_s2 = { turn = 0 }", "must be greater than 0, it is 0"),
+            ("acceleration_rad_s2 = { turn = -3 }", "must be greater than 0, it is -3"),
+            ("acceleration_rad_s2 = { turn = inf }", "which is not a finite number"),
+            (
+                "acceleration_rad_s2 = { turn = 1 }\nacceleration_deg_s2 = { turn = 1 }",
+                "the acceleration of \"turn\" is given by acceleration_rad_s2 already",
+            ),
+            ("acceleration = { turn = 1 }", "acceleration"),
+        ] {
+            let found = accelerations(limits).unwrap_err();
+            assert!(found[0].message.contains(message), "{limits}: {found:#?}");
+        }
+    }
+}
