@@ -44,9 +44,9 @@ fn assert_first_order(name: &str, errors: [f64; 3]) {
 /// with the same step, which shares nothing with the engine; its own error is 1e-9 of that.
 fn swing_error(robot: &Robot, q0: &RobotQ, (duration_s, step_s): (f64, f64)) -> f64 {
     let tree = BodyTree::new(robot);
-    let mut truth = Rollout::new(&tree, q0.clone(), vec![0.0; q0.len()]).unwrap();
+    let mut truth = Rollout::new(&tree, q0.clone(), vec![0.0; q0.len()]).expect("a state");
     for _ in 0..steps(duration_s, step_s) {
-        truth.step(step_s, |_, _, _, torque| torque.fill(0.0)).unwrap();
+        truth.step(step_s, |_, _, _, torque| torque.fill(0.0)).expect("it has inertia");
     }
     let mut world = at(robot, &with_step(step_s), q0);
     run(&mut world, make("passive", 0.0, 0.0).as_mut(), q0, steps(duration_s, step_s));
@@ -123,8 +123,8 @@ impl ArmPendulum {
         assert!(axis.z.abs() < 1e-9, "{name}: the axis is horizontal");
         let (mut moment_kg_m, mut inertia_kg_m2) = (Vector3::zeros(), 0.0);
         for (link, root_from_link) in robot.links().iter().zip(&root_from_links) {
-            let link = robot.find_link(&link.name).unwrap();
-            let moves = robot.chain(robot.root(), link).unwrap().contains(&robot.movable_joints()[0]);
+            let link = robot.find_link(&link.name).expect("a link of it");
+            let moves = robot.chain(robot.root(), link).expect("below").contains(&robot.movable_joints()[0]);
             let Some(inertia) = robot.link(link).inertia.filter(|_| moves) else { continue };
             let com = root_from_link * inertia.link_from_inertial;
             let arm = com.translation.vector - root_from_hinge.translation.vector;

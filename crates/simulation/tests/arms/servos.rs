@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// Drift under gravity compensation, rad or m in 10 s; rounding of g(q), an equilibrium that is not stable; worst seen
-/// 6.5920602310143295e-12 (panda).
+/// 6.6e-12 (UR5e).
 const DRIFT: f64 = 1e-9;
 
 #[test]

@@ -61,6 +61,7 @@ fn description() -> RobotDescription {
         robot,
         dh: None,
         dynamics: None,
+        accelerations: Vec::new(),
         tip_from_tcp: None,
         tolerance: congruent_description::Tolerance::default(),
         named_files: congruent_description::NamedFiles::default(),
