@@ -72,7 +72,7 @@ impl Line {
     fn new(value: &CheckValue) -> Self {
         let InstantValue { quantity, unit, .. } = value.of;
         let check = format!("{}_{}", value.check + 1, value.kind.word());
-        let unit = unit.replace(' ', "_").replace('/', "_");
+        let unit = unit.replace([' ', '/'], "_");
         let quantity = if unit.is_empty() { quantity.to_owned() } else { format!("{quantity}_{unit}") };
         Self {
             check: value.check,
