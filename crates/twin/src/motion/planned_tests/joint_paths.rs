@@ -206,7 +206,9 @@ fn a_motion_after_a_servo_is_slowed() {
     // Without "slow" it ends the run.
     let setup = planned(motions());
     let mut reference = ReferenceGenerator::new(&setup.trajectory, &setup.description).unwrap();
-    let held = reference.q().clone();
-    let failed = (1..=1100).find_map(|step| reference.advance(setup.clock.time_s(step), &held).err());
+    let failed = (1..=1100).find_map(|step| {
+        let measured = reference.q().clone();
+        reference.advance(setup.clock.time_s(step), &measured).err()
+    });
     assert!(failed.unwrap().to_string().contains("shoulder_pan_joint"));
 }
