@@ -212,3 +212,17 @@ fn a_motion_after_a_servo_is_slowed() {
     });
     assert!(failed.unwrap().to_string().contains("shoulder_pan_joint"));
 }
+
+#[test]
+fn the_accelerations_of_the_robot_file_are_kept_too() {
+    let mut description = super::ur5e();
+    description.accelerations[2] = Some(300.0_f64.to_radians());
+    let scenario =
+        super::elbow((1.25, Profile::Quintic), (Some(400.0), None, OverLimit::Slow)).unwrap().scenario;
+    let slow = crate::RunSetup::new(scenario, description).unwrap();
+    assert!((slow.trajectory.duration_s() - 1.52).abs() < 1e-9, "{}", slow.trajectory.duration_s());
+    let declared = slow.trajectory.declared_accelerations();
+    assert!(
+        (declared[2].to_degrees() - 300.0).abs() < 1e-9 && (declared[0].to_degrees() - 400.0).abs() < 1e-9
+    );
+}

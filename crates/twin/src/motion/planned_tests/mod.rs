@@ -343,19 +343,6 @@ fn a_move_above_a_declared_acceleration_or_jerk_is_refused_or_slowed() {
     elbow((1.25, Profile::Quintic), (None, None, OverLimit::Refuse)).unwrap();
 }
 
-#[test]
-fn the_accelerations_of_the_robot_file_are_kept_too() {
-    let mut description = ur5e();
-    description.accelerations[2] = Some(300.0_f64.to_radians());
-    let scenario = elbow((1.25, Profile::Quintic), (Some(400.0), None, OverLimit::Slow)).unwrap().scenario;
-    let slow = RunSetup::new(scenario, description).unwrap();
-    assert!((slow.trajectory.duration_s() - 1.52).abs() < 1e-9, "{}", slow.trajectory.duration_s());
-    let declared = slow.trajectory.declared_accelerations();
-    assert!(
-        (declared[2].to_degrees() - 300.0).abs() < 1e-9 && (declared[0].to_degrees() - 400.0).abs() < 1e-9
-    );
-}
-
 /// The tool accelerates within its own limit, a joint beyond its declared one.
 #[test]
 fn a_line_keeps_the_declared_accelerations_of_joints() {
