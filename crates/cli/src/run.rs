@@ -15,6 +15,7 @@ use congruent::{
         execute,
         report::{OutputFolder, Reason, RunReport, TestCase, TestResult, TestSuite, lines},
         scenario::{CheckKind, Expectation, Override},
+        source::ActuatorUse,
         verdict::{CheckResult, Status, Verdict},
     },
 };
@@ -254,11 +255,21 @@ fn described(report: &RunReport) -> String {
     if let Some(error) = &report.error {
         let _ = writeln!(text, "  {error}");
     }
+    for (index, motion) in report.motions.iter().enumerate() {
+        if let Some(slowed) = &motion.slowed {
+            let help = slowed.help.as_deref().unwrap_or_default();
+            let _ = writeln!(text, "  motion {}   slowed: {}; {help}", index + 1, slowed.message);
+        }
+    }
     for servo in &report.servos {
         let _ = writeln!(text, "  motion {}   {servo}", servo.motion);
     }
     for check in report.checks_failed_first() {
         checked(&mut text, check);
+    }
+    let held_back = |used: &ActuatorUse| used.held_back(report.simulation.duration_s);
+    for (index, held_back) in report.actuators.iter().filter_map(held_back).enumerate() {
+        let _ = writeln!(text, "  {:10} {:7} {held_back}", if index == 0 { "actuators" } else { "" }, "");
     }
     for fault in &report.faults {
         let _ = writeln!(text, "  {:10} {:7} {}", "injected", "", fault.sentence());

@@ -62,6 +62,7 @@ pub fn length_and_angle(metres: f64, radians: f64) -> String {
 /// use congruent_description::display::quantity;
 /// assert_eq!(quantity(1.0663, "rad"), "61.1 deg");
 /// assert_eq!(quantity(0.25, "m/s"), "250 mm/s");
+/// assert_eq!(quantity(std::f64::consts::PI, "rad/s^2"), "180 deg/s^2");
 /// assert_eq!(quantity(12.3456, "N m"), "12.3 N m");
 /// assert_eq!(quantity(0.0, ""), "0");
 /// ```
@@ -71,6 +72,8 @@ pub fn quantity(value: f64, unit: &str) -> String {
         "rad" => angle(value),
         "m/s" => scaled(value, &LENGTHS, "m", "mm", "/s"),
         "rad/s" => scaled(value, &ANGLES, "rad", "deg", "/s"),
+        "rad/s^2" => scaled(value, &ANGLES, "rad", "deg", "/s^2"),
+        "rad/s^3" => scaled(value, &ANGLES, "rad", "deg", "/s^3"),
         _ => format!("{} {unit}", number(value)).trim_end().to_owned(),
     }
 }

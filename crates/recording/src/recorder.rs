@@ -24,6 +24,7 @@ use crate::{
         visual::VisualBody,
     },
     series::{
+        checks::CheckSeries,
         clearance::ClearanceSeries,
         disagreement::{AgreementLimits, DisagreementSeries},
         samples::SampleBatch,
@@ -47,6 +48,7 @@ pub struct RerunRecorder {
     batch: SampleBatch,
     disagreement: DisagreementSeries,
     clearance: ClearanceSeries,
+    checks: CheckSeries,
     robot_box: BoundingBox,
     tool_path: ThinnedPath,
 }
@@ -95,6 +97,7 @@ impl RerunRecorder {
             batch: SampleBatch::new(names, moving_names(setup)),
             disagreement: DisagreementSeries::new(names.links.len(), limits),
             clearance: ClearanceSeries::default(),
+            checks: CheckSeries::default(),
             robot_box: BoundingBox::empty(),
             tool_path: ThinnedPath::new(),
         })
@@ -104,12 +107,14 @@ impl RerunRecorder {
         self.batch.write(&mut self.writer, &self.names)?;
         self.disagreement.write(&mut self.writer, &self.names.links, &self.bodies)?;
         self.clearance.write(&mut self.writer, &self.names.pairs)?;
+        self.checks.write(&mut self.writer)?;
         self.writer.flush()
     }
 }
 
 impl Recorder for RerunRecorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
+        self.checks.observe(sample.values);
         let is_due = sample.step.is_multiple_of(self.stride) || sample.is_last;
         if !is_due && !self.disagreement.would_change(sample.errors) {
             return Ok(());
@@ -130,6 +135,7 @@ impl Recorder for RerunRecorder {
         self.tool_path.push(tool_in_world);
         self.batch.push(time, sample, [&by_twin, &by_model]);
         self.disagreement.push(time, sample);
+        self.checks.push(time);
         self.clearance.push(time, sample.clearance, sample.twin.len());
         Ok(())
     }

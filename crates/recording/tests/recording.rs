@@ -169,6 +169,47 @@ impl Recorder for RecorderProbe {
     }
 }
 
+/// Rows every 10 ms have the worst value of all steps since the row before: their largest is that of the report.
+#[test]
+fn what_checks_measure_is_recorded() {
+    let folder = Folder::new("measures");
+    let text = format!(
+        r#"
+        schema_version = 1
+        name = "measures"
+        robot = "{}/robots/ur5e"
+        controller = {{ kind = "computed_torque", stiffness = 400.0, damping = 40.0 }}
+        start = {{ joints_deg = {{ shoulder_lift_joint = -90.0, elbow_joint = 90.0, wrist_2_joint = -90.0 }} }}
+        motion = [{{ move_joints_deg = {{ shoulder_pan_joint = 20.0, elbow_joint = 70.0 }}, duration_s = 0.5 }}]
+        check = [
+            {{ kind = "agreement" }},
+            {{ kind = "twist" }},
+            {{ kind = "dynamics" }},
+            {{ kind = "power" }},
+            {{ kind = "tracking", path_deg = 1.0, path_tcp_mm = 5.0 }},
+            {{ kind = "limits" }},
+            {{ kind = "invariants" }},
+        ]
+        "#,
+        repository().display()
+    );
+    let (report, path) = recorded(&folder, "out", &load(&folder, &text));
+    let summary = inspect(&path).unwrap();
+    let mut compared = 0;
+    for (index, check) in report.checks.iter().enumerate() {
+        for measure in check.measures.iter().filter(|measure| measure.worst.is_some()) {
+            let unit = measure.unit.replace('/', "_");
+            let quantity = format!("{}{}{unit}", measure.quantity, if unit.is_empty() { "" } else { "_" });
+            let path = format!("/check/{}_{}/{quantity}", index + 1, check.check);
+            let found = scalar(&summary, &path);
+            assert_eq!(found.max, measure.worst.as_ref().map(|worst| worst.value), "{path}");
+            assert!(found.count >= 50, "{path}: {}", found.count);
+            compared += 1;
+        }
+    }
+    assert!(compared >= 12, "{compared}: {:#?}", report.checks);
+}
+
 #[test]
 fn scalars_are_exact() {
     let folder = Folder::new("exact");

@@ -10,14 +10,14 @@ use crate::{
     bodies::MovingBodies,
     diagnosis::{RunDiagnosis, SampleStore, diagnose},
     monitor::{Names, RunningCheck},
-    motion::ServoResult,
+    motion::{ServoResult, SlowedMotion},
     proximity::{Carried, Clearance, PairChoice, ProximityError},
     recorder::{Recorder, RecordingError},
     sample::Sample,
     setup::RunSetup,
-    source::{ActuatorUse, JointStateSource, SimulationSource, SourceError},
+    source::{ActuatorUse, JointStateSource, SimulationSource, SourceError, stop_accelerations},
     stopping::Stopping,
-    verdict::{CheckResult, Status, Stop},
+    verdict::{CheckResult, CheckValue, Status, Stop},
 };
 
 /// Why a run cannot start or cannot continue.
@@ -49,6 +49,8 @@ pub struct Outcome {
     pub stopped: Option<Stop>,
     /// The result of each servo: its error at the end.
     pub servos: Vec<ServoResult>,
+    /// Motions that were planned in the run and take longer than the scenario says.
+    pub slowed: Vec<SlowedMotion>,
     /// The use of each joint's actuator, if the source has actuators.
     pub actuators: Vec<ActuatorUse>,
     /// SHA-256 over the true joint positions of every sample.
@@ -74,6 +76,8 @@ pub struct Run<'a> {
     root_from_links: Vec<Isometry3<f64>>,
     by_tree: Vec<Pose>,
     errors: Vec<PoseError>,
+    /// What the checks have measured at this instant.
+    values: Vec<CheckValue>,
     hash: Sha256,
     store: SampleStore,
     /// The way to rest, from the first violation of a check that stops the run.
@@ -124,6 +128,7 @@ impl<'a> Run<'a> {
             root_from_links: vec![Isometry3::identity(); links],
             by_tree: vec![Pose::identity(); links],
             errors: vec![PoseError::default(); links],
+            values: Vec::new(),
             hash: Sha256::new(),
             store: SampleStore::new(robot.dof(), links, setup.clock.steps),
             stopping: None,
@@ -143,6 +148,11 @@ impl<'a> Run<'a> {
     /// The analytical side.
     pub fn model(&self) -> &Model {
         &self.model
+    }
+
+    /// Number of steps, as far as it is known by now: a motion that is made slower in the run makes the run longer.
+    fn steps(&self) -> u64 {
+        self.setup.clock.steps_with(longer_s(self.source.as_ref()))
     }
 
     /// Advances the source by one sample.
@@ -183,12 +193,17 @@ impl<'a> Run<'a> {
         recorder: &mut dyn Recorder,
     ) -> Result<bool, RunError> {
         self.move_bodies();
-        let is_end = self.source.step_count() >= self.setup.clock.steps;
+        let is_end = self.source.step_count() >= self.steps();
         let is_last = is_end && self.stopping.is_none();
         let mut sample = self.sample();
         sample.is_last = is_last;
+        let time_s = sample.time_s;
         for check in checks.iter_mut() {
             check.monitor.observe(&mut sample);
+        }
+        self.values.clear();
+        for (check, running) in checks.iter().enumerate() {
+            running.values(time_s, &mut |kind, of| self.values.push(CheckValue { check, kind, of }));
         }
         let ends = self.ends(checks);
         for q in self.source.joints().truth.q {
@@ -223,11 +238,13 @@ impl<'a> Run<'a> {
         let sample = Sample {
             step,
             time_s: self.setup.clock.time_s(step),
+            motions_s: self.setup.trajectory.duration_s() + longer_s(self.source.as_ref()),
             is_last: false,
             joints: self.source.joints(),
             forces: self.source.step_forces(),
             model: self.model.latest(),
             twin: &self.root_from_links,
+            values: &self.values,
             errors: &self.errors,
             clearance: &mut self.clearance,
             bodies: &self.bodies,
@@ -247,7 +264,7 @@ impl<'a> Run<'a> {
         let tcp_in_root = root_from_tcp.translation.vector;
         if self.stopping.is_none() {
             let Some(check) = checks.iter().position(RunningCheck::stops) else {
-                return step >= self.setup.clock.steps;
+                return step >= self.steps();
             };
             let q = self.source.joints().truth.q.clone();
             let mut stopping = Stopping::new(check, (step, time_s), (q, tcp_in_root));
@@ -276,6 +293,7 @@ impl<'a> Run<'a> {
             Ok(())
         };
         let result = go();
+        let steps = self.steps();
         let (servos, result) = match self.source.finish() {
             Ok(servos) => (servos, result),
             Err(error) => (Vec::new(), result.and(Err(error.into()))),
@@ -284,8 +302,10 @@ impl<'a> Run<'a> {
         let has_failed = results.iter().any(|check| check.status == Status::Fail);
         let stopped = self.stopping.as_ref().map(|stopping| {
             let result = &mut results[stopping.check()];
-            result.notes.push(stopping.note(self.setup.clock.steps));
-            stopping.report(result, &self.names.joints)
+            let declared = self.setup.trajectory.declared_accelerations();
+            let accelerations = stop_accelerations(&self.setup.description.robot, declared);
+            result.notes.push(stopping.note(steps, &accelerations));
+            stopping.report(result, &self.names.joints, &accelerations)
         });
         let outcome = Outcome {
             diagnosis: has_failed.then(|| diagnose(self.setup, &self.store, &mut self.clearance)).flatten(),
@@ -294,11 +314,17 @@ impl<'a> Run<'a> {
             steps: self.source.step_count(),
             servos,
             actuators: self.source.actuators(),
+            slowed: self.source.slowed().to_vec(),
             trajectory_sha256: hex(&self.hash.finalize()),
             diagnoses: Vec::new(),
         };
         (outcome, result)
     }
+}
+
+/// By how much the motions end later than planned.
+fn longer_s(source: &dyn JointStateSource) -> f64 {
+    source.slowed().iter().map(|slowed| slowed.longer_s).sum()
 }
 
 fn hex(bytes: &[u8]) -> String {

@@ -7,6 +7,7 @@ use crate::{
     bodies::MovingBodies,
     proximity::Clearance,
     source::{JointSample, StepForces},
+    verdict::CheckValue,
 };
 
 /// One instant: borrowed from the run loop, nothing is copied.
@@ -16,6 +17,8 @@ pub struct Sample<'a> {
     pub step: u64,
     /// Time of the source.
     pub time_s: f64,
+    /// When the last motion ends, as far as it is known by now.
+    pub motions_s: f64,
     /// Whether no step follows. For monitors this is the end of the scenario, for recorders also the end
     /// by a check at this instant.
     pub is_last: bool,
@@ -28,6 +31,8 @@ pub struct Sample<'a> {
     pub model: &'a [Pose],
     /// Poses of the twin, likewise.
     pub twin: &'a [Isometry3<f64>],
+    /// What the checks have measured at this instant; none for the checks themselves.
+    pub values: &'a [CheckValue],
     /// Model against twin, link by link.
     pub errors: &'a [PoseError],
     /// Distances between links and to obstacles, measured when a monitor needs them.

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use crate::{
     source::JointSample,
-    verdict::{CheckResult, Stop, WayToRest},
+    verdict::{CheckResult, Stop, StopAcceleration, StopLimit, WayToRest},
 };
 
 /// An arm is at rest if every joint is slower, rad/s and m/s. Kind: engineering; in a second it moves by 0.06 deg.
@@ -84,7 +84,7 @@ impl Stopping {
     }
 
     /// In words, as a remark on the check.
-    pub(crate) fn note(&self, steps: u64) -> String {
+    pub(crate) fn note(&self, steps: u64, accelerations: &[(f64, StopLimit)]) -> String {
         let (time, step) = (quantity(self.time_s, "s"), self.step);
         let note = format!("stopped the run at {time}, after {step} of {steps} steps");
         if !self.can_stop {
@@ -92,11 +92,22 @@ impl Stopping {
         }
         let (duration, way) = (quantity(self.duration_s, "s"), length(self.tcp_path_m));
         let rest = if self.is_at_rest { "at rest" } else { "not at rest" };
-        format!("{note}; the arm is {rest} {duration} later, its TCP {way} further")
+        let declared = accelerations.iter().filter(|(_, source)| *source == StopLimit::Declared).count();
+        let braked = match declared {
+            0 => "velocity limits in 0.25 s, none is declared".to_owned(),
+            _ if declared == accelerations.len() => "as declared".to_owned(),
+            _ => format!("as declared for {declared} of {} joints", accelerations.len()),
+        };
+        format!("{note}; the arm is {rest} {duration} later, its TCP {way} further (accelerations: {braked})")
     }
 
     /// For the report.
-    pub(crate) fn report(&self, result: &CheckResult, joints: &[String]) -> Stop {
+    pub(crate) fn report(
+        &self,
+        result: &CheckResult,
+        joints: &[String],
+        accelerations: &[(f64, StopLimit)],
+    ) -> Stop {
         let gone: Vec<f64> = self.q.iter().zip(&self.from).map(|(to, from)| to - from).collect();
         Stop {
             check: result.check,
@@ -109,6 +120,11 @@ impl Stopping {
                 duration_s: self.duration_s,
                 joints: JointValues::new(joints, &gone),
                 tcp_path_m: self.tcp_path_m,
+                accelerations: joints
+                    .iter()
+                    .zip(accelerations)
+                    .map(|(joint, &(limit, source))| StopAcceleration { joint: joint.clone(), limit, source })
+                    .collect(),
             }),
         }
     }

@@ -58,6 +58,32 @@ pub struct Measure {
     pub first_violation: Option<Moment>,
 }
 
+/// The worst value of one quantity at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InstantValue {
+    /// What it is, as in the [`Measure`].
+    pub quantity: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// The side of the limit on which it must be.
+    pub bound: Bound,
+    /// The limit.
+    pub limit: f64,
+    /// The value.
+    pub value: f64,
+}
+
+/// The same with the number of the check in the scenario, from 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CheckValue {
+    /// The check.
+    pub check: usize,
+    /// Its kind.
+    pub kind: CheckKind,
+    /// The value.
+    pub of: InstantValue,
+}
+
 /// The side of a limit on which values must be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -163,6 +189,32 @@ pub struct WayToRest {
     pub joints: JointValues,
     /// Length of the path of the twin's TCP in that time.
     pub tcp_path_m: f64,
+    /// The acceleration with which each joint may slow down: the joint that needs the longest to stop uses its own, the
+    /// others slow down alike.
+    pub accelerations: Vec<StopAcceleration>,
+}
+
+/// The acceleration with which a joint may slow down in a stop.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct StopAcceleration {
+    /// The joint.
+    pub joint: String,
+    /// The acceleration, rad/s^2 or m/s^2.
+    pub limit: f64,
+    /// Where it is from.
+    pub source: StopLimit,
+}
+
+/// Where the acceleration of a stop is from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StopLimit {
+    /// It is declared under `[limits]` of the scenario or of the robot file.
+    Declared,
+    /// None is declared: it stops from the velocity limit of the joint in 0.25 s.
+    FromVelocity,
+    /// The joint has neither: 7.5 rad/s^2 or m/s^2.
+    Assumed,
 }
 
 /// The verdict of a run over all checks.

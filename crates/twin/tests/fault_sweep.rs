@@ -163,8 +163,10 @@ fn scenario(fault: Option<FaultSettings>, description: &RobotDescription, draw: 
             // It fails always: the diagnosis must not say anything by that alone.
             Check::Goal(GoalCheck {
                 tcp: PoseSettings { xyz_m: Some([9.0, 0.0, 0.0]), ..PoseSettings::default() },
-                position_m: 0.001,
+                position_m: None,
+                position_mm: Some(1.0),
                 orientation_rad: None,
+                orientation_deg: None,
                 on_violation: OnViolation::default(),
             }),
         ],

@@ -83,6 +83,11 @@ pub(crate) fn clearance(name: &str) -> EntityPath {
     path(&["clearance", name])
 }
 
+/// A quantity of a check, both with what tells them apart: the number of the check, the unit.
+pub(crate) fn check(check: &str, quantity: &str) -> EntityPath {
+    path(&["check", check, quantity])
+}
+
 /// The status of a check over time, below its last one: the viewer orders the lanes by path, and of the statuses `error`
 /// and `fail` come before `pass` and `skipped`.
 pub(crate) fn status(last: &str, check: &str) -> EntityPath {

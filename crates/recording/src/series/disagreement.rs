@@ -45,7 +45,8 @@ impl AgreementLimits {
     pub(crate) fn of(checks: &[Check]) -> Option<Self> {
         let limits = checks.iter().filter_map(|check| {
             let Check::Agreement(limits) = check else { return None };
-            Some(Self { position_m: limits.position_m?, orientation_rad: limits.orientation_rad? })
+            let [position_m, orientation_rad] = limits.limits();
+            Some(Self { position_m: position_m?, orientation_rad: orientation_rad? })
         });
         limits.reduce(|a, b| Self {
             position_m: a.position_m.min(b.position_m),

@@ -1,5 +1,6 @@
 //! What is recorded over time, gathered in columns and written in batches.
 
+pub(crate) mod checks;
 pub(crate) mod clearance;
 pub(crate) mod disagreement;
 mod joints;

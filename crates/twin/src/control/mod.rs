@@ -8,5 +8,7 @@ mod digital;
 mod joint_controller;
 mod model;
 mod servos;
+#[cfg(test)]
+mod windup_tests;
 
 pub use joint_controller::JointController;

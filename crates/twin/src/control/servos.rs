@@ -3,7 +3,7 @@
 use congruent_simulation::{Commands, Gains, JointsView, Motor, Setpoint};
 
 use super::model::DeclaredModel;
-use crate::setup::RunSetup;
+use crate::setup::{ActuatorLimits, RunSetup};
 
 /// One servo for each joint; gains of zero exert nothing.
 #[derive(Debug, Clone)]
@@ -22,8 +22,8 @@ struct Integrals {
     gains: Vec<f64>,
     /// Present torques.
     torques: Vec<f64>,
-    /// Largest effort of each actuator.
-    efforts: Vec<f64>,
+    /// Largest effort and speed of each actuator.
+    limits: Vec<ActuatorLimits>,
 }
 
 impl<'a> Servos<'a> {
@@ -41,7 +41,7 @@ impl<'a> Servos<'a> {
     pub(super) fn with_integral(mut self, setup: &'a RunSetup) -> Self {
         let gains = setup.controller.integral.clone();
         let torques = vec![0.0; gains.len()];
-        self.integrals = Some(Integrals { gains, torques, efforts: setup.largest_efforts() });
+        self.integrals = Some(Integrals { gains, torques, limits: setup.actuator_limits() });
         self
     }
 
@@ -60,7 +60,7 @@ impl<'a> Servos<'a> {
         for (joint, torque) in self.torque.iter_mut().enumerate() {
             let present = StateError::now(joint, joints, setpoint);
             let servo = *torque + present.effort(self.gains[joint]);
-            *torque += integrals.advance(joint, servo, present.position * period_s);
+            *torque += integrals.advance(joint, (servo, joints.qd()[joint]), present.position * period_s);
         }
     }
 
@@ -94,13 +94,16 @@ impl<'a> Servos<'a> {
 }
 
 impl Integrals {
-    /// Adds `change`, an error times its duration, and returns the torque. While the actuator is at its limit it does
-    /// not go further in the same direction, and by itself it never asks for more than the limit (anti-windup).
-    fn advance(&mut self, joint: usize, servo: f64, change: f64) -> f64 {
-        let (limit, torque) = (self.efforts[joint], &mut self.torques[joint]);
+    /// Adds `change`, an error times its duration, and returns the torque. While the actuator is at a limit, of effort or
+    /// of speed, it does not go further in the same direction, and by itself it never asks for more than the largest
+    /// effort (anti-windup by conditional integration; Astrom & Hagglund, *PID Controllers* (1995), sec. 3.5).
+    fn advance(&mut self, joint: usize, (servo, qd): (f64, f64), change: f64) -> f64 {
+        let (limit, torque) = (self.limits[joint], &mut self.torques[joint]);
         let effort = servo + *torque;
-        if effort.abs() < limit || effort * change < 0.0 {
-            *torque = (*torque + self.gains[joint] * change).clamp(-limit, limit);
+        let is_at_effort = effort.abs() >= limit.effort && effort * change >= 0.0;
+        let is_at_speed = qd.abs() >= limit.speed && qd * change >= 0.0;
+        if !is_at_effort && !is_at_speed {
+            *torque = (*torque + self.gains[joint] * change).clamp(-limit.effort, limit.effort);
         }
         *torque
     }
@@ -133,13 +136,17 @@ mod tests {
 
     #[test]
     fn an_integral_stops_at_the_limit_and_comes_back_at_once() {
-        let mut integrals = Integrals { gains: vec![100.0], torques: vec![0.0], efforts: vec![5.0] };
+        let limits = vec![ActuatorLimits { effort: 5.0, speed: 2.0 }];
+        let mut integrals = Integrals { gains: vec![100.0], torques: vec![0.0], limits };
         let mut after =
-            |servo, change, times| (0..times).fold(0.0, |_, _| integrals.advance(0, servo, change));
+            |servo, change, times| (0..times).fold(0.0, |_, _| integrals.advance(0, (servo, 0.0), change));
         assert!((after(0.0, 0.01, 3) - 3.0).abs() < 1e-12);
         assert!((after(0.0, 0.01, 1000) - 5.0).abs() < 1e-12, "not beyond the limit");
         assert!((after(0.0, -0.01, 1) - 4.0).abs() < 1e-12, "back with the first error of the other sign");
         assert!((after(2.0, 0.01, 1000) - 4.0).abs() < 1e-12, "the actuator is at its limit");
         assert!((after(-9.0, 0.0001, 1) - 4.01).abs() < 1e-12, "the servo pulls it off the limit");
+        let mut at_speed = |qd, change| integrals.advance(0, (0.0, qd), change);
+        assert!((at_speed(2.0, 0.001) - 4.01).abs() < 1e-12, "faster is not possible");
+        assert!((at_speed(2.0, -0.001) - 3.91).abs() < 1e-12 && (at_speed(1.9, 0.001) - 4.01).abs() < 1e-12);
     }
 }

@@ -11,8 +11,6 @@ pub struct CheckContext<'a> {
     pub description: &'a RobotDescription,
     /// Clock and gravity.
     pub clock: &'a RunClock,
-    /// When the last motion ends.
-    pub motions_s: f64,
     /// What links carry for a time.
     pub payloads: &'a [Payload],
     /// The declared dynamics, with the payloads.

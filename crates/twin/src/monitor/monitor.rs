@@ -3,7 +3,7 @@
 use super::names::Names;
 use crate::{
     sample::Sample,
-    verdict::{Contact, Measure},
+    verdict::{Contact, InstantValue, Measure},
 };
 
 /// A check that gets every sample of a run.
@@ -16,6 +16,10 @@ pub trait Monitor: Send {
 
     /// Whether the check has failed already.
     fn has_failed(&self) -> bool;
+
+    /// Calls `take` with each quantity that has a value at this time. Checks that look at the end of a run alone, and
+    /// distances, which are measured only where they may be the smallest, have none.
+    fn values(&self, _time_s: f64, _take: &mut dyn FnMut(InstantValue)) {}
 }
 
 /// The results of a monitor, without the check and the file that it belongs to.

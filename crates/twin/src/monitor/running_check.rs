@@ -20,7 +20,7 @@ use super::{
 use crate::{
     proximity::ObstacleMobility,
     scenario::{Check, CheckKind, FilePlace, ObstacleSettings, OnViolation},
-    verdict::{CheckResult, Status},
+    verdict::{CheckResult, InstantValue, Status},
 };
 
 /// A check with its results so far.
@@ -57,7 +57,10 @@ impl<'a> RunningCheck<'a> {
         check.unit_keys().iter().try_for_each(|keys| keys.examine(place))?;
         let robot = &around.0.robot;
         match check {
-            Check::Clearance(check) => examine_pairs((&check.pairs, &check.ignore), place, around),
+            Check::Clearance(check) => {
+                check.unit_keys().required(place)?;
+                examine_pairs((&check.pairs, &check.ignore), place, around)
+            }
             Check::Contact(check) => examine_pairs((&check.pairs, &check.ignore), place, around),
             Check::Goal(check) => examine_goal(check, place).map(|_| ()),
             Check::Limits(check) => examine_limits(check, place),
@@ -100,6 +103,11 @@ impl<'a> RunningCheck<'a> {
         self.on_violation == OnViolation::Stop && self.monitor.has_failed()
     }
 
+    /// Calls `take` with the values of the check at this time.
+    pub(crate) fn values(&self, time_s: f64, take: &mut dyn FnMut(CheckKind, InstantValue)) {
+        self.monitor.values(time_s, &mut |value| take(self.kind, value));
+    }
+
     /// The result of the check.
     pub fn result(&self, names: &Names) -> CheckResult {
         let Observed { samples, measures, contacts, notes } = self.monitor.finish(names);
@@ -122,8 +130,8 @@ pub(crate) fn write_out_limits(check: &mut Check, description: &RobotDescription
     };
     match check {
         Check::Agreement(check) => {
-            check.position_m.get_or_insert(description.tolerance.position_m);
-            check.orientation_rad.get_or_insert(description.tolerance.orientation_rad);
+            fill(&mut check.position_m, check.position_mm, description.tolerance.position_m);
+            fill(&mut check.orientation_rad, check.orientation_deg, description.tolerance.orientation_rad);
         }
         Check::CycleTime(check) => {
             fill(&mut check.tolerance_rad, check.tolerance_deg, AT_THE_END);

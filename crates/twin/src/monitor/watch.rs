@@ -4,7 +4,7 @@ use congruent_description::JointValues;
 
 use crate::{
     sample::Sample,
-    verdict::{Bound, Measure, Moment},
+    verdict::{Bound, InstantValue, Measure, Moment},
 };
 
 /// Remembers the worst value and the first violation of one quantity.
@@ -16,6 +16,8 @@ pub(crate) struct Watch {
     limit: f64,
     worst: Seen,
     first_violation: Seen,
+    /// The worst value of the last instant, and its time.
+    latest: (f64, f64),
 }
 
 /// A value with its time and configuration; `q` is allocated once.
@@ -45,17 +47,37 @@ impl Watch {
         dof: usize,
     ) -> Self {
         let unseen = Seen { value: f64::NAN, subject: 0, time_s: 0.0, q: vec![0.0; dof], is_set: false };
-        Self { quantity, unit, bound, limit, worst: unseen.clone(), first_violation: unseen }
+        Self {
+            quantity,
+            unit,
+            bound,
+            limit,
+            worst: unseen.clone(),
+            first_violation: unseen,
+            latest: (f64::NAN, f64::NAN),
+        }
     }
 
     /// Evaluates one value of `subject`, an index that `measure` turns into a name.
     pub(crate) fn observe(&mut self, value: f64, subject: usize, sample: &Sample<'_>) {
+        let (latest, at_s) = &mut self.latest;
+        #[expect(clippy::float_cmp, reason = "the time of one sample")]
+        if *at_s != sample.time_s || self.bound.is_worse(value, *latest) {
+            (*latest, *at_s) = (value, sample.time_s);
+        }
         if !self.worst.is_set || self.bound.is_worse(value, self.worst.value) {
             self.worst.set(value, subject, sample);
         }
         if !self.first_violation.is_set && !self.bound.holds(value, self.limit) {
             self.first_violation.set(value, subject, sample);
         }
+    }
+
+    /// The worst value of this instant, if it has one.
+    pub(crate) fn at(&self, time_s: f64) -> Option<InstantValue> {
+        let Self { quantity, unit, bound, limit, latest: (value, at_s), .. } = *self;
+        #[expect(clippy::float_cmp, reason = "the time of one sample")]
+        (at_s == time_s).then_some(InstantValue { quantity, unit, bound, limit, value })
     }
 
     /// What is watched.

@@ -6,8 +6,8 @@ use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 use congruent_kinematics::KinematicsError;
 
 use super::{
-    course::{Course, PlannedMove, SetpointMut},
-    planning::Planning,
+    course::{Course, Motion, PlannedMove, SetpointMut},
+    planning::{Planning, SLOWED},
     tcp::tcp_servo::{ServoController, ServoResult, StepInterval},
     trajectory::{Trajectory, plan},
 };
@@ -34,6 +34,17 @@ fn help(finding: &Diagnostic) -> String {
     finding.help.as_ref().map_or_else(String::new, |help| format!("; {help}"))
 }
 
+/// A motion that was planned in the run, after a servo, and takes longer than the scenario says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlowedMotion {
+    /// Its place in the scenario, from 0.
+    pub motion: usize,
+    /// By how much longer it takes; all motions after it, and the end of the run, are as much later.
+    pub longer_s: f64,
+    /// Which limit it would have broken.
+    pub warning: Diagnostic,
+}
+
 /// The setpoints of a run. Planned moves are evaluated at the time; servos are computed from the measured
 /// positions at every step.
 #[derive(Debug, Clone)]
@@ -44,8 +55,12 @@ pub struct ReferenceGenerator<'a> {
     planned: Option<PlannedMove>,
     /// The controller of the servos; `None` if there are none.
     servo_controller: Option<ServoController<'a>>,
-    /// The motion of the last step.
-    current: Option<usize>,
+    /// The motion of the last step, and when it began.
+    current: Option<(usize, f64)>,
+    /// Motions that were planned in the run and made slower.
+    slowed: Vec<SlowedMotion>,
+    /// By how much the motions after the present one are later than in the trajectory.
+    later_s: f64,
     /// The time of the setpoint.
     time_s: f64,
     q: RobotQ,
@@ -80,6 +95,8 @@ impl<'a> ReferenceGenerator<'a> {
             planned: None,
             servo_controller,
             current: None,
+            slowed: Vec::new(),
+            later_s: 0.0,
             time_s: 0.0,
             qd: vec![0.0; q.len()],
             qdd: vec![0.0; q.len()],
@@ -110,10 +127,10 @@ impl<'a> ReferenceGenerator<'a> {
     /// [`MotionError`] if `measured_q` is not a configuration of the robot, or a motion after a servo cannot be planned.
     pub fn advance(&mut self, time_s: f64, measured_q: &RobotQ) -> Result<(), MotionError> {
         let before_s = std::mem::replace(&mut self.time_s, time_s);
-        let Some((index, starts_s)) = self.trajectory.under_way(time_s) else { return Ok(()) };
-        if self.current != Some(index) {
+        let Some((index, starts_s)) = self.under_way(time_s) else { return Ok(()) };
+        if self.current.is_none_or(|(current, _)| current != index) {
             self.leave(measured_q)?;
-            self.current = Some(index);
+            self.current = Some((index, starts_s));
             if let Course::Open(settings) = &self.trajectory.motions[index].course {
                 self.planned = Some(self.plan(settings, index)?);
             }
@@ -158,23 +175,45 @@ impl<'a> ReferenceGenerator<'a> {
         Ok(std::mem::take(&mut self.servo_results))
     }
 
+    /// The motions that were made slower in the run.
+    pub fn slowed(&self) -> &[SlowedMotion] {
+        &self.slowed
+    }
+
+    /// The motion at a time with its start.
+    fn under_way(&self, time_s: f64) -> Option<(usize, f64)> {
+        let planned = self.trajectory.under_way(time_s - self.later_s);
+        let begun = planned.map(|(index, starts_s)| (index, starts_s + self.later_s));
+        match (self.current, begun) {
+            (Some((current, _)), Some((index, _))) if index > current => begun,
+            (None, _) => begun,
+            (current, _) => current,
+        }
+    }
+
     /// Plans a motion from the setpoint at which the arm is held now, so that the setpoint does not jump.
-    fn plan(&self, settings: &MotionSettings, index: usize) -> Result<PlannedMove, MotionError> {
+    fn plan(&mut self, settings: &MotionSettings, index: usize) -> Result<PlannedMove, MotionError> {
+        let mut warnings = Vec::new();
         let mut planning = Planning {
             description: self.description,
             limits: &self.trajectory.limits,
             folder: Path::new(""),
             from: &self.q,
             place: FilePlace::nowhere(),
-            is_in_run: true,
-            warnings: &mut Vec::new(),
+            warnings: &mut warnings,
         };
         let refused = |mut found: Vec<Diagnostic>| MotionError::Planning {
             motion: index + 1,
             finding: Box::new(found.swap_remove(0)),
         };
         let mut planned = plan(std::slice::from_ref(settings), 0, &mut planning).map_err(refused)?;
-        match planned.swap_remove(0).course {
+        let Motion { duration_s, course } = planned.swap_remove(0);
+        let longer_s = duration_s - self.trajectory.motions[index].duration_s;
+        if let Some(warning) = warnings.into_iter().find(|warning| warning.code == SLOWED) {
+            self.later_s += longer_s;
+            self.slowed.push(SlowedMotion { motion: index, longer_s, warning });
+        }
+        match course {
             Course::Planned(planned) => Ok(planned),
             Course::Open(_) | Course::Servo(_) => unreachable!("an open motion is planned"),
         }
@@ -183,7 +222,7 @@ impl<'a> ReferenceGenerator<'a> {
     /// Closes the motion that ends: the next begins at the end of a move, or at the positions that a servo has
     /// reached.
     fn leave(&mut self, measured_q: &RobotQ) -> Result<(), KinematicsError> {
-        let Some(index) = self.current else { return Ok(()) };
+        let Some((index, _)) = self.current else { return Ok(()) };
         match &self.trajectory.motions[index].course {
             Course::Planned(planned) => self.q.copy_from_slice(&planned.to),
             Course::Open(_) => {

@@ -14,7 +14,14 @@ use crate::scenario::{OverLimit, Profile};
 
 fn no_limits() -> MotionLimits {
     let none = || vec![f64::INFINITY];
-    MotionLimits { velocity: none(), acceleration: none(), jerk: none(), over_limit: OverLimit::Refuse }
+    MotionLimits {
+        velocity: none(),
+        acceleration: none(),
+        jerk: none(),
+        declared_acceleration: none(),
+        declared_jerk: none(),
+        over_limit: OverLimit::Refuse,
+    }
 }
 
 /// From 1 to 3 in 2 s, then to -1 in 1 s.

@@ -12,7 +12,7 @@ use super::{
     tcp::{path, tcp_move, tcp_servo},
     timing::MotionLimits,
 };
-use crate::scenario::{FilePlace, MotionSettings, OverLimit};
+use crate::scenario::{FilePlace, MotionSettings};
 
 /// The motions of a scenario with what planning needs besides the robot.
 #[derive(Debug, Clone, Copy)]
@@ -54,19 +54,10 @@ impl Trajectory {
             let (settings, place) = (&motions[index], places.item(index));
             if trajectory.ends_open() && !matches!(settings, MotionSettings::Servo(_)) {
                 trajectory.push(open(settings, place)?);
-                warnings.extend(not_slowed(limits, place));
                 continue;
             }
             let from = trajectory.end().clone();
-            let mut planning = Planning {
-                description,
-                limits,
-                folder,
-                from: &from,
-                place: places,
-                is_in_run: false,
-                warnings,
-            };
+            let mut planning = Planning { description, limits, folder, from: &from, place: places, warnings };
             for motion in plan(&motions[index..], index, &mut planning)? {
                 trajectory.push(motion);
             }
@@ -108,6 +99,11 @@ impl Trajectory {
         let (mut qd, mut qdd) = (vec![0.0; q.len()], vec![0.0; q.len()]);
         planned.at(time_s - starts_s, SetpointMut { q: &mut q, qd: &mut qd, qdd: &mut qdd });
         Some(q)
+    }
+
+    /// The accelerations that are declared for the joints, infinity for none.
+    pub(crate) fn declared_accelerations(&self) -> &[f64] {
+        &self.limits.declared_acceleration
     }
 
     /// Whether a motion is computed in the run.
@@ -159,16 +155,6 @@ pub(super) fn plan(
         }
     };
     Ok(vec![motion])
-}
-
-/// Says that a motion which is planned in the run is not slowed: the times of all motions are settled before.
-fn not_slowed(limits: &MotionLimits, place: FilePlace<'_>) -> Option<Diagnostic> {
-    (limits.over_limit == OverLimit::Slow).then(|| {
-        let message = "over_limit = \"slow\" does not hold for a motion after a servo_tcp, which is planned in the run: \
-                       it ends the run if it breaks a velocity limit";
-        let warning = Diagnostic::warning("scenario::not_slowed", message);
-        place.mark(warning.with_help("give it a `duration_s` that is long enough wherever the servo_tcp ends"))
-    })
 }
 
 /// A motion that is planned in the run: it starts where a servo has brought the arm.

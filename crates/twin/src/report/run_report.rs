@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::{
     diagnosis::RunDiagnosis,
     fault::RunFault,
-    motion::ServoResult,
+    motion::{ServoResult, SlowedMotion},
     run::{Outcome, RunError},
     scenario::{Expectation, MotionSettings},
     setup::RunSetup,
@@ -88,7 +88,7 @@ pub struct RunClockReport {
 }
 
 /// When a motion of the scenario begins, and how long it takes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MotionTimes {
     /// The key that tells its kind, without a unit.
     pub kind: &'static str,
@@ -96,6 +96,9 @@ pub struct MotionTimes {
     pub starts_s: f64,
     /// How long it takes.
     pub duration_s: f64,
+    /// Why it takes longer than the scenario says, if it was planned in the run, after a `servo_tcp`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slowed: Option<Finding>,
 }
 
 /// A link with the origin of its pose in the model.
@@ -116,9 +119,18 @@ pub struct Versions {
     pub physics: &'static str,
 }
 
-fn motions(setup: &RunSetup) -> Vec<MotionTimes> {
-    let kinds = setup.scenario.motion.iter().map(MotionSettings::kind);
-    let times = |(kind, (starts_s, duration_s))| MotionTimes { kind, starts_s, duration_s };
+/// The motions as they were: one that was made slower in the run delays those after it.
+fn motions(setup: &RunSetup, slowed: &[SlowedMotion]) -> Vec<MotionTimes> {
+    let kinds = setup.scenario.motion.iter().map(MotionSettings::kind).enumerate();
+    let longer = |chosen: &dyn Fn(usize) -> bool| {
+        slowed.iter().filter(|slowed| chosen(slowed.motion)).map(|slowed| slowed.longer_s).sum::<f64>()
+    };
+    let times = |((index, kind), (starts_s, duration_s))| MotionTimes {
+        kind,
+        starts_s: starts_s + longer(&|motion| motion < index),
+        duration_s: duration_s + longer(&|motion| motion == index),
+        slowed: slowed.iter().find(|slowed| slowed.motion == index).map(|slowed| (&slowed.warning).into()),
+    };
     kinds.zip(setup.trajectory.times()).map(times).collect()
 }
 
@@ -135,6 +147,7 @@ impl RunReport {
         let verdict = if error.is_some() { Verdict::Broken } else { judge(&setup.scenario.expect, &checks) };
         let links = robot.links().iter().zip(sources);
         let warnings = setup.description.warnings.iter().chain(&setup.warnings);
+
         Self {
             format: "congruent-report/1",
             scenario: setup.scenario.name.clone(),
@@ -146,7 +159,7 @@ impl RunReport {
             expected: setup.scenario.expect.clone(),
             checks,
             stopped: outcome.stopped,
-            motions: motions(setup),
+            motions: motions(setup, &outcome.slowed),
             servos: outcome.servos,
             actuators: outcome.actuators,
             diagnoses: outcome.diagnoses,

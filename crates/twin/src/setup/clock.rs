@@ -36,6 +36,17 @@ impl RunClock {
         steps as f64 * self.step_s
     }
 
+    /// Number of steps if the run is longer by this time.
+    pub(crate) fn steps_with(&self, longer_s: f64) -> u64 {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "some seconds, not negative"
+        )]
+        let more = (longer_s / self.step_s - ROUNDING).ceil() as u64;
+        self.steps + more
+    }
+
     /// Without a duration the run ends with its motions.
     pub(super) fn new(
         settings: &SimulationSettings,

@@ -14,7 +14,7 @@ mod spaces;
 mod written_out;
 mod zones;
 
-pub(crate) use actuation::Sampling;
+pub(crate) use actuation::{ActuatorLimits, Sampling};
 pub use actuation::{ControllerSetup, SensorSetup, TorqueTable};
 pub use clock::RunClock;
 pub use declared_dynamics::DeclaredDynamics;

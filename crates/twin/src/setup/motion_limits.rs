@@ -1,8 +1,8 @@
-//! `[limits]` and the robot's own velocity limits as limits of its coordinates.
+//! `[limits]` and the robot's own limits as limits of its coordinates.
 
 use std::collections::BTreeMap;
 
-use congruent_description::{Diagnostic, Joint, Robot, known_names, units::Unit};
+use congruent_description::{Diagnostic, Joint, Robot, RobotDescription, known_names, units::Unit};
 
 use crate::{
     motion::MotionLimits,
@@ -20,12 +20,13 @@ type ToSi = fn(Unit, f64) -> f64;
 /// The name that stands for every joint of a kind.
 const EVERY: &str = "*";
 
-/// The limits that planned moves of this robot keep.
+/// The limits that planned moves of this robot keep: those of the scenario, of the robot file and of the URDF.
 pub(super) fn build(
     settings: &LimitSettings,
     place: FilePlace<'_>,
-    robot: &Robot,
+    description: &RobotDescription,
 ) -> Result<MotionLimits, Vec<Diagnostic>> {
+    let robot = &description.robot;
     let LimitSettings { over_limit, velocity_deg_s, velocity_rad_s, velocity_m_s, velocity_mm_s, .. } =
         settings;
     let LimitSettings { acceleration_deg_s2, acceleration_rad_s2, acceleration_m_s2, .. } = settings;
@@ -52,6 +53,10 @@ pub(super) fn build(
     if !reader.errors.is_empty() {
         return Err(reader.errors);
     }
+    for (acceleration, of_robot) in acceleration.iter_mut().zip(&description.accelerations) {
+        *acceleration = acceleration.min(of_robot.unwrap_or(f64::INFINITY));
+    }
+    let (declared_acceleration, declared_jerk) = (acceleration.clone(), jerk.clone());
     for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
         let own = robot.joint(joint).limit.and_then(|limit| limit.velocity).filter(|&limit| limit > 0.0);
         velocity[coordinate] = velocity[coordinate].min(own.unwrap_or(f64::INFINITY));
@@ -62,7 +67,8 @@ pub(super) fn build(
             jerk[coordinate] = acceleration[coordinate] / TO_ACCELERATION_S;
         }
     }
-    Ok(MotionLimits { velocity, acceleration, jerk, over_limit: *over_limit })
+    let over_limit = *over_limit;
+    Ok(MotionLimits { velocity, acceleration, jerk, declared_acceleration, declared_jerk, over_limit })
 }
 
 struct Reader<'a> {

@@ -106,15 +106,6 @@ impl Numbers {
 
     fn limits(&mut self, check: &Check) {
         match check {
-            Check::Agreement(check) => {
-                self.maybe("check.position_m", check.position_m, Range::Positive);
-                self.maybe("check.orientation_rad", check.orientation_rad, Range::Positive);
-            }
-            Check::Clearance(check) => self.one("check.minimum_m", check.minimum_m, Range::NonNegative),
-            Check::Goal(check) => {
-                self.one("check.position_m", check.position_m, Range::Positive);
-                self.maybe("check.orientation_rad", check.orientation_rad, Range::Positive);
-            }
             Check::CycleTime(check) => self.one("check.limit_s", check.limit_s, Range::Positive),
             Check::Dynamics(check) => self.maybe("check.relative", check.relative, Range::Positive),
             Check::Invariants(check) => self.maybe("check.rotation", check.rotation, Range::Positive),
@@ -124,11 +115,20 @@ impl Numbers {
             }
             Check::Power(check) => self.maybe("check.relative", check.relative, Range::Positive),
             Check::Tracking(check) => self.maybe("check.settling_s", check.settling_s, Range::NonNegative),
-            Check::Contact(_) | Check::Twist(_) | Check::Zone(_) => {}
+            Check::Agreement(_)
+            | Check::Clearance(_)
+            | Check::Contact(_)
+            | Check::Goal(_)
+            | Check::Twist(_)
+            | Check::Zone(_) => {}
         }
+        let range = match check {
+            Check::Agreement(_) | Check::Goal(_) => Range::Positive,
+            _ => Range::NonNegative,
+        };
         for keys in check.unit_keys() {
             for (key, value) in keys.keys.into_iter().zip(keys.written) {
-                self.maybe(&format!("check.{key}"), value, Range::NonNegative);
+                self.maybe(&format!("check.{key}"), value, range);
             }
         }
     }

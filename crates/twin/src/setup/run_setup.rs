@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::{
-    Diagnostic, Diagnostics, Joint, Robot, RobotDescription, RobotQ, RosPackages, Use, load_robot_with,
+    Diagnostic, Diagnostics, Robot, RobotDescription, RobotQ, RosPackages, Use, load_robot_with,
 };
 use congruent_dynamics::JointResistance;
 use congruent_kinematics::move_inside_limits;
 use congruent_simulation::Obstacle;
 
 use super::{
-    actuation::{Actuation, ControllerSetup, SensorSetup},
+    actuation::{Actuation, ActuatorLimits, ControllerSetup, SensorSetup},
     bodies::{Surroundings, mobility},
     clock::RunClock,
     declared_dynamics::DeclaredDynamics,
@@ -145,7 +145,7 @@ impl RunSetup {
         found.keep(check_head(&scenario, place));
         let written = keep_all(&mut found, start(&scenario.start, place.key("start"), robot));
         let start = inside_limits(written, robot, &mut warnings);
-        let limits = motion_limits::build(&scenario.limits, place.key("limits"), robot);
+        let limits = motion_limits::build(&scenario.limits, place.key("limits"), &description);
         let trajectory = keep_all(&mut found, limits).and_then(|limits| {
             let places = place.key("motion");
             let input = MotionInput { motions: &scenario.motion, places, limits: &limits, folder };
@@ -218,7 +218,6 @@ impl RunSetup {
         let context = CheckContext {
             description: &self.description,
             clock: &self.clock,
-            motions_s: self.trajectory.duration_s(),
             payloads: &self.payloads,
             dynamics: self.declared_dynamics(),
         };
@@ -237,14 +236,9 @@ impl RunSetup {
         DeclaredDynamics::new(&self.description.robot, &self.payloads, &self.resistances, gravity)
     }
 
-    /// The largest effort of each joint's actuator, N m or N; `f64::MAX` if it has no limit.
-    pub(crate) fn largest_efforts(&self) -> Vec<f64> {
-        let robot = &self.description.robot;
-        let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
-        // Zero is what descriptions write for unknown.
-        let has_limits = self.scenario.joints.enforce_limits;
-        let effort = |joint: &Joint| joint.limit?.effort.filter(|&effort| has_limits && effort > 0.0);
-        joints.map(|joint| effort(joint).unwrap_or(f64::MAX)).collect()
+    /// What each joint's actuator can do.
+    pub(crate) fn actuator_limits(&self) -> Vec<ActuatorLimits> {
+        ActuatorLimits::of(&self.description.robot, &self.scenario.joints)
     }
 }
 

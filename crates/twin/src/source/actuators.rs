@@ -1,9 +1,11 @@
 //! How far the actuators of a run were used, and how long their limits held them back.
 
-use congruent_description::Robot;
+use congruent_description::{Robot, display::quantity};
 use congruent_simulation::World;
 use schemars::JsonSchema;
 use serde::Serialize;
+
+use crate::setup::ActuatorLimits;
 
 /// The use of one joint's actuator in a run.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -20,6 +22,26 @@ pub struct ActuatorUse {
     pub at_effort_limit: f64,
     /// Share of the steps in which it would have driven the joint faster than its largest velocity.
     pub at_velocity_limit: f64,
+}
+
+impl ActuatorUse {
+    /// What a limit held back, in words; `None` if none did. `duration_s` is that of the run.
+    pub fn held_back(&self, duration_s: f64) -> Option<String> {
+        let time = |share: f64| quantity(share * duration_s, "s");
+        let limit = self.effort_limit.filter(|_| self.at_effort_limit > 0.0);
+        let effort = limit.map(|limit| {
+            format!(
+                "at its effort limit of {} for {}, largest {}",
+                quantity(limit, self.unit),
+                time(self.at_effort_limit),
+                quantity(self.largest_effort, self.unit)
+            )
+        });
+        let speed = (self.at_velocity_limit > 0.0)
+            .then(|| format!("at its velocity limit for {}", time(self.at_velocity_limit)));
+        let held: Vec<String> = effort.into_iter().chain(speed).collect();
+        (!held.is_empty()).then(|| format!("{} {}", self.joint, held.join("; ")))
+    }
 }
 
 /// Counts of all joints.
@@ -53,16 +75,16 @@ impl ActuatorCounts {
         }
     }
 
-    /// The use of every actuator; `efforts` are their limits, `f64::MAX` for none.
-    pub(super) fn report(&self, robot: &Robot, efforts: &[f64]) -> Vec<ActuatorUse> {
+    /// The use of every actuator; `limits` are what they can do.
+    pub(super) fn report(&self, robot: &Robot, limits: &[ActuatorLimits]) -> Vec<ActuatorUse> {
         #[expect(clippy::cast_precision_loss, reason = "steps are bounded far below 2^52")]
         let share = |count: u64| count as f64 / self.steps.max(1) as f64;
         let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
-        let rows = joints.zip(&self.joints).zip(efforts).filter(|((joint, _), _)| joint.mimic.is_none());
-        rows.map(|((joint, count), &limit)| ActuatorUse {
+        let rows = joints.zip(&self.joints).zip(limits).filter(|((joint, _), _)| joint.mimic.is_none());
+        rows.map(|((joint, count), limits)| ActuatorUse {
             joint: joint.name.clone(),
             largest_effort: count.largest_effort,
-            effort_limit: (limit < f64::MAX).then_some(limit),
+            effort_limit: (limits.effort < f64::MAX).then_some(limits.effort),
             unit: if joint.kind.is_angular() { "N m" } else { "N" },
             at_effort_limit: share(count.at_effort_limit),
             at_velocity_limit: share(count.at_velocity_limit),

@@ -3,6 +3,8 @@
 
 use congruent_description::{Joint, Robot, RobotQ};
 
+use crate::verdict::StopLimit;
+
 /// A stop from the full speed of a joint takes this long. Kind: engineering; a URDF states velocities, and no
 /// accelerations.
 const FROM_VELOCITY_S: f64 = 0.25;
@@ -10,11 +12,17 @@ const FROM_VELOCITY_S: f64 = 0.25;
 /// rad/s^2 (Franka Robotics).
 const ACCELERATION: f64 = 7.5;
 
-/// Accelerations with which a stop slows each movable joint down.
-pub(super) fn stop_accelerations(robot: &Robot) -> Vec<f64> {
+/// Accelerations with which a stop slows each movable joint down, and where each is from; `declared` has infinity for
+/// joints without a declared one.
+pub(crate) fn stop_accelerations(robot: &Robot, declared: &[f64]) -> Vec<(f64, StopLimit)> {
     let velocity = |joint: &Joint| joint.limit.and_then(|limit| limit.velocity).filter(|&limit| limit > 0.0);
     let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
-    joints.map(|joint| velocity(joint).map_or(ACCELERATION, |limit| limit / FROM_VELOCITY_S)).collect()
+    let acceleration = |(joint, &declared): (&Joint, &f64)| match velocity(joint) {
+        _ if declared.is_finite() => (declared, StopLimit::Declared),
+        Some(limit) => (limit / FROM_VELOCITY_S, StopLimit::FromVelocity),
+        None => (ACCELERATION, StopLimit::Assumed),
+    };
+    joints.zip(declared).map(acceleration).collect()
 }
 
 /// A setpoint that slows down and stays.
@@ -38,10 +46,10 @@ impl Braking {
         (q, qd): (&RobotQ, &[f64]),
         began_s: f64,
         robot: &Robot,
-        accelerations: &[f64],
+        accelerations: &[(f64, StopLimit)],
     ) -> Self {
         let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
-        let slowing = qd.iter().zip(accelerations).map(|(qd, acceleration)| qd.abs() / acceleration);
+        let slowing = qd.iter().zip(accelerations).map(|(qd, (acceleration, _))| qd.abs() / acceleration);
         let unlimited = (f64::NEG_INFINITY, f64::INFINITY);
         let range = |(joint, &q): (&Joint, &f64)| {
             let (lower, upper) = joint.position_range().unwrap_or(unlimited);
@@ -109,7 +117,7 @@ mod tests {
         parse_urdf(&text).unwrap()
     }
 
-    const LIMITS: [f64; 2] = [4.0, 1.0];
+    const LIMITS: [(f64, StopLimit); 2] = [(4.0, StopLimit::FromVelocity), (1.0, StopLimit::Declared)];
 
     #[test]
     fn all_joints_slow_down_alike_and_none_faster_than_its_limit() {
@@ -132,10 +140,13 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_slows_down_from_its_velocity_limit_in_a_quarter_of_a_second() {
-        assert_eq!(stop_accelerations(&robot()), [4.0, 4.0]);
+    fn a_joint_without_a_declared_acceleration_stops_from_its_velocity_limit_in_a_quarter_of_a_second() {
+        let declared = [f64::INFINITY, 1.0];
+        let limits = stop_accelerations(&robot(), &declared);
+        assert_eq!(limits, LIMITS);
         let unlimited = robot().with_joints(|joint| joint.limit = None);
-        assert_eq!(stop_accelerations(&unlimited), [ACCELERATION; 2]);
+        let limits = stop_accelerations(&unlimited, &declared);
+        assert_eq!(limits, [(ACCELERATION, StopLimit::Assumed), (1.0, StopLimit::Declared)]);
     }
 
     #[test]

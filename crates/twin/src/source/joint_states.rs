@@ -4,7 +4,7 @@ use congruent_description::RobotQ;
 use nalgebra::Isometry3;
 
 use super::actuators::ActuatorUse;
-use crate::motion::ServoResult;
+use crate::motion::{ServoResult, SlowedMotion};
 
 /// Positions, velocities and efforts of all movable joints of a robot at one instant.
 #[derive(Debug, Clone, Copy)]
@@ -92,6 +92,11 @@ pub trait JointStateSource {
     /// whether the source can do so; one that drives nothing cannot.
     fn begin_stop(&mut self) -> bool {
         false
+    }
+
+    /// Motions that were planned in the run and take longer than the scenario says: the run is as much longer.
+    fn slowed(&self) -> &[SlowedMotion] {
+        &[]
     }
 
     /// The results of the servos, for a source that drives the robot.

@@ -10,6 +10,7 @@ mod simulated_poses;
 mod simulation;
 
 pub use actuators::ActuatorUse;
+pub(crate) use braking::stop_accelerations;
 pub use joint_states::{
     JointSample, JointStateSource, JointStateView, SetpointView, SourceError, StepForces,
 };

@@ -16,7 +16,7 @@ use crate::{
     bodies::MovingBodies,
     control::JointController,
     fault::InjectedFaults,
-    motion::{ReferenceGenerator, ServoResult},
+    motion::{ReferenceGenerator, ServoResult, SlowedMotion},
     setup::RunSetup,
 };
 
@@ -232,12 +232,16 @@ impl JointStateSource for SimulationSource<'_> {
         if !self.setup.controller.has_actuators() {
             return Vec::new();
         }
-        self.actuators.report(&self.setup.description.robot, &self.setup.largest_efforts())
+        self.actuators.report(&self.setup.description.robot, &self.setup.actuator_limits())
+    }
+
+    fn slowed(&self) -> &[SlowedMotion] {
+        self.reference.slowed()
     }
 
     fn begin_stop(&mut self) -> bool {
         let robot = &self.setup.description.robot;
-        let accelerations = stop_accelerations(robot);
+        let accelerations = stop_accelerations(robot, self.setup.trajectory.declared_accelerations());
         let commanded = (self.reference.q(), self.reference.qd());
         self.braking = Some(Braking::new(commanded, self.world.time_s(), robot, &accelerations));
         true

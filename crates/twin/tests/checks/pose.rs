@@ -1,7 +1,10 @@
 //! `twist` and `invariants`.
 
 use congruent_twin::{
-    scenario::{Check, InvariantsCheck, Profile, TwistCheck},
+    scenario::{
+        AgreementCheck, Check, ClearanceCheck, GoalCheck, InvariantsCheck, OnViolation, PoseSettings,
+        Profile, TwistCheck,
+    },
     verdict::Status,
 };
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -121,4 +124,40 @@ fn without_velocities_there_is_no_twist() {
     let result = result_distorted(&setup, |said| said.measured_qd.clear());
     assert_eq!(result.status, Status::Skipped, "{result:#?}");
     notes(&result, "the source of joint states has no velocities");
+}
+
+/// A limit in engineering units is that in SI units, and a check of a distance needs one of both.
+#[test]
+fn limits_are_given_in_either_unit() {
+    let limits = |check: Check| -> Vec<f64> {
+        let result = result(&setup(scenario(servo(), check), &arm(&[])));
+        result.measures.iter().map(|measure| measure.limit).collect()
+    };
+    let agreement =
+        AgreementCheck { position_mm: Some(0.5), orientation_deg: Some(90.0), ..AgreementCheck::default() };
+    assert_eq!(limits(Check::Agreement(agreement)), [0.5e-3, std::f64::consts::FRAC_PI_2]);
+    let goal = |position_m, position_mm| {
+        Check::Goal(GoalCheck {
+            tcp: PoseSettings { xyz_m: Some([9.0, 0.0, 0.0]), ..PoseSettings::default() },
+            position_m,
+            position_mm,
+            orientation_rad: None,
+            orientation_deg: None,
+            on_violation: OnViolation::default(),
+        })
+    };
+    assert_eq!(limits(goal(None, Some(2.0))), [0.002]);
+    assert_eq!(refused(goal(None, None)), "scenario::no_limit: the check has no `position_m`");
+    assert!(refused(goal(Some(1.0), Some(2.0))).starts_with("scenario::two_units"));
+    let clearance = |minimum_m, minimum_mm| {
+        Check::Clearance(ClearanceCheck {
+            minimum_m,
+            minimum_mm,
+            pairs: Vec::new(),
+            ignore: Vec::new(),
+            on_violation: OnViolation::default(),
+        })
+    };
+    assert_eq!(refused(clearance(None, None)), "scenario::no_limit: the check has no `minimum_m`");
+    assert!(refused(clearance(Some(0.1), Some(2.0))).starts_with("scenario::two_units"));
 }

@@ -4,7 +4,7 @@ use congruent_twin::{
     Outcome, RunSetup,
     scenario::{Check, LimitsCheck, OnViolation},
     source::{JointSample, JointStateSource, SimulationSource, SourceError},
-    verdict::Status,
+    verdict::{Status, StopLimit},
 };
 use nalgebra::Isometry3;
 
@@ -38,6 +38,28 @@ fn in_playback_the_arm_slows_down_straight_on_within_its_accelerations() {
     // The others slow down alike: 0.7 rad of the shoulder for 0.8 rad of the elbow.
     assert!((moved[0] / moved[1] - 0.875).abs() < 1e-9, "{moved:?}");
     assert!(rest.tcp_path_m > 0.0);
+}
+
+/// The elbow may slow down with 7.5 rad/s^2, which is declared, and stops from v in v / 7.5.
+#[test]
+fn a_stop_keeps_the_declared_accelerations() {
+    let playback = stopped(controlled("kinematic", 0.0, 0.0));
+    let mut declared = playback.scenario.clone();
+    // The motion itself is as fast as it was: 5.77 of its way by the square of 0.8 s is 7.2 rad/s^2.
+    declared.limits.acceleration_rad_s2 = [("elbow".to_owned(), 7.5)].into();
+    let setup = setup(declared, &arm(&[]));
+    let outcome = outcome(&setup, None);
+    let stop = outcome.stopped.as_ref().unwrap();
+    let rest = stop.rest.as_ref().unwrap();
+    let speed = (2.0 * 7.5 * values(&rest.joints)[1]).sqrt();
+    assert!((1.0..1.02).contains(&speed), "{speed}");
+    assert!((rest.duration_s - speed / 7.5).abs() < 1.5e-3, "{rest:#?}");
+    let used: Vec<_> =
+        rest.accelerations.iter().map(|used| (used.joint.as_str(), used.limit, used.source)).collect();
+    let [from_velocity, declared] = [StopLimit::FromVelocity, StopLimit::Declared];
+    assert_eq!(used[..2], [("shoulder", 12.0, from_velocity), ("elbow", 7.5, declared)]);
+    let note = outcome.checks[0].notes.last().unwrap();
+    assert!(note.ends_with("(accelerations: as declared for 1 of 4 joints)"), "{note}");
 }
 
 #[test]

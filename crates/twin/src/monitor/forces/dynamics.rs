@@ -17,7 +17,7 @@ use crate::{
     scenario::DynamicsCheck,
     setup::DeclaredDynamics,
     source::StepForces,
-    verdict::Bound,
+    verdict::{Bound, InstantValue},
 };
 
 /// The limit of a check that gives none, for each second of a step. Kind: truncation, of first order in the step. Worst
@@ -29,7 +29,7 @@ pub(crate) const RELATIVE_PER_S: f64 = 30.0;
 const LEAST_ACCELERATION: f64 = 1.0;
 /// A joint with dry friction that is slower is at rest: its friction is then whatever holds it, rad/s and m/s. Kind:
 /// physics; friction that holds creeps by 4e-7 rad/s.
-const AT_REST: f64 = 1e-4;
+pub(super) const AT_REST: f64 = 1e-4;
 
 pub(crate) struct DynamicsMonitor<'a> {
     dynamics: DeclaredDynamics<'a>,
@@ -157,6 +157,10 @@ impl Monitor for DynamicsMonitor<'_> {
         let measure = self.torque.measure(&names.joints, |joint| names.joints[joint].clone());
         let notes = self.left_out.notes(self.compared);
         Observed { samples: self.compared, measures: vec![measure], notes, ..Observed::default() }
+    }
+
+    fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {
+        [&self.torque].into_iter().filter_map(|watch| watch.at(time_s)).for_each(take);
     }
 
     fn has_failed(&self) -> bool {

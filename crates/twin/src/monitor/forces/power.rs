@@ -8,14 +8,14 @@
 use congruent_description::{Robot, display::quantity};
 use nalgebra::DMatrix;
 
-use super::left_out::LeftOut;
+use super::{dynamics::AT_REST, left_out::LeftOut};
 use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, names::ALL_JOINTS, watch::Watch},
     sample::Sample,
     scenario::PowerCheck,
     setup::{DeclaredDynamics, Payload},
     source::StepForces,
-    verdict::Bound,
+    verdict::{Bound, InstantValue},
 };
 
 /// The limit of a check that gives none, for each second of a step. Kind: truncation, of first order in the step. Worst
@@ -102,8 +102,11 @@ impl<'a> PowerMonitor<'a> {
             let mean_qd = 0.5 * (truth.qd[joint] + before.qd[joint]);
             let way = mean_qd * step_s;
             work_j += truth.effort[joint] * way;
-            lifted_j += 0.5 * (self.now.gravity[joint] + before.state.gravity[joint]) * way;
-            lost_j += resistance.damping * mean_qd * way + resistance.friction * way.abs();
+            let gravity = 0.5 * (self.now.gravity[joint] + before.state.gravity[joint]);
+            lifted_j += gravity * way;
+            let holding = truth.effort[joint] - gravity;
+            lost_j += resistance.damping * mean_qd * way;
+            lost_j += friction(resistance.friction, mean_qd, holding) * way;
             self.moved_j += (truth.effort[joint] * way).abs();
         }
         self.moved_j += lifted_j.abs();
@@ -124,6 +127,11 @@ impl<'a> PowerMonitor<'a> {
         self.before.qd.copy_from_slice(sample.joints.truth.qd);
         Some(())
     }
+}
+
+/// The torque that dry friction takes from a joint. One that it holds creeps, with the torque that holds it.
+fn friction(largest: f64, qd: f64, holding: f64) -> f64 {
+    if qd.abs() < AT_REST { holding.clamp(-largest, largest) } else { largest.copysign(qd) }
 }
 
 /// The mass that joints move.
@@ -158,7 +166,32 @@ impl Monitor for PowerMonitor<'_> {
         Observed { samples: self.compared, measures: vec![measure], notes, ..Observed::default() }
     }
 
+    fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {
+        [&self.watch].into_iter().filter_map(|watch| watch.at(time_s)).for_each(take);
+    }
+
     fn has_failed(&self) -> bool {
         self.watch.is_violated()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An arm of 0.6 kg that 5 N m of friction hold against 0.5 N m creeps by 1e-5 rad/s: in 5 s 2.5e-5 J, not 2.5e-4 J.
+    #[test]
+    fn friction_that_holds_takes_what_holds() {
+        for (qd, holding, expected) in [
+            (1e-5, 0.5, 0.5),
+            (1e-5, -0.5, -0.5),
+            (1e-5, 8.0, 5.0),
+            (-1e-5, -8.0, -5.0),
+            (0.1, 0.5, 5.0),
+            (-0.1, 0.5, -5.0),
+        ] {
+            let torque = friction(5.0, qd, holding);
+            assert!((torque - expected).abs() < 1e-12, "{qd} rad/s, {holding} N m: {torque}");
+        }
     }
 }

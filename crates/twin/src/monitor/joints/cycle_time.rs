@@ -20,7 +20,6 @@ pub(crate) struct CycleTimeMonitor {
     kinds: Vec<JointKind>,
     /// Of joints that slide, of joints that turn.
     tolerances: [f64; 2],
-    motions_s: f64,
     /// Half a step: times of samples are rounded.
     slack_s: f64,
     time: Watch,
@@ -36,7 +35,6 @@ impl CycleTimeMonitor {
         Self {
             kinds: context.joint_kinds(),
             tolerances: [sliding, turning],
-            motions_s: context.motions_s,
             slack_s: context.clock.step_s / 2.0,
             time: Watch::new("cycle_time", "s", Bound::AtMost, check.limit_s, context.dof()),
             since_s: None,
@@ -48,7 +46,7 @@ impl CycleTimeMonitor {
     /// The first joint that is not at the end of the last motion, or not at rest.
     fn unfinished(&self, sample: &Sample<'_>) -> Option<usize> {
         let (truth, setpoint) = (sample.joints.truth, sample.joints.setpoint?);
-        let is_under_way = sample.time_s < self.motions_s - self.slack_s;
+        let is_under_way = sample.time_s < sample.motions_s - self.slack_s;
         let is_there = |joint: usize| {
             let tolerance = self.tolerances[usize::from(self.kinds[joint].is_angular())];
             let speed = truth.qd.get(joint).copied().unwrap_or(0.0);

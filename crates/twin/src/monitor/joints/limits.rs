@@ -10,7 +10,7 @@ use crate::{
     sample::Sample,
     scenario::{FilePlace, LimitsCheck},
     source::StepForces,
-    verdict::Bound,
+    verdict::{Bound, InstantValue},
 };
 
 /// How far beyond a limit a joint counts as at it, rad and m, if the scenario does not say. Kind: digits of files. A
@@ -240,6 +240,10 @@ impl Monitor for LimitsMonitor {
         let seen = self.watches().into_iter().filter(|watch| watch.worst().is_some());
         let measures = seen.map(|watch| watch.measure(&names.joints, name)).collect();
         Observed { samples: self.samples, measures, notes: self.notes(names), ..Observed::default() }
+    }
+
+    fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {
+        self.watches().into_iter().filter_map(|watch| watch.at(time_s)).for_each(take);
     }
 
     fn has_failed(&self) -> bool {

@@ -9,7 +9,7 @@ use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
     sample::Sample,
     scenario::{FilePlace, TrackingCheck},
-    verdict::Bound,
+    verdict::{Bound, InstantValue},
 };
 
 /// Errors of joints that turn, of joints that slide, and of the TCP; `None` where the check has no limit.
@@ -257,6 +257,12 @@ impl Monitor for TrackingMonitor {
             );
         }
         Observed { samples: self.samples, measures, notes, ..Observed::default() }
+    }
+
+    fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {
+        let errors = [&self.path, &self.overshoot].into_iter();
+        let watches = errors.flat_map(|errors| [&errors.turning, &errors.sliding, &errors.tcp]);
+        watches.flatten().filter_map(|watch| watch.at(time_s)).for_each(take);
     }
 
     fn has_failed(&self) -> bool {

@@ -6,7 +6,7 @@ use crate::{
     monitor::{Monitor, Names, Observed, watch::Watch},
     sample::Sample,
     scenario::AgreementCheck,
-    verdict::Bound,
+    verdict::{Bound, InstantValue},
 };
 
 pub(crate) struct AgreementMonitor {
@@ -20,8 +20,9 @@ impl AgreementMonitor {
     /// Limits that are not given are the robot file's tolerance.
     pub(crate) fn new(check: &AgreementCheck, description: &RobotDescription) -> Self {
         let dof = description.robot.dof();
-        let position_m = check.position_m.unwrap_or(description.tolerance.position_m);
-        let orientation_rad = check.orientation_rad.unwrap_or(description.tolerance.orientation_rad);
+        let [position_m, orientation_rad] = check.limits();
+        let position_m = position_m.unwrap_or(description.tolerance.position_m);
+        let orientation_rad = orientation_rad.unwrap_or(description.tolerance.orientation_rad);
         Self {
             position: Watch::new("position", "m", Bound::AtMost, position_m, dof),
             orientation: Watch::new("orientation", "rad", Bound::AtMost, orientation_rad, dof),
@@ -59,6 +60,10 @@ impl Monitor for AgreementMonitor {
             notes: self.notes(),
             ..Observed::default()
         }
+    }
+
+    fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {
+        [&self.position, &self.orientation].into_iter().filter_map(|watch| watch.at(time_s)).for_each(take);
     }
 
     fn has_failed(&self) -> bool {

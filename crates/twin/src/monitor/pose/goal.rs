@@ -24,15 +24,17 @@ pub(crate) struct GoalMonitor {
 
 /// A pose needs both tolerances, a position one.
 pub(crate) fn examine(check: &GoalCheck, place: FilePlace<'_>) -> Result<Isometry3<f64>, Diagnostic> {
+    let [position, orientation] = check.unit_keys();
+    position.required(place)?;
     let place = place.key("tcp");
     let world_from_target = check.tcp.isometry(place)?;
-    if check.tcp.has_rotation() == check.orientation_rad.is_some() {
+    if check.tcp.has_rotation() == orientation.value().is_some() {
         return Ok(world_from_target);
     }
     let message = if check.tcp.has_rotation() {
-        "the goal has a rotation, but no tolerance `orientation_rad`"
+        "the goal has a rotation, but no tolerance `orientation_rad` (or `orientation_deg`)"
     } else {
-        "`orientation_rad` is the tolerance of a rotation, but the goal has none"
+        "`orientation_rad` (or `orientation_deg`) is the tolerance of a rotation, but the goal has none"
     };
     let error = Diagnostic::error("scenario::goal", message);
     Err(place.mark(error.with_help("give both for a pose, neither for a position")))
@@ -43,6 +45,7 @@ impl GoalMonitor {
     /// For a goal that [`examine`] rejects.
     pub(crate) fn new(check: &GoalCheck, description: &RobotDescription) -> Self {
         let world_from_target = examine(check, FilePlace::nowhere()).expect("a setup examines its checks");
+        let [position, orientation] = check.unit_keys().map(|keys| keys.value());
         let watch = |quantity, unit, limit: f64| {
             Watch::new(quantity, unit, Bound::AtMost, limit, description.robot.dof())
         };
@@ -50,8 +53,8 @@ impl GoalMonitor {
             world_from_target: Pose::from(world_from_target),
             tip: description.tip,
             tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
-            position: watch("position", "m", check.position_m),
-            orientation: check.orientation_rad.map(|limit| watch("orientation", "rad", limit)),
+            position: watch("position", "m", position.expect("a setup examines its checks")),
+            orientation: orientation.map(|limit| watch("orientation", "rad", limit)),
             samples: 0,
         }
     }

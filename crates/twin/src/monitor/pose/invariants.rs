@@ -9,7 +9,7 @@ use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
     sample::Sample,
     scenario::InvariantsCheck,
-    verdict::Bound,
+    verdict::{Bound, InstantValue},
 };
 
 /// Largest error of a rotation if a check gives none. No unit; kind: rounding of products along a chain. Worst seen in the
@@ -87,6 +87,13 @@ impl Monitor for InvariantsMonitor {
             self.not_finite.measure(&names.joints, joint),
         ];
         Observed { samples: self.samples, measures, ..Observed::default() }
+    }
+
+    fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {
+        [&self.offset, &self.tilt, &self.orthonormality, &self.determinant, &self.not_finite]
+            .into_iter()
+            .filter_map(|watch| watch.at(time_s))
+            .for_each(take);
     }
 
     fn has_failed(&self) -> bool {

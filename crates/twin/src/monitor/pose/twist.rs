@@ -13,7 +13,7 @@ use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
     sample::Sample,
     scenario::TwistCheck,
-    verdict::Bound,
+    verdict::{Bound, InstantValue},
 };
 
 /// Limits of a check that gives none, for each squared second of a step, m/s and rad/s. Kind: truncation, of second order
@@ -161,6 +161,10 @@ impl Monitor for TwistMonitor {
             ));
         }
         Observed { samples: self.samples, measures, notes, ..Observed::default() }
+    }
+
+    fn values(&self, time_s: f64, take: &mut dyn FnMut(InstantValue)) {
+        [&self.linear, &self.angular].into_iter().filter_map(|watch| watch.at(time_s)).for_each(take);
     }
 
     fn has_failed(&self) -> bool {

@@ -51,8 +51,10 @@ pub(crate) fn examine_pairs(
 }
 
 impl ClearanceMonitor {
+    /// # Panics
+    /// For a check that [`examine`] rejects, or without a distance.
     pub(crate) fn new(check: &ClearanceCheck, description: &RobotDescription) -> Self {
-        let minimum_m = check.minimum_m;
+        let minimum_m = check.unit_keys().value().expect("a setup examines its checks");
         let distance = watch(minimum_m, description.robot.dof());
         Self {
             names: PairNames { pairs: check.pairs.clone(), ignore: check.ignore.clone() },

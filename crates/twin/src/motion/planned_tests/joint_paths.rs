@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use super::{assert_derivatives, instants, move_to, planned, pose, refused, start, tcp};
+use super::{assert_derivatives, instants, move_to, planned, pose, refused, setup, start, tcp};
 use crate::{
     motion::reference_generator::ReferenceGenerator,
     scenario::{
-        Between, JointPathMotion, LineMotion, MotionSettings, PlaybackMotion, Profile, ServoMethod,
-        ServoMotion,
+        Between, JointPathMotion, LimitSettings, LineMotion, MotionSettings, OverLimit, PlaybackMotion,
+        Profile, ServoMethod, ServoMotion,
     },
 };
 
@@ -158,5 +158,71 @@ fn motions_after_a_servo_start_where_it_ended() {
     assert!(
         said.starts_with("motion 2, after a servo_tcp, cannot be planned") && said.contains("cannot go on"),
         "{said}"
+    );
+}
+
+/// The duration of a motion after a servo is too short wherever the servo ends: it takes longer, and what follows is later.
+#[test]
+fn a_motion_after_a_servo_is_slowed() {
+    let servo_tcp = pose((start() + Vector3::new(0.05, 0.05, 0.0)).into());
+    let (method, gain_per_s) = (ServoMethod::default(), Some(20.0));
+    let motions = || {
+        vec![
+            MotionSettings::Servo(ServoMotion {
+                servo_tcp: servo_tcp.clone(),
+                method,
+                gain_per_s,
+                duration_s: 1.0,
+            }),
+            move_to("shoulder_pan_joint", 120.0, Some(0.5), Profile::Quintic),
+            move_to("wrist_3_joint", 30.0, Some(0.4), Profile::Quintic),
+        ]
+    };
+    let slow = LimitSettings { over_limit: OverLimit::Slow, ..LimitSettings::default() };
+    let setup = setup(motions(), slow).unwrap();
+    let mut reference = ReferenceGenerator::new(&setup.trajectory, &setup.description).unwrap();
+    let (mut largest, mut before, mut ends) = (0.0_f64, reference.q().clone(), None);
+    for step in 1..=4000_u64 {
+        let time_s = setup.clock.time_s(step);
+        reference.advance(time_s, &before).unwrap();
+        if time_s > 1.0 {
+            largest = reference.qd().iter().fold(largest, |largest, qd| largest.max(qd.abs()));
+            let jump = reference.q().iter().zip(&before).map(|(now, before)| (now - before).abs());
+            assert!(jump.fold(0.0, f64::max) < 180.0_f64.to_radians() * 1.01e-3, "{time_s}");
+        }
+        before = reference.q().clone();
+        if ends.is_none() && (reference.q()[5] - 30.0_f64.to_radians()).abs() < 1e-12 {
+            ends = Some(time_s);
+        }
+    }
+    let [slowed] = reference.slowed() else { panic!("{:#?}", reference.slowed()) };
+    assert_eq!((slowed.motion, slowed.warning.code), (1, "scenario::slowed"));
+    // 1.875 of the way by the duration is 180 deg/s; the way is some degrees from 120, by where the servo ends.
+    let from = 120.0_f64 - largest.to_degrees() * (0.5 + slowed.longer_s) / 1.875;
+    assert!((largest.to_degrees() - 180.0).abs() < 2.0 && largest.to_degrees() <= 180.0, "{largest}");
+    assert!(from.abs() < 15.0 && slowed.longer_s > 0.5, "{from} {slowed:?}");
+    assert!((ends.unwrap() - (1.9 + slowed.longer_s)).abs() < 2e-3, "{ends:?}");
+    assert!((reference.q()[0].to_degrees() - 120.0).abs() < 1e-9);
+    // Without "slow" it ends the run.
+    let setup = planned(motions());
+    let mut reference = ReferenceGenerator::new(&setup.trajectory, &setup.description).unwrap();
+    let failed = (1..=1100).find_map(|step| {
+        let measured = reference.q().clone();
+        reference.advance(setup.clock.time_s(step), &measured).err()
+    });
+    assert!(failed.unwrap().to_string().contains("shoulder_pan_joint"));
+}
+
+#[test]
+fn the_accelerations_of_the_robot_file_are_kept_too() {
+    let mut description = super::ur5e();
+    description.accelerations[2] = Some(300.0_f64.to_radians());
+    let scenario =
+        super::elbow((1.25, Profile::Quintic), (Some(400.0), None, OverLimit::Slow)).unwrap().scenario;
+    let slow = crate::RunSetup::new(scenario, description).unwrap();
+    assert!((slow.trajectory.duration_s() - 1.52).abs() < 1e-9, "{}", slow.trajectory.duration_s());
+    let declared = slow.trajectory.declared_accelerations();
+    assert!(
+        (declared[2].to_degrees() - 300.0).abs() < 1e-9 && (declared[0].to_degrees() - 400.0).abs() < 1e-9
     );
 }

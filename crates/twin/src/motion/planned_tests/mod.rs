@@ -300,6 +300,70 @@ fn a_move_above_a_velocity_limit_is_refused_or_slowed() {
     planned(fast(1.25));
 }
 
+/// The elbow by 120 deg over a duration, under limits in degrees.
+fn elbow(
+    (duration_s, profile): (f64, Profile),
+    (acceleration, jerk, over_limit): (Option<f64>, Option<f64>, OverLimit),
+) -> Result<RunSetup, Vec<Diagnostic>> {
+    let every = |value: Option<f64>| value.map(|value| ("*".to_owned(), value)).into_iter().collect();
+    let limits = LimitSettings {
+        over_limit,
+        acceleration_deg_s2: every(acceleration),
+        jerk_deg_s3: every(jerk),
+        ..LimitSettings::default()
+    };
+    setup(vec![move_to("elbow_joint", -30.0, Some(duration_s), profile)], limits)
+}
+
+#[test]
+fn a_move_above_a_declared_acceleration_or_jerk_is_refused_or_slowed() {
+    // Peaks of a quintic: 10 / sqrt 3 of the way by the square of the duration, 60 by its cube; of a cubic 6 by the square.
+    for (profile, acceleration, jerk, said, least_s) in [
+        (Profile::Quintic, Some(300.0), None, "would accelerate at 443 deg/s^2 at ", 1.52),
+        (Profile::Quintic, None, Some(2000.0), "would have a jerk of 3686 deg/s^3", 1.54),
+        // Both are broken: what needs longer is told.
+        (Profile::Quintic, Some(300.0), Some(2000.0), "would have a jerk of 3686 deg/s^3", 1.54),
+        (Profile::Cubic, Some(300.0), None, "would accelerate at 461 deg/s^2 at", 1.55),
+        (Profile::JerkLimited, None, Some(2000.0), "would have a jerk of 3318 deg/s^3", 1.48),
+    ] {
+        let found = elbow((1.25, profile), (acceleration, jerk, OverLimit::Refuse)).map(|_| ()).unwrap_err();
+        assert_eq!(found[0].code, "scenario::over_limit");
+        assert!(found[0].message.contains(said), "{profile:?}: {found:#?}");
+        let help = found[0].help.clone().unwrap();
+        assert!(help.starts_with(&format!("{least_s} s instead of 1.25 s")), "{profile:?}: {help}");
+        let setup = elbow((1.25, profile), (acceleration, jerk, OverLimit::Slow)).unwrap();
+        assert!((setup.trajectory.duration_s() - least_s).abs() < 1e-9, "{profile:?}");
+        let largest = instants(&setup).iter().fold(0.0_f64, |largest, now| largest.max(now.qdd[2].abs()));
+        assert!(largest.to_degrees() < acceleration.unwrap_or(f64::INFINITY) + 1e-9, "{profile:?}");
+        elbow((least_s, profile), (acceleration, jerk, OverLimit::Refuse)).unwrap();
+    }
+    // No duration would keep a limit of what jumps.
+    elbow((1.25, Profile::Trapezoidal), (Some(400.0), Some(500.0), OverLimit::Refuse)).unwrap();
+    // Accelerations that nobody has declared are those of moves of least time alone.
+    elbow((1.25, Profile::Quintic), (None, None, OverLimit::Refuse)).unwrap();
+}
+
+/// The tool accelerates within its own limit, a joint beyond its declared one.
+#[test]
+fn a_line_keeps_the_declared_accelerations_of_joints() {
+    let to = start() + Vector3::new(0.1, 0.0, 0.0);
+    let fastest = |limit: f64| {
+        let every = BTreeMap::from([("*".to_owned(), limit)]);
+        setup(
+            vec![line(to.into(), 0.2, 0.0)],
+            LimitSettings { acceleration_deg_s2: every, ..LimitSettings::default() },
+        )
+    };
+    let free = fastest(1e4).unwrap();
+    let peak = |setup: &RunSetup| {
+        let qdd = instants(setup).into_iter().flat_map(|now| now.qdd);
+        qdd.fold(0.0_f64, |peak, qdd| peak.max(qdd.abs())).to_degrees()
+    };
+    let found = fastest(0.9 * peak(&free)).map(|_| ()).unwrap_err();
+    assert!(found[0].message.contains("would accelerate at") && found[0].message.contains("along the path"));
+    fastest(1.02 * peak(&free)).unwrap();
+}
+
 #[test]
 fn a_path_beyond_reach_says_where() {
     let from = start();

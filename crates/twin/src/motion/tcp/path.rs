@@ -316,7 +316,7 @@ impl Leg<'_> {
         );
         let help = format!(
             "more would exceed an acceleration of {} across the path",
-            quantity(rates.acceleration, "m/s2")
+            quantity(rates.acceleration, "m/s^2")
         );
         Some(self.place.mark(Diagnostic::warning("scenario::arc_speed", message).with_help(help)))
     }

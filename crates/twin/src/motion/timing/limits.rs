@@ -11,6 +11,10 @@ pub struct MotionLimits {
     pub acceleration: Vec<f64>,
     /// Largest jerks of moves of least time, rad/s^3 or m/s^3.
     pub jerk: Vec<f64>,
-    /// What happens to a move that breaks a velocity limit.
+    /// The accelerations among them that are declared, infinity for none: every planned move keeps them.
+    pub declared_acceleration: Vec<f64>,
+    /// The jerks that are declared, likewise.
+    pub declared_jerk: Vec<f64>,
+    /// What happens to a move that breaks a limit.
     pub over_limit: OverLimit,
 }

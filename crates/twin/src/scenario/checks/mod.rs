@@ -147,18 +147,15 @@ impl Check {
     /// The values that a file gives in one of two units.
     pub(crate) fn unit_keys(&self) -> Vec<UnitKeys> {
         match self {
+            Self::Agreement(check) => check.unit_keys().into(),
+            Self::Clearance(check) => vec![check.unit_keys()],
             Self::Contact(check) => vec![check.unit_keys()],
+            Self::Goal(check) => check.unit_keys().into(),
             Self::CycleTime(check) => check.unit_keys().into(),
             Self::Limits(check) => check.unit_keys().into(),
             Self::Tracking(check) => check.unit_keys().into(),
             Self::Twist(check) => check.unit_keys().into(),
-            Self::Agreement(_)
-            | Self::Clearance(_)
-            | Self::Dynamics(_)
-            | Self::Goal(_)
-            | Self::Invariants(_)
-            | Self::Power(_)
-            | Self::Zone(_) => Vec::new(),
+            Self::Dynamics(_) | Self::Invariants(_) | Self::Power(_) | Self::Zone(_) => Vec::new(),
         }
     }
 }

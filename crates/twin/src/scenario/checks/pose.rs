@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     on_violation::OnViolation,
-    unit_keys::{UnitKeys, angular_speed, linear_speed},
+    unit_keys::{UnitKeys, angle, angular_speed, length, linear_speed},
 };
 use crate::scenario::{
-    number::{optional_non_negative, optional_positive, positive},
+    number::{optional_non_negative, optional_positive},
     pose::PoseSettings,
     text::variant,
 };
@@ -17,12 +17,18 @@ use crate::scenario::{
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AgreementCheck {
-    /// Largest distance of the origins of a link.
+    /// Largest distance of the origins of a link, in metres or in millimetres.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub position_m: Option<f64>,
-    /// Largest angle between the orientations of a link.
+    /// The same in millimetres.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub position_mm: Option<f64>,
+    /// Largest angle between the orientations of a link, in radians or in degrees.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub orientation_rad: Option<f64>,
+    /// The same in degrees.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub orientation_deg: Option<f64>,
     /// What follows its first violation.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -34,12 +40,18 @@ pub struct AgreementCheck {
 pub struct GoalCheck {
     /// Pose or position of the twin's TCP at the end, in the world.
     pub tcp: PoseSettings,
-    /// Largest distance from it.
-    #[serde(deserialize_with = "positive")]
-    pub position_m: f64,
-    /// Largest angle from it, if the goal has a rotation.
+    /// Largest distance from it, in metres or in millimetres.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub position_m: Option<f64>,
+    /// The same in millimetres.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub position_mm: Option<f64>,
+    /// Largest angle from it, in radians or in degrees, if the goal has a rotation.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub orientation_rad: Option<f64>,
+    /// The same in degrees.
+    #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
+    pub orientation_deg: Option<f64>,
     /// What follows its first violation.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
@@ -78,6 +90,33 @@ pub struct InvariantsCheck {
     /// What follows its first violation.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
+}
+
+/// A distance and an angle between poses, each in one of two units.
+fn of_a_pose(position: [Option<f64>; 2], orientation: [Option<f64>; 2]) -> [UnitKeys; 2] {
+    [
+        length(["position_m", "position_mm"], position),
+        angle(["orientation_rad", "orientation_deg"], orientation),
+    ]
+}
+
+impl AgreementCheck {
+    /// Position and orientation in SI units.
+    pub fn limits(&self) -> [Option<f64>; 2] {
+        self.unit_keys().map(|keys| keys.value())
+    }
+
+    /// The values that a file gives in one of two units: position, orientation.
+    pub(crate) fn unit_keys(&self) -> [UnitKeys; 2] {
+        of_a_pose([self.position_m, self.position_mm], [self.orientation_rad, self.orientation_deg])
+    }
+}
+
+impl GoalCheck {
+    /// The values that a file gives in one of two units: position, orientation.
+    pub(crate) fn unit_keys(&self) -> [UnitKeys; 2] {
+        of_a_pose([self.position_m, self.position_mm], [self.orientation_rad, self.orientation_deg])
+    }
 }
 
 impl TwistCheck {

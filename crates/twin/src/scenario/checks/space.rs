@@ -7,18 +7,18 @@ use super::{
     on_violation::OnViolation,
     unit_keys::{UnitKeys, length},
 };
-use crate::scenario::{
-    number::{non_negative, optional_non_negative},
-    text::variant,
-};
+use crate::scenario::{number::optional_non_negative, text::variant};
 
 /// Links come no closer to each other and to obstacles than this.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClearanceCheck {
-    /// Smallest distance.
-    #[serde(deserialize_with = "non_negative")]
-    pub minimum_m: f64,
+    /// Smallest distance, in metres or in millimetres.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub minimum_m: Option<f64>,
+    /// The same in millimetres.
+    #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
+    pub minimum_mm: Option<f64>,
     /// Only these pairs of links and obstacles are checked, in either order; in a name, `*` stands for any
     /// characters. All pairs if it is left out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -60,6 +60,13 @@ pub struct ZoneCheck {
     /// What follows its first violation.
     #[serde(default, deserialize_with = "variant")]
     pub on_violation: OnViolation,
+}
+
+impl ClearanceCheck {
+    /// The distance.
+    pub(crate) fn unit_keys(&self) -> UnitKeys {
+        length(["minimum_m", "minimum_mm"], [self.minimum_m, self.minimum_mm])
+    }
 }
 
 impl ContactCheck {

@@ -41,6 +41,17 @@ impl UnitKeys {
         si.or(engineering.map(|value| self.unit.convert(value)))
     }
 
+    /// Refuses a check without this value.
+    pub(crate) fn required(&self, place: FilePlace<'_>) -> Result<(), Diagnostic> {
+        if self.value().is_some() {
+            return Ok(());
+        }
+        let [si, engineering] = self.keys;
+        let message = format!("the check has no `{si}`");
+        let error = Diagnostic::error("scenario::no_limit", message);
+        Err(place.mark(error.with_help(format!("give `{si}` or `{engineering}`"))))
+    }
+
     /// Refuses a value that is given in both units.
     pub(crate) fn examine(&self, place: FilePlace<'_>) -> Result<(), Diagnostic> {
         let [Some(_), Some(_)] = self.written else { return Ok(()) };

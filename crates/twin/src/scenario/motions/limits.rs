@@ -10,13 +10,14 @@ use crate::scenario::text::variant;
 /// Values by joint; `*` stands for every joint of this kind (turning or sliding) that is not named.
 type ByJoint = BTreeMap<String, f64>;
 
-/// `[limits]`: of planned moves. Velocities are those of the description, or lower ones that are given here. If none is
-/// given, a joint's acceleration limit is what reaches its velocity limit in 0.25 s, its jerk limit what reaches the
-/// acceleration limit in 0.1 s; both are kept by moves of least time, that is without `duration_s`.
+/// `[limits]`: of planned moves. Velocities are those of the description, accelerations those under `[limits]` of the robot
+/// file, or lower ones that are given here. If none is given, a joint's acceleration limit is what reaches its velocity limit
+/// in 0.25 s, its jerk limit what reaches the acceleration limit in 0.1 s; these are kept by moves of least time alone, that
+/// is without `duration_s`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitSettings {
-    /// What happens to a move that breaks a velocity limit: `refuse` or `slow`.
+    /// What happens to a move that breaks a limit: `refuse` or `slow`.
     #[serde(default, deserialize_with = "variant")]
     pub over_limit: OverLimit,
     /// Velocities by joint, in degrees per second.
@@ -57,7 +58,7 @@ pub struct LimitSettings {
     pub jerk_mm_s3: ByJoint,
 }
 
-/// What happens to a planned move that breaks a velocity limit.
+/// What happens to a planned move that breaks a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OverLimit {
