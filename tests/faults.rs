@@ -151,6 +151,14 @@ fn a_wrong_fault_is_refused_at_its_place() {
     refused("kinematic", share, "scenario::fault_value", "share", "");
     let same = "kind = \"swapped_joints\"\njoints = [\"elbow_joint\", \"elbow_joint\"]";
     refused("kinematic", same, "scenario::fault_value", "joints = [\"elbow", "another joint");
+    for (time_s, help) in [("0.0015", "1 ms or 2 ms"), ("0.0004", "give 1 ms"), ("-0.001", ""), ("nan", "")] {
+        let latency = format!("kind = \"latency\"\ntime_s = {time_s}");
+        refused("kinematic", &latency, "scenario::fault_value", "time_s", help);
+    }
+    for mass_kg in ["1e9", "-1.0", "nan", "inf", "0.0"] {
+        let load = format!("kind = \"wrong_payload\"\nmass_kg = {mass_kg}");
+        refused("gravity_compensation", &load, "scenario::fault_value", "mass_kg", "");
+    }
     let key = format!("{offset}value_deg = 1\nshare = 0.5");
     refused("kinematic", &key, "toml::unknown_key", "share", "encoder_offset");
     let twice = "kind = \"flipped_axis\"\njoint = \"elbow_joint\"\n[[fault]]\nkind = \"swapped_joints\"\n\

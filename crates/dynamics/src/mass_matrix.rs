@@ -33,7 +33,7 @@ impl BodyTree {
             return Err(DynamicsError::Length { what: "mass matrix", expected: n, found });
         }
         self.turn(q, buffer);
-        mass_matrix.fill(0.0);
+        mass_matrix.as_mut_slice().fill(0.0);
         Arch::new().dispatch(CompositeBodies { tree: self, q, buffer, mass_matrix });
         Ok(())
     }
@@ -63,16 +63,16 @@ impl WithSimd for CompositeBodies<'_> {
             let BodyValues { composite, rooted, .. } = buffer.values[joint];
             let own = composite.accelerated_along(rooted.axis(), &body.frame);
             buffer.values[joint].wrench = own;
-            mass_matrix[(joint, joint)] =
-                body.frame.along(rooted.axis(), &own) + tree.resistances[joint].armature;
+            let column = &mut mass_matrix.as_mut_slice()[joint * tree.dof()..];
+            column[joint] = body.frame.along(rooted.axis(), &own) + tree.resistances[joint].armature;
             let Some(parent) = body.parent else { continue };
             let above = &mut buffer.values[parent];
             above.composite = above.composite.with_child(&composite, rooted.offset);
             // The wrenches of all joints that this one carries go on together: none waits for another.
             let (frame, axis) = (&tree.bodies[parent].frame, above.rooted.axis());
             let carried = &mut buffer.values[joint..body.subtree_end];
-            let column = &mut mass_matrix.column_mut(parent);
-            for (values, entry) in carried.iter_mut().zip(column.iter_mut().skip(joint)) {
+            let column = &mut mass_matrix.as_mut_slice()[parent * tree.dof()..];
+            for (values, entry) in carried.iter_mut().zip(&mut column[joint..body.subtree_end]) {
                 values.wrench = rooted.wrench_on_parent(&values.wrench);
                 *entry = frame.along(axis, &values.wrench);
             }

@@ -11,7 +11,7 @@ use crate::{
     diagnosis::{RunDiagnosis, SampleStore, diagnose},
     monitor::{Names, RunningCheck},
     motion::{ServoResult, SlowedMotion},
-    proximity::{Carried, Clearance, PairChoice, ProximityError},
+    proximity::{Clearance, PairChoice, ProximityError},
     recorder::{Recorder, RecordingError},
     sample::Sample,
     setup::RunSetup,
@@ -220,10 +220,7 @@ impl<'a> Run<'a> {
     fn move_bodies(&mut self) {
         let time_s = self.setup.clock.time_s(self.source.step_count());
         self.bodies.advance(time_s, |link| self.root_from_links[link.get()]);
-        for (obstacle, pose, is_carried) in self.bodies.poses() {
-            let carried = if is_carried { Carried::Yes } else { Carried::No };
-            self.clearance.move_obstacle(obstacle, pose, carried);
-        }
+        self.bodies.move_in(&mut self.clearance);
         self.clearance.move_links(&self.root_from_links);
         self.zones.move_links(&self.root_from_links);
     }

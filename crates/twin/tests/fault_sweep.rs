@@ -12,8 +12,9 @@ use congruent_twin::{
     scenario::{
         AddedFrictionFault, AgreementCheck, Check, ControllerSettings, DroppedSamplesFault,
         EncoderDriftFault, EncoderOffsetFault, FaultKind, FaultSettings, GoalCheck, JointFault, JointMotion,
-        LatencyFault, MotionSettings, OnViolation, PoseSettings, Profile, ScaledTorqueFault, Scenario,
-        ShiftedToolFault, StartSettings, SwappedJointsFault, WrongPayloadFault,
+        LatencyFault, MotionSettings, ObstacleSettings, OnViolation, PathPoseSettings, PayloadSettings,
+        PoseSettings, Profile, ScaledTorqueFault, Scenario, SensorSettings, ShiftedToolFault, StartSettings,
+        SwappedJointsFault, WrongPayloadFault,
     },
 };
 use rand_chacha::{
@@ -45,6 +46,30 @@ fn joints(robot: &Robot) -> Vec<String> {
     let moving = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     let arm = moving.filter(|joint| joint.kind != JointKind::Prismatic && joint.mimic.is_none());
     arm.map(|joint| joint.name.clone()).collect()
+}
+
+/// Encoders of the sweep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Encoders {
+    Exact,
+    Coarse,
+    Noisy,
+    VeryNoisy,
+}
+
+impl Encoders {
+    const ALL: [Self; 4] = [Self::Exact, Self::Coarse, Self::Noisy, Self::VeryNoisy];
+
+    fn settings(self) -> SensorSettings {
+        let mut settings = SensorSettings::default();
+        match self {
+            Self::Exact => {}
+            Self::Coarse => settings.resolution_rad = Some(1e-4.into()),
+            Self::Noisy => settings.noise_rad = Some(1e-4.into()),
+            Self::VeryNoisy => settings.noise_rad = Some(1e-3.into()),
+        }
+        settings
+    }
 }
 
 /// Largest torque of a joint, N m, or of a wrist if the description gives none.
@@ -196,36 +221,46 @@ struct Count {
 }
 
 /// `each` random faults of every kind on every robot.
-fn sweep(robots: &[&str], each: usize, seed: u64) -> BTreeMap<FaultKind, Count> {
-    let mut counts: BTreeMap<FaultKind, Count> = BTreeMap::new();
+fn sweep(robots: &[&str], each: usize, seed: u64, encoders: Encoders) -> BTreeMap<FaultKind, Count> {
+    let mut counts = BTreeMap::<FaultKind, Count>::new();
     let mut draw = Draw(ChaCha8Rng::seed_from_u64(seed));
     for path in robots {
         let description = load_robot(Path::new(path)).unwrap();
         for kind in FaultKind::ALL {
             for _ in 0..each {
                 let fault = fault(kind, &description.robot, &mut draw);
-                let scenario = scenario(Some(fault), &description, &mut draw);
+                let mut scenario = scenario(Some(fault), &description, &mut draw);
+                scenario.sensors = encoders.settings();
                 let (injected, found) = run(scenario, &description);
-                let faults: Vec<RunFault> = found.iter().flat_map(RunDiagnosis::run_faults).collect();
-                let count = counts.entry(kind).or_default();
-                let judgement = judge(&injected, &faults);
-                match judgement {
-                    Judgement::Right => count.right += 1,
-                    Judgement::OtherValue => count.other_value += 1,
-                    Judgement::Wrong => count.wrong += 1,
-                    Judgement::Nothing => count.nothing += 1,
-                }
-                if matches!(judgement, Judgement::Right | Judgement::OtherValue) {
-                    count.in_time += usize::from((faults[0].from_s - injected[0].from_s).abs() < 0.02);
-                }
+                let judgement = counts.entry(kind).or_default().add(&injected, found.as_ref());
                 if judgement != Judgement::Right {
                     let said = found.map(|found| found.sentences()).unwrap_or_default();
-                    show(&format!("{path}: {} -> {judgement:?} {said:?}", injected[0].sentence()));
+                    show(&format!(
+                        "{path} {encoders:?}: {} -> {judgement:?} {said:?}",
+                        injected[0].sentence()
+                    ));
                 }
             }
         }
     }
     counts
+}
+
+impl Count {
+    fn add(&mut self, injected: &[RunFault], found: Option<&RunDiagnosis>) -> Judgement {
+        let faults: Vec<RunFault> = found.into_iter().flat_map(RunDiagnosis::run_faults).collect();
+        let judgement = judge(injected, &faults);
+        match judgement {
+            Judgement::Right => self.right += 1,
+            Judgement::OtherValue => self.other_value += 1,
+            Judgement::Wrong => self.wrong += 1,
+            Judgement::Nothing => self.nothing += 1,
+        }
+        if matches!(judgement, Judgement::Right | Judgement::OtherValue) {
+            self.in_time += usize::from((faults[0].from_s - injected[0].from_s).abs() < 0.02);
+        }
+        judgement
+    }
 }
 
 #[expect(clippy::print_stderr, reason = "what a test shows if it fails, or is asked to")]
@@ -234,11 +269,12 @@ fn show(line: &str) {
 }
 
 const UR5E: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/ur5e");
+const RRR_ARM: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/rrr_arm");
 const PANDA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/panda");
 
 #[test]
 fn most_random_faults_are_diagnosed() {
-    let counts = sweep(&[UR5E, PANDA], 3, 1);
+    let counts = sweep(&[UR5E, PANDA], 3, 1, Encoders::Exact);
     for (kind, count) in &counts {
         show(&format!("{kind}: {count:?}"));
         assert!(count.wrong + count.nothing <= 2, "{kind}: {count:?}");
@@ -249,29 +285,120 @@ fn most_random_faults_are_diagnosed() {
 }
 
 #[test]
+fn noise_and_coarse_steps_do_not_make_a_fault_another_one() {
+    for encoders in [Encoders::Coarse, Encoders::Noisy, Encoders::VeryNoisy] {
+        let counts = sweep(&[UR5E], 2, 11, encoders);
+        let sum = |of: fn(&Count) -> usize| counts.values().map(of).sum::<usize>();
+        let (right, wrong) = (sum(|count| count.right), sum(|count| count.wrong));
+        assert!(wrong <= 1 && right >= 14, "{encoders:?}: {right} right, {wrong} wrong of 24");
+    }
+}
+
+#[test]
 fn nothing_is_found_without_a_fault() {
     let mut draw = Draw(ChaCha8Rng::seed_from_u64(5));
     for path in [UR5E, PANDA] {
         let description = load_robot(Path::new(path)).unwrap();
-        for _ in 0..6 {
-            let scenario = scenario(None, &description, &mut draw);
-            assert_eq!(run(scenario, &description).1, None, "{path}");
+        for encoders in Encoders::ALL {
+            for _ in 0..3 {
+                let mut scenario = scenario(None, &description, &mut draw);
+                scenario.sensors = encoders.settings();
+                assert_eq!(run(scenario, &description).1, None, "{path} {encoders:?}");
+            }
         }
     }
+}
+
+#[test]
+#[ignore = "known to fail: added friction is found in joints of a robot whose other actuators are at their limit"]
+fn actuators_at_their_limit_are_no_fault() {
+    let (mut draw, mut saturated) = (Draw(ChaCha8Rng::seed_from_u64(6)), 0);
+    for (path, mass_kg) in [(UR5E, 15.0), (UR5E, 40.0), (PANDA, 12.0), (PANDA, 40.0)] {
+        let description = load_robot(Path::new(path)).unwrap();
+        for encoders in [Encoders::Exact, Encoders::Noisy] {
+            let mut scenario = scenario(None, &description, &mut draw);
+            scenario.sensors = encoders.settings();
+            scenario.payload =
+                vec![PayloadSettings { name: "load".to_owned(), mass_kg, ..PayloadSettings::default() }];
+            let setup = RunSetup::new(scenario, description.clone()).unwrap();
+            let (outcome, result) =
+                Run::new(&setup).unwrap().finish(&mut setup.checks(), &mut NoRecorder, |_| ());
+            result.unwrap();
+            saturated += usize::from(outcome.actuators.iter().any(|joint| joint.at_effort_limit > 0.1));
+            assert_eq!(outcome.diagnosis, None, "{path} {encoders:?}, {mass_kg} kg");
+        }
+    }
+    assert!(saturated >= 4, "{saturated} of 8");
+}
+
+/// What is found of these faults in a run of the sweep with `change`.
+fn found(faults: Vec<FaultSettings>, seed: u64, change: impl Fn(&mut Scenario)) -> (Judgement, Vec<String>) {
+    let description = load_robot(Path::new(UR5E)).unwrap();
+    let mut draw = Draw(ChaCha8Rng::seed_from_u64(seed));
+    let mut scenario = scenario(None, &description, &mut draw);
+    scenario.fault = faults;
+    change(&mut scenario);
+    let (injected, found) = run(scenario, &description);
+    let faults: Vec<RunFault> = found.iter().flat_map(RunDiagnosis::run_faults).collect();
+    (judge(&injected, &faults), found.map(|found| found.sentences()).unwrap_or_default())
+}
+
+fn scaled_torque() -> FaultSettings {
+    let joint = "shoulder_lift_joint".to_owned();
+    FaultSettings::ScaledTorque(ScaledTorqueFault { joint, share: 0.7, at_s: 0.5, until_s: None })
+}
+
+#[test]
+fn an_encoder_that_is_off_does_not_hide_a_fault_of_an_effort() {
+    let joint = || "shoulder_lift_joint".to_owned();
+    let offset = EncoderOffsetFault { joint: joint(), value_deg: Some(1.0), at_s: 0.3, ..Default::default() };
+    let drift =
+        EncoderDriftFault { joint: joint(), rate_deg_per_s: Some(1.0), at_s: 0.3, ..Default::default() };
+    let dropped = DroppedSamplesFault { share: 0.3, at_s: 0.3, until_s: None };
+    let encoders = [
+        FaultSettings::EncoderOffset(offset),
+        FaultSettings::EncoderDrift(drift),
+        FaultSettings::DroppedSamples(dropped),
+    ];
+    for (seed, fault) in (20..).zip(encoders) {
+        for encoders in [Encoders::Exact, Encoders::Noisy] {
+            let (judgement, said) = found(vec![fault.clone(), scaled_torque()], seed, |scenario| {
+                scenario.sensors = encoders.settings();
+            });
+            assert_eq!(judgement, Judgement::Right, "{encoders:?}: {said:?}");
+        }
+    }
+}
+
+#[test]
+fn an_obstacle_that_comes_late_does_not_hide_what_was_before() {
+    let pose = |at_s, z| PathPoseSettings { at_s, xyz_m: Some([0.0, 0.0, z]), ..Default::default() };
+    let (judgement, said) = found(vec![scaled_torque()], 30, |scenario| {
+        // At the end of the run it is in the shoulder, from below.
+        let path = vec![pose(0.0, -0.4), pose(2.0, -0.4), pose(2.4, 0.05)];
+        let name = "late".to_owned();
+        let late = ObstacleSettings { name, sphere_radius_m: Some(0.05), path, ..Default::default() };
+        scenario.obstacle = vec![late];
+    });
+    assert_eq!(judgement, Judgement::Right, "{said:?}");
 }
 
 #[test]
 #[ignore = "hundreds of runs: run it after a change of thresholds or hypotheses; FAULT_ROBOTS adds robots, divided by `:`"]
 fn table_of_random_faults() {
     let more = std::env::var("FAULT_ROBOTS").unwrap_or_default();
+    let each = std::env::var("FAULTS_OF_EACH_KIND").ok().and_then(|each| each.parse().ok()).unwrap_or(20);
     let robots: Vec<&str> =
-        [UR5E, PANDA].into_iter().chain(more.split(':').filter(|path| !path.is_empty())).collect();
-    let counts = sweep(&robots, 20, 2);
-    for (kind, count) in &counts {
-        show(&format!("{kind}: {count:?}"));
+        [UR5E, PANDA, RRR_ARM].into_iter().chain(more.split(':').filter(|path| !path.is_empty())).collect();
+    for encoders in Encoders::ALL {
+        let counts = sweep(&robots, each, 2, encoders);
+        for (kind, count) in &counts {
+            show(&format!("{encoders:?} {kind}: {count:?}"));
+        }
+        let right: usize = counts.values().map(|count| count.right).sum();
+        let wrong: usize = counts.values().map(|count| count.wrong).sum();
+        let all = robots.len() * each * FaultKind::ALL.len();
+        show(&format!("{encoders:?}: {right} right, {wrong} wrong of {all}"));
+        assert!(encoders != Encoders::Exact || right * 10 >= all * 9, "{right} of {all}");
     }
-    let right: usize = counts.values().map(|count| count.right).sum();
-    let all = robots.len() * 20 * FaultKind::ALL.len();
-    show(&format!("right: {right} of {all}"));
-    assert!(right * 10 >= all * 9, "{right} of {all}");
 }

@@ -5,6 +5,7 @@ use congruent_simulation::Obstacle;
 use nalgebra::Isometry3;
 
 use super::moving_body::{BodyCourse, Grasp, MovingBody, on_path};
+use crate::proximity::{Carried, Clearance};
 
 /// The moving obstacles of a run with their present poses.
 #[derive(Debug, Clone)]
@@ -37,6 +38,13 @@ impl<'a> MovingBodies<'a> {
                 BodyCourse::Path(path) => state.world_from_obstacle = on_path(path, time_s),
                 BodyCourse::Grasps(grasps) => state.follow(grasps, time_s, &root_from_link),
             }
+        }
+    }
+
+    /// Moves them in `clearance` to where they are; takes effect with [`Clearance::move_links`].
+    pub(crate) fn move_in(&self, clearance: &mut Clearance) {
+        for (obstacle, pose, is_carried) in self.poses() {
+            clearance.move_obstacle(obstacle, pose, if is_carried { Carried::Yes } else { Carried::No });
         }
     }
 

@@ -5,7 +5,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
-    actuator, encoder,
+    actuator,
+    encoder::{self, DISTINCT, EncoderFaults},
     fit::Fit,
     observed::Observed,
     payload,
@@ -13,7 +14,9 @@ use super::{
     store::SampleStore,
     stuck, tool, transport,
 };
-use crate::{fault::RunFault, proximity::Clearance, setup::RunSetup};
+use crate::{
+    bodies::MovingBodies, fault::RunFault, proximity::Clearance, scenario::FaultKind, setup::RunSetup,
+};
 
 /// What is wrong with the twin, from the samples of the run alone.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
@@ -31,7 +34,8 @@ pub struct FoundFault {
     /// The fault.
     #[serde(flatten)]
     pub fault: RunFault,
-    /// The part of the difference that it leaves: root mean squares of what remains over what there was.
+    /// The part of the difference that it leaves beyond the noise of the encoders: root mean squares of what remains over what
+    /// there was.
     pub remaining: f64,
 }
 
@@ -60,12 +64,13 @@ pub(crate) fn diagnose(
     clearance: &mut Clearance,
 ) -> Option<RunDiagnosis> {
     let observed = Observed::new(store, &setup.description.robot, &setup.clock);
-    let mut search = Search { observed: &observed, open: observed.independent_joints(), found: Vec::new() };
+    let open = observed.independent_joints();
+    let mut search = Search { observed, open, found: Vec::new(), unexplained: Vec::new() };
     search.poses();
-    let unexplained = search.unexplained();
-    let first_contact = first_contact(&observed, clearance);
+    let mut bodies = MovingBodies::new(&setup.bodies, &setup.obstacles);
+    let first_contact = first_contact(&search.observed, &mut bodies, clearance);
     search.efforts(setup, first_contact).ok()?;
-    let mut faults = search.found;
+    let Search { found: mut faults, unexplained, .. } = search;
     faults.sort_by(|a, b| a.fault.from_s.total_cmp(&b.fault.from_s));
     let found = |fit: Fit| FoundFault { fault: fit.fault, remaining: fit.remaining };
     let diagnosis = RunDiagnosis { faults: faults.into_iter().map(found).collect(), unexplained };
@@ -73,52 +78,71 @@ pub(crate) fn diagnose(
 }
 
 struct Search<'a> {
-    observed: &'a Observed<'a>,
-    /// Joints of which nothing is known to be wrong.
+    observed: Observed<'a>,
+    /// Joints whose reported effort is that of their drive, as far as is known.
     open: Vec<usize>,
     found: Vec<Fit>,
+    unexplained: Vec<String>,
 }
 
 impl Search<'_> {
     /// What is measured against what the poses show.
     fn poses(&mut self) {
-        if let Some(tool) = tool::displaced(self.observed).filter(|tool| tool.fit.explains()) {
+        if let Some(tool) = tool::displaced(&self.observed).filter(|tool| tool.fit.explains()) {
             self.found.push(tool.fit);
             self.open.retain(|&joint| Some(joint) != tool.joint_before);
         }
-        let transport = transport::dropped(self.observed, &self.open)
-            .filter(Fit::explains)
-            .or_else(|| transport::late(self.observed, &self.open).filter(Fit::explains));
-        if let Some(fit) = transport {
-            // Efforts arrive late, or not at all, as well.
-            self.open.clear();
+        let late = |observed: &Observed<'_>, open: &[usize]| {
+            let encoders = encoder::faults(observed, open);
+            let late = transport::late(observed, open);
+            (late.filter(|late| late.gain > encoders.gain + DISTINCT), encoders)
+        };
+        let (mut found, mut encoders) = late(&self.observed, &self.open);
+        // Readings that arrive late repeat when the robot has stood, not when it stands.
+        self.observed.late = found.as_ref().map(|late| (late.window, late.steps));
+        if let Some((fit, is_held)) = transport::dropped(&self.observed, &self.open) {
             self.found.push(fit);
-            return;
+            self.observed.is_used = is_held.into_iter().map(|is_held| !is_held).collect();
+            (found, encoders) = late(&self.observed, &self.open);
+            self.observed.late = found.as_ref().map(|late| (late.window, late.steps));
         }
-        let fits = encoder::faults(self.observed, &self.open);
-        let is_wrong = |joint: usize| encoder::wrong(self.observed, joint).is_some();
-        self.found.extend(fits);
-        self.open.retain(|&joint| !is_wrong(joint));
+        match found {
+            Some(late) => self.found.push(late.fit),
+            None => self.encoders(encoders),
+        }
     }
 
-    /// Encoders that differ from the poses in a way that nothing explains.
-    fn unexplained(&self) -> Vec<String> {
-        let is_explained = |joint: &String| {
-            self.found.iter().any(|fit| fit.fault.joints.contains(joint) || fit.fault.joints.is_empty())
+    /// Takes the faults of encoders, and says what noise hides and what nothing explains.
+    fn encoders(&mut self, encoders: EncoderFaults) {
+        let observed = &self.observed;
+        for (joint, hypotheses) in encoders.hidden {
+            let kinds: Vec<String> = hypotheses.iter().map(|fit| fit.fault.words()).collect();
+            self.unexplained.push(format!("noise hides which fault it is: {}", kinds.join("; or ")));
+            self.open.retain(|&other| other != joint);
+        }
+        for fit in encoders.found {
+            // Efforts of a drive that counts the other way round, or moves another joint, are not compared.
+            if matches!(fit.fault.kind, FaultKind::FlippedAxis | FaultKind::SwappedJoints) {
+                self.open.retain(|&joint| !fit.fault.joints.contains(&observed.name(joint)));
+            }
+            self.found.push(fit);
+        }
+        let is_named = |joint: usize| {
+            let name = observed.name(joint);
+            self.found.iter().any(|fit| fit.fault.joints.contains(&name))
         };
-        let wrong = self.observed.independent_joints().into_iter();
-        let wrong = wrong.filter(|&joint| encoder::wrong(self.observed, joint).is_some());
-        let names = wrong.map(|joint| self.observed.name(joint)).filter(|name| !is_explained(name));
-        names
-            .map(|name| {
-                format!("joint {name}: the encoder differs from the poses, and no known fault explains how")
-            })
-            .collect()
+        let (unknown, open): (Vec<usize>, Vec<usize>) =
+            self.open.iter().partition(|&&joint| !is_named(joint) && encoder::is_wrong(observed, joint));
+        self.open = open;
+        self.unexplained.extend(unknown.into_iter().map(|joint| {
+            let name = observed.name(joint);
+            format!("joint {name}: the encoder differs from the poses, and no known fault explains how")
+        }));
     }
 
     /// The efforts that are reported against those that the motion needs.
     fn efforts(&mut self, setup: &RunSetup, first_contact: Option<usize>) -> Result<(), DynamicsError> {
-        let mut residuals = residuals(self.observed, setup.declared_dynamics())?;
+        let mut residuals = residuals(&self.observed, setup.declared_dynamics())?;
         if residuals.is_empty() {
             self.not_followed();
             return Ok(());
@@ -141,7 +165,7 @@ impl Search<'_> {
         let joints: Vec<usize> = off.iter().map(|&(joint, _)| joint).collect();
         let together = off.iter().map(|&(_, window)| window).reduce(OffWindow::with);
         let Some(together) = together else { return Ok(()) };
-        let load = payload::fault(self.observed, &setup.description, &joints, (&residuals, together))?;
+        let load = payload::fault(&self.observed, &setup.description, &joints, (&residuals, together))?;
         let load = load.filter(Fit::explains);
         let score_alone: f64 = alone.iter().map(Fit::score).sum();
         match load {
@@ -153,15 +177,15 @@ impl Search<'_> {
     }
 
     fn of_actuator(&self, joint: usize, (residuals, window): (&[Residual], OffWindow)) -> Option<Fit> {
-        stuck::fault(self.observed, joint, window.samples)
-            .or_else(|| actuator::fault(self.observed, joint, residuals, window))
+        stuck::fault(&self.observed, joint, window.samples)
+            .or_else(|| actuator::fault(&self.observed, joint, residuals, window))
     }
 
     /// Joints of a robot that is placed at its setpoints, and are not there.
     fn not_followed(&mut self) {
         for &joint in &self.open {
-            let behind = stuck::behind_setpoint(self.observed, joint);
-            self.found.extend(behind.and_then(|window| stuck::fault(self.observed, joint, window)));
+            let behind = stuck::behind_setpoint(&self.observed, joint);
+            self.found.extend(behind.and_then(|window| stuck::fault(&self.observed, joint, window)));
         }
     }
 

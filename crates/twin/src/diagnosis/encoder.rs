@@ -1,73 +1,114 @@
 //! Hypotheses on encoders: measured position against the position that the poses show, joint by joint.
 
 use super::{
-    fit::{EXPLAINED, Fit, Window, best, least_squares, rms},
-    observed::{Observed, ROUNDING, spread},
+    fit::{EXPLAINED, Fit, Window},
+    observed::Observed,
+    shape::{self, Count, Shape},
 };
 use crate::{
     fault::{FaultQuantity, RunFault},
     scenario::FaultKind,
 };
 
+/// Evidence for a fault, in variances of the noise that it explains: by chance, the best of all beginnings and ends in a run
+/// without a fault explains 25 at most.
+pub(super) const SIGNIFICANT: f64 = 40.0;
+/// Two hypotheses that explain the same but for this many variances are not told apart: four standard deviations.
+pub(super) const DISTINCT: f64 = 16.0;
+
+/// What the encoders of some joints show.
+#[derive(Debug, Default)]
+pub(super) struct EncoderFaults {
+    pub(super) found: Vec<Fit>,
+    /// Variances of the noise that they explain.
+    pub(super) gain: f64,
+    /// Joints of which noise hides what is wrong, with what it may be.
+    pub(super) hidden: Vec<(usize, Vec<Fit>)>,
+}
+
+/// A hypothesis on one encoder, or on two of which it is one.
+struct Hypothesis {
+    fit: Fit,
+    /// Squares that it explains, and leaves.
+    gain: f64,
+    left: f64,
+}
+
 /// The faults of encoders of `joints`.
-pub(super) fn faults(observed: &Observed<'_>, joints: &[usize]) -> Vec<Fit> {
-    let off: Vec<(usize, Window)> =
-        joints.iter().filter_map(|&joint| Some((joint, wrong(observed, joint)?))).collect();
-    let mut found = Vec::new();
-    let mut is_explained = vec![false; off.len()];
-    for a in 0..off.len() {
-        for b in a + 1..off.len() {
-            let free = !is_explained[a] && !is_explained[b];
-            if let Some(fit) = free.then(|| swapped(observed, off[a], off[b])).flatten() {
-                (is_explained[a], is_explained[b]) = (true, true);
-                found.push(fit);
+pub(super) fn faults(observed: &Observed<'_>, joints: &[usize]) -> EncoderFaults {
+    let mut faults = EncoderFaults::default();
+    let mut open = joints.to_vec();
+    for (at, &a) in joints.iter().enumerate() {
+        for &b in &joints[at + 1..] {
+            if !open.contains(&a) || !open.contains(&b) {
+                continue;
+            }
+            if let Some((fit, gain)) = swapped(observed, a, b) {
+                open.retain(|&joint| joint != a && joint != b);
+                faults.gain += gain;
+                faults.found.push(fit);
             }
         }
     }
-    let rest = off.iter().zip(&is_explained).filter(|(_, is_explained)| !**is_explained);
-    found.extend(rest.filter_map(|(&(joint, window), _)| best(alone(observed, joint, window))));
-    found
+    for joint in open {
+        let mut hypotheses = alone(observed, joint);
+        hypotheses.sort_by(|a, b| a.left.total_cmp(&b.left));
+        let Some(best) = hypotheses.first() else { continue };
+        let margin = observed.uncertainty[joint].evidence(DISTINCT, 0.0)
+            + observed.uncertainty[joint].resolution.powi(2) * count(observed.samples()) / 12.0;
+        if hypotheses
+            .iter()
+            .any(|other| other.fit.fault.kind != best.fit.fault.kind && other.left < best.left + margin)
+        {
+            faults.hidden.push((joint, hypotheses.into_iter().map(|hypothesis| hypothesis.fit).collect()));
+        } else {
+            faults.gain += best.gain / observed.uncertainty[joint].variance();
+            faults.found.extend(hypotheses.into_iter().next().map(|hypothesis| hypothesis.fit));
+        }
+    }
+    faults
 }
 
-/// When an encoder reads something else than the poses show.
-pub(super) fn wrong(observed: &Observed<'_>, joint: usize) -> Option<Window> {
+#[expect(clippy::cast_precision_loss, reason = "samples are few")]
+fn count(samples: usize) -> f64 {
+    samples as f64
+}
+
+/// Whether readings are farther from the position than noise and resolution make them.
+pub(super) fn is_wrong(observed: &Observed<'_>, joint: usize) -> bool {
+    /// One reading may be an outlier of the noise.
+    const FEWEST: usize = 3;
+    let largest = observed.uncertainty[joint].largest();
+    observed.used().filter(|&sample| observed.error[joint][sample].abs() > largest).take(FEWEST).count()
+        == FEWEST
+}
+
+/// A hypothesis that adds a series to the readings of a joint, if it explains what they differ by.
+fn hypothesis(
+    observed: &Observed<'_>,
+    joint: usize,
+    (series, how): (&[f64], Count),
+    fault: impl Fn(&Shape) -> RunFault,
+) -> Option<Hypothesis> {
+    let uncertainty = observed.uncertainty[joint];
     let error = &observed.error[joint];
-    let threshold = ROUNDING.max(noise(error)) + resolution(observed, joint);
-    Window::of(error.len(), |sample| error[sample].abs() > threshold)
-}
-
-/// The steps of a reading that stands still at times while the joint moves: the smallest change that it shows. Zero for one
-/// that follows.
-fn resolution(observed: &Observed<'_>, joint: usize) -> f64 {
-    let changes =
-        |series: &[f64]| -> Vec<f64> { series.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect() };
-    let (moved, read) = (changes(&observed.q[joint]), changes(&observed.measured[joint]));
-    let stands = moved.iter().zip(&read).any(|(moved, read)| *moved > ROUNDING && *read <= 0.0);
-    let smallest = read.into_iter().filter(|change| *change > 0.0).fold(f64::INFINITY, f64::min);
-    if stands && smallest.is_finite() { smallest } else { 0.0 }
-}
-
-/// Six standard deviations of the noise of a series, by the median of its changes, which a fault does not move much. A
-/// series that seldom turns is a motion, and has none.
-fn noise(series: &[f64]) -> f64 {
-    /// Median of the size of a normal variable, and the difference of two has twice the variance.
-    const DEVIATIONS: f64 = 6.0 / (0.6745 * std::f64::consts::SQRT_2);
-    /// Of noise, two of three changes are followed by one in the other direction.
-    const SELDOM: f64 = 0.2;
-    let mut changes: Vec<f64> = series.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    if changes.is_empty() {
-        return 0.0; // a run that ends with its first sample
+    let negligible = uncertainty.evidence(DISTINCT, 0.0);
+    let shape = shape::fit((error, &observed.is_used), series, how, negligible)?;
+    let (mut whole, mut left, mut used) = (0.0, 0.0, 0.0);
+    for sample in observed.used() {
+        whole += error[sample].powi(2);
+        left += (error[sample] - shape.at(series, sample)).powi(2);
+        used += 1.0;
     }
-    let turns = changes.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count();
-    #[expect(clippy::cast_precision_loss, reason = "samples are few")]
-    if (turns as f64) < SELDOM * changes.len() as f64 {
-        return 0.0;
+    let beyond = (left - used * uncertainty.unlucky()).max(0.0);
+    // The gain of the shape has the rounding of sums over the whole run.
+    let gain = whole - left;
+    let is_told = gain > uncertainty.evidence(SIGNIFICANT, count(shape.window.len()));
+    if !is_told || beyond > EXPLAINED.powi(2) * whole {
+        return None;
     }
-    for change in &mut changes {
-        *change = change.abs();
-    }
-    changes.sort_by(f64::total_cmp);
-    DEVIATIONS * changes[changes.len() / 2]
+    let fit = Fit { fault: fault(&shape), remaining: (beyond / whole).sqrt(), parameters: 1 };
+    Some(Hypothesis { fit, gain, left })
 }
 
 fn fault(
@@ -81,67 +122,43 @@ fn fault(
     RunFault { kind, joints, link: None, values, from_s, until_s }
 }
 
-/// Both encoders read the other joint, from an own beginning.
-fn swapped(observed: &Observed<'_>, a: (usize, Window), b: (usize, Window)) -> Option<Fit> {
-    let window = Window { first: a.1.first.min(b.1.first), end: a.1.end.max(b.1.end) };
-    let left = |joint: usize, other: usize| {
-        let difference = |sample: usize| observed.measured[joint][sample] - observed.q[other][sample];
-        let begin = difference(window.first);
-        rms(window.samples().map(|sample| difference(sample) - begin))
+/// Both encoders read the other joint, from an own beginning; with the variances that it explains.
+fn swapped(observed: &Observed<'_>, a: usize, b: usize) -> Option<(Fit, f64)> {
+    let reads_other = |joint: usize, other: usize| {
+        let (own, read) = (&observed.q[joint], &observed.q[other]);
+        let series: Vec<f64> = read.iter().zip(own).map(|(read, own)| read - own).collect();
+        let described = |shape: &Shape| {
+            fault(observed, FaultKind::SwappedJoints, &[joint, other], (Vec::new(), shape.window))
+        };
+        hypothesis(observed, joint, (&series, Count::OnceFromBegin), described)
     };
-    let whole = rms(window.samples().map(|sample| observed.error[a.0][sample]))
-        .max(rms(window.samples().map(|sample| observed.error[b.0][sample])));
-    let begins_at_zero = |joint: usize| observed.error[joint][window.first].abs() <= EXPLAINED * whole;
-    if whole <= 0.0 || !begins_at_zero(a.0) || !begins_at_zero(b.0) {
-        return None;
-    }
-    let remaining = left(a.0, b.0).max(left(b.0, a.0)) / whole;
-    let fault = fault(observed, FaultKind::SwappedJoints, &[a.0, b.0], (Vec::new(), window));
-    (remaining <= EXPLAINED).then_some(Fit { fault, remaining, parameters: 2 })
+    let (mut first, second) = (reads_other(a, b)?, reads_other(b, a)?);
+    let gain = |joint: usize, of: &Hypothesis| of.gain / observed.uncertainty[joint].variance();
+    let gain = gain(a, &first) + gain(b, &second);
+    let (fault, other) = (&mut first.fit.fault, &second.fit.fault);
+    fault.from_s = fault.from_s.min(other.from_s);
+    fault.until_s = fault.until_s.zip(other.until_s).map(|(a, b)| a.max(b));
+    first.fit.remaining = first.fit.remaining.max(second.fit.remaining);
+    Some((first.fit, gain))
 }
 
-/// Hypotheses on one encoder.
-fn alone(observed: &Observed<'_>, joint: usize, window: Window) -> Vec<Fit> {
-    let error: Vec<f64> = window.samples().map(|sample| observed.error[joint][sample]).collect();
-    let mut fits = Vec::new();
-    if let Some((parameters, remaining)) = least_squares(&[vec![1.0; error.len()]], &error) {
-        let values = vec![FaultQuantity::offset(parameters[0], observed.unit(joint))];
-        let fault = fault(observed, FaultKind::EncoderOffset, &[joint], (values, window));
-        fits.push(Fit { fault, remaining, parameters: 1 });
-    }
-    fits.extend(drift(observed, joint, (window, &error)));
-    fits.extend(flipped(observed, joint, (window, &error)));
-    fits
-}
-
-/// A line over time; where it crosses zero, the fault begins.
-fn drift(observed: &Observed<'_>, joint: usize, (window, error): (Window, &[f64])) -> Option<Fit> {
-    let since_s: Vec<f64> =
-        window.samples().map(|sample| observed.times_s[sample] - observed.times_s[window.first]).collect();
-    let (parameters, remaining) = least_squares(&[vec![1.0; error.len()], since_s], error)?;
-    let [at_first, rate] = parameters[..] else { return None };
-    let values = vec![FaultQuantity::rate(rate, observed.unit(joint))];
-    let mut fault = fault(observed, FaultKind::EncoderDrift, &[joint], (values, window));
-    let step_s = observed.clock.step_s;
-    let begin_s = fault.from_s - at_first / rate;
-    // A drift begins at zero: anything else has come before the first sample, and is none.
-    if !begin_s.is_finite() || (begin_s - fault.from_s).abs() > 10.0 * step_s {
-        return None;
-    }
-    fault.from_s = ((begin_s / step_s).round() * step_s).max(0.0);
-    Some(Fit { fault, remaining, parameters: 2 })
-}
-
-/// The reading goes back as the joint goes forth: the error has the slope -2 over the position.
-fn flipped(observed: &Observed<'_>, joint: usize, (window, error): (Window, &[f64])) -> Option<Fit> {
-    let q = &observed.q[joint][window.first..window.end];
-    // It counts from where it stands: what jumps is an offset.
-    if spread(q) <= ROUNDING || error[0].abs() > EXPLAINED * spread(error) {
-        return None;
-    }
-    let twice: Vec<f64> = error.iter().zip(q).map(|(error, q)| error + 2.0 * q).collect();
-    let (_, left) = least_squares(&[vec![1.0; twice.len()]], &twice)?;
-    let remaining = left * rms(twice.iter().copied()) / rms(error.iter().copied());
-    let fault = fault(observed, FaultKind::FlippedAxis, &[joint], (Vec::new(), window));
-    Some(Fit { fault, remaining, parameters: 1 })
+/// Hypotheses on one encoder that explain what it differs by.
+fn alone(observed: &Observed<'_>, joint: usize) -> Vec<Hypothesis> {
+    let unit = observed.unit(joint);
+    let described = |kind: FaultKind, values: Vec<FaultQuantity>, shape: &Shape| {
+        fault(observed, kind, &[joint], (values, shape.window))
+    };
+    let constant = vec![1.0; observed.samples()];
+    let offset = hypothesis(observed, joint, (&constant, Count::Whole), |shape| {
+        described(FaultKind::EncoderOffset, vec![FaultQuantity::offset(shape.factor, unit)], shape)
+    });
+    let drift = hypothesis(observed, joint, (&observed.times_s, Count::FromBegin), |shape| {
+        described(FaultKind::EncoderDrift, vec![FaultQuantity::rate(shape.factor, unit)], shape)
+    });
+    // The reading goes back as the joint goes forth: the error has the slope -2 over the position.
+    let back: Vec<f64> = observed.q[joint].iter().map(|q| -2.0 * q).collect();
+    let flipped = hypothesis(observed, joint, (&back, Count::OnceFromBegin), |shape| {
+        described(FaultKind::FlippedAxis, Vec::new(), shape)
+    });
+    [offset, drift, flipped].into_iter().flatten().collect()
 }

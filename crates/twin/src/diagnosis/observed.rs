@@ -3,12 +3,12 @@
 use congruent_description::{Joint, JointKind, Robot};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
-use super::{fit::Window, store::SampleStore};
+use super::{
+    fit::Window,
+    noise::{self, Uncertainty},
+    store::SampleStore,
+};
 use crate::setup::RunClock;
-
-/// Below this a difference of a joint's position is rounding of the poses, rad and m. Worst seen 6e-15 for arms of seven
-/// joints; an encoder of 32 bits has steps of 1.5e-9.
-pub(super) const ROUNDING: f64 = 1e-10;
 
 /// What a servo settles by after a motion counts as rest, rad and m.
 const SLOW: f64 = 1e-3;
@@ -30,6 +30,12 @@ pub(super) struct Observed<'a> {
     pub(super) error: Vec<Vec<f64>>,
     /// Setpoints, likewise.
     pub(super) setpoint: Vec<Vec<f64>>,
+    /// How far the readings of each joint may be from its position without a fault.
+    pub(super) uncertainty: Vec<Uncertainty>,
+    /// Which samples have a reading of their own, and not the one before once more.
+    pub(super) is_used: Vec<bool>,
+    /// Readings of a time, and the efforts with them, arrive this many steps late in a window of samples.
+    pub(super) late: Option<(Window, usize)>,
 }
 
 impl<'a> Observed<'a> {
@@ -52,7 +58,62 @@ impl<'a> Observed<'a> {
         let minus = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a - b).collect();
         let error = measured.iter().zip(&q).map(minus).collect();
         let times_s = store.steps().iter().map(|&step| clock.time_s(step)).collect();
-        Self { store, robot, clock, times_s, q, measured, error, setpoint }
+        let (uncertainty, is_used) = (Vec::new(), vec![true; samples]);
+        let mut observed = Self {
+            store,
+            robot,
+            clock,
+            times_s,
+            q,
+            measured,
+            error,
+            setpoint,
+            uncertainty,
+            is_used,
+            late: None,
+        };
+        observed.uncertainty = observed.uncertainties();
+        observed
+    }
+
+    fn uncertainties(&self) -> Vec<Uncertainty> {
+        let all = 0..self.robot.dof();
+        let seen: Vec<Option<f64>> =
+            all.clone().map(|joint| noise::resolution(&self.q[joint], &self.measured[joint])).collect();
+        // A reading that does not change says nothing of its steps: they are taken to be as large as those of others.
+        let coarsest = seen.iter().flatten().copied().fold(0.0, f64::max);
+        all.map(|joint| {
+            let measured = &self.measured[joint];
+            let resolution = seen[joint].unwrap_or(if spread(measured) > 0.0 { 0.0 } else { coarsest });
+            let repeats = |sample: usize| measured[sample].to_bits() == measured[sample - 1].to_bits();
+            let is_in_triple = |sample: usize| {
+                self.are_consecutive(sample - 2, sample - 1)
+                    && self.are_consecutive(sample - 1, sample)
+                    && (resolution > 0.0 || !(repeats(sample) || repeats(sample - 1)))
+            };
+            // Steps make differences that look like noise: noise is what is beyond them.
+            let noise = noise::noise(&self.error[joint], is_in_triple);
+            let noise = if noise > resolution / 2.0 { noise } else { 0.0 };
+            Uncertainty { noise, resolution }
+        })
+        .collect()
+    }
+
+    /// Samples with a reading of their own.
+    pub(super) fn used(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.samples()).filter(|&sample| self.is_used[sample])
+    }
+
+    /// The efforts that the drives report of a sample; `None` if the report is not among the kept samples.
+    pub(super) fn effort(&self, sample: usize) -> Option<&'a [f64]> {
+        let arrived = match self.late {
+            Some((window, steps)) if window.samples().contains(&(sample + steps)) => sample + steps,
+            Some((window, _)) if window.samples().contains(&sample) => return None,
+            _ => sample,
+        };
+        let is_direct = self.store.steps()[arrived] - self.store.steps()[sample]
+            == u64::try_from(arrived - sample).unwrap_or(u64::MAX);
+        (is_direct && self.is_used[arrived]).then(|| self.store.sample(arrived).effort)
     }
 
     pub(super) fn samples(&self) -> usize {

@@ -5,7 +5,7 @@ use congruent_dynamics::{BodyTree, DynamicsBuffer, DynamicsError, JointMotion};
 use nalgebra::Isometry3;
 
 use super::{fit::Window, observed::Observed};
-use crate::{proximity::Clearance, setup::DeclaredDynamics};
+use crate::{bodies::MovingBodies, proximity::Clearance, setup::DeclaredDynamics};
 
 /// Residuals below this part of the largest effort of the joint are the difference of the engine's step from its limit, which
 /// is proportional to its length. Worst seen without fault, beyond what `CHANGES` takes: 0.0018, in steps of 1 ms, on UR5e and
@@ -71,6 +71,8 @@ pub(super) struct Residual {
     pub(super) effort: Vec<f64>,
     /// Needed minus reported, by joint.
     pub(super) missing: Vec<f64>,
+    /// Whether the effort that was reported has arrived.
+    is_known: bool,
     /// How much the needed effort has changed since the residual before, by joint.
     change: Vec<f64>,
 }
@@ -112,6 +114,7 @@ pub(super) fn residuals(
         found.push(residual(observed, sample, tree, buffer)?);
     }
     find_changes(&mut found, observed.robot.dof());
+    found.retain(|residual| residual.is_known);
     let is_driven = found.iter().any(|residual| residual.effort.iter().any(|effort| effort.abs() > 0.0));
     Ok(if is_driven { found } else { Vec::new() })
 }
@@ -139,15 +142,18 @@ fn residual(
     for (joint, resistance) in tree.resistances().iter().enumerate() {
         residual[joint] += resistance.damping * (qd[1][joint] - mean[joint]);
     }
-    let effort = observed.store.sample(sample).effort.to_vec();
     let change = vec![0.0; q.len()];
+    let (effort, is_known) = match observed.effort(sample) {
+        Some(effort) => (effort.to_vec(), true),
+        None => (residual.clone(), false),
+    };
     residual.iter_mut().zip(&effort).for_each(|(residual, effort)| *residual -= effort);
     for (joint, resistance) in tree.resistances().iter().enumerate() {
         if stands([qd[0][joint], qd[1][joint]]) {
             residual[joint] = not_held(residual[joint], resistance.friction, mean[joint]);
         }
     }
-    Ok(Residual { sample, q, qd, qdd, effort, missing: residual, change })
+    Ok(Residual { sample, q, qd, qdd, effort, missing: residual, is_known, change })
 }
 
 /// Slower than this, rad/s or m/s, a joint stands: dry friction holds it. Kind: solver; the engine lets it creep.
@@ -184,19 +190,27 @@ pub(super) fn body_of(robot: &Robot, mut link: LinkIndex) -> (LinkIndex, Isometr
 const TOUCHING_M: f64 = 2e-3;
 
 /// The first kept sample in which a link touches an obstacle: from then on efforts are not those of its motion alone.
-pub(super) fn first_contact(observed: &Observed<'_>, clearance: &mut Clearance) -> Option<usize> {
+pub(super) fn first_contact(
+    observed: &Observed<'_>,
+    bodies: &mut MovingBodies<'_>,
+    clearance: &mut Clearance,
+) -> Option<usize> {
     let links = observed.robot.links().len();
-    let with_obstacle: Vec<usize> = clearance
-        .pairs()
-        .enumerate()
-        .filter(|(_, pair)| pair.a.max(pair.b) >= links)
-        .map(|(index, _)| index)
-        .collect();
+    let pairs = clearance.pairs().enumerate();
+    let with_obstacle: Vec<(usize, usize)> =
+        pairs.map(|(index, pair)| (index, pair.a.max(pair.b))).filter(|(_, b)| *b >= links).collect();
     if with_obstacle.is_empty() {
         return None;
     }
     (0..observed.samples()).find(|&sample| {
-        clearance.move_links(observed.store.sample(sample).root_from_links);
-        with_obstacle.iter().any(|&pair| clearance.measure_below(pair, TOUCHING_M).is_some())
+        let root_from_links = observed.store.sample(sample).root_from_links;
+        bodies.advance(observed.times_s[sample], |link| root_from_links[link.get()]);
+        bodies.move_in(clearance);
+        clearance.move_links(root_from_links);
+        // What a link carries touches nothing.
+        let is_carried = |subject| bodies.poses().any(|(body, _, now)| now && links + body == subject);
+        with_obstacle.iter().any(|&(pair, obstacle)| {
+            !is_carried(obstacle) && clearance.measure_below(pair, TOUCHING_M).is_some()
+        })
     })
 }

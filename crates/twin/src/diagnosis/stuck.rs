@@ -2,7 +2,8 @@
 
 use super::{
     fit::{Fit, Window},
-    observed::{Observed, ROUNDING, spread},
+    noise::ROUNDING,
+    observed::{Observed, spread},
 };
 use crate::{fault::RunFault, scenario::FaultKind};
 

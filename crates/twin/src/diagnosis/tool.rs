@@ -4,7 +4,8 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
     fit::{Fit, Window, rms},
-    observed::{Observed, ROUNDING},
+    noise::ROUNDING,
+    observed::Observed,
 };
 use crate::{
     fault::{FaultQuantity, RunFault},

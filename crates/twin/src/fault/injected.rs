@@ -24,7 +24,7 @@ pub(crate) struct InjectedFaults<'a> {
     wires: Vec<Option<Wire>>,
     /// Where stuck joints stand, for a controller that places the robot.
     held: Vec<Option<f64>>,
-    /// The true state, what encoders give of it, and what arrives.
+    /// The true state, what encoders give of it, what sensors make of that, and what arrives.
     truth: Reading,
     encoders: Reading,
     arrived: Reading,
@@ -41,7 +41,7 @@ struct FaultState {
 }
 
 impl<'a> InjectedFaults<'a> {
-    /// The faults before the first sample, which is of the world as it is.
+    /// The faults at the first sample, which is of the world as it is.
     ///
     /// # Errors
     /// [`SimulationError`] if the physics refuses a fault.
@@ -54,7 +54,7 @@ impl<'a> InjectedFaults<'a> {
             is_active: false,
             replaced: Replaced::default(),
             delay: match fault.action {
-                FaultAction::Latency { steps } => Some(Delay::new(steps, &truth)),
+                FaultAction::Latency { steps } => Some(Delay::new(steps, dof)),
                 _ => None,
             },
             loss: match fault.action {
@@ -78,7 +78,8 @@ impl<'a> InjectedFaults<'a> {
         Ok(injected)
     }
 
-    /// The sample with this number: faults begin and end, and the state of the world is read.
+    /// The sample with this number: faults begin and end, and the encoders read the world. What sensors make of
+    /// [`InjectedFaults::encoders`] is sent to the controller by [`InjectedFaults::send`].
     ///
     /// # Errors
     /// As [`InjectedFaults::new`].
@@ -86,12 +87,36 @@ impl<'a> InjectedFaults<'a> {
         self.step = step;
         read_truth(world, &mut self.truth);
         if self.faults.is_empty() {
-            self.arrived.copy_from(&self.truth);
+            self.encoders.copy_from(&self.truth);
             return Ok(());
         }
         self.begin_and_end(world)?;
-        self.read();
+        self.read_encoders();
         Ok(())
+    }
+
+    /// What the encoders give, before noise and resolution.
+    pub(crate) fn encoders(&self) -> MeasuredState<'_> {
+        MeasuredState { q: &self.encoders.q, qd: &self.encoders.qd }
+    }
+
+    /// Sends a reading of the encoders to the controller: it arrives now, late, or not at all. The efforts that the drives
+    /// report go the same way.
+    pub(crate) fn send(&mut self, reading: &MeasuredState<'_>) {
+        self.encoders.q.copy_from_slice(reading.q);
+        self.encoders.qd.copy_from_slice(reading.qd);
+        let (mut late, mut is_lost) = (None, false);
+        for state in &mut self.states {
+            if let Some(delay) = &mut state.delay {
+                delay.take(&self.encoders);
+                late = if state.is_active { Some(&*delay) } else { late };
+            }
+            is_lost |= state.is_active && state.loss.as_mut().is_some_and(Loss::is_lost);
+        }
+        // Before the first reading there is none that could take its place.
+        if !is_lost || self.step == 0 {
+            self.arrived.copy_from(late.map_or(&self.encoders, Delay::late));
+        }
     }
 
     fn begin_and_end(&mut self, world: &mut World) -> Result<(), SimulationError> {
@@ -125,31 +150,19 @@ impl<'a> InjectedFaults<'a> {
         Ok(())
     }
 
-    fn read(&mut self) {
+    fn read_encoders(&mut self) {
         self.encoders.copy_from(&self.truth);
         for (joint, wire) in self.wires.iter().enumerate() {
             if let Some(wire) = wire {
                 wire.read(joint, &self.truth, &mut self.encoders);
             }
         }
-        let mut is_lost = false;
-        for (fault, state) in self.faults.iter().zip(&mut self.states) {
+        for (fault, state) in self.faults.iter().zip(&self.states) {
             if state.is_active {
                 #[expect(clippy::cast_precision_loss, reason = "steps of a run are far below 2^52")]
                 let since_s = (self.step - fault.from_step) as f64 * self.step_s;
                 falsify(&fault.action, since_s, &mut self.encoders);
-                is_lost |= state.loss.as_mut().is_some_and(Loss::is_lost);
             }
-        }
-        let mut late = None;
-        for state in &mut self.states {
-            if let Some(delay) = &mut state.delay {
-                delay.take(&self.encoders);
-                late = if state.is_active { Some(&*delay) } else { late };
-            }
-        }
-        if !is_lost {
-            self.arrived.copy_from(late.map_or(&self.encoders, Delay::late));
         }
     }
 
@@ -163,11 +176,20 @@ impl<'a> InjectedFaults<'a> {
         &self.arrived.effort
     }
 
-    /// Where a controller that places the robot at a setpoint places it.
-    pub(crate) fn placed<'s>(&'s mut self, setpoint: Setpoint<'s>) -> Setpoint<'s> {
-        let is_usual = self.wires.iter().all(Option::is_none) && self.held.iter().all(Option::is_none);
-        if is_usual {
+    /// Where a controller that places the robot at a setpoint places it; see [`InjectedFaults::place`].
+    pub(crate) fn placed<'s>(&'s self, setpoint: Setpoint<'s>) -> Setpoint<'s> {
+        if self.places_as_asked() {
             return setpoint;
+        }
+        let (q, qd) = &self.placed;
+        // A robot that is placed has no use for accelerations.
+        Setpoint { q, qd, qdd: setpoint.qdd }
+    }
+
+    /// Computes where a controller that places the robot at a setpoint places it.
+    pub(crate) fn place(&mut self, setpoint: &Setpoint<'_>) {
+        if self.places_as_asked() {
+            return;
         }
         let (q, qd) = &mut self.placed;
         q.copy_from_slice(setpoint.q);
@@ -182,8 +204,10 @@ impl<'a> InjectedFaults<'a> {
                 (q[joint], qd[joint]) = (*held, 0.0);
             }
         }
-        // A robot that is placed has no use for accelerations.
-        Setpoint { q, qd, qdd: setpoint.qdd }
+    }
+
+    fn places_as_asked(&self) -> bool {
+        self.wires.iter().all(Option::is_none) && self.held.iter().all(Option::is_none)
     }
 
     /// Moves the links of a tool that stands elsewhere.
@@ -247,6 +271,13 @@ mod tests {
         RunSetup::new(scenario, description).unwrap()
     }
 
+    /// One sample with exact sensors.
+    fn advance(faults: &mut InjectedFaults<'_>, step: u64, world: &mut World) {
+        faults.advance(step, world).unwrap();
+        let (q, qd) = (faults.encoders().q.clone(), faults.encoders().qd.to_vec());
+        faults.send(&MeasuredState { q: &q, qd: &qd });
+    }
+
     /// The measured positions of the following steps.
     fn measured(world: &mut World, faults: &mut InjectedFaults<'_>, steps: u64) -> Vec<Vec<u64>> {
         let target = RobotQ::zeros(6);
@@ -255,7 +286,7 @@ mod tests {
             .map(|_| {
                 let setpoint = Setpoint { q: &target, qd: &[0.0; 6], qdd: &[0.0; 6] };
                 world.step_measured(&mut pd, &setpoint, &faults.measured()).unwrap();
-                faults.advance(world.step_count(), world).unwrap();
+                advance(faults, world.step_count(), world);
                 faults.measured().q.iter().map(|q| q.to_bits()).collect()
             })
             .collect()
@@ -287,7 +318,7 @@ mod tests {
             let mut all = RobotQ::zeros(6);
             all[3] = q;
             world.set_state(&all, &[0.5; 6]).unwrap();
-            injected.advance(step, world).unwrap();
+            advance(injected, step, world);
             (injected.measured().q[3], injected.measured().qd[3])
         };
         assert_eq!(at(&mut world, &mut injected, 20, 0.25), (0.25, -0.5));

@@ -1,7 +1,9 @@
 //! The faults of a scenario against its robot: names, units, ranges and times, each error at its place.
 
 use congruent_description::{
-    Diagnostic, Inertia, JointKind, LinkIndex, Robot, RobotDescription, units::Unit,
+    Diagnostic, Inertia, JointKind, LinkIndex, Robot, RobotDescription,
+    display::{number, quantity, quantity_in_full},
+    units::Unit,
 };
 use congruent_simulation::CarriedBody;
 use nalgebra::{Isometry3, Matrix3, Translation3};
@@ -17,6 +19,13 @@ use crate::{
 
 /// Largest share of the effort that an actuator may exert.
 const LARGEST_SHARE: f64 = 10.0;
+/// Heaviest unknown payload, times the mass of the robot. Kind: physics; what is heavier is no mistake that a run can follow: the
+/// drives hold a small part of it, and the arm falls within some steps.
+const HEAVIEST_PART: f64 = 100.0;
+/// How far a latency may be from whole steps, as a part of a step: digits of files.
+const WHOLE_STEPS: f64 = 1e-6;
+/// Longest latency, in steps: the readings of all of them are kept.
+const MOST_DELAYED: f64 = 1e5;
 
 /// All faults of a scenario, or every finding.
 pub(crate) fn resolve(
@@ -126,19 +135,39 @@ impl Resolver<'_> {
             FaultSettings::WrongPayload(fault) => self.payload(fault)?,
             FaultSettings::ShiftedTool(fault) => self.tool(fault)?,
             FaultSettings::SwappedJoints(fault) => self.swapped(&fault.joints)?,
-            FaultSettings::Latency(fault) => {
-                let step_s = self.clock.step_s;
-                let is_sound = |time_s| time_s >= step_s / 2.0 && time_s < self.clock.duration_s();
-                self.within("time_s", fault.time_s, is_sound, "at least half a step, and less than the run")?;
-                let steps = usize::try_from(nearest_step(fault.time_s, step_s)).unwrap_or(usize::MAX);
-                FaultAction::Latency { steps: steps.max(1) }
-            }
+            FaultSettings::Latency(fault) => FaultAction::Latency { steps: self.whole_steps(fault.time_s)? },
             FaultSettings::DroppedSamples(fault) => {
                 let is_sound = |share| share > 0.0 && share < 1.0;
                 self.within("share", fault.share, is_sound, "a share above 0 and below 1")?;
                 FaultAction::DroppedSamples { share: fault.share }
             }
         })
+    }
+
+    /// A latency as steps: a reading arrives in one of them, not between two.
+    fn whole_steps(&self, time_s: f64) -> Result<usize, Diagnostic> {
+        let step_s = self.clock.step_s;
+        let is_sound = |time_s: f64| time_s > 0.0 && time_s < self.clock.duration_s();
+        self.within("time_s", time_s, is_sound, "a time above 0 and below that of the run")?;
+        let steps = time_s / step_s;
+        let refused = |message: String, help: String| {
+            let error = Diagnostic::error("scenario::fault_value", message).with_help(help);
+            Err(self.place.key("time_s").mark(error))
+        };
+        if (steps - steps.round()).abs() > WHOLE_STEPS || steps < 0.5 {
+            let message = format!("time_s = {time_s} is {} steps of {step_s} s", number(steps));
+            let near = [steps.floor(), steps.ceil()].into_iter().filter(|steps| *steps >= 1.0);
+            let near: Vec<String> = near.map(|steps| quantity_in_full(steps * step_s, "s")).collect();
+            let near = near.join(" or ");
+            let help =
+                format!("a latency is whole steps: give {near}, or another `step_s` under [simulation]");
+            return refused(message, help);
+        }
+        if steps > MOST_DELAYED {
+            let message = format!("time_s = {time_s} is {} steps, more than {MOST_DELAYED}", number(steps));
+            return refused(message, "the readings of all of them are kept: give less".to_owned());
+        }
+        Ok(usize::try_from(nearest_step(time_s, step_s)).unwrap_or(usize::MAX))
     }
 
     fn joint(&self, name: &str) -> Result<usize, Diagnostic> {
@@ -221,6 +250,18 @@ impl Resolver<'_> {
         let RobotDescription { tip, tip_from_tcp, robot, .. } = self.description;
         let is_sound = |mass_kg: f64| mass_kg.is_finite() && mass_kg > 0.0;
         self.within("mass_kg", fault.mass_kg, is_sound, "a finite number above 0")?;
+        let masses = robot.links().iter().filter_map(|link| link.inertia.as_ref());
+        let robot_kg: f64 = masses.map(|inertia| inertia.mass_kg).sum();
+        if fault.mass_kg > HEAVIEST_PART * robot_kg {
+            let (mass, limit) = (quantity(fault.mass_kg, "kg"), quantity(HEAVIEST_PART * robot_kg, "kg"));
+            let message =
+                format!("mass_kg = {mass}: more than {limit}, {HEAVIEST_PART} times the robot's own");
+            let error = Diagnostic::error("scenario::fault_value", message);
+            return Err(self
+                .place
+                .key("mass_kg")
+                .mark(error.with_help("give a mass that the drives could lift")));
+        }
         let com_in_tcp = fault.com_m.unwrap_or_default();
         for value in com_in_tcp {
             self.within("com_m", value, f64::is_finite, "three finite numbers")?;

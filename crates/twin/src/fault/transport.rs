@@ -12,16 +12,21 @@ use super::encoders::Reading;
 pub(super) struct Delay {
     last: Vec<Reading>,
     next: usize,
+    is_empty: bool,
 }
 
 impl Delay {
-    /// A delay by a number of steps, in which the readings so far are all `reading`.
-    pub(super) fn new(steps: usize, reading: &Reading) -> Self {
-        Self { last: vec![reading.clone(); steps + 1], next: 0 }
+    /// A delay by a number of steps, without a reading so far.
+    pub(super) fn new(steps: usize, dof: usize) -> Self {
+        Self { last: vec![Reading::new(dof); steps + 1], next: 0, is_empty: true }
     }
 
     /// Takes a reading. This goes on without a fault too: what arrives late has been on its way before.
     pub(super) fn take(&mut self, reading: &Reading) {
+        if std::mem::take(&mut self.is_empty) {
+            // Before the first reading the robot stood where that shows it.
+            self.last.iter_mut().for_each(|last| last.copy_from(reading));
+        }
         self.last[self.next].copy_from(reading);
         self.next = (self.next + 1) % self.last.len();
     }

@@ -1,4 +1,4 @@
-//! The sensors of the joints: from the true state to the measured one, stage after stage.
+//! The sensors of the joints: from what their encoders give to a reading, stage after stage.
 
 use std::f64::consts::TAU;
 
@@ -43,7 +43,7 @@ impl JointSensors {
         }
     }
 
-    /// Reads the true state: noise, then the resolution of the encoder, then velocities.
+    /// Reads what the encoders give: noise, then the resolution of the encoder, then velocities.
     pub(super) fn read(&mut self, q: &RobotQ, qd: &[f64]) {
         self.before_q.copy_from_slice(&self.q);
         self.q.copy_from_slice(q);

@@ -84,9 +84,9 @@ impl<'a> SimulationSource<'a> {
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
         resist(&mut world, &setup.resistances).map_err(SourceError::new)?;
         let kind = &setup.scenario.controller.kind;
-        let faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
+        let mut faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
         let mut sensors = JointSensors::new(setup);
-        sensors.read(faults.measured().q, faults.measured().qd);
+        measure(&mut faults, &mut sensors);
         let mut payloads = CarriedPayloads::new(&setup.payloads);
         payloads.update(0.0, &mut world);
         Ok(Self {
@@ -160,6 +160,12 @@ impl SimulationSource<'_> {
     }
 }
 
+/// From encoders over sensors to the controller.
+fn measure(faults: &mut InjectedFaults<'_>, sensors: &mut JointSensors) {
+    sensors.read(faults.encoders().q, faults.encoders().qd);
+    faults.send(&sensors.measured());
+}
+
 /// What the joints are commanded to do: by the motions, or on the way to rest.
 fn commanded<'s>(reference: &'s ReferenceGenerator<'_>, braking: Option<&'s Braking>) -> Setpoint<'s> {
     match braking {
@@ -171,7 +177,7 @@ fn commanded<'s>(reference: &'s ReferenceGenerator<'_>, braking: Option<&'s Brak
 impl JointStateSource for SimulationSource<'_> {
     fn joints(&self) -> JointSample<'_> {
         let (qd, effort) = (self.world.qd(), self.world.torque());
-        let measured = self.sensors.measured();
+        let measured = self.faults.measured();
         let setpoint = commanded(&self.reference, self.braking.as_ref());
         JointSample {
             truth: JointStateView { q: self.world.q(), qd, effort },
@@ -208,23 +214,23 @@ impl JointStateSource for SimulationSource<'_> {
 
     fn advance(&mut self, time_s: f64) -> Result<(), SourceError> {
         self.move_bodies(time_s);
-        let measured = self.sensors.measured();
         match &mut self.braking {
             Some(braking) => braking.advance(time_s),
-            None => self.reference.advance(time_s, measured.q).map_err(SourceError::new)?,
+            None => self.reference.advance(time_s, self.faults.measured().q).map_err(SourceError::new)?,
         }
         let mut setpoint = commanded(&self.reference, self.braking.as_ref());
         if self.is_placed {
+            self.faults.place(&setpoint);
             setpoint = self.faults.placed(setpoint);
         }
         // A payload that comes at the start of the step acts in the whole of it.
         self.payloads.update(self.world.time_s(), &mut self.world);
+        let measured = self.faults.measured();
         let stepped = self.world.step_measured(&mut self.controller, &setpoint, &measured);
         stepped.map_err(SourceError::new)?;
         self.actuators.observe(&self.world);
         self.faults.advance(self.world.step_count(), &mut self.world).map_err(SourceError::new)?;
-        let arrived = self.faults.measured();
-        self.sensors.read(arrived.q, arrived.qd);
+        measure(&mut self.faults, &mut self.sensors);
         Ok(())
     }
 
@@ -248,6 +254,6 @@ impl JointStateSource for SimulationSource<'_> {
     }
 
     fn finish(&mut self) -> Result<Vec<ServoResult>, SourceError> {
-        self.reference.finish(self.sensors.measured().q).map_err(SourceError::new)
+        self.reference.finish(self.faults.measured().q).map_err(SourceError::new)
     }
 }

@@ -1,0 +1,101 @@
+//! The least squares fit of a shape over time that begins at one sample and ends at another, which are fitted too.
+
+use super::fit::Window;
+
+/// What a fault adds to the readings of an encoder while it is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Count {
+    /// A multiple of the series.
+    Whole,
+    /// A multiple of the series, counted from the value at the beginning.
+    FromBegin,
+    /// The series itself, counted from the value at the beginning.
+    OnceFromBegin,
+}
+
+/// A fitted shape.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shape {
+    pub(super) window: Window,
+    /// Times what the series is taken.
+    pub(super) factor: f64,
+    count: Count,
+}
+
+/// Sums over the samples before each one.
+struct Sums {
+    count: Count,
+    /// Of the number of samples, the error, the series, their product, and the square of the series.
+    before: Vec<[f64; 5]>,
+}
+
+impl Sums {
+    fn new(error: &[f64], series: &[f64], is_used: &[bool], count: Count) -> Self {
+        let mut sum = [0.0; 5];
+        let mut before = Vec::with_capacity(error.len() + 1);
+        before.push(sum);
+        for ((&error, &series), &is_used) in error.iter().zip(series).zip(is_used) {
+            if is_used {
+                let terms = [1.0, error, series, error * series, series * series];
+                sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            }
+            before.push(sum);
+        }
+        Self { count, before }
+    }
+
+    /// The factor of the shape in a window, and by how much it lowers the sum of squares.
+    fn fit(&self, series: &[f64], window: Window) -> (f64, f64) {
+        let [samples, error, sum, product, square]: [f64; 5] =
+            std::array::from_fn(|term| self.before[window.end][term] - self.before[window.first][term]);
+        let from = if self.count == Count::Whole { 0.0 } else { series[window.first] };
+        let product = product - from * error;
+        let square = square - 2.0 * from * sum + samples * from * from;
+        match self.count {
+            Count::OnceFromBegin => (1.0, 2.0 * product - square),
+            _ if square > 0.0 => (product / square, product * product / square),
+            _ => (0.0, 0.0),
+        }
+    }
+}
+
+/// The window in which a shape explains most. One that begins later, or does not end, is taken if it explains `negligible` less.
+pub(super) fn fit(
+    (error, is_used): (&[f64], &[bool]),
+    series: &[f64],
+    count: Count,
+    negligible: f64,
+) -> Option<Shape> {
+    /// Beginning and end settle in two or three rounds.
+    const ROUNDS: usize = 8;
+    let samples = error.len();
+    let sums = Sums::new(error, series, is_used, count);
+    let gain = |first: usize, end: usize| sums.fit(series, Window { first, end }).1;
+    let mut window = Window { first: 0, end: samples };
+    for _ in 0..ROUNDS {
+        let first = (0..window.end).max_by(|&a, &b| gain(a, window.end).total_cmp(&gain(b, window.end)))?;
+        let last = (first + 1..=samples).max_by(|&a, &b| gain(first, a).total_cmp(&gain(first, b)))?;
+        let lasts = gain(first, samples) >= gain(first, last) - negligible;
+        let next = Window { first, end: if lasts { samples } else { last } };
+        if std::mem::replace(&mut window, next) == next {
+            break;
+        }
+    }
+    if count == Count::OnceFromBegin {
+        // It is not seen before the joint moves.
+        let enough = gain(window.first, window.end) - negligible;
+        window.first = (window.first..window.end).rev().find(|&first| gain(first, window.end) >= enough)?;
+    }
+    Some(Shape { window, factor: sums.fit(series, window).0, count })
+}
+
+impl Shape {
+    /// What it adds to the error of a sample.
+    pub(super) fn at(&self, series: &[f64], sample: usize) -> f64 {
+        if !self.window.samples().contains(&sample) {
+            return 0.0;
+        }
+        let from = if self.count == Count::Whole { 0.0 } else { series[self.window.first] };
+        self.factor * (series[sample] - from)
+    }
+}
