@@ -21,7 +21,7 @@ pub(crate) struct CiArguments {
     /// that could not start. Its times are those of the machine.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
-    /// Also append a summary in Markdown to this file, the worst first: on GitHub, --summary "$GITHUB_STEP_SUMMARY".
+    /// Also append a summary in Markdown to this file, the worst first: on GitHub, --summary `"$GITHUB_STEP_SUMMARY"`.
     #[arg(long, value_name = "FILE")]
     summary: Option<PathBuf>,
     /// Also print what did not pass to standard error so that CI shows it at its line.
