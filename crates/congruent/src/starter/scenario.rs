@@ -1,0 +1,368 @@
+//! `congruent new scenario`: a scenario that passes, found by trying it.
+
+use std::path::{Path, PathBuf};
+
+use congruent_description::{
+    Diagnostic, Finding, JointKind, ReportedChain, RobotDescription, RobotQ, Use, display::quantity,
+    relative_path,
+};
+use congruent_twin::{
+    Outcome, Run, RunSetup,
+    recorder::NoRecorder,
+    report::lines,
+    scenario::{
+        AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, ControllerSettings, DynamicsCheck,
+        InvariantsCheck, JointMotion, LimitsCheck, MotionSettings, OnViolation, PowerCheck, Profile,
+        Scenario, StartSettings, TrackingCheck, TwistCheck,
+    },
+    verdict::{CheckResult, Status},
+};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{
+    joint_move::{JointMove, moves},
+    scenario_text::{Content, text},
+    touching::Distances,
+    written::absolute,
+};
+
+/// Links must stay apart by this at least, and by half of what the motion leaves them if that is less.
+const MOST_MINIMUM_M: f64 = 0.02;
+/// Agreement of table and twin, if the robot's tolerance is not wider. Kind: rounding over a run of some thousand steps.
+const AGREEMENT: f64 = 1e-9;
+/// Tracking of joints that turn, that slide, and at the end.
+const PATH_DEG: f64 = 1.0;
+const PATH_MM: f64 = 1.0;
+const GOAL_DEG: f64 = 0.5;
+const GOAL_MM: f64 = 0.5;
+/// Sizes of the motion that are tried with forces, the largest first.
+const SIZES: [f64; 3] = [1.0, 0.5, 0.25];
+
+/// A scenario that has passed, and its text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScenarioDraft {
+    /// The text of the file.
+    pub text: String,
+    /// The links that come nearest to each other, and what was left out with the reason.
+    pub remarks: Vec<String>,
+    /// Joints that move.
+    pub joints: Vec<String>,
+}
+
+/// The answer of `congruent new scenario`.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct NewScenario {
+    /// The scenario file that was written.
+    pub file: String,
+    /// Name of the robot.
+    pub robot: String,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
+    /// Joints that move.
+    pub joints: Vec<String>,
+    /// Kind of the controller.
+    pub controller: String,
+    /// Simulated time.
+    pub duration_s: f64,
+    /// What is left out, and why.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
+    /// The checks of the written file, which was run.
+    pub checks: Vec<CheckResult>,
+    /// Warnings about the input.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
+}
+
+/// A scenario for the chain of `description`, to be written to `file`, an absolute path: some joints move and come back,
+/// links stay apart, and all checks pass.
+///
+/// # Errors
+/// What keeps the robot from being simulated, or from passing.
+pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioDraft, Vec<Diagnostic>> {
+    description.for_use(Use::Physics)?;
+    let (mut content, largest) = content(description, file)?;
+    let mut last = String::new();
+    let forces = SIZES.map(|size| (size, computed_torque()));
+    let playback = std::iter::once((1.0, ControllerSettings::default()));
+    for (size, controller) in forces.into_iter().chain(playback) {
+        let is_playback = controller.kind == "kinematic";
+        let motion = largest.scaled(&description.robot, size);
+        content.scenario.motion = motion_settings(description, &motion);
+        content.scenario.controller = controller;
+        let (results, setup) = match tried(&content.scenario, description) {
+            Ok(tried) => tried,
+            Err(findings) if is_playback => return Err(findings),
+            Err(findings) => {
+                last = crate::listed(&findings);
+                continue;
+            }
+        };
+        match refused(&results) {
+            Some((CheckKind::Agreement, why)) => return Err(disagrees(description, &why).into()),
+            Some((_, why)) => last = why,
+            None => {
+                if is_playback {
+                    content.remarks.push(format!("without forces: with them it does not pass ({last})"));
+                }
+                leave_out(&mut content, &results);
+                let joints = motion.moving.iter();
+                let joints = joints.map(|&at| joint_name(description, at).to_owned()).collect();
+                return Ok(ScenarioDraft {
+                    text: text(description, &content, setup.clock.duration_s()),
+                    remarks: content.remarks,
+                    joints,
+                });
+            }
+        }
+    }
+    let message = format!("no motion of this robot was found that passes: {last}");
+    Err(Diagnostic::error("new::scenario", message).into())
+}
+
+/// Runs a scenario without recording it.
+///
+/// # Errors
+/// What is wrong with it, or what has broken the run.
+pub fn try_scenario(setup: &RunSetup) -> Result<Outcome, Vec<Diagnostic>> {
+    let broken = |error: &dyn std::error::Error| vec![Diagnostic::error("new::run", error.to_string())];
+    let mut checks = setup.checks();
+    let run = Run::new(setup).map_err(|error| broken(&error))?;
+    let (outcome, result) = run.finish(&mut checks, &mut NoRecorder, |_| {});
+    result.map_err(|error| broken(&error))?;
+    Ok(outcome)
+}
+
+fn tried(
+    scenario: &Scenario,
+    description: &RobotDescription,
+) -> Result<(Vec<CheckResult>, RunSetup), Vec<Diagnostic>> {
+    let setup = RunSetup::new(scenario.clone(), description.clone())?;
+    Ok((try_scenario(&setup)?.checks, setup))
+}
+
+/// Checks that say how well the physics follows the equations of motion: they are left out if they do not pass, which says
+/// nothing about the scenario.
+fn is_optional(kind: CheckKind) -> bool {
+    matches!(kind, CheckKind::Dynamics | CheckKind::Power | CheckKind::Twist)
+}
+
+/// The first check that must pass and does not.
+fn refused(results: &[CheckResult]) -> Option<(CheckKind, String)> {
+    let failed = |result: &&CheckResult| result.status == Status::Fail && !is_optional(result.check);
+    let result = results.iter().find(failed)?;
+    Some((result.check, format!("check {}: {}", result.check, lines(result).join("; "))))
+}
+
+/// Takes out the optional checks that do not pass, and says so.
+fn leave_out(content: &mut Content, results: &[CheckResult]) {
+    let left_out = results.iter().filter(|result| {
+        let is_playback = content.scenario.controller.kind == "kinematic";
+        is_optional(result.check) && result.status != Status::Pass
+            || is_playback && matches!(result.check, CheckKind::Dynamics | CheckKind::Power)
+    });
+    let left_out: Vec<&CheckResult> = left_out.collect();
+    content.scenario.check.retain(|check| !left_out.iter().any(|result| result.check == check.kind()));
+    for result in left_out {
+        let why = lines(result).join("; ");
+        content.remarks.push(format!(
+            "no check {}: {}",
+            result.check,
+            if why.is_empty() { "no value" } else { &why }
+        ));
+    }
+}
+
+fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
+    let message = format!("the model and the twin of \"{}\" are not the same robot: {why}", description.name);
+    Diagnostic::error("new::agreement", message)
+        .with_help("`congruent check` says why; a scenario can only pass for a robot that agrees")
+}
+
+/// The scenario but for its controller, and its motion.
+fn content(description: &RobotDescription, file: &Path) -> Result<(Content, JointMove), Vec<Diagnostic>> {
+    let moves = moves(description);
+    let Some(first) = moves.first() else {
+        let message = format!(
+            "no joint between \"{}\" and \"{}\" can move: there is nothing to run",
+            description.robot.link(description.base).name,
+            description.robot.link(description.tip).name
+        );
+        return Err(Diagnostic::error("new::no_joint", message)
+            .with_help("choose a chain in the robot file: base and tip")
+            .into());
+    };
+    let (mut motion, mut remarks, mut checks) = (first.clone(), Vec::new(), checks(description));
+    match description.for_use(Use::Clearance) {
+        Err(findings) => {
+            remarks.push(format!("no check of distances: {}", crate::listed(&findings).replace('\n', "; ")));
+        }
+        Ok(()) => {
+            let distances = Distances::new(description)
+                .map_err(|error| vec![Diagnostic::error("new::shape", error.to_string())])?
+                .farthest(description, &moves);
+            let found = distances.expect("there is a motion");
+            if !found.ignored.is_empty() {
+                let pairs: Vec<String> = found.ignored.iter().map(|[a, b]| format!("{a} and {b}")).collect();
+                remarks.push(format!(
+                    "pairs that are ignored, since their convex hulls overlap: {}",
+                    pairs.join(", ")
+                ));
+            }
+            match found.least_m {
+                Some(least_m) => {
+                    let minimum_m = one_digit_below(least_m / 2.0).min(MOST_MINIMUM_M);
+                    let (pairs, ignore) = (Vec::new(), found.ignored);
+                    let contact = ContactCheck { ignore: ignore.clone(), ..ContactCheck::default() };
+                    let on_violation = OnViolation::default();
+                    checks.push(Check::Clearance(ClearanceCheck { minimum_m, pairs, ignore, on_violation }));
+                    checks.push(Check::Contact(contact));
+                    remarks.push(format!("links stay {} apart", quantity(least_m, "m")));
+                }
+                None => {
+                    remarks.push("no check of distances: no two links could come near each other".to_owned())
+                }
+            }
+            motion = found.motion;
+        }
+    }
+    let folder = file.parent().unwrap_or(Path::new("."));
+    let scenario = Scenario {
+        name: file.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        robot: relative_path(folder, &absolute(&description_path(description))),
+        start: start_settings(description, &motion),
+        check: checks,
+        ..Scenario::default()
+    };
+    Ok((Content { scenario, remarks }, motion))
+}
+
+/// What a scenario names: the folder of a `robot.toml`, or the file.
+fn description_path(description: &RobotDescription) -> PathBuf {
+    let path = &description.path;
+    let is_usual = path.file_name().is_some_and(|name| name == "robot.toml");
+    match path.parent().filter(|_| is_usual) {
+        Some(folder) if folder.as_os_str().is_empty() => ".".into(),
+        Some(folder) => folder.to_owned(),
+        None => path.clone(),
+    }
+}
+
+fn computed_torque() -> ControllerSettings {
+    ControllerSettings {
+        kind: "computed_torque".to_owned(),
+        stiffness: 400.0.into(),
+        damping: 40.0.into(),
+        ..ControllerSettings::default()
+    }
+}
+
+/// The checks but those of distances.
+fn checks(description: &RobotDescription) -> Vec<Check> {
+    let robot = &description.robot;
+    let kinds = robot.movable_joints().iter().map(|&joint| robot.joint(joint).kind);
+    let (sliding, turning): (Vec<_>, Vec<_>) = kinds.partition(|kind| *kind == JointKind::Prismatic);
+    let of = |joints: &[JointKind], value: f64| (!joints.is_empty()).then_some(value);
+    let tolerance = description.tolerance;
+    vec![
+        Check::Agreement(AgreementCheck {
+            position_m: Some(tolerance.position_m.max(AGREEMENT)),
+            orientation_rad: Some(tolerance.orientation_rad.max(AGREEMENT)),
+            ..AgreementCheck::default()
+        }),
+        Check::Limits(LimitsCheck::default()),
+        Check::Tracking(TrackingCheck {
+            path_deg: of(&turning, PATH_DEG),
+            path_mm: of(&sliding, PATH_MM),
+            goal_deg: of(&turning, GOAL_DEG),
+            goal_mm: of(&sliding, GOAL_MM),
+            ..TrackingCheck::default()
+        }),
+        Check::Invariants(InvariantsCheck::default()),
+        Check::Twist(TwistCheck::default()),
+        Check::Dynamics(DynamicsCheck::default()),
+        Check::Power(PowerCheck::default()),
+    ]
+}
+
+/// Every joint that has a position of its own, at the start.
+fn start_settings(description: &RobotDescription, motion: &JointMove) -> StartSettings {
+    let mut settings = StartSettings::default();
+    let robot = &description.robot;
+    for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
+        let joint = robot.joint(joint);
+        if joint.mimic.is_some() {
+            continue;
+        }
+        let (name, value) = (joint.name.clone(), motion.start[coordinate]);
+        match joint.kind {
+            JointKind::Prismatic => settings.joints_m.insert(name, in_metres(value)),
+            _ => settings.joints_deg.insert(name, in_degrees(value)),
+        };
+    }
+    settings
+}
+
+/// To the target and back.
+fn motion_settings(description: &RobotDescription, motion: &JointMove) -> Vec<MotionSettings> {
+    let to = |q: &RobotQ| {
+        let mut settings = JointMotion {
+            duration_s: Some(motion.duration_s),
+            profile: Profile::Quintic,
+            ..JointMotion::default()
+        };
+        for &coordinate in &motion.moving {
+            let joint = description.robot.joint(description.robot.movable_joints()[coordinate]);
+            match joint.kind {
+                JointKind::Prismatic => {
+                    settings.move_joints_m.insert(joint.name.clone(), in_metres(q[coordinate]))
+                }
+                _ => settings.move_joints_deg.insert(joint.name.clone(), in_degrees(q[coordinate])),
+            };
+        }
+        MotionSettings::Joints(settings)
+    };
+    vec![to(&motion.target), to(&motion.start)]
+}
+
+/// In degrees, without the digits that the conversion has added to tenths.
+fn in_degrees(radians: f64) -> f64 {
+    without_noise(radians.to_degrees())
+}
+
+fn in_metres(metres: f64) -> f64 {
+    without_noise(metres)
+}
+
+fn without_noise(value: f64) -> f64 {
+    let short = (value * 1e4).round() / 1e4 + 0.0;
+    if (short - value).abs() < 1e-9 { short } else { value }
+}
+
+/// The largest number with one digit that is not above `value`.
+fn one_digit_below(value: f64) -> f64 {
+    let power = value.log10().floor();
+    let digit = 10_f64.powf(power);
+    ((value / digit).floor() * digit * 1e9).round() / 1e9
+}
+
+fn joint_name(description: &RobotDescription, coordinate: usize) -> &str {
+    &description.robot.joint(description.robot.movable_joints()[coordinate]).name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn minimum_distances_have_one_digit() {
+        let found = [0.0334, 0.02, 0.000_17, 0.0999].map(one_digit_below);
+        assert_eq!(found, [0.03, 0.02, 0.0001, 0.09]);
+    }
+
+    #[test]
+    fn tenths_of_a_degree_are_written_as_such() {
+        assert_eq!([in_degrees(0.1_f64.to_radians()), in_degrees(1.0)], [0.1, 1_f64.to_degrees()]);
+    }
+}
