@@ -48,11 +48,6 @@ impl RobotArgument {
         &self.packages
     }
 
-    /// Loads it for kinematics, and prints its warnings.
-    pub(crate) fn load(&self, printer: &Printer) -> Result<RobotDescription, Failure> {
-        self.load_for(Use::Kinematics, printer)
-    }
-
     /// Loads it for a use, which is refused before anything is printed, and prints its warnings.
     pub(crate) fn load_for(&self, needed: Use, printer: &Printer) -> Result<RobotDescription, Failure> {
         let description = self.read()?;

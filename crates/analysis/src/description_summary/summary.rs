@@ -141,7 +141,8 @@ mod tests {
         };
         assert_eq!(missing(Use::Kinematics), [vec![], vec!["j".to_owned()]]);
         assert_eq!(missing(Use::Clearance), [["a".to_owned()]]);
-        assert_eq!(missing(Use::Physics), [vec!["j".to_owned()], vec!["a".to_owned(), "b".to_owned()]]);
+        let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<String>>();
+        assert_eq!(missing(Use::Physics), [names(&["b"]), names(&["j"]), names(&["a", "b"])]);
     }
 
     #[test]

@@ -42,7 +42,9 @@ fn of_use(description: &RobotDescription, needed_for: Use) -> UseSummary {
         stopped_by: stopped_by.iter().map(Finding::from).collect(),
         missing: match needed_for {
             Use::Kinematics => for_kinematics(description),
-            Use::Clearance => for_clearance(&description.robot),
+            // Shapes that cannot be read are no shapes that are missing.
+            Use::Clearance if stopped_by.is_empty() => for_clearance(&description.robot),
+            Use::Clearance => Vec::new(),
             Use::Physics => for_physics(description),
         },
     }
@@ -86,11 +88,26 @@ fn for_physics(description: &RobotDescription) -> Vec<Missing> {
     let has_body = |link: &Link| !(link.visuals.is_empty() && link.collisions.is_empty());
     let no_mass = |link: &Link| has_body(link) && link.inertia.is_none();
     let missing = [
+        some("moves without any mass: cannot be simulated with forces", massless(robot)),
         of_joints(robot, "no limit of speed is stated", no_speed),
         of_joints(robot, "no limit of effort is stated", no_effort),
         of_links(robot, "has a shape, but no <inertial>: its mass counts as 0", no_mass),
     ];
     missing.into_iter().flatten().collect()
+}
+
+/// Links that a joint moves although they and all that they carry have no mass.
+fn massless(robot: &Robot) -> Vec<String> {
+    let mut carried_kg: Vec<f64> =
+        robot.links().iter().map(|link| link.inertia.map_or(0.0, |inertia| inertia.mass_kg)).collect();
+    // Children come after their parents, so that from the end each sum is complete if it is used.
+    for joint in robot.joints().iter().rev() {
+        let carried = carried_kg[joint.child.get()];
+        carried_kg[joint.parent.get()] += carried;
+    }
+    let moved = robot.joints().iter().filter(|joint| joint.kind.is_movable());
+    let massless = moved.filter(|joint| carried_kg[joint.child.get()] <= 0.0);
+    massless.map(|joint| robot.link(joint.child).name.clone()).collect()
 }
 
 fn of_joints(robot: &Robot, what: &'static str, lacks: impl Fn(&Joint) -> bool) -> Option<Missing> {

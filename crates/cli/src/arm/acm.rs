@@ -95,7 +95,7 @@ fn summary(pairs: &DisabledPairs) -> String {
         (DisableReason::Adjacent, "joined".to_owned()),
         (DisableReason::Default, "touch in the default position".to_owned()),
         (DisableReason::Always, format!("touch in 95 % of {} samples, seed {}", pairs.samples, pairs.seed)),
-        (DisableReason::Never, "touch in none of the samples, which is no proof".to_owned()),
+        (DisableReason::Never, "touch nowhere that was looked at, which is no proof".to_owned()),
     ];
     for (reason, words) in counts {
         let _ = writeln!(text, "  {:4} {reason:?}: {words}", pairs.count(reason));
@@ -106,16 +106,17 @@ fn summary(pairs: &DisabledPairs) -> String {
         && let Some(least_m) = nearest.least_m
     {
         let [a, b] = &nearest.pair;
-        text += &paragraph(&format!("nearest of Never: {a} and {b}, {} in a sample", length(least_m)), 2, 4);
+        text += &paragraph(&format!("nearest of Never: {a} and {b}, {} at the least", length(least_m)), 2, 4);
     }
     if let Some(declared) = &pairs.declared {
         let line = format!(
-            "the robot's SRDF disables {} pairs: {} are suggested too, {} have no shape",
+            "pairs that the robot's SRDF disables: {}; suggested too: {}; without a shape: {}",
             declared.pairs, declared.suggested, declared.without_shape
         );
         text += &paragraph(&line, 2, 4);
         for [a, b] in &declared.hidden {
-            text += &paragraph(&format!("it disables {a} and {b}, which touch at times only"), 2, 4);
+            text +=
+                &paragraph(&format!("it disables {a} and {b}, which touch at times and not always"), 2, 4);
         }
     }
     text

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use congruent::{
-    description::{Diagnostic, Finding, RobotDescription, is_standard_input},
+    description::{Diagnostic, Finding, RobotDescription, Use, is_standard_input},
     starter::{NewScenario, ScenarioDraft, scenario, try_scenario},
     twin::{
         Outcome, RunSetup,
@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         let message = format!("--out {}: the name of a scenario file ends in .toml", out.display());
         return Err(refused(message, "for example --out scenarios/first.toml").into());
     }
-    let description = arguments.robot.load(printer)?;
+    let description = arguments.robot.load_for(Use::Physics, printer)?;
     let inputs = files_of(&description);
     let file = NewFile { option: "--out", path: out, force: arguments.force };
     let folder = folder_of(out)?;

@@ -1,10 +1,13 @@
 //! A modest motion of a chain: where it starts, where it goes, how long it takes.
 
 use congruent_description::{Joint, JointKind, Robot, RobotDescription, RobotQ};
+use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_kinematics::random_configurations;
 
-/// Starts that are tried: 0 or the middle of the range, the middle of all ranges, and random ones.
-const STARTS: usize = 40;
+/// Starts that are tried: 0, the middle of all ranges, and random ones, of which the first half leaves joints that hold at 0.
+const STARTS: usize = 80;
+/// Share of an effort limit that gravity may take.
+const HELD: f64 = 0.6;
 /// Share of a joint's range that is left free at each end.
 const MARGIN: f64 = 0.1;
 /// Share of a joint's range that it moves at most.
@@ -79,19 +82,37 @@ pub(super) fn moves(description: &RobotDescription) -> Vec<JointMove> {
     let zero = RobotQ::zeros(robot.dof());
     let middle: RobotQ = robot.movable_joints().iter().map(|&joint| middle(robot.joint(joint))).collect();
     let random = random_configurations(robot, 0, STARTS - 2);
-    let starts = [zero, middle].into_iter().chain(random).map(|mut q| {
+    let starts = [zero, middle].into_iter().chain(random).enumerate().map(|(at, mut q)| {
         for (coordinate, q) in q.iter_mut().enumerate() {
             let joint = joint_of(robot, coordinate);
-            // Joints that only hold, such as fingers, stay where they were drawn, at 0 if they can.
             let is_moving = moving.contains(&coordinate);
-            let wanted = if is_moving { *q } else { 0.0 };
+            let wanted = if is_moving || at >= STARTS / 2 { *q } else { 0.0 };
             let (lower, upper) = if is_moving { inner_range(joint) } else { range(joint) };
             *q = rounded(joint, wanted.clamp(lower, upper));
         }
         robot.apply_mimic(&mut q);
         q
     });
-    starts.map(|start| JointMove::from(robot, start, (moving.clone(), 1.0))).collect()
+    let moves: Vec<JointMove> =
+        starts.map(|start| JointMove::from(robot, start, (moving.clone(), 1.0))).collect();
+    let mut gravity = TreeDynamics::new(robot);
+    let holdable: Vec<JointMove> =
+        moves.iter().filter(|motion| is_holdable(robot, &mut gravity, motion)).cloned().collect();
+    if holdable.is_empty() { moves } else { holdable }
+}
+
+/// Whether the actuators can hold the robot against gravity at both ends.
+fn is_holdable(robot: &Robot, gravity: &mut TreeDynamics, motion: &JointMove) -> bool {
+    let mut tau = vec![0.0; robot.dof()];
+    let mut holds = |q: &RobotQ| {
+        let is_known = gravity.gravity_into(q, &mut tau).is_ok();
+        let within = |(&tau, coordinate): (&f64, usize)| {
+            let effort = joint_of(robot, coordinate).limit.and_then(|limit| limit.effort);
+            effort.filter(|&effort| effort > 0.0).is_none_or(|effort| tau.abs() <= HELD * effort)
+        };
+        is_known && tau.iter().zip(0..).all(within)
+    };
+    holds(&motion.start) && holds(&motion.target)
 }
 
 fn joint_of(robot: &Robot, coordinate: usize) -> &Joint {

@@ -56,11 +56,13 @@ fn start(text: &mut String, description: &RobotDescription, scenario: &Scenario)
 fn controller(text: &mut String, scenario: &Scenario) {
     let kind = &scenario.controller.kind;
     let _ = writeln!(text, "\n[controller]\nkind = {}", toml_string(kind));
-    if kind == "computed_torque" {
-        text.push_str(
-            "stiffness = 400.0 # 1/s^2: critically damped, whatever the masses are\ndamping = 40.0 # 1/s\n",
-        );
-    }
+    text.push_str(match kind.as_str() {
+        "computed_torque" => {
+            "stiffness = 400.0 # 1/s^2: critically damped, whatever the masses are\ndamping = 40.0 # 1/s\n"
+        }
+        "gravity_compensation" => "stiffness = 2000.0 # N m/rad, N/m\ndamping = 120.0 # N m s/rad, N s/m\n",
+        _ => "",
+    });
 }
 
 fn joint_motion(text: &mut String, description: &RobotDescription, (motion, about): (&JointMotion, &str)) {

@@ -9,6 +9,8 @@ use super::joint_move::JointMove;
 
 /// Configurations along a motion at which distances are measured.
 const ON_THE_WAY: u32 = 10;
+/// Links that are nearer count as touching: shapes that only just do not.
+const TOUCH_M: f64 = 1e-3;
 /// A pair that touches at this share of the starts is one whose shapes always overlap.
 const ALWAYS: f64 = 0.95;
 /// No other start is looked for if links stay this far apart.
@@ -62,12 +64,12 @@ impl Distances {
             }
         }
         let (_, motion, distances) = best?;
-        let touches = |pair: &usize| distances[*pair] <= 0.0;
+        let touches = |pair: &usize| distances[*pair] < TOUCH_M;
         let names = |pair: usize| {
             let (a, b) = self.clearance.names(pair);
             [a.to_owned(), b.to_owned()]
         };
-        let apart = distances.iter().copied().filter(|&distance_m| distance_m > 0.0);
+        let apart = distances.iter().copied().filter(|&distance_m| distance_m >= TOUCH_M);
         Some(FarthestMove {
             motion: motion.clone(),
             least_m: apart.min_by(f64::total_cmp),
@@ -80,7 +82,7 @@ impl Distances {
         let mut counts = vec![0_u32; self.clearance.pairs().len()];
         for motion in moves {
             let distances = self.at(&motion.start);
-            counts.iter_mut().zip(distances).for_each(|(count, m)| *count += u32::from(m <= 0.0));
+            counts.iter_mut().zip(distances).for_each(|(count, m)| *count += u32::from(m < TOUCH_M));
         }
         let most = ALWAYS * f64::from(u32::try_from(moves.len()).unwrap_or(u32::MAX));
         counts.into_iter().map(|count| f64::from(count) >= most).collect()

@@ -15,7 +15,10 @@ pub(super) fn absolute(path: &Path) -> PathBuf {
     }
 }
 
-/// Words as lines of comments.
+/// Words as lines of comments. Names of a URDF may hold characters that no comment of TOML may.
 pub(super) fn comment(words: &str) -> String {
+    let is_allowed = |c: char| !c.is_control() || c == '\n';
+    let words: String =
+        words.chars().map(|c| if is_allowed(c) { c } else { char::REPLACEMENT_CHARACTER }).collect();
     words.lines().fold(String::new(), |text, line| text + format!("# {line}").trim_end() + "\n")
 }
