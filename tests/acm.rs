@@ -26,11 +26,8 @@ fn what_never_touches_is_apart_where_others_measured() {
     let joints = ["panda_joint1", "panda_joint2", "panda_joint3", "panda_joint5", "panda_joint7"];
     let configurations: Vec<Value> = (0..200)
         .map(|at| {
-            let value = |joint: usize| f64::from((37 * at + 101 * joint as u32) % 200) / 100.0 - 1.0;
-            let q = joints
-                .iter()
-                .enumerate()
-                .map(|(index, joint)| ((*joint).to_owned(), json!(1.5 * value(index))));
+            let value = |joint: u32| f64::from((37 * at + 101 * joint) % 200) / 100.0 - 1.0;
+            let q = (0..).zip(joints).map(|(index, joint)| (joint.to_owned(), json!(1.5 * value(index))));
             let mut q: serde_json::Map<String, Value> = q.collect();
             q.insert("panda_joint4".to_owned(), json!(-1.5 + value(7)));
             q.insert("panda_joint6".to_owned(), json!(1.8 + 1.5 * value(9)));

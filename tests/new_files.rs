@@ -204,3 +204,57 @@ fn a_robot_that_cannot_pass_gets_no_scenario() {
     assert_eq!(over.code, 2);
     assert!(over.stderr.contains("is a file that is read"), "{}", over.stderr);
 }
+
+/// A range of 2e308 m has no width, and random draws from it are no numbers.
+#[test]
+fn ranges_without_end_are_no_trouble() {
+    let folder = tempfile::tempdir().unwrap();
+    let ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>\
+                <inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
+    let wide = format!(
+        "<robot name='wide'><link name='a'>{ball}</link><link name='b'>{ball}</link><link name='c'>{ball}</link>\
+         <joint name='j' type='prismatic'><parent link='a'/><child link='b'/><origin xyz='0.5 0 0'/>\
+         <limit lower='-1e308' upper='1e308' effort='99' velocity='2'/></joint>\
+         <joint name='k' type='continuous'><parent link='b'/><child link='c'/><origin xyz='0.5 0 0'/></joint></robot>"
+    );
+    let urdf = write(folder.path(), "wide.urdf", &wide);
+    assert!(new_scenario(folder.path(), &urdf, "wide"));
+    let acm = congruent(&["acm", "suggest", &urdf]);
+    assert_eq!(acm.code, 2, "{}", acm.stdout);
+    assert!(acm.stderr.contains("joint \"j\" has a range of"), "{}", acm.stderr);
+    assert_eq!(congruent(&["describe", &urdf]).code, 0);
+}
+
+/// Whatever is wrong with a URDF, the new commands say so, or do without.
+#[test]
+fn malformed_urdfs_are_refused_or_used_without_what_is_wrong() {
+    let Some(corpus) = corpus() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let index = fs::read_to_string(corpus.join("bad-inputs/index.json")).unwrap();
+    let index: Value = serde_json::from_str(&index).unwrap();
+    let cases = index["cases"].as_array().unwrap().iter().filter_map(|case| case["file"].as_str());
+    let urdfs: Vec<&str> = cases.filter(|file| file.ends_with(".urdf")).collect();
+    assert!(urdfs.len() > 40, "{urdfs:?}");
+    for (at, file) in urdfs.into_iter().enumerate() {
+        let urdf = text(&corpus.join("bad-inputs").join(file));
+        let out = folder.path().join(at.to_string());
+        let (robot, scenario) = (text(&out), format!("{}.toml", out.display()));
+        let commands: [&[&str]; 4] = [
+            &["describe", &urdf],
+            &["new", "robot", &urdf, "--out", &robot],
+            &["new", "scenario", &urdf, "--out", &scenario],
+            &["acm", "suggest", &urdf, "--samples", "100"],
+        ];
+        let answers = commands.map(congruent);
+        for (command, answer) in commands.iter().zip(&answers) {
+            assert!([0, 1, 2, 4].contains(&answer.code), "{command:?}: {}", answer.stderr);
+            assert!(!answer.stderr.contains("panicked"), "{command:?}: {}", answer.stderr);
+        }
+        // Without a tree of joints there is nothing to describe, to write or to suggest.
+        if answers[0].code == 2 {
+            assert!(answers.iter().all(|answer| answer.code == 2), "{file}");
+        }
+        assert_eq!(answers[1].code != 2, out.exists(), "{file}");
+        assert_eq!(answers[2].code == 0, Path::new(&scenario).exists(), "{file}");
+    }
+}

@@ -178,13 +178,14 @@ fn draw_errors(area: &Area<'_>, panel: &ErrorPanel) -> Result<(), PlotError> {
         )?;
         plane.draw_series(finite.map(|&point| Circle::new(point, 4, colour(series).filled())))?;
     }
-    let tolerance = format!("tolerance {} {}", number(panel.tolerance), panel.unit);
-    let above = if panel.tolerance > top { ", above the chart" } else { "" };
-    if above.is_empty() {
+    let is_above = panel.tolerance > top;
+    if !is_above {
         let ends = vec![(0.5, panel.tolerance), (as_f64(configurations.max(1)) + 0.5, panel.tolerance)];
         plane.draw_series([PathElement::new(ends, GREY.stroke_width(2))])?;
     }
-    text(area, &format!("{tolerance} (grey line){above}").replace(" (grey line),", ","), (80, 12), HPos::Left)
+    let place = if is_above { ", above the chart" } else { " (grey line)" };
+    let tolerance = format!("tolerance {} {}{place}", number(panel.tolerance), panel.unit);
+    text(area, &tolerance, (80, 12), HPos::Left)
 }
 
 /// A curve in a plane view.

@@ -28,7 +28,7 @@ enum What {
     Suggest(SuggestArguments),
 }
 
-/// An SRDF of pairs that cannot or always touch, with the reasons of `MoveIt`'s setup assistant.
+/// An SRDF of pairs that cannot or always touch, with the reasons of MoveIt's setup assistant.
 ///
 /// Adjacent: joined. Default: touching with all joints at 0, or at the middle of a range without 0. Always: touching in 95 %
 /// of the sampled configurations. Never: touching in none of them, which is no proof. Meshes are taken as their convex

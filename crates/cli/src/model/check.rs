@@ -115,13 +115,13 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 /// A plot is of one robot, at configurations.
 fn one_plot(arguments: &Arguments) -> Result<(), Diagnostic> {
     let refused = |message: &str, help: &str| Err(Diagnostic::error("check::plot", message).with_help(help));
-    match (arguments.plot.is_given(), &arguments.configurations, arguments.robots.len()) {
-        (false, ..) => Ok(()),
-        (true, None, _) => {
-            refused("--plot is of configurations, and none are given", "give --configurations FILE")
-        }
-        (true, _, 2..) => refused("--plot is of one robot, and several are given", "check them one by one"),
-        _ => Ok(()),
+    if !arguments.plot.is_given() {
+        return Ok(());
+    }
+    match (&arguments.configurations, arguments.robots.len()) {
+        (None, _) => refused("--plot is of configurations, and none are given", "give --configurations FILE"),
+        (Some(_), 2..) => refused("--plot is of one robot, and several are given", "check them one by one"),
+        (Some(_), _) => Ok(()),
     }
 }
 

@@ -59,23 +59,13 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let path = &arguments.arm.robot.robot;
     is_urdf(path)?;
     let description = arguments.arm.load(printer)?;
-    let file = arguments.out.join("robot.toml");
-    let target = NewFile { option: "--out", path: &file, force: arguments.force };
-    target.may_be_written(&files_of(&description))?;
+    target(arguments, &arguments.out.join(FILE)).may_be_written(&files_of(&description))?;
     let to = match arguments.convention {
         ConventionArgument::Standard => ConversionTarget::Standard,
         ConventionArgument::Modified => ConversionTarget::Modified,
     };
-    let made = Folder::make(&arguments.out)?;
-    let written = (|| {
-        let folder = arguments.out.canonicalize().map_err(|error| unwritable(&arguments.out, &error))?;
-        let draft = robot_file(&description, to, &folder);
-        target.write(&draft.text, &files_of(&description), |written| {
-            let check = checked(written, &description, arguments)?;
-            Ok(report(written, &description, (&draft, check)))
-        })
-    })();
-    let report = written.inspect_err(|_| made.remove())?;
+    let made = Folders::make(&arguments.out)?;
+    let report = written(arguments, &description, to).inspect_err(|_| made.remove())?;
     printer.result(&report, text)?;
     Ok(match report.verdict {
         Agreement::Agree => 0,
@@ -84,10 +74,32 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     })
 }
 
-/// The folders that were made for the file.
-struct Folder(Option<PathBuf>);
+/// The name of the file in its folder.
+const FILE: &str = "robot.toml";
 
-impl Folder {
+fn target<'a>(arguments: &Arguments, path: &'a Path) -> NewFile<'a> {
+    NewFile { option: "--out", path, force: arguments.force }
+}
+
+/// Writes the file into its folder, which exists, and checks it.
+fn written(
+    arguments: &Arguments,
+    description: &RobotDescription,
+    to: ConversionTarget,
+) -> Result<NewRobot, Failure> {
+    let folder = arguments.out.canonicalize().map_err(|error| unwritable(&arguments.out, &error))?;
+    let draft = robot_file(description, to, &folder);
+    let file = arguments.out.join(FILE);
+    target(arguments, &file).write(&draft.text, &files_of(description), |written| {
+        let check = checked(written, description, arguments)?;
+        Ok(report(written, description, (&draft, check)))
+    })
+}
+
+/// The folders that were made for the file, the innermost first.
+struct Folders(Vec<PathBuf>);
+
+impl Folders {
     fn make(path: &Path) -> Result<Self, Diagnostic> {
         if path.exists() && !path.is_dir() {
             let message = format!("--out {} is not a folder", path.display());
@@ -95,24 +107,17 @@ impl Folder {
                 Diagnostic::error("output::refused", message).with_help("give a folder, or a new name")
             );
         }
-        // The first that does not exist; those below it are made with it.
-        let first =
-            path.ancestors().take_while(|folder| !folder.exists() && folder.parent().is_some()).last();
-        let first = first.map(Path::to_owned);
+        let missing =
+            path.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
+        let made = Self(missing.map(Path::to_owned).collect());
         fs::create_dir_all(path).map_err(|error| unwritable(path, &error))?;
-        Ok(Self(first))
+        Ok(made)
     }
 
-    /// Removes what was made, as far as it is empty.
+    /// Removes them; one that is not empty stays.
     fn remove(&self) {
-        let mut left = self.0.clone();
-        while let Some(folder) = left {
-            let inner = fs::read_dir(&folder).ok().and_then(|mut entries| entries.next()?.ok());
-            left = inner.map(|entry| entry.path()).filter(|path| path.is_dir());
-            if left.is_none() {
-                // What is not empty stays.
-                let _ = fs::remove_dir(&folder);
-            }
+        for folder in &self.0 {
+            let _ = fs::remove_dir(folder);
         }
     }
 }
@@ -194,4 +199,23 @@ fn text(report: &NewRobot) -> String {
         verdict => writeln!(text, "  check: {verdict}, worst {worst} (tolerance {tolerance})"),
     };
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_that_were_made_are_removed_and_no_others() {
+        let there = tempfile::tempdir().unwrap();
+        let inner = there.path().join("a/b");
+        Folders::make(&inner).unwrap().remove();
+        assert!(there.path().exists() && !there.path().join("a").exists());
+        let made = Folders::make(&inner).unwrap();
+        fs::write(there.path().join("a/file"), "").unwrap();
+        made.remove();
+        assert!(there.path().join("a/file").exists() && !inner.exists());
+        Folders::make(there.path()).unwrap().remove();
+        assert!(there.path().exists());
+    }
 }

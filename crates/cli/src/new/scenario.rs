@@ -103,10 +103,8 @@ fn text(report: &NewScenario) -> String {
     let mut text = format!("written to {}, which passes\n", report.file);
     text += &paragraph(&report.chain.to_string(), 2, 4);
     let joints = report.joints.join(", ");
-    let line = format!(
-        "{joints} move and come back in {:.1} s, controller {}",
-        report.duration_s, report.controller
-    );
+    let (seconds, controller) = (report.duration_s, &report.controller);
+    let line = format!("there and back in {seconds:.1} s, controller {controller}: {joints}");
     text += &paragraph(&line, 2, 4);
     for remark in &report.remarks {
         text += &paragraph(remark, 2, 4);

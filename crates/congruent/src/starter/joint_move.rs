@@ -5,7 +5,7 @@ use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_kinematics::random_configurations;
 
 /// Starts that are tried: 0, the middle of all ranges, and random ones, of which the first half leaves joints that hold at 0.
-const STARTS: usize = 80;
+const STARTS: usize = 400;
 /// Share of an effort limit that gravity may take.
 const HELD: f64 = 0.6;
 /// Share of a joint's range that is left free at each end.
@@ -30,6 +30,8 @@ pub(super) struct JointMove {
     pub(super) moving: Vec<usize>,
     /// Of one way.
     pub(super) duration_s: f64,
+    /// Whether the actuators can hold the robot against gravity at both ends.
+    pub(super) is_held: bool,
 }
 
 impl JointMove {
@@ -45,7 +47,8 @@ impl JointMove {
 
     /// The same start with a motion of another size, as a share of the largest.
     pub(super) fn scaled(&self, robot: &Robot, size: f64) -> Self {
-        Self::from(robot, self.start.clone(), (self.moving.clone(), size))
+        let is_held = self.is_held;
+        Self { is_held, ..Self::from(robot, self.start.clone(), (self.moving.clone(), size)) }
     }
 
     fn from(robot: &Robot, start: RobotQ, (moving, size): (Vec<usize>, f64)) -> Self {
@@ -64,11 +67,12 @@ impl JointMove {
         }
         robot.apply_mimic(&mut target);
         // Tenths of a second are enough.
-        Self { start, target, moving, duration_s: (duration_s * 10.0).ceil() / 10.0 }
+        Self { start, target, moving, duration_s: (duration_s * 10.0).ceil() / 10.0, is_held: false }
     }
 }
 
-/// Motions of the chain, the plainest first; none if no joint of the chain can move.
+/// Motions of the chain, first those that the actuators can hold, and of these the plainest first; none if no joint of the
+/// chain can move.
 pub(super) fn moves(description: &RobotDescription) -> Vec<JointMove> {
     let robot = &description.robot;
     let has_room = |joint: &Joint| {
@@ -87,22 +91,24 @@ pub(super) fn moves(description: &RobotDescription) -> Vec<JointMove> {
             let joint = joint_of(robot, coordinate);
             let is_moving = moving.contains(&coordinate);
             let wanted = if is_moving || at >= STARTS / 2 { *q } else { 0.0 };
+            // Of a range whose width is no number, a draw is none either.
+            let wanted = if wanted.is_finite() { wanted } else { 0.0 };
             let (lower, upper) = if is_moving { inner_range(joint) } else { range(joint) };
             *q = rounded(joint, wanted.clamp(lower, upper));
         }
         robot.apply_mimic(&mut q);
         q
     });
-    let moves: Vec<JointMove> =
-        starts.map(|start| JointMove::from(robot, start, (moving.clone(), 1.0))).collect();
     let mut gravity = TreeDynamics::new(robot);
-    let holdable: Vec<JointMove> =
-        moves.iter().filter(|motion| is_holdable(robot, &mut gravity, motion)).cloned().collect();
-    if holdable.is_empty() { moves } else { holdable }
+    let mut moves: Vec<JointMove> = starts
+        .map(|start| JointMove::from(robot, start, (moving.clone(), 1.0)))
+        .map(|motion| JointMove { is_held: is_held(robot, &mut gravity, &motion), ..motion })
+        .collect();
+    moves.sort_by_key(|motion| !motion.is_held);
+    moves
 }
 
-/// Whether the actuators can hold the robot against gravity at both ends.
-fn is_holdable(robot: &Robot, gravity: &mut TreeDynamics, motion: &JointMove) -> bool {
+fn is_held(robot: &Robot, gravity: &mut TreeDynamics, motion: &JointMove) -> bool {
     let mut tau = vec![0.0; robot.dof()];
     let mut holds = |q: &RobotQ| {
         let is_known = gravity.gravity_into(q, &mut tau).is_ok();
@@ -119,9 +125,13 @@ fn joint_of(robot: &Robot, coordinate: usize) -> &Joint {
     robot.joint(robot.movable_joints()[coordinate])
 }
 
-/// The limits of a joint, or half a turn to both sides.
+/// The limits of a joint, or half a turn to both sides; of a range without end the part around 0.
 fn range(joint: &Joint) -> (f64, f64) {
-    joint.position_range().unwrap_or((-std::f64::consts::PI, std::f64::consts::PI))
+    /// No motion needs more, in rad or m.
+    const WIDEST: f64 = 20.0;
+    let (lower, upper) = joint.position_range().unwrap_or((-std::f64::consts::PI, std::f64::consts::PI));
+    let near = 0.0_f64.clamp(lower, upper);
+    (lower.max(near - WIDEST), upper.min(near + WIDEST))
 }
 
 fn middle(joint: &Joint) -> f64 {

@@ -4,6 +4,7 @@ mod joint_move;
 mod robot_file;
 mod scenario;
 mod scenario_text;
+mod settings;
 mod touching;
 mod written;
 

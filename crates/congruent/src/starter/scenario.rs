@@ -3,18 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::{
-    Diagnostic, Finding, JointKind, ReportedChain, RobotDescription, RobotQ, Use, display::quantity,
-    relative_path,
+    Diagnostic, Finding, ReportedChain, RobotDescription, Use, display::quantity, relative_path,
 };
 use congruent_twin::{
     Outcome, Run, RunSetup,
     recorder::NoRecorder,
     report::lines,
-    scenario::{
-        AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, ControllerSettings, DynamicsCheck,
-        InvariantsCheck, JointMotion, LimitsCheck, MotionSettings, OnViolation, PowerCheck, Profile,
-        Scenario, StartSettings, TrackingCheck, TwistCheck,
-    },
+    scenario::{Check, CheckKind, ClearanceCheck, ContactCheck, ControllerSettings, OnViolation, Scenario},
     verdict::{CheckResult, Status},
 };
 use schemars::JsonSchema;
@@ -23,19 +18,13 @@ use serde::Serialize;
 use super::{
     joint_move::{JointMove, moves},
     scenario_text::{Content, text},
-    touching::Distances,
+    settings::{checks, computed_torque, gravity_compensation, motion_settings, start_settings},
+    touching::{Distances, FarthestMove},
     written::absolute,
 };
 
 /// Links must stay apart by this at least, and by half of what the motion leaves them if that is less.
 const MOST_MINIMUM_M: f64 = 0.02;
-/// Agreement of table and twin, if the robot's tolerance is not wider. Kind: rounding over a run of some thousand steps.
-const AGREEMENT: f64 = 1e-9;
-/// Tracking of joints that turn, that slide, and at the end.
-const PATH_DEG: f64 = 1.0;
-const PATH_MM: f64 = 1.0;
-const GOAL_DEG: f64 = 0.5;
-const GOAL_MM: f64 = 0.5;
 /// The controller that places the robot at its setpoint.
 const PLAYBACK: &str = "kinematic";
 /// Sizes of the motion that are tried with forces, the largest first.
@@ -196,49 +185,55 @@ fn content(description: &RobotDescription, file: &Path) -> Result<(Content, Join
             .with_help("choose a chain in the robot file: base and tip")
             .into());
     };
-    let (mut motion, mut remarks, mut checks) = (first.clone(), Vec::new(), checks(description));
-    match description.for_use(Use::Clearance) {
-        Err(findings) => {
-            remarks.push(format!("no check of distances: {}", crate::listed(&findings).replace('\n', "; ")));
-        }
-        Ok(()) => {
-            let distances = Distances::new(description)
-                .map_err(|error| vec![Diagnostic::error("new::shape", error.to_string())])?
-                .farthest(description, &moves);
-            let found = distances.expect("there is a motion");
-            if !found.ignored.is_empty() {
-                let pairs: Vec<String> = found.ignored.iter().map(|[a, b]| format!("{a} and {b}")).collect();
-                remarks.push(format!(
-                    "pairs that are ignored, since their convex hulls overlap or are nearer than 1 mm: {}",
-                    pairs.join(", ")
-                ));
-            }
-            match found.least_m {
-                Some(least_m) => {
-                    let minimum_m = one_digit_below(least_m / 2.0).min(MOST_MINIMUM_M);
-                    let (pairs, ignore) = (Vec::new(), found.ignored);
-                    let contact = ContactCheck { ignore: ignore.clone(), ..ContactCheck::default() };
-                    let on_violation = OnViolation::default();
-                    checks.push(Check::Clearance(ClearanceCheck { minimum_m, pairs, ignore, on_violation }));
-                    checks.push(Check::Contact(contact));
-                    remarks.push(format!("links stay {} apart", quantity(least_m, "m")));
-                }
-                None => {
-                    remarks.push("no check of distances: no two links could come near each other".to_owned())
-                }
-            }
-            motion = found.motion;
-        }
-    }
+    let mut content = Content { scenario: Scenario::default(), remarks: Vec::new() };
+    content.scenario.check = checks(description);
+    let farthest = of_distances(description, &moves, &mut content)?;
+    let motion = farthest.unwrap_or_else(|| first.clone());
     let folder = file.parent().unwrap_or(Path::new("."));
-    let scenario = Scenario {
-        name: file.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
-        robot: relative_path(folder, &absolute(&description_path(description))),
-        start: start_settings(description, &motion),
-        check: checks,
-        ..Scenario::default()
+    content.scenario.name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    content.scenario.robot = relative_path(folder, &absolute(&description_path(description)));
+    content.scenario.start = start_settings(description, &motion);
+    Ok((content, motion))
+}
+
+/// Adds the checks of distances, with what is to be said of them; returns the motion that they are for.
+fn of_distances(
+    description: &RobotDescription,
+    moves: &[JointMove],
+    content: &mut Content,
+) -> Result<Option<JointMove>, Vec<Diagnostic>> {
+    let remarks = &mut content.remarks;
+    if let Err(findings) = description.for_use(Use::Clearance) {
+        remarks.push(format!("no check of distances: {}", crate::listed(&findings).replace('\n', "; ")));
+        return Ok(None);
+    }
+    let distances = Distances::new(description)
+        .map_err(|error| vec![Diagnostic::error("new::shape", error.to_string())])?
+        .farthest(description, moves);
+    let Some(FarthestMove { motion, least_m, ignored, touching }) = distances else { return Ok(None) };
+    if !ignored.is_empty() {
+        let why = "since their convex hulls overlap or are nearer than 1 mm";
+        remarks.push(format!("pairs that are ignored, {why}: {}", listed_pairs(&ignored)));
+    }
+    if !touching.is_empty() {
+        let pairs = listed_pairs(&touching);
+        remarks.push(format!("of these only touch on this motion: {pairs}; none without was found"));
+    }
+    let Some(least_m) = least_m else {
+        remarks.push("no check of distances: no two links could come near each other".to_owned());
+        return Ok(Some(motion));
     };
-    Ok((Content { scenario, remarks }, motion))
+    remarks.push(format!("links stay {} apart", quantity(least_m, "m")));
+    let minimum_m = one_digit_below(least_m / 2.0).min(MOST_MINIMUM_M);
+    let on_violation = OnViolation::default();
+    let clearance = ClearanceCheck { minimum_m, pairs: Vec::new(), ignore: ignored.clone(), on_violation };
+    let contact = ContactCheck { ignore: ignored, ..ContactCheck::default() };
+    content.scenario.check.extend([Check::Clearance(clearance), Check::Contact(contact)]);
+    Ok(Some(motion))
+}
+
+fn listed_pairs(pairs: &[[String; 2]]) -> String {
+    pairs.iter().map(|[a, b]| format!("{a} and {b}")).collect::<Vec<_>>().join(", ")
 }
 
 /// What a scenario names: the folder of a `robot.toml`, or the file.
@@ -250,107 +245,6 @@ fn description_path(description: &RobotDescription) -> PathBuf {
         Some(folder) => folder.to_owned(),
         None => path.clone(),
     }
-}
-
-fn computed_torque() -> ControllerSettings {
-    ControllerSettings {
-        kind: "computed_torque".to_owned(),
-        stiffness: 400.0.into(),
-        damping: 40.0.into(),
-        ..ControllerSettings::default()
-    }
-}
-
-/// Stiffer than computed torque where dry friction holds light links.
-fn gravity_compensation() -> ControllerSettings {
-    ControllerSettings {
-        kind: "gravity_compensation".to_owned(),
-        stiffness: 2000.0.into(),
-        damping: 120.0.into(),
-        ..ControllerSettings::default()
-    }
-}
-
-/// The checks but those of distances.
-fn checks(description: &RobotDescription) -> Vec<Check> {
-    let robot = &description.robot;
-    let kinds = robot.movable_joints().iter().map(|&joint| robot.joint(joint).kind);
-    let (sliding, turning): (Vec<_>, Vec<_>) = kinds.partition(|kind| *kind == JointKind::Prismatic);
-    let of = |joints: &[JointKind], value: f64| (!joints.is_empty()).then_some(value);
-    let tolerance = description.tolerance;
-    vec![
-        Check::Agreement(AgreementCheck {
-            position_m: Some(tolerance.position_m.max(AGREEMENT)),
-            orientation_rad: Some(tolerance.orientation_rad.max(AGREEMENT)),
-            ..AgreementCheck::default()
-        }),
-        Check::Limits(LimitsCheck::default()),
-        Check::Tracking(TrackingCheck {
-            path_deg: of(&turning, PATH_DEG),
-            path_mm: of(&sliding, PATH_MM),
-            goal_deg: of(&turning, GOAL_DEG),
-            goal_mm: of(&sliding, GOAL_MM),
-            ..TrackingCheck::default()
-        }),
-        Check::Invariants(InvariantsCheck::default()),
-        Check::Twist(TwistCheck::default()),
-        Check::Dynamics(DynamicsCheck::default()),
-        Check::Power(PowerCheck::default()),
-    ]
-}
-
-/// Every joint that has a position of its own, at the start.
-fn start_settings(description: &RobotDescription, motion: &JointMove) -> StartSettings {
-    let mut settings = StartSettings::default();
-    let robot = &description.robot;
-    for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
-        let joint = robot.joint(joint);
-        if joint.mimic.is_some() {
-            continue;
-        }
-        let (name, value) = (joint.name.clone(), motion.start[coordinate]);
-        match joint.kind {
-            JointKind::Prismatic => settings.joints_m.insert(name, in_metres(value)),
-            _ => settings.joints_deg.insert(name, in_degrees(value)),
-        };
-    }
-    settings
-}
-
-/// To the target and back.
-fn motion_settings(description: &RobotDescription, motion: &JointMove) -> Vec<MotionSettings> {
-    let to = |q: &RobotQ| {
-        let mut settings = JointMotion {
-            duration_s: Some(motion.duration_s),
-            profile: Profile::Quintic,
-            ..JointMotion::default()
-        };
-        for &coordinate in &motion.moving {
-            let joint = description.robot.joint(description.robot.movable_joints()[coordinate]);
-            match joint.kind {
-                JointKind::Prismatic => {
-                    settings.move_joints_m.insert(joint.name.clone(), in_metres(q[coordinate]))
-                }
-                _ => settings.move_joints_deg.insert(joint.name.clone(), in_degrees(q[coordinate])),
-            };
-        }
-        MotionSettings::Joints(settings)
-    };
-    vec![to(&motion.target), to(&motion.start)]
-}
-
-/// In degrees, without the digits that the conversion has added to tenths.
-fn in_degrees(radians: f64) -> f64 {
-    without_noise(radians.to_degrees())
-}
-
-fn in_metres(metres: f64) -> f64 {
-    without_noise(metres)
-}
-
-fn without_noise(value: f64) -> f64 {
-    let short = (value * 1e4).round() / 1e4 + 0.0;
-    if (short - value).abs() < 1e-9 { short } else { value }
 }
 
 /// The largest number with one digit that is not above `value`.
@@ -371,11 +265,6 @@ mod tests {
     #[test]
     fn minimum_distances_have_one_digit() {
         let found = [0.0334, 0.02, 0.000_17, 0.0999].map(one_digit_below);
-        assert_eq!(found, [0.03, 0.02, 0.0001, 0.09]);
-    }
-
-    #[test]
-    fn tenths_of_a_degree_are_written_as_such() {
-        assert_eq!([in_degrees(0.1_f64.to_radians()), in_degrees(1.0)], [0.1, 1_f64.to_degrees()]);
+        assert_eq!(found.map(f64::to_bits), [0.03, 0.02, 0.0001, 0.09].map(f64::to_bits));
     }
 }

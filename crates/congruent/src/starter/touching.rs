@@ -1,18 +1,18 @@
 //! How near links come to each other along a motion.
 
 use congruent_description::{RobotDescription, RobotQ};
-use congruent_kinematics::{Pose, UrdfTree};
+use congruent_kinematics::{Pose, UrdfTree, move_inside_limits};
 use congruent_twin::proximity::{Clearance, PairChoice, ProximityError};
 use nalgebra::Isometry3;
 
 use super::joint_move::JointMove;
 
 /// Configurations along a motion at which distances are measured.
-const ON_THE_WAY: u32 = 10;
+const ON_THE_WAY: u32 = 6;
 /// Links that are nearer count as touching: shapes that only just do not.
 const TOUCH_M: f64 = 1e-3;
-/// A pair that touches at this share of the starts is one whose shapes always overlap.
-const ALWAYS: f64 = 0.95;
+/// So many motions are looked at once one is found, and so many starts for the pairs that always touch.
+const MOST: usize = 40;
 /// No other start is looked for if links stay this far apart.
 const FAR_M: f64 = 0.02;
 
@@ -29,8 +29,21 @@ pub(super) struct FarthestMove {
     pub(super) motion: JointMove,
     /// Smallest distance of the pairs that are not ignored; `None` without such pairs.
     pub(super) least_m: Option<f64>,
-    /// Pairs that touch on the way whatever the start is, or wherever one looked.
+    /// Pairs that touch on the way.
     pub(super) ignored: Vec<[String; 2]>,
+    /// Those of them that do not overlap at 0 or nearly always: no motion without touching links was found.
+    pub(super) touching: Vec<[String; 2]>,
+}
+
+/// A motion that was looked at.
+struct Candidate<'a> {
+    motion: &'a JointMove,
+    /// Pairs that touch, but for those that usually do.
+    touching: usize,
+    /// The smallest distance of the others.
+    least_m: f64,
+    /// Of all pairs.
+    distances_m: Vec<f64>,
 }
 
 impl Distances {
@@ -44,48 +57,68 @@ impl Distances {
         })
     }
 
-    /// The first motion with all links far apart, or the one with the largest distance.
+    /// The first motion with all links far apart, or that with the fewest links touching, and of these with the largest
+    /// distance. One that the actuators can hold comes before others, as in `moves`, unless links touch on it.
     pub(super) fn farthest(
         &mut self,
         description: &RobotDescription,
         moves: &[JointMove],
     ) -> Option<FarthestMove> {
-        let always = self.always_touching(moves);
-        let mut best: Option<(f64, &JointMove, Vec<f64>)> = None;
-        for motion in moves {
-            let distances = self.along(description, motion);
-            let others = distances.iter().zip(&always).filter(|(_, always)| !**always);
-            let least_m = others.map(|(&distance_m, _)| distance_m).fold(f64::INFINITY, f64::min);
-            if best.as_ref().is_none_or(|(known_m, ..)| least_m > *known_m) {
-                best = Some((least_m, motion, distances));
+        let usual = self.usually_touching(description, moves);
+        let held = moves.iter().filter(|motion| motion.is_held).count();
+        let mut best: Option<Candidate<'_>> = None;
+        for (at, motion) in moves.iter().enumerate() {
+            let is_apart = best.as_ref().is_some_and(|best| best.touching == 0);
+            let is_enough = is_apart && (at >= MOST || at >= held);
+            if is_enough || at >= held + MOST {
+                break;
             }
-            if least_m >= FAR_M {
+            let distances_m = self.along(description, motion);
+            let others = || distances_m.iter().zip(&usual).filter(|(_, usual)| !**usual).map(|(&m, _)| m);
+            let touching = others().filter(|&distance_m| distance_m < TOUCH_M).count();
+            let least_m = others().filter(|&m| m >= TOUCH_M).fold(f64::INFINITY, f64::min);
+            let is_better = |known: &Candidate<'_>| {
+                touching < known.touching || (touching == known.touching && least_m > known.least_m)
+            };
+            if best.as_ref().is_none_or(is_better) {
+                best = Some(Candidate { motion, touching, least_m, distances_m });
+            }
+            if touching == 0 && least_m >= FAR_M {
                 break;
             }
         }
-        let (_, motion, distances) = best?;
-        let touches = |pair: &usize| distances[*pair] < TOUCH_M;
+        let Candidate { motion, distances_m, .. } = best?;
+        let touches = |pair: &usize| distances_m[*pair] < TOUCH_M;
         let names = |pair: usize| {
             let (a, b) = self.clearance.names(pair);
             [a.to_owned(), b.to_owned()]
         };
-        let apart = distances.iter().copied().filter(|&distance_m| distance_m >= TOUCH_M);
+        let apart = distances_m.iter().copied().filter(|&distance_m| distance_m >= TOUCH_M);
+        let all = 0..distances_m.len();
         Some(FarthestMove {
             motion: motion.clone(),
             least_m: apart.min_by(f64::total_cmp),
-            ignored: (0..distances.len()).filter(touches).map(names).collect(),
+            ignored: all.clone().filter(touches).map(names).collect(),
+            touching: all.filter(|pair| touches(pair) && !usual[*pair]).map(names).collect(),
         })
     }
 
-    /// For each pair, whether its shapes overlap at nearly all starts.
-    fn always_touching(&mut self, moves: &[JointMove]) -> Vec<bool> {
-        let mut counts = vec![0_u32; self.clearance.pairs().len()];
-        for motion in moves {
+    /// For each pair, whether its shapes overlap with all joints at 0, or at nearly all starts: convex hulls do where
+    /// the links themselves do not.
+    fn usually_touching(&mut self, description: &RobotDescription, moves: &[JointMove]) -> Vec<bool> {
+        let stride = moves.len().div_ceil(MOST).max(1);
+        let mut counts = vec![0_usize; self.clearance.pairs().len()];
+        for motion in moves.iter().step_by(stride) {
             let distances = self.at(&motion.start);
-            counts.iter_mut().zip(distances).for_each(|(count, m)| *count += u32::from(m < TOUCH_M));
+            counts.iter_mut().zip(distances).for_each(|(count, m)| *count += usize::from(m < TOUCH_M));
         }
-        let most = ALWAYS * f64::from(u32::try_from(moves.len()).unwrap_or(u32::MAX));
-        counts.into_iter().map(|count| f64::from(count) >= most).collect()
+        let mut zero = RobotQ::zeros(description.robot.dof());
+        move_inside_limits(&mut zero, &description.robot);
+        let at_zero = self.at(&zero);
+        // All but one in twenty.
+        let looked_at = moves.iter().step_by(stride).len();
+        let is_always = |count: usize| 20 * count >= 19 * looked_at;
+        counts.into_iter().zip(at_zero).map(|(count, m)| m < TOUCH_M || is_always(count)).collect()
     }
 
     /// The least distance of each pair along a motion.

@@ -47,8 +47,11 @@ pub fn robot_file_text(
     let is_default = tolerance == Tolerance::default();
     let values = robot_file_values(description, folder, tolerance);
     let values = values.into_iter().filter(|(key, _)| !(is_default && *key == "tolerance"));
-    let lines: String = values.map(|(key, value)| format!("{key} = {value}\n")).collect();
-    lines + "\n" + dh_section
+    let mut text = String::new();
+    for (key, value) in values {
+        let _ = writeln!(text, "{key} = {value}");
+    }
+    text + "\n" + dh_section
 }
 
 /// The keys of a robot file above its sections, in their order, with their values as TOML. Paths as for

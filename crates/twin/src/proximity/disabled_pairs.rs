@@ -3,9 +3,9 @@
 //! Software", 2014, and its `compute_default_collisions`): joined, touching in the default position, touching in nearly
 //! all sampled configurations, or in none.
 
-use std::{collections::BTreeSet, fmt::Write};
+use std::collections::BTreeSet;
 
-use congruent_description::{Finding, Joint, Link, LinkIndex, Robot, RobotDescription, RobotQ, serde_name};
+use congruent_description::{Finding, Joint, Link, LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{KinematicsError, Pose, Sampling, UrdfTree, random_configurations, range};
 use nalgebra::Isometry3;
 use schemars::JsonSchema;
@@ -110,12 +110,13 @@ struct Candidate {
 /// Finds the pairs that need not be looked at. What the robot's SRDF disables is not taken over.
 ///
 /// # Errors
-/// [`DistanceError`] if a collision mesh has no extent.
+/// [`DistanceError`] if a collision mesh has no extent, or a joint's range no sensible width.
 pub fn suggest_disabled(
     description: &RobotDescription,
     sampling: Sampling,
 ) -> Result<DisabledPairs, DistanceError> {
     let robot = &description.robot;
+    within_reason(robot)?;
     let hulls = |link: &Link| Hulls::new(&format!("link \"{}\"", link.name), &link.collisions);
     let mut shapes = Shapes {
         hulls: robot.links().iter().map(hulls).collect::<Result<_, _>>()?,
@@ -201,31 +202,30 @@ impl Shapes {
         /// Shares of a joint's range, each gone through twice.
         const STEPS: [f64; 12] = [0.5, 0.5, 0.2, 0.2, 0.1, 0.1, 0.05, 0.05, 0.02, 0.02, 0.005, 0.005];
         let Some(mut q) = candidate.nearest.take() else { return Ok(()) };
-        for step in STEPS {
-            for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
-                let joint = robot.joint(joint);
-                let (lower, upper) = range(joint);
-                for signed in [step, -step].map(|share| share * (upper - lower)) {
-                    let mut tried = q.clone();
-                    tried[coordinate] = (q[coordinate] + signed).clamp(lower, upper);
-                    if joint.mimic.is_some() || tried == q {
-                        continue;
-                    }
-                    robot.apply_mimic(&mut tried);
-                    self.move_to(&tried)?;
-                    let distance_m = self.distance_below_m(candidate.pair, candidate.least_m);
-                    if distance_m < candidate.least_m {
-                        (candidate.least_m, q) = (distance_m, tried);
-                    }
-                    if distance_m <= 0.0 {
-                        candidate.reason = None;
-                        return Ok(());
-                    }
-                }
+        let of_joints = |step: f64| (0..robot.dof()).flat_map(move |at| [(at, step), (at, -step)]);
+        for (coordinate, share) in STEPS.into_iter().flat_map(of_joints) {
+            let tried = moved(robot, &q, (coordinate, share));
+            self.move_to(&tried)?;
+            let distance_m = self.distance_below_m(candidate.pair, candidate.least_m);
+            if distance_m <= 0.0 {
+                candidate.reason = None;
+                return Ok(());
+            }
+            if distance_m < candidate.least_m {
+                (candidate.least_m, q) = (distance_m, tried);
             }
         }
         Ok(())
     }
+}
+
+/// A configuration with one joint moved by a share of its range, within its limits; mimic joints follow their masters.
+fn moved(robot: &Robot, q: &RobotQ, (coordinate, share): (usize, f64)) -> RobotQ {
+    let (lower, upper) = range(robot.joint(robot.movable_joints()[coordinate]));
+    let mut moved = q.clone();
+    moved[coordinate] = (q[coordinate] + share * (upper - lower)).clamp(lower, upper);
+    robot.apply_mimic(&mut moved);
+    moved
 }
 
 /// Measures the pairs without a reason at each configuration, until each is known to touch at times or the samples end.
@@ -281,9 +281,9 @@ fn adjacent(robot: &Robot, is_solid: impl Fn(LinkIndex) -> bool) -> BTreeSet<[Li
             around[group.get()].extend(parent.filter(|&parent| is_solid(parent)));
         } else if let Some(parent) = parent {
             match groups[parent.get()] {
-                Some(group) => drop(around[group.get()].insert(link)),
-                None => drop(adjacent.insert([parent, link])),
-            }
+                Some(group) => around[group.get()].insert(link),
+                None => adjacent.insert([parent, link]),
+            };
         }
     }
     for group in &around {
@@ -292,6 +292,17 @@ fn adjacent(robot: &Robot, is_solid: impl Fn(LinkIndex) -> bool) -> BTreeSet<[Li
         }
     }
     adjacent
+}
+
+/// Poses far outside of any workspace have no distances.
+fn within_reason(robot: &Robot) -> Result<(), DistanceError> {
+    /// In rad or m.
+    const WIDEST: f64 = 1e6;
+    let width = |joint: &Joint| joint.position_range().map_or(0.0, |(lower, upper)| upper - lower);
+    match robot.joints().iter().find(|joint| width(joint) > WIDEST) {
+        Some(joint) => Err(DistanceError::Range { joint: joint.name.clone(), width: width(joint) }),
+        None => Ok(()),
+    }
 }
 
 /// All joints at 0, or at the middle of a range that 0 is outside of.
@@ -345,43 +356,6 @@ fn declared(description: &RobotDescription, candidates: &[Candidate]) -> Option<
         hidden: hidden.map(names).collect(),
         without_shape: disabled.len() - known.len(),
     })
-}
-
-/// The suggestion as an SRDF; what it rests on is a comment.
-pub fn srdf_text(pairs: &DisabledPairs) -> String {
-    let mut text = String::from("<?xml version=\"1.0\"?>\n");
-    let _ = writeln!(text, "<!--\n{}-->", comment(pairs).replace("--", "- -"));
-    let _ = writeln!(text, "<robot name=\"{}\">", escaped(&pairs.robot));
-    for SuggestedPair { pair: [a, b], reason, .. } in &pairs.suggested {
-        let (a, b) = (escaped(a), escaped(b));
-        let _ = writeln!(
-            text,
-            "    <disable_collisions link1=\"{a}\" link2=\"{b}\" reason=\"{}\"/>",
-            serde_name(reason)
-        );
-    }
-    text + "</robot>\n"
-}
-
-fn comment(pairs: &DisabledPairs) -> String {
-    let DisabledPairs { urdf, samples, seed, .. } = pairs;
-    let mut text = format!("Suggested by `congruent acm suggest` from {urdf}:\n");
-    let _ = writeln!(
-        text,
-        "{samples} random configurations within the limits, seed {seed}; meshes as convex hulls."
-    );
-    let _ = writeln!(
-        text,
-        "Never is what was found from these samples, and no proof: read it before you use it."
-    );
-    text
-}
-
-fn escaped(text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-    // What an attribute would turn into a space.
-    let text = text.replace('\n', "&#10;").replace('\r', "&#13;").replace('\t', "&#9;");
-    text.replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -459,10 +433,5 @@ mod tests {
         let found = suggested(&(links + &joints.concat()));
         assert_eq!(found.len(), 3);
         assert!(found.iter().all(|(_, reason)| *reason == DisableReason::Adjacent), "{found:?}");
-    }
-
-    #[test]
-    fn names_are_escaped() {
-        assert_eq!(escaped("a<\"&\nb"), "a&lt;&quot;&amp;&#10;b");
     }
 }

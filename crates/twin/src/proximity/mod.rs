@@ -2,6 +2,7 @@
 
 mod clearance;
 mod disabled_pairs;
+mod disabled_srdf;
 mod distances;
 mod hulls;
 mod pair_names;
@@ -11,8 +12,9 @@ mod waiting;
 
 pub use clearance::{Clearance, Nearest};
 pub use disabled_pairs::{
-    ALWAYS_SHARE, DeclaredPairs, DisableReason, DisabledPairs, SuggestedPair, srdf_text, suggest_disabled,
+    ALWAYS_SHARE, DeclaredPairs, DisableReason, DisabledPairs, SuggestedPair, suggest_disabled,
 };
+pub use disabled_srdf::srdf_text;
 pub use distances::{
     BelowLimit, DistanceError, DistanceOptions, DistanceReport, Distances, Overlap, distances,
 };
