@@ -205,6 +205,23 @@ fn a_robot_that_cannot_pass_gets_no_scenario() {
     assert!(over.stderr.contains("is a file that is read"), "{}", over.stderr);
 }
 
+/// A check that has nothing to check is left out, and the file says so.
+#[test]
+fn a_joint_without_limits_has_no_check_of_limits() {
+    let folder = tempfile::tempdir().unwrap();
+    let free = "<robot name='free'><link name='a'/><link name='b'><inertial><mass value='1'/>\
+                <inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>\
+                <joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>";
+    let urdf = write(folder.path(), "free.urdf", free);
+    let file = text(&folder.path().join("free.toml"));
+    let made = congruent(&["new", "scenario", &urdf, "--out", &file]);
+    assert_eq!(made.code, 0, "{}", made.stderr);
+    let written = fs::read_to_string(&file).unwrap();
+    assert!(!written.contains("kind = \"limits\"") && written.contains("# - no check limits:"), "{written}");
+    let ran = congruent_json(&["run", &file, "--no-recording", "--out", &text(&folder.path().join("out"))]);
+    assert_eq!(ran.code, 0, "{}", ran.stdout);
+}
+
 /// A range of 2e308 m has no width, and random draws from it are no numbers.
 #[test]
 fn ranges_without_end_are_no_trouble() {

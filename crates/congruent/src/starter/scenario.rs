@@ -151,9 +151,14 @@ fn refused(results: &[CheckResult]) -> Option<(CheckKind, String)> {
     Some((result.check, format!("check {}: {why}", result.check)))
 }
 
-/// Takes out the optional checks that do not pass, and says so.
+/// Takes out the checks that have nothing to check, and the optional ones that do not pass, and says so.
 fn leave_out(content: &mut Content, results: &[CheckResult]) {
-    let does_not_pass = |result: &&CheckResult| is_optional(result.check) && result.status != Status::Pass;
+    let does_not_pass = |result: &&CheckResult| match result.status {
+        Status::Pass => false,
+        // There was nothing to check, such as limits that no one states.
+        Status::Skipped => true,
+        Status::Fail | Status::Error => is_optional(result.check),
+    };
     let left_out: Vec<&CheckResult> = results.iter().filter(does_not_pass).collect();
     let scenario = &mut content.scenario;
     scenario.check.retain(|check| !left_out.iter().any(|result| result.check == check.kind()));
