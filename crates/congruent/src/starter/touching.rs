@@ -38,8 +38,8 @@ pub(super) struct FarthestMove {
 /// A motion that was looked at.
 struct Candidate<'a> {
     motion: &'a JointMove,
-    /// Pairs that touch, but for those that usually do.
-    touching: usize,
+    /// Pairs that touch, but for those that usually do; and all of them.
+    touching: (usize, usize),
     /// The smallest distance of the others.
     least_m: f64,
     /// Of all pairs.
@@ -64,11 +64,11 @@ impl Distances {
         description: &RobotDescription,
         moves: &[JointMove],
     ) -> Option<FarthestMove> {
-        let usual = self.usually_touching(description, moves);
+        let (usual, always) = self.usually_touching(description, moves);
         let held = moves.iter().filter(|motion| motion.is_held).count();
         let mut best: Option<Candidate<'_>> = None;
         for (at, motion) in moves.iter().enumerate() {
-            let is_apart = best.as_ref().is_some_and(|best| best.touching == 0);
+            let is_apart = best.as_ref().is_some_and(|best| best.touching.0 == 0);
             let is_enough = is_apart && (at >= MOST || at >= held);
             if is_enough || at >= held + MOST {
                 break;
@@ -76,6 +76,8 @@ impl Distances {
             let distances_m = self.along(description, motion);
             let others = || distances_m.iter().zip(&usual).filter(|(_, usual)| !**usual).map(|(&m, _)| m);
             let touching = others().filter(|&distance_m| distance_m < TOUCH_M).count();
+            let all = distances_m.iter().filter(|&&distance_m| distance_m < TOUCH_M).count();
+            let touching = (touching, all);
             let least_m = others().filter(|&m| m >= TOUCH_M).fold(f64::INFINITY, f64::min);
             let is_better = |known: &Candidate<'_>| {
                 touching < known.touching || (touching == known.touching && least_m > known.least_m)
@@ -83,7 +85,7 @@ impl Distances {
             if best.as_ref().is_none_or(is_better) {
                 best = Some(Candidate { motion, touching, least_m, distances_m });
             }
-            if touching == 0 && least_m >= FAR_M {
+            if touching.0 == 0 && touching.1 <= always && least_m >= FAR_M {
                 break;
             }
         }
@@ -104,8 +106,12 @@ impl Distances {
     }
 
     /// For each pair, whether its shapes overlap with all joints at 0, or at nearly all starts: convex hulls do where
-    /// the links themselves do not.
-    fn usually_touching(&mut self, description: &RobotDescription, moves: &[JointMove]) -> Vec<bool> {
+    /// the links themselves do not. And how many do so at nearly all starts.
+    fn usually_touching(
+        &mut self,
+        description: &RobotDescription,
+        moves: &[JointMove],
+    ) -> (Vec<bool>, usize) {
         let stride = moves.len().div_ceil(MOST).max(1);
         let mut counts = vec![0_usize; self.clearance.pairs().len()];
         for motion in moves.iter().step_by(stride) {
@@ -118,7 +124,8 @@ impl Distances {
         // All but one in twenty.
         let looked_at = moves.iter().step_by(stride).len();
         let is_always = |count: usize| 20 * count >= 19 * looked_at;
-        counts.into_iter().zip(at_zero).map(|(count, m)| m < TOUCH_M || is_always(count)).collect()
+        let always = counts.iter().filter(|&&count| is_always(count)).count();
+        (counts.into_iter().zip(at_zero).map(|(count, m)| m < TOUCH_M || is_always(count)).collect(), always)
     }
 
     /// The least distance of each pair along a motion.
