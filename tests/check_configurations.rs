@@ -58,3 +58,69 @@ fn nothing_is_listed_where_nothing_was_asked() {
     assert_eq!(answer.code, 0, "{}", answer.stderr);
     assert!(answer.json().get("at_configurations").is_none());
 }
+
+/// The planar arm at two configurations, by closed form: 0.6 m and 0.4 m at `q1` and `q1 + q2`. Its table has the first
+/// length 10 mm too long.
+#[test]
+fn positions_by_both_models_are_a_table_and_a_chart() {
+    let temporary = tempfile::tempdir().unwrap();
+    let [robot, asked, plot] =
+        ["robot.toml", "configurations.json", "plot.svg"].map(|name| temporary.path().join(name));
+    let folder = workspace().join("robots/planar_2r");
+    let file = fs::read_to_string(folder.join("robot.toml")).unwrap();
+    let urdf = format!("{:?}", text(&folder.join("planar_2r.urdf")));
+    let changed = file.replace("\"planar_2r.urdf\"", &urdf).replacen("a_m = 0.6", "a_m = 0.61", 1);
+    assert_ne!(changed, file.replace("\"planar_2r.urdf\"", &urdf));
+    fs::write(&robot, changed).unwrap();
+    let at = [[0.3, -0.4], [1.1, 0.7]];
+    let asked_for = at.map(|[first, second]| json!({ "q": { "joint_1": first, "joint_2": second } }));
+    fs::write(&asked, Value::from(asked_for.to_vec()).to_string()).unwrap();
+    let arguments =
+        ["check", &text(&robot), "--configurations", &text(&asked), "--table", "--plot", &text(&plot)];
+
+    let report = congruent_json(&arguments).json();
+    for (difference, [first, second]) in report["at_configurations"].as_array().unwrap().iter().zip(at) {
+        let tip = &difference["tip"][0];
+        assert_eq!(tip["pair"], "model_urdf");
+        for (key, length) in [("first", 0.61), ("second", 0.6)] {
+            let x = length * f64::cos(first) + 0.4 * f64::cos(first + second);
+            let found = tip[key]["translation_m"][0].as_f64().unwrap();
+            assert!((found - x).abs() < CLOSED_FORM, "{key}: {found} for {x} m");
+        }
+        assert!((tip["position_m"].as_f64().unwrap() - 0.01).abs() < CLOSED_FORM);
+        assert_eq!(difference["tip"][1]["pair"], "urdf_simulation");
+    }
+    let shown = congruent(&arguments).stdout;
+    let table: Vec<&str> = shown.lines().skip_while(|line| !line.contains("by table, by URDF")).collect();
+    assert!(table.len() > 3, "{shown}");
+    let second_row: Vec<&str> = table[3].split_whitespace().collect();
+    let x = |length: f64| format!("{:.2}", 1e3 * (length * f64::cos(1.1) + 0.4 * f64::cos(1.8)));
+    assert_eq!((second_row[0], second_row[1], second_row[4]), ("2", x(0.61).as_str(), x(0.6).as_str()));
+    assert!(table[3].contains("10 mm"), "{}", table[3]);
+    assert!(!shown.contains("at configuration "), "{shown}");
+
+    let svg = fs::read_to_string(&plot).unwrap();
+    let chart = roxmltree::Document::parse(&svg).unwrap();
+    // A point for each configuration and quantity.
+    assert_eq!(chart.descendants().filter(|node| node.has_tag_name("circle")).count(), 4);
+    for words in ["position in mm", "orientation in deg", "tolerance"] {
+        assert!(svg.contains(words), "no {words:?}");
+    }
+}
+
+#[test]
+fn a_table_or_chart_of_nothing_is_refused() {
+    let refused = |arguments: &[&str], words: &str| {
+        let answer = congruent(&[&["check", "robots/planar_2r"], arguments].concat());
+        assert_eq!(answer.code, 2, "{}", answer.stdout);
+        assert!(answer.stderr.contains(words), "no {words:?} in {}", answer.stderr);
+    };
+    refused(&["--table"], "--configurations");
+    refused(&["--plot", "p.svg"], "--plot is of configurations");
+    let temporary = tempfile::tempdir().unwrap();
+    let asked = temporary.path().join("configurations.json");
+    fs::write(&asked, "[{\"q\": {}}]").unwrap();
+    refused(&["--configurations", &text(&asked), "--plot", &text(&asked)], "is a file that is read");
+    refused(&["robots/ur5e", "--configurations", &text(&asked), "--plot", "p.svg"], "--plot is of one robot");
+    assert_eq!(fs::read_to_string(&asked).unwrap(), "[{\"q\": {}}]");
+}

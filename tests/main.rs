@@ -3,6 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
 
+mod acm;
 mod arm_studies;
 mod bad_input;
 mod batch;
@@ -20,14 +21,17 @@ mod command;
 mod comparing;
 mod conversions;
 mod corpus;
+mod describe;
 mod diagnosis;
 mod diagnosis_chains;
 mod dynamics_causes;
 mod dynamics_goldens;
 mod faults;
 mod forward_goldens;
+mod frames;
 mod golden;
 mod jacobian_goldens;
+mod new_files;
 mod pairing;
 mod planted_dynamics;
 mod robots;

@@ -100,10 +100,21 @@ fn documents_follow_their_schemas() {
     let targets = folder.path().join("targets.json");
     fs::write(&targets, r#"[{"translation_m": [0.7, 0.2, 0]}, {"translation_m": [1.5, 0, 0]}]"#).unwrap();
     let targets = text(&targets);
+    let configurations = folder.path().join("configurations.json");
+    fs::write(&configurations, r#"[{"q": {"joint_1": 0.5}}]"#).unwrap();
+    let configurations = text(&configurations);
+    let [robot, scenario] = ["robot", "scenario.toml"].map(|name| text(&folder.path().join(name)));
     let commands: &[(&str, &[&str])] = &[
         ("check", &["check", "robots/ur5e"]),
         ("check", &["check", "robots/cylindrical_rpp"]),
+        ("check", &["check", "robots/planar_2r", "--configurations", &configurations]),
+        ("describe", &["describe", "robots/panda"]),
+        ("describe", &["describe", "robots/rrr_arm/rrr_arm.urdf"]),
+        ("acm", &["acm", "suggest", "robots/rrr_arm", "--samples", "100"]),
+        ("new_robot", &["new", "robot", "robots/ur5e/ur5e.urdf", "--out", &robot]),
+        ("new_scenario", &["new", "scenario", "robots/planar_2r", "--out", &scenario]),
         ("fk", &["fk", "robots/ur5e", at]),
+        ("fk", &["fk", "robots/ur5e", "--from", "tool0", "--to", "forearm_link"]),
         ("dynamics", &["dynamics", "robots/ur5e", "--payload", "2.5", at]),
         ("jacobian", &["jacobian", "robots/ur5e", at]),
         ("ik", &["ik", "robots/planar_2r", "--targets", &targets]),

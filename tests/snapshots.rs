@@ -12,9 +12,10 @@ use crate::{
     corpus::workspace,
 };
 
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 15] = [
     "run",
     "check",
+    "describe",
     "fk",
     "dynamics",
     "jacobian",
@@ -138,8 +139,36 @@ fn check() {
 }
 
 #[test]
+fn describe() {
+    prints("describe", "describe robots/rrr_arm", &[]);
+}
+
+#[test]
+fn acm_suggest() {
+    prints("acm_suggest", "acm suggest robots/ur5e --samples 1000", &[]);
+}
+
+#[test]
+fn new_files() {
+    // Measured values are those of a run, whose last digits are not the same on every machine.
+    const MEASURED: Filter = (r"(?s)  pass agreement.*?(--- )", "  <checks>\n$1");
+    let bench = Bench::new();
+    let robot = "new robot robots/planar_2r/planar_2r.urdf --out FOLDER/planar";
+    prints_in(bench.path(), "new_robot", robot, &[]);
+    prints_in(
+        bench.path(),
+        "new_scenario",
+        "new scenario FOLDER/planar --out FOLDER/first.toml",
+        &[MEASURED],
+    );
+    let bad = "new scenario robots/ur5e/wrong_convention.toml --out FOLDER/no.toml";
+    prints_in(bench.path(), "error_new_scenario", bad, &[SAMPLE]);
+}
+
+#[test]
 fn fk() {
     prints("fk_urdf", "fk robots/ur5e --at elbow_joint=1.2", &[]);
+    prints("fk_between", "fk robots/ur5e --from tool0 --to forearm_link --at elbow_joint=1.2", &[]);
     prints("fk_dh", "fk robots/ur5e --source dh --at elbow_joint=1.2", &[]);
 }
 

@@ -2,15 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use congruent_description::{Diagnostic, Finding, ReportedChain, RobotDescription, RobotQ};
+use congruent_description::{
+    Diagnostic, Finding, ReportedChain, RobotDescription, RobotQ, known_names, serde_name,
+};
 use congruent_kinematics::{
     DhChain, KinematicsError, LinkPoses, LinkPosesError, Pose, ReportedPose, UrdfTree,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// The tool centre point among links.
-pub(crate) const TCP: &str = "tcp";
 
 /// A source of link poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -29,7 +28,7 @@ pub enum Source {
 /// Poses at one configuration, by name, in order.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReportedLinkPoses {
-    /// Links (or frames of the table) with their poses in the root link's frame.
+    /// Links (or frames of the table) with their poses in the frame `from` of the report.
     #[serde(serialize_with = "as_map")]
     #[schemars(with = "BTreeMap<String, ReportedPose>")]
     pub links: Vec<(String, ReportedPose)>,
@@ -50,6 +49,12 @@ pub struct ForwardReport {
     pub joints: Vec<String>,
     /// The source.
     pub source: Source,
+    /// The frame that the poses are in: a link, a frame of the table or the declared TCP; the root link if none was asked
+    /// for.
+    pub from: String,
+    /// The one frame whose pose was asked for; `None` if all are here.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to: Option<String>,
     /// One entry for each configuration, in input order.
     pub results: Vec<ReportedLinkPoses>,
     /// Warnings about the input.
@@ -84,6 +89,47 @@ impl From<ForwardError> for Diagnostic {
     }
 }
 
+impl ForwardReport {
+    /// The same poses in the frame `from`, and of the frame `to` alone; what is not given stays as it is. `self` has the
+    /// poses of all frames in the root link.
+    ///
+    /// # Errors
+    /// The source has no such frame.
+    pub fn between(mut self, from: Option<&str>, to: Option<&str>) -> Result<Self, Diagnostic> {
+        let root = self.from.clone();
+        for ReportedLinkPoses { links } in &mut self.results {
+            let root_from = |name: &str| -> Result<Pose, Diagnostic> {
+                let found = links.iter().find(|(link, _)| link == name);
+                match found {
+                    Some((_, pose)) => Ok(pose.into()),
+                    None if name == root => Ok(Pose::identity()),
+                    None => Err(unknown_frame(name, self.source, links)),
+                }
+            };
+            let from_from_root =
+                from.map(root_from).transpose()?.map(|root_from_from| root_from_from.inverse());
+            let root_from_to = to.map(root_from).transpose()?;
+            if let (Some(to), Some(root_from_to)) = (to, root_from_to) {
+                *links = vec![(to.to_owned(), (&root_from_to).into())];
+            }
+            if let Some(from_from_root) = from_from_root {
+                for (_, pose) in links.iter_mut() {
+                    *pose = (&(from_from_root * Pose::from(&*pose))).into();
+                }
+            }
+        }
+        self.from = from.map_or(root, str::to_owned);
+        self.to = to.map(str::to_owned);
+        Ok(self)
+    }
+}
+
+fn unknown_frame(name: &str, source: Source, links: &[(String, ReportedPose)]) -> Diagnostic {
+    let known = links.iter().map(|(link, _)| link.as_str());
+    let message = format!("there is no frame \"{name}\" by source {}", serde_name(&source));
+    Diagnostic::error("fk::frame", message).with_help(known_names(name, "frames", known))
+}
+
 /// Poses of all links and of the declared TCP at each configuration, by a source of link poses.
 ///
 /// # Errors
@@ -95,7 +141,7 @@ pub fn forward(
 ) -> Result<ForwardReport, ForwardError> {
     let robot = &description.robot;
     let mut root_from_links = vec![Pose::identity(); robot.links().len()];
-    let tip_from_tcp = description.tip_from_tcp.filter(|_| robot.find_link(TCP).is_none()).map(Pose::from);
+    let tip_from_tcp = description.tip_from_tcp.map(Pose::from);
     let mut results = Vec::with_capacity(configurations.len());
     for q in configurations {
         link_poses.root_from_links_into(q, &mut root_from_links)?;
@@ -104,7 +150,7 @@ pub fn forward(
             names.zip(root_from_links.iter().map(ReportedPose::from)).collect();
         if let Some(tip_from_tcp) = tip_from_tcp {
             let root_from_tcp = root_from_links[description.tip.get()] * tip_from_tcp;
-            links.push((TCP.to_owned(), (&root_from_tcp).into()));
+            links.push((robot.tcp_name().to_owned(), (&root_from_tcp).into()));
         }
         results.push(ReportedLinkPoses { links });
     }
@@ -118,12 +164,14 @@ fn report(description: &RobotDescription, source: Source, results: Vec<ReportedL
         chain: description.reported_chain(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         source,
+        from: robot.link(robot.root()).name.clone(),
+        to: None,
         results,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     }
 }
 
-/// Frames `dh0` to `dhn`, the tip under its name, and the TCP, which is the tip without a tool.
+/// The base unless it is the root, frames `dh0` to `dhn`, the tip under its name, and the TCP, which is the tip without a tool.
 ///
 /// # Errors
 /// [`ForwardError::NoTable`] for a robot without a table.
@@ -136,6 +184,7 @@ pub fn forward_by_table(
         description.dh.as_ref().ok_or_else(|| ForwardError::NoTable { robot: robot.name().to_owned() })?;
     let chain = DhChain::new(table, robot);
     let tree = UrdfTree::new(robot);
+    let name = |link| robot.link(link).name.clone();
     let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
     let mut base_from_dh = vec![Pose::identity(); chain.joint_count() + 1];
     let at = |q: &RobotQ| -> Result<ReportedLinkPoses, KinematicsError> {
@@ -143,11 +192,12 @@ pub fn forward_by_table(
         chain.dh_frames_into(q, &mut base_from_dh)?;
         let root_from_tip = root_from_base * chain.base_from_tip(q)?;
         let frames = base_from_dh.iter().enumerate();
-        let mut links: Vec<(String, ReportedPose)> = frames
-            .map(|(index, frame)| (format!("dh{index}"), (&(root_from_base * *frame)).into()))
-            .collect();
-        links.push((robot.link(description.tip).name.clone(), (&root_from_tip).into()));
-        links.push((TCP.to_owned(), (&(root_from_tip * tip_from_tcp)).into()));
+        let frames = frames.map(|(index, frame)| (format!("dh{index}"), root_from_base * *frame));
+        let base = (description.base != robot.root()).then(|| (name(description.base), root_from_base));
+        let mut links: Vec<(String, ReportedPose)> =
+            base.into_iter().chain(frames).map(|(name, pose)| (name, (&pose).into())).collect();
+        links.push((name(description.tip), (&root_from_tip).into()));
+        links.push((robot.tcp_name().to_owned(), (&(root_from_tip * tip_from_tcp)).into()));
         Ok(ReportedLinkPoses { links })
     };
     let results = configurations.iter().map(at).collect::<Result<_, KinematicsError>>();

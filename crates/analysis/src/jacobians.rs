@@ -10,8 +10,6 @@ use serde::Serialize;
 
 pub use congruent_kinematics::JacobianKind;
 
-use crate::forward::TCP;
-
 /// A Jacobian as programs read it: named blocks, since half the field stacks linear first and half
 /// angular first. Columns are in the order of the report's joints.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -86,7 +84,7 @@ pub enum JacobianFrame {
 }
 
 impl JacobianFrame {
-    /// The frame with the name of a link, or `tcp` for the declared tool centre point, as `fk` calls it; the tip if
+    /// The frame with the name of a link, or of the declared tool centre point ([`Robot::tcp_name`](congruent_description::Robot::tcp_name)); the tip if
     /// no name is given.
     ///
     /// # Errors
@@ -96,8 +94,10 @@ impl JacobianFrame {
         let Some(name) = name else { return Ok(Self::Link(description.tip)) };
         match (robot.find_link(name), description.tip_from_tcp) {
             (Some(link), _) => Ok(Self::Link(link)),
-            (None, Some(tip_from_tcp)) if name == TCP => Ok(Self::Tcp(description.tip, tip_from_tcp.into())),
-            (None, None) if name == TCP => {
+            (None, Some(tip_from_tcp)) if name == description.robot.tcp_name() => {
+                Ok(Self::Tcp(description.tip, tip_from_tcp.into()))
+            }
+            (None, None) if name == description.robot.tcp_name() => {
                 let message = format!(
                     "robot \"{}\" declares no tool centre point at the end of this chain",
                     robot.name()
@@ -107,7 +107,7 @@ impl JacobianFrame {
             }
             (None, declared) => {
                 let links = robot.links().iter().map(|link| link.name.as_str());
-                let known: Vec<&str> = links.chain(declared.is_some().then_some(TCP)).collect();
+                let known: Vec<&str> = links.chain(declared.map(|_| description.robot.tcp_name())).collect();
                 let message = format!("robot \"{}\" has no link \"{name}\"", robot.name());
                 Err(Diagnostic::error("jacobian::link", message).with_help(known_names(name, "links", known)))
             }
@@ -174,9 +174,10 @@ fn report(
     let name = |link| robot.link(link).name.clone();
     let (link, tcp) = match frame {
         JacobianFrame::Link(link) => (name(link), None),
-        JacobianFrame::Tcp(link, pose) => {
-            (TCP.to_owned(), Some(TcpInLink { link: name(link), link_from_tcp: (&pose).into() }))
-        }
+        JacobianFrame::Tcp(link, pose) => (
+            description.robot.tcp_name().to_owned(),
+            Some(TcpInLink { link: name(link), link_from_tcp: (&pose).into() }),
+        ),
     };
     JacobianReport {
         chain: description.reported_chain(),

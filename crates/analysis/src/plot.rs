@@ -1,6 +1,7 @@
-//! Plots of a report as SVG text: bars of named values, and plane views to scale. The one file
+//! Plots of a report as SVG text: bars of named values, errors one after another, and plane views to scale. The one file
 //! that decides their appearance.
 
+use congruent_description::display::number;
 use plotters::{
     coord::Shift,
     prelude::*,
@@ -99,6 +100,92 @@ pub fn bars(chart: &BarChart) -> Result<String, PlotError> {
         legend(&root, &chart.series)?;
     }
     Ok(svg)
+}
+
+/// Errors at configurations, each panel with another quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ErrorChart {
+    /// Its title.
+    pub title: String,
+    /// Names of the series.
+    pub series: Vec<String>,
+    /// The panels, one below another.
+    pub panels: Vec<ErrorPanel>,
+}
+
+/// One quantity at each configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ErrorPanel {
+    /// Name of the quantity.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// The values of each series, from the first configuration on.
+    pub values: Vec<Vec<f64>>,
+    /// The largest value that counts as agreement.
+    pub tolerance: f64,
+}
+
+/// Draws a point for each configuration, and the tolerance as a line.
+///
+/// # Errors
+/// [`PlotError`] if the drawing library refuses.
+pub fn errors(chart: &ErrorChart) -> Result<String, PlotError> {
+    const PANEL_PX: u32 = 260;
+    let count = u32::try_from(chart.panels.len().max(1)).unwrap_or(1);
+    let mut svg = String::new();
+    {
+        let root = page(&mut svg, (860, TITLE_PX + 24 + PANEL_PX * count), &chart.title)?;
+        legend(&root, &chart.series)?;
+        let (_, below) = root.split_vertically(TITLE_PX + 20);
+        for (area, panel) in below.split_evenly((chart.panels.len().max(1), 1)).iter().zip(&chart.panels) {
+            draw_errors(area, panel)?;
+        }
+    }
+    Ok(svg)
+}
+
+fn draw_errors(area: &Area<'_>, panel: &ErrorPanel) -> Result<(), PlotError> {
+    let all = || panel.values.iter().flatten().copied().filter(|value| value.is_finite());
+    let largest = all().fold(0.0, f64::max);
+    // Without any error the tolerance is what there is to show.
+    let top = 1.15 * if largest > 0.0 { largest } else { panel.tolerance };
+    let configurations = panel.values.iter().map(Vec::len).max().unwrap_or(0);
+    let mut plane = ChartBuilder::on(area)
+        .margin(14)
+        .margin_top(26)
+        .x_label_area_size(40)
+        .y_label_area_size(76)
+        .build_cartesian_2d(0.5..as_f64(configurations.max(1)) + 0.5, 0.0..top.max(f64::MIN_POSITIVE))?;
+    plane
+        .configure_mesh()
+        .disable_x_mesh()
+        .light_line_style(TRANSPARENT)
+        .x_labels(configurations.clamp(1, 12))
+        .x_label_formatter(&|at| format!("{at:.0}"))
+        .x_desc("configuration")
+        .y_desc(format!("{} in {}", panel.name, panel.unit))
+        .y_labels(6)
+        .y_label_formatter(&|value| number(*value))
+        .label_style((FONT, 13))
+        .draw()?;
+    for (series, values) in panel.values.iter().enumerate() {
+        let points: Vec<(f64, f64)> =
+            values.iter().enumerate().map(|(at, &value)| (as_f64(at) + 1.0, value)).collect();
+        let finite = points.iter().filter(|(_, value)| value.is_finite());
+        plane.draw_series(
+            finite.clone().map(|&(at, value)| PathElement::new(vec![(at, 0.0), (at, value)], colour(series))),
+        )?;
+        plane.draw_series(finite.map(|&point| Circle::new(point, 4, colour(series).filled())))?;
+    }
+    let is_above = panel.tolerance > top;
+    if !is_above {
+        let ends = vec![(0.5, panel.tolerance), (as_f64(configurations.max(1)) + 0.5, panel.tolerance)];
+        plane.draw_series([PathElement::new(ends, GREY.stroke_width(2))])?;
+    }
+    let place = if is_above { ", above the chart" } else { " (grey line)" };
+    let tolerance = format!("tolerance {} {}{place}", number(panel.tolerance), panel.unit);
+    text(area, &tolerance, (80, 12), HPos::Left)
 }
 
 /// A curve in a plane view.

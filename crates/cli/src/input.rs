@@ -43,6 +43,11 @@ impl RobotArgument {
         Ok(load_robot_with(&self.robot, &self.packages.ros())?)
     }
 
+    /// Where its meshes are.
+    pub(crate) fn packages(&self) -> &PackageArguments {
+        &self.packages
+    }
+
     /// Loads it for a use, which is refused before anything is printed, and prints its warnings.
     pub(crate) fn load_for(&self, needed: Use, printer: &Printer) -> Result<RobotDescription, Failure> {
         let description = self.read()?;
@@ -50,6 +55,13 @@ impl RobotArgument {
         printer.warnings(&description.warnings);
         Ok(description)
     }
+}
+
+/// The files that a robot was read from, which no result may replace.
+pub(crate) fn files_of(description: &RobotDescription) -> Vec<PathBuf> {
+    let named =
+        [Some(&description.path), Some(&description.urdf_path), description.named_files.srdf.as_ref()];
+    named.into_iter().flatten().cloned().collect()
 }
 
 /// A chain of the robot, if it is not the declared one.

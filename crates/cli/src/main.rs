@@ -11,6 +11,7 @@ mod input;
 #[cfg(feature = "recording")]
 mod inspect;
 mod model;
+mod new;
 mod output_file;
 mod plot_file;
 mod print;
@@ -43,6 +44,7 @@ enum Command {
     Run(run::Arguments),
     Faults(faults::Arguments),
     Check(model::check::Arguments),
+    Describe(model::describe::Arguments),
     Fk(arm::fk::Arguments),
     Jacobian(arm::jacobian::Arguments),
     Ik(arm::ik::Arguments),
@@ -51,7 +53,9 @@ enum Command {
     Workspace(arm::workspace::Arguments),
     Sensitivity(arm::sensitivity::Arguments),
     Clearance(arm::clearance::Arguments),
+    Acm(arm::acm::Arguments),
     Calibrate(model::calibrate::Arguments),
+    New(new::Arguments),
     Derive(model::derive::Arguments),
     Convert(model::convert::Arguments),
     #[cfg(feature = "recording")]
@@ -67,6 +71,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments, &printer),
         Command::Faults(arguments) => faults::run(&arguments, &printer),
         Command::Check(arguments) => model::check::run(&arguments, &printer),
+        Command::Describe(arguments) => model::describe::run(&arguments, &printer),
         Command::Fk(arguments) => arm::fk::run(&arguments, &printer),
         Command::Jacobian(arguments) => arm::jacobian::run(&arguments, &printer),
         Command::Calibrate(arguments) => model::calibrate::run(&arguments, &printer),
@@ -76,6 +81,8 @@ fn main() -> ExitCode {
         Command::Workspace(arguments) => arm::workspace::run(&arguments, &printer),
         Command::Sensitivity(arguments) => arm::sensitivity::run(&arguments, &printer),
         Command::Clearance(arguments) => arm::clearance::run(&arguments, &printer),
+        Command::Acm(arguments) => arm::acm::run(&arguments, &printer),
+        Command::New(arguments) => new::run(&arguments, &printer),
         Command::Derive(arguments) => model::derive::run(&arguments, &printer),
         Command::Convert(arguments) => model::convert::run(&arguments, &printer),
         #[cfg(feature = "recording")]

@@ -1,4 +1,4 @@
-//! `--output FILE`: writes the model that a command makes. The file appears whole or not at all, and nothing is
+//! Files that a command makes, such as the model of `--output FILE`. A file appears whole or not at all, and nothing is
 //! overwritten that the user did not mean.
 
 use std::{
@@ -32,7 +32,31 @@ impl OutputArgument {
         inputs: &[PathBuf],
         accept: impl FnOnce(&Path) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        self.may_be_written(path, inputs)?;
+        NewFile { option: "--output", path, force: self.force }.write(text, inputs, accept)
+    }
+}
+
+/// A file that a command makes, at a place that the user gives.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct NewFile<'a> {
+    /// The option that names it.
+    pub(crate) option: &'static str,
+    pub(crate) path: &'a Path,
+    /// Whether it may replace a file that exists.
+    pub(crate) force: bool,
+}
+
+impl NewFile<'_> {
+    /// Writes `text`; the file is none of the files `inputs`. If `accept` refuses the written file, what was there
+    /// before is there again.
+    pub(crate) fn write<T>(
+        &self,
+        text: &str,
+        inputs: &[PathBuf],
+        accept: impl FnOnce(&Path) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        self.may_be_written(inputs)?;
+        let path = self.path;
         let before = fs::read(path).ok();
         whole(path, text.as_bytes()).map_err(|error| unwritable(path, &error))?;
         accept(path).inspect_err(|_| {
@@ -41,9 +65,11 @@ impl OutputArgument {
         })
     }
 
-    fn may_be_written(&self, path: &Path, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
+    /// Finds out at once whether it may be written, before any work.
+    pub(crate) fn may_be_written(&self, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
+        let Self { option, path, .. } = self;
         let refused = |why: &str, help: &str| {
-            Err(Diagnostic::error("output::refused", format!("--output {} {why}", path.display()))
+            Err(Diagnostic::error("output::refused", format!("{option} {} {why}", path.display()))
                 .with_help(help))
         };
         if path.is_dir() {
@@ -71,7 +97,7 @@ fn unwritable(path: &Path, error: &io::Error) -> Diagnostic {
 }
 
 /// Whether two paths lead to one file, by links of either kind.
-fn is_same_file(a: &Path, b: &Path) -> bool {
+pub(crate) fn is_same_file(a: &Path, b: &Path) -> bool {
     match (a.canonicalize(), b.canonicalize()) {
         (Ok(a), Ok(b)) => a == b || is_same_inode(&a, &b),
         _ => false,

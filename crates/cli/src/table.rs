@@ -57,6 +57,30 @@ pub(crate) fn wrapped(list: &str) -> String {
     text
 }
 
+/// Words in lines of at most 80 characters, the first line and those after it each with its indent. A word that is longer
+/// than a line has one of its own.
+pub(crate) fn paragraph(words: &str, first_indent: usize, indent: usize) -> String {
+    const WIDTH: usize = 80;
+    let (mut text, mut length) = (" ".repeat(first_indent), first_indent);
+    let mut is_first = true;
+    for word in words.split_whitespace() {
+        let word_length = word.chars().count();
+        if !is_first && length + 1 + word_length > WIDTH {
+            text.push('\n');
+            text += &" ".repeat(indent);
+            length = indent;
+        } else if !is_first {
+            text.push(' ');
+            length += 1;
+        }
+        text += word;
+        length += word_length;
+        is_first = false;
+    }
+    text.push('\n');
+    text
+}
+
 /// The columns of [`pose_cells`].
 pub(crate) const POSE_COLUMNS: [&str; 11] =
     ["", "x mm", "y mm", "z mm", "roll deg", "pitch", "yaw", "quat w", "x", "y", "z"];
@@ -97,6 +121,15 @@ mod tests {
         assert_eq!(lines.len(), 2);
         assert_eq!(lines.iter().map(|line| line.matches("joint").count()).sum::<usize>(), 9);
         assert!(lines.iter().all(|line| line.len() <= 96 && line.starts_with("    j")), "{text}");
+    }
+
+    #[test]
+    fn a_paragraph_has_80_columns_but_for_longer_words() {
+        let text = paragraph(&format!("{} {}", ["word"; 30].join(" "), "x".repeat(90)), 2, 4);
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines[0].starts_with("  word") && lines[1].starts_with("    word"), "{text}");
+        assert!(lines[..lines.len() - 1].iter().all(|line| line.len() <= 80), "{text}");
+        assert_eq!(lines.last().unwrap().len(), 94);
     }
 
     #[test]

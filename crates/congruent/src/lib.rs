@@ -19,6 +19,7 @@ pub use nalgebra;
 mod check;
 mod run_comparison;
 pub mod schema;
+pub mod starter;
 mod with_physics;
 
 pub use check::{DeclaredSource, OtherDescription, RobotCheck, check, check_against, check_suite};

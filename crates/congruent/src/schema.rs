@@ -2,16 +2,17 @@
 //! check while one types, and for programs in other languages.
 
 use congruent_analysis::{
-    base_parameters::BaseParameterReport, conversion::ConversionReport, dynamics::DynamicsReport,
-    forward::ForwardReport, inverse::InverseReport, jacobians::JacobianReport,
-    manipulability::ManipulabilityReport, sensitivity::SensitivityReport, workspace::WorkspaceReport,
+    base_parameters::BaseParameterReport, conversion::ConversionReport,
+    description_summary::DescriptionSummary, dynamics::DynamicsReport, forward::ForwardReport,
+    inverse::InverseReport, jacobians::JacobianReport, manipulability::ManipulabilityReport,
+    sensitivity::SensitivityReport, workspace::WorkspaceReport,
 };
 use congruent_calibration::report::CalibrationReport;
 use congruent_description::{configurations_schema, robot_file_schema};
 #[cfg(feature = "recording")]
 use congruent_recording::RecordingSummary;
 use congruent_twin::{
-    proximity::DistanceReport,
+    proximity::{DisabledPairs, DistanceReport},
     report::{FaultTable, RunReport},
     scenario::Scenario,
 };
@@ -23,7 +24,11 @@ use schemars::{
 };
 use serde_json::Value;
 
-use crate::{check::RobotCheck, run_comparison::RunComparison};
+use crate::{
+    check::RobotCheck,
+    run_comparison::RunComparison,
+    starter::{NewRobot, NewScenario},
+};
 
 /// A kind of file or document that has a schema.
 #[derive(Debug, Clone, Copy)]
@@ -44,6 +49,11 @@ impl Document {
         Self::new("report", "report.json of a run, printed by `run`", written::<RunReport>),
         Self::new("faults", "table of faults against checks, printed by `faults`", written::<FaultTable>),
         Self::new("check", "report of one robot, printed by `check`", written::<RobotCheck>),
+        Self::new(
+            "describe",
+            "what a robot's files say, printed by `describe`",
+            written::<DescriptionSummary>,
+        ),
         Self::new("fk", "link poses, printed by `fk`", written::<ForwardReport>),
         Self::new("jacobian", "Jacobians, printed by `jacobian`", written::<JacobianReport>),
         Self::new("dynamics", "torques and accelerations, printed by `dynamics`", written::<DynamicsReport>),
@@ -56,6 +66,7 @@ impl Document {
         Self::new("workspace", "reach, printed by `workspace`", written::<WorkspaceReport>),
         Self::new("sensitivity", "sensitivities, printed by `sensitivity`", written::<SensitivityReport>),
         Self::new("clearance", "distances, printed by `clearance`", written::<DistanceReport>),
+        Self::new("acm", "pairs to disable, printed by `acm suggest`", written::<DisabledPairs>),
         Self::new("calibrate", "corrections, printed by `calibrate`", written::<CalibrationReport>),
         Self::new(
             "convert",
@@ -67,6 +78,8 @@ impl Document {
             "what joint torques tell, printed by `derive --base-parameters`",
             written::<BaseParameterReport>,
         ),
+        Self::new("new_robot", "a written robot file, printed by `new robot`", written::<NewRobot>),
+        Self::new("new_scenario", "a written scenario, printed by `new scenario`", written::<NewScenario>),
         Self::new("compare", "two runs, printed by `compare`", written::<RunComparison>),
         #[cfg(feature = "recording")]
         Self::new("inspect", "summary of a recording, printed by `inspect`", written::<RecordingSummary>),

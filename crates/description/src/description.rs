@@ -167,6 +167,13 @@ impl RobotDescription {
         self
     }
 
+    /// The links at which the chain from `base` might end, whatever was declared: the one that is taken if no one names a
+    /// tip, then the ends of limbs that are about as long.
+    pub fn likely_tips(&self) -> Vec<LinkIndex> {
+        let chosen = choose_tip(&self.robot, self.base);
+        std::iter::once(chosen.tip).chain(chosen.others).collect()
+    }
+
     /// The chain, as reports name it.
     pub fn reported_chain(&self) -> ReportedChain {
         let joints = self.moving_chain().into_iter().map(|joint| self.robot.joint(joint).name.clone());

@@ -43,7 +43,8 @@ pub use model::{
 };
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces,
-    InertialPoint, RobotFilePlaces, RowKey, ValuePlace, dh_section, robot_file_schema, robot_file_text,
+    InertialPoint, RobotFilePlaces, RowKey, ValuePlace, dh_section, relative_path, robot_file_schema,
+    robot_file_text, robot_file_values, toml_string,
 };
 pub use ros_packages::RosPackages;
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};

@@ -7,7 +7,7 @@ use congruent_kinematics::LinkPoses;
 use super::{
     certificate::{Brackets, worst},
     check::{CheckOptions, check, verdict, worst_of},
-    check_report::CheckReport,
+    check_report::{CheckReport, TipDifference},
     error::CheckError,
 };
 use crate::source_pair::SourcePair;
@@ -46,6 +46,8 @@ impl CheckReport {
         }
         for (here, other) in self.at_configurations.iter_mut().zip(found.at_configurations) {
             here.error = here.error.larger(other.error);
+            let tips = other.tip.into_iter().filter(|tip| is_other(tip.pair));
+            here.tip.extend(tips.map(|tip| TipDifference { pair, ..tip }));
         }
         self.verdict = verdict(&self.comparisons);
         self.worst = worst_of(&self.comparisons);

@@ -10,7 +10,8 @@ use super::{
     basics::basics,
     certificate::{Brackets, ReportedCertificate, certificates, worst},
     check_report::{
-        Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, NotAsked, WorstDifference,
+        Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, NotAsked, TipDifference,
+        WorstDifference,
     },
     error::CheckError,
     identified::IdentifiedChain,
@@ -62,7 +63,8 @@ pub fn check(
         let here = running.iter_mut().map(|comparison| comparison.observe(index, &sources));
         let error = here.fold(PoseError::default(), PoseError::larger);
         if index >= requested_from {
-            requested.push(DifferenceAt { q: JointValues::of_robot(robot, q), error });
+            let (q, tip) = (JointValues::of_robot(robot, q), sources.tips(description));
+            requested.push(DifferenceAt { q, error, tip });
         }
     }
     let comparisons: Vec<Comparison> =
@@ -202,6 +204,27 @@ impl<'a> LinkPoseSources<'a> {
             physics.root_from_links_into(q, &mut self.by_physics)?;
         }
         Ok(())
+    }
+}
+
+impl LinkPoseSources<'_> {
+    /// The tip by each two sources that describe the robot, at the configuration of the last evaluation.
+    fn tips(&self, description: &RobotDescription) -> Vec<TipDifference> {
+        let (base, tip) = (description.base.get(), description.tip.get());
+        // The base is placed by the URDF, which places the table.
+        let in_base = |links: &[Pose], base: &Pose| base.inverse() * links[tip];
+        let by_urdf = in_base(&self.by_urdf, &self.by_urdf[base]);
+        let between = |pair, first: Pose, second: Pose| TipDifference {
+            pair,
+            first: (&first).into(),
+            second: (&second).into(),
+            error: PoseError::between(&first, &second),
+        };
+        let model = description.dh.as_ref().map(|_| in_base(self.model.latest(), &self.by_urdf[base]));
+        let model = model.map(|by_model| between(SourcePair::ModelUrdf, by_model, by_urdf));
+        let physics = self.physics.as_ref().map(|_| in_base(&self.by_physics, &self.by_physics[base]));
+        let physics = physics.map(|by_physics| between(SourcePair::UrdfSimulation, by_urdf, by_physics));
+        model.into_iter().chain(physics).collect()
     }
 }
 

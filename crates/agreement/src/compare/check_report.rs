@@ -3,7 +3,7 @@
 use std::fmt;
 
 use congruent_description::{Finding, JointValues, ReportedChain, Tolerance};
-use congruent_kinematics::PoseError;
+use congruent_kinematics::{PoseError, ReportedPose};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -142,6 +142,22 @@ pub struct DifferenceAt {
     /// The configuration: every movable joint, rad or m.
     pub q: JointValues,
     /// The largest distance and the largest angle at a link that decides.
+    #[serde(flatten)]
+    pub error: PoseError,
+    /// The tip by the sources of each pair that is compared, screws excepted.
+    pub tip: Vec<TipDifference>,
+}
+
+/// The tip by two sources, in link `base`.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct TipDifference {
+    /// The pair: `model_urdf`, `urdf_simulation` or `urdf_other`.
+    pub pair: SourcePair,
+    /// Pose of the tip by the first source of the pair.
+    pub first: ReportedPose,
+    /// Pose of the tip by the second.
+    pub second: ReportedPose,
+    /// Distance and angle between the two.
     #[serde(flatten)]
     pub error: PoseError,
 }

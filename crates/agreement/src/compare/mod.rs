@@ -15,7 +15,8 @@ pub use basics::{Basics, BySource, CoordinateUnit, SingleJointMotion, TcpDisplac
 pub use certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate};
 pub use check::{CheckOptions, RANDOM_CONFIGURATIONS, check};
 pub use check_report::{
-    Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, NotAsked, WorstDifference,
+    Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, NotAsked, TipDifference,
+    WorstDifference,
 };
 pub use diagnosis::diagnose;
 pub use error::CheckError;

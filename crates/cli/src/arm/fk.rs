@@ -15,6 +15,10 @@ use crate::{
 };
 
 /// Poses of all links in the root link's frame, by a chosen source.
+///
+/// With --from in another frame, with --to of one frame alone: --from A --to B is the pose of B in A. Frames are links, with
+/// --source dh `dh0` to `dhn`, base and tip, and `tcp`, the declared tool centre point (`declared_tcp` if a link is called
+/// `tcp`). --base and --tip choose the chain of the table, not the frame of the poses.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -22,6 +26,12 @@ pub(crate) struct Arguments {
     /// The source of the poses.
     #[arg(long, default_value = "urdf", value_parser = named::<Source>())]
     source: Source,
+    /// The frame that the poses are in; the root link if it is left out.
+    #[arg(long, value_name = "FRAME")]
+    from: Option<String>,
+    /// The frame whose pose is given; all if it is left out.
+    #[arg(long, value_name = "FRAME")]
+    to: Option<String>,
     #[command(flatten)]
     configurations: ConfigurationArguments,
 }
@@ -31,6 +41,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let mut description = arguments.arm.load_for(needed, printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
     let report = congruent::forward(&description, arguments.source, &configurations)?;
+    let report = report.between(arguments.from.as_deref(), arguments.to.as_deref())?;
     let root = &description.robot.link(description.robot.root()).name;
     printer.result(&report, |report| text(report, root))?;
     Ok(0)
@@ -39,7 +50,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 fn text(report: &ForwardReport, root: &str) -> String {
     let mut text = format!("{}\n", report.chain);
     for (index, poses) in report.results.iter().enumerate() {
-        let _ = writeln!(text, "configuration {}: poses in the root link {root}", index + 1);
+        let frame = if report.from == root { format!("the root link {root}") } else { report.from.clone() };
+        let _ = writeln!(text, "configuration {}: poses in {frame}", index + 1);
         let mut table = Table::headed(POSE_COLUMNS);
         for (name, pose) in &poses.links {
             table.row([name.clone()].into_iter().chain(pose_cells(pose)));

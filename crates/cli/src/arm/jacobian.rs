@@ -21,7 +21,7 @@ use crate::{
 pub(crate) struct Arguments {
     #[command(flatten)]
     arm: ArmArguments,
-    /// The link that moves, or `tcp` for the declared tool centre point; the model's tip if it is left out.
+    /// The link that moves, or `tcp` for the declared tool centre point (`declared_tcp` if a link is called `tcp`); the model's tip if it is left out.
     #[arg(long, value_name = "NAME")]
     link: Option<String>,
     /// In which frame and at which point the velocity is taken.
@@ -78,7 +78,9 @@ fn frame(report: &JacobianReport, description: &RobotDescription) -> String {
             let [x, y, z] = tcp.link_from_tcp.translation_m.map(|value| in_column(value, "m"));
             format!("the TCP at {x}, {y}, {z} mm in {}", tcp.link)
         }
-        (None, Some(_)) if report.link == *tip => format!("{tip} (--link tcp for the declared TCP)"),
+        (None, Some(_)) if report.link == *tip => {
+            format!("{tip} (--link {} for the declared TCP)", description.robot.tcp_name())
+        }
         _ => report.link.clone(),
     }
 }

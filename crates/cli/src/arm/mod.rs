@@ -1,5 +1,6 @@
 //! Commands about one arm: what it reaches, how well, and how far it is from collisions.
 
+pub(crate) mod acm;
 pub(crate) mod clearance;
 pub(crate) mod dynamics;
 pub(crate) mod fk;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use congruent::{
     RobotCheck,
     agreement::compare::{Agreement, CheckOptions},
+    analysis::plot::errors,
     check_suite,
     description::{Diagnostic, Robot, load_robot_with, read_configurations},
     twin::report::TestSuite,
@@ -14,13 +15,15 @@ use serde::{Serialize, Serializer};
 
 use super::{
     check_text::{basics, text},
+    errors_at::{chart, lines, table},
     tolerance::ToleranceArgument,
 };
 use crate::{
     batch::{Batch, BatchReport},
     ci::CiArguments,
     failure::{FAILED, Failure, NOTHING},
-    input::{ChainArguments, PackageArguments},
+    input::{ChainArguments, PackageArguments, files_of},
+    plot_file::PlotArgument,
     print::Printer,
 };
 
@@ -50,6 +53,11 @@ pub(crate) struct Arguments {
     /// {"q": {"joint": value}} in rad and m; joints that are not named are at 0.
     #[arg(long, value_name = "FILE")]
     configurations: Option<PathBuf>,
+    /// Show the position of the tip by both models and the error at each configuration as a table.
+    #[arg(long, requires = "configurations")]
+    table: bool,
+    #[command(flatten)]
+    plot: PlotArgument,
     /// Tolerance of positions and orientations in place of the robot file's, each with its unit: 1mm,0.1deg; a part
     /// that is not given stays the file's.
     #[arg(long, value_name = "LENGTH,ANGLE", allow_hyphen_values = true)]
@@ -68,6 +76,7 @@ struct Checked {
     report: RobotCheck,
     robot: Robot,
     with_basics: bool,
+    with_table: bool,
 }
 
 impl Serialize for Checked {
@@ -87,7 +96,8 @@ impl BatchReport for Checked {
 
     fn text(&self) -> String {
         let basics = if self.with_basics { basics(&self.report.geometry.basics) } else { String::new() };
-        text(&self.report, &self.robot) + &basics
+        let at_configurations = if self.with_table { table } else { lines };
+        text(&self.report, &self.robot, &at_configurations(&self.report.geometry)) + &basics
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -96,9 +106,23 @@ impl BatchReport for Checked {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    one_plot(arguments)?;
     let batch = Batch::begin(&arguments.robots, &arguments.ci, printer)?;
     let robots = arguments.robots.iter();
     batch.finish(robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect())
+}
+
+/// A plot is of one robot, at configurations.
+fn one_plot(arguments: &Arguments) -> Result<(), Diagnostic> {
+    let refused = |message: &str, help: &str| Err(Diagnostic::error("check::plot", message).with_help(help));
+    if !arguments.plot.is_given() {
+        return Ok(());
+    }
+    match (&arguments.configurations, arguments.robots.len()) {
+        (None, _) => refused("--plot is of configurations, and none are given", "give --configurations FILE"),
+        (Some(_), 2..) => refused("--plot is of one robot, and several are given", "check them one by one"),
+        (Some(_), _) => Ok(()),
+    }
 }
 
 fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
@@ -109,6 +133,8 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         description.warnings.extend(read.warning);
         configurations = read.entries;
     }
+    let named = [&arguments.configurations, &arguments.against].into_iter().flatten().cloned();
+    arguments.plot.is_none_of(&files_of(&description).into_iter().chain(named).collect::<Vec<_>>())?;
     batch.warn(path, &description.warnings);
     let declared = description.tolerance;
     if let Some(tolerance) = arguments.tolerance {
@@ -126,5 +152,7 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
     let mut report = compared
         .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
-    Ok(Checked { report, robot: description.robot, with_basics: arguments.basics })
+    arguments.plot.write(|| errors(&chart(&report.geometry)))?;
+    let (with_basics, with_table) = (arguments.basics, arguments.table);
+    Ok(Checked { report, robot: description.robot, with_basics, with_table })
 }

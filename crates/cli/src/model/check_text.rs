@@ -20,7 +20,8 @@ use congruent::{
 use super::{diagnosis_text::diagnosed, dynamics_text::dynamics};
 use crate::table::{with_one_sign, wrapped};
 
-pub(super) fn text(check: &RobotCheck, robot: &Robot) -> String {
+/// The report; `at_configurations` are the errors at each requested configuration.
+pub(super) fn text(check: &RobotCheck, robot: &Robot, at_configurations: &str) -> String {
     let report = &check.geometry;
     let mut text = String::new();
     headline(&mut text, check);
@@ -49,10 +50,7 @@ pub(super) fn text(check: &RobotCheck, robot: &Robot) -> String {
         let _ = writeln!(text, "  worst at link {}, at", report.worst.link);
         text += &wrapped(&report.worst.at.for_people(robot));
     }
-    for (at, difference) in (1..).zip(&report.at_configurations) {
-        let error = length_and_angle(difference.error.position_m, difference.error.orientation_rad);
-        let _ = writeln!(text, "  at configuration {at}: {error}");
-    }
+    text += at_configurations;
     certified(&mut text, report, robot);
     if let Some(diagnosis) = report.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty()) {
         diagnosed(&mut text, diagnosis);

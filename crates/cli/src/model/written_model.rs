@@ -13,6 +13,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
+    input::files_of,
     output_file::{OutputArgument, folder_of},
     print::Printer,
 };
@@ -34,7 +35,7 @@ pub(super) fn answer(
         printer.result(&report, text)?;
         return Ok(0);
     };
-    let inputs = inputs(description);
+    let inputs = files_of(description);
     if let Some(section) = &report.robot_toml {
         if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
             let message = format!("--output {}: the name of a robot file ends in .toml", path.display());
@@ -48,13 +49,6 @@ pub(super) fn answer(
     }
     printer.result(&report, |report| format!("{}written to {}\n", remarks(report), path.display()))?;
     Ok(0)
-}
-
-/// The files that were read.
-fn inputs(description: &RobotDescription) -> Vec<PathBuf> {
-    let named =
-        [Some(&description.path), Some(&description.urdf_path), description.named_files.srdf.as_ref()];
-    named.into_iter().flatten().cloned().collect()
 }
 
 /// A whole robot file, as seen from its folder.

@@ -1,6 +1,7 @@
 //! Joints: what moves, about which axis, how far. `tree.rs` makes a tree of them.
 
 use nalgebra::{Isometry3, Unit, Vector3};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::link::LinkIndex;
@@ -18,7 +19,7 @@ impl JointIndex {
 }
 
 /// How a joint moves its child link.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
     /// The child does not move against the parent.

@@ -129,6 +129,12 @@ impl Robot {
         self.links.iter().position(|link| link.name == name).map(LinkIndex)
     }
 
+    /// What a tool centre point that is declared beside the links is called among them: `tcp`, or `declared_tcp` if a
+    /// link is called `tcp`, which must not hide it.
+    pub fn tcp_name(&self) -> &'static str {
+        if self.find_link("tcp").is_none() { "tcp" } else { "declared_tcp" }
+    }
+
     /// The joint with this name.
     pub fn find_joint(&self, name: &str) -> Option<JointIndex> {
         self.joints.iter().position(|joint| joint.name == name).map(JointIndex)

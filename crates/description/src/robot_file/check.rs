@@ -1,5 +1,7 @@
 //! A robot file against its robot: names, chain, table, values.
 
+use std::ops::Range;
+
 use nalgebra::Isometry3;
 use toml::Spanned;
 
@@ -42,6 +44,9 @@ pub(crate) fn check(
     let tcp = written.tcp.as_ref().map(Spanned::get_ref);
     let tip_from_tcp = tcp.and_then(|tcp| diagnostics.keep(tcp.isometry()));
     let (base, tip, chain) = chain(written, robot, diagnostics)?;
+    if let (Some(tcp), Some(_)) = (&written.tcp, tip_from_tcp) {
+        diagnostics.extend(tcp_is_a_link(tcp.span(), robot, tip));
+    }
     let context = ChainContext { robot, chain: &chain, text };
     let dh = match &written.dh {
         Some(dh) => Some(table(dh, &context, diagnostics)?),
@@ -52,6 +57,19 @@ pub(crate) fn check(
     let end = |written: &Option<_>| if written.is_some() { ChainEnd::Declared } else { ChainEnd::Chosen };
     let chain_ends = ChainEnds { base: end(&written.base), tip: end(&written.tip) };
     Some(Declared { base, tip, chain_ends, dh, dynamics, accelerations, tip_from_tcp, tolerance })
+}
+
+/// A link that is called as the declared tool centre point usually is.
+fn tcp_is_a_link(at: Range<usize>, robot: &Robot, tip: LinkIndex) -> Option<Diagnostic> {
+    let name = robot.tcp_name();
+    let link = robot.find_link("tcp")?;
+    let message = format!(
+        "\"{}\" is a link of the robot; the tool centre point that is declared here, on link \"{}\", is called \"{name}\"",
+        robot.link(link).name,
+        robot.link(tip).name
+    );
+    let help = format!("name the one that is meant: `--to tcp` is the link, `--to {name}` the declared one");
+    Some(Diagnostic::warning("robot_file::tcp_name", message).at(at).with_help(help))
 }
 
 fn chain(

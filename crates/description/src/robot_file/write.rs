@@ -22,12 +22,12 @@ pub fn dh_section(table: &DhTable, robot: &Robot) -> String {
     let mut text = String::from("[dh]\n");
     let _ = writeln!(text, "convention = \"{}\"", table.convention.name());
     if let Some(source) = &table.source {
-        let _ = writeln!(text, "source = {}", quoted(source));
+        let _ = writeln!(text, "source = {}", toml_string(source));
     }
     let _ = writeln!(text, "base_from_dh0 = {}", transform(&table.base_from_dh0));
     let _ = writeln!(text, "dhn_from_tip = {}", transform(&table.dhn_from_tip));
     for row in &table.rows {
-        let (joint, kind) = (quoted(&robot.joint(row.joint).name), row.kind.name());
+        let (joint, kind) = (toml_string(&robot.joint(row.joint).name), row.kind.name());
         let _ = writeln!(text, "\n[[dh.row]]\njoint = {joint}\nkind = \"{kind}\"");
         let _ = writeln!(text, "a_m = {}\n{}", number(row.a_m), angle("alpha", row.alpha_rad));
         let _ = writeln!(text, "d_m = {}\n{}", number(row.d_m), angle("theta", row.theta_rad));
@@ -44,35 +44,43 @@ pub fn robot_file_text(
     folder: &Path,
     tolerance: Tolerance,
 ) -> String {
-    let named = |path: &Path| quoted(&relative(folder, path));
-    let link = |link| quoted(&description.robot.link(link).name);
-    let mut text =
-        format!("name = {}\nurdf = {}\n", quoted(&description.name), named(&description.urdf_path));
-    if let Some(srdf) = &description.named_files.srdf {
-        let _ = writeln!(text, "srdf = {}", named(srdf));
-    }
-    let _ = writeln!(text, "base = {}\ntip = {}", link(description.base), link(description.tip));
-    if let Some(tip_from_tcp) = &description.tip_from_tcp {
-        let _ = writeln!(text, "tcp = {}", transform(tip_from_tcp));
-    }
-    let packages = description.named_files.packages.iter();
-    let packages: Vec<String> =
-        packages.map(|(name, path)| format!("{} = {}", quoted(name), named(path))).collect();
-    if !packages.is_empty() {
-        let _ = writeln!(text, "packages = {{ {} }}", packages.join(", "));
-    }
-    if tolerance != Tolerance::default() {
-        let Tolerance { position_m, orientation_rad } = tolerance;
-        let _ = writeln!(
-            text,
-            "tolerance = {{ position_m = {position_m:e}, orientation_rad = {orientation_rad:e} }}"
-        );
+    let is_default = tolerance == Tolerance::default();
+    let values = robot_file_values(description, folder, tolerance);
+    let values = values.into_iter().filter(|(key, _)| !(is_default && *key == "tolerance"));
+    let mut text = String::new();
+    for (key, value) in values {
+        let _ = writeln!(text, "{key} = {value}");
     }
     text + "\n" + dh_section
 }
 
+/// The keys of a robot file above its sections, in their order, with their values as TOML. Paths as for
+/// [`robot_file_text`].
+pub fn robot_file_values(
+    description: &RobotDescription,
+    folder: &Path,
+    tolerance: Tolerance,
+) -> Vec<(&'static str, String)> {
+    let named = |path: &Path| toml_string(&relative_path(folder, path));
+    let link = |link| toml_string(&description.robot.link(link).name);
+    let mut values = vec![("name", toml_string(&description.name)), ("urdf", named(&description.urdf_path))];
+    values.extend(description.named_files.srdf.as_ref().map(|srdf| ("srdf", named(srdf))));
+    values.extend([("base", link(description.base)), ("tip", link(description.tip))]);
+    values.extend(description.tip_from_tcp.as_ref().map(|tip_from_tcp| ("tcp", transform(tip_from_tcp))));
+    let packages = description.named_files.packages.iter();
+    let packages: Vec<String> =
+        packages.map(|(name, path)| format!("{} = {}", toml_string(name), named(path))).collect();
+    if !packages.is_empty() {
+        values.push(("packages", format!("{{ {} }}", packages.join(", "))));
+    }
+    let Tolerance { position_m, orientation_rad } = tolerance;
+    let tolerance = format!("{{ position_m = {position_m:e}, orientation_rad = {orientation_rad:e} }}");
+    values.push(("tolerance", tolerance));
+    values
+}
+
 /// `path` as seen from `folder`, with `/` between its parts as in every robot file.
-fn relative(folder: &Path, path: &Path) -> String {
+pub fn relative_path(folder: &Path, path: &Path) -> String {
     let shared = folder.components().zip(path.components()).take_while(|(a, b)| a == b).count();
     // Without a common root there is no way from one to the other.
     if shared == 0 && path.is_absolute() {
@@ -84,7 +92,8 @@ fn relative(folder: &Path, path: &Path) -> String {
     if parts.is_empty() { ".".to_owned() } else { parts.join("/") }
 }
 
-fn quoted(text: &str) -> String {
+/// A string as TOML.
+pub fn toml_string(text: &str) -> String {
     toml::Value::from(text).to_string()
 }
 
@@ -120,7 +129,7 @@ mod tests {
 
     #[test]
     fn paths_lead_from_the_folder_to_the_file() {
-        let from = |folder: &str, path: &str| relative(Path::new(folder), Path::new(path));
+        let from = |folder: &str, path: &str| relative_path(Path::new(folder), Path::new(path));
         assert_eq!(from("/a/b", "/a/b/r.urdf"), "r.urdf");
         assert_eq!(from("/a/b/c", "/a/d/r.urdf"), "../../d/r.urdf");
         assert_eq!(from("/a", "/a"), ".");

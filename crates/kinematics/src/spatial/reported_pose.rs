@@ -33,6 +33,14 @@ impl ReportedPose {
     }
 }
 
+impl From<&ReportedPose> for Pose {
+    fn from(pose: &ReportedPose) -> Self {
+        let [w, x, y, z] = pose.quaternion_wxyz;
+        let rotation = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)).to_rotation_matrix();
+        Self::from_parts(rotation.into_inner(), pose.translation_m.into())
+    }
+}
+
 impl From<&Pose> for ReportedPose {
     fn from(pose: &Pose) -> Self {
         Self { translation_m: pose.translation.into(), quaternion_wxyz: pose.quaternion_wxyz() }

@@ -89,6 +89,14 @@ pub enum DistanceError {
     /// A configuration is none of the robot's.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
+    /// A joint's range is too wide for samples of it to mean anything.
+    #[error("joint \"{joint}\" has a range of {width:.1e}: it cannot be sampled")]
+    Range {
+        /// The joint.
+        joint: String,
+        /// The width of its range, rad or m.
+        width: f64,
+    },
     /// A pair is named that is not measured.
     #[error("{}", .0.diagnostic)]
     Pair(Box<PairFault>),

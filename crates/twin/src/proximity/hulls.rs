@@ -79,14 +79,25 @@ impl Hulls {
 
     /// Distance to other hulls that stand at pose `self_from_other`; 0 if they touch or overlap.
     pub fn distance_m(&self, other: &Self, self_from_other: &Isometry3<f64>) -> f64 {
-        self.smallest(other, self_from_other, |between, a, b| {
+        self.distance_below_m(other, self_from_other, f64::INFINITY)
+    }
+
+    /// The same if it is less than `most_m`, which is returned otherwise: shapes that balls around them show to be
+    /// farther apart are not measured.
+    pub(super) fn distance_below_m(
+        &self,
+        other: &Self,
+        self_from_other: &Isometry3<f64>,
+        most_m: f64,
+    ) -> f64 {
+        self.smallest(other, self_from_other, most_m, |between, a, b| {
             query::distance(&Pose::IDENTITY, a, between, b).map(|nearest| nearest.distance)
         })
     }
 
     /// Like [`Hulls::distance_m`], but negative if they overlap: minus the depth.
     pub fn signed_distance_m(&self, other: &Self, self_from_other: &Isometry3<f64>) -> f64 {
-        self.smallest(other, self_from_other, |between, a, b| {
+        self.smallest(other, self_from_other, f64::INFINITY, |between, a, b| {
             let apart = query::distance(&Pose::IDENTITY, a, between, b)?.distance;
             if apart > 0.0 {
                 return Ok(apart);
@@ -100,6 +111,7 @@ impl Hulls {
         &self,
         other: &Self,
         self_from_other: &Isometry3<f64>,
+        most_m: f64,
         distance: impl Fn(
             &Pose,
             &dyn parry3d_f64::shape::Shape,
@@ -107,7 +119,7 @@ impl Hulls {
         ) -> Result<f64, Unsupported>,
     ) -> f64 {
         let self_from_other = pose(self_from_other);
-        let mut smallest = f64::INFINITY;
+        let mut smallest = most_m;
         for a in &self.shapes {
             for b in &other.shapes {
                 let a_from_b = a.link_from_local.inv_mul(&(self_from_other * b.link_from_local));

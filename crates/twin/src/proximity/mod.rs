@@ -1,6 +1,8 @@
 //! How far links are apart from each other, from obstacles and from forbidden zones. Only `hulls.rs` names parry.
 
 mod clearance;
+mod disabled_pairs;
+mod disabled_srdf;
 mod distances;
 mod hulls;
 mod pair_names;
@@ -9,6 +11,10 @@ mod travel;
 mod waiting;
 
 pub use clearance::{Clearance, Nearest};
+pub use disabled_pairs::{
+    ALWAYS_SHARE, DeclaredPairs, DisableReason, DisabledPairs, SuggestedPair, suggest_disabled,
+};
+pub use disabled_srdf::srdf_text;
 pub use distances::{
     BelowLimit, DistanceError, DistanceOptions, DistanceReport, Distances, Overlap, distances,
 };

@@ -1,0 +1,59 @@
+//! `congruent describe`: what a robot's files say.
+
+mod text;
+
+use std::path::{Path, PathBuf};
+
+use congruent::{
+    analysis::description_summary::{DescriptionSummary, describe},
+    description::load_robot_with,
+    twin::report::{TestResult, TestSuite},
+};
+
+use self::text::text;
+use crate::{
+    batch::{Batch, BatchReport},
+    failure::Failure,
+    input::{ChainArguments, PackageArguments},
+    print::Printer,
+};
+
+/// What a robot's files say: its links and joints, and what is missing for which use.
+///
+/// The tree with types, axes, limits, masses and shapes; the chain from base to tip, and other links at which it might
+/// end; what stops kinematics, clearance or physics, and what they go on without.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Folders with robot.toml, robot files, bare .urdf files, or - for a URDF on standard input.
+    #[arg(required = true)]
+    robots: Vec<PathBuf>,
+    #[command(flatten)]
+    chain: ChainArguments,
+    #[command(flatten)]
+    packages: PackageArguments,
+}
+
+impl BatchReport for DescriptionSummary {
+    fn exit_code(&self) -> u8 {
+        0
+    }
+
+    fn text(&self) -> String {
+        text(self)
+    }
+
+    fn test_suite(&self, input: &str) -> TestSuite {
+        TestSuite::of_case(input, "describe", TestResult::Passed)
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let batch = Batch::begin(&arguments.robots, None, printer)?;
+    let summary = |path: &Path| {
+        let description = arguments.chain.of(load_robot_with(path, &arguments.packages.ros())?)?;
+        batch.warn(path, &description.warnings);
+        Ok(describe(&description))
+    };
+    let robots = arguments.robots.iter();
+    batch.finish(robots.map(|path| batch.answer(path, || summary(path))).collect())
+}

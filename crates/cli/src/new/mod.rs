@@ -1,0 +1,26 @@
+//! `congruent new`: files to start from.
+
+mod robot;
+mod scenario;
+
+use crate::{failure::Failure, print::Printer};
+
+/// Files to start from: a robot file for a URDF, a scenario for a robot.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum What {
+    Robot(robot::Arguments),
+    Scenario(scenario::Arguments),
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    match &arguments.what {
+        What::Robot(arguments) => robot::run(arguments, printer),
+        What::Scenario(arguments) => scenario::run(arguments, printer),
+    }
+}

@@ -1,0 +1,221 @@
+//! `congruent new robot`: a robot file for a URDF.
+
+use std::{
+    fmt::Write,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use clap::ValueEnum;
+use congruent::{
+    RobotCheck,
+    agreement::compare::{Agreement, CheckOptions},
+    analysis::conversion::ConversionTarget,
+    description::{
+        Diagnostic, Finding, RobotDescription, Use, display::length_and_angle, is_standard_input,
+        load_robot_with,
+    },
+    starter::{NewRobot, RobotFileDraft, robot_file},
+};
+
+use crate::{
+    failure::{FAILED, Failure, NOTHING},
+    input::{ArmArguments, files_of},
+    output_file::NewFile,
+    print::Printer,
+    table::paragraph,
+};
+
+/// A commented robot file for a URDF, with a derived table.
+///
+/// Writes robot.toml into a folder, which is made if it does not exist. Base and tip are chosen, unless --base and --tip name
+/// them, and the file says why. It refers to the URDF by a relative path: nothing is copied, so the meshes are found
+/// where they are. A chain without a table gets a file without one, which says why. The written file is checked as `check`
+/// does: exit code 1 if that disagrees, 4 if there is nothing to compare.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    arm: ArmArguments,
+    /// The folder of the robot file.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Which equation the rows of the table stand for.
+    #[arg(long, value_enum, default_value_t = ConventionArgument::Standard)]
+    convention: ConventionArgument,
+    /// Replace robot.toml if it exists.
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ConventionArgument {
+    /// Rz(theta) Tz(d) Tx(a) Rx(alpha).
+    Standard,
+    /// Rx(alpha) Tx(a) Rz(theta) Tz(d) (Craig).
+    Modified,
+}
+
+pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let path = &arguments.arm.robot.robot;
+    is_urdf(path)?;
+    let description = arguments.arm.load(printer)?;
+    target(arguments, &arguments.out.join(FILE)).may_be_written(&files_of(&description))?;
+    let to = match arguments.convention {
+        ConventionArgument::Standard => ConversionTarget::Standard,
+        ConventionArgument::Modified => ConversionTarget::Modified,
+    };
+    let made = Folders::make(&arguments.out)?;
+    let report = written(arguments, &description, to).inspect_err(|_| made.remove())?;
+    printer.result(&report, text)?;
+    Ok(match report.verdict {
+        Agreement::Agree => 0,
+        Agreement::Disagree => FAILED,
+        Agreement::NothingCompared => NOTHING,
+    })
+}
+
+/// The name of the file in its folder.
+const FILE: &str = "robot.toml";
+
+fn target<'a>(arguments: &Arguments, path: &'a Path) -> NewFile<'a> {
+    NewFile { option: "--out", path, force: arguments.force }
+}
+
+/// Writes the file into its folder, which exists, and checks it.
+fn written(
+    arguments: &Arguments,
+    description: &RobotDescription,
+    to: ConversionTarget,
+) -> Result<NewRobot, Failure> {
+    let folder = arguments.out.canonicalize().map_err(|error| unwritable(&arguments.out, &error))?;
+    let draft = robot_file(description, to, &folder);
+    let file = arguments.out.join(FILE);
+    target(arguments, &file).write(&draft.text, &files_of(description), |written| {
+        let check = checked(written, description, arguments)?;
+        Ok(report(written, description, (&draft, check)))
+    })
+}
+
+/// The folders that were made for the file, the innermost first.
+struct Folders(Vec<PathBuf>);
+
+impl Folders {
+    fn make(path: &Path) -> Result<Self, Diagnostic> {
+        if path.exists() && !path.is_dir() {
+            let message = format!("--out {} is not a folder", path.display());
+            return Err(
+                Diagnostic::error("output::refused", message).with_help("give a folder, or a new name")
+            );
+        }
+        let missing =
+            path.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
+        let made = Self(missing.map(Path::to_owned).collect());
+        fs::create_dir_all(path).map_err(|error| unwritable(path, &error))?;
+        Ok(made)
+    }
+
+    /// Removes them; one that is not empty stays.
+    fn remove(&self) {
+        for folder in &self.0 {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+fn unwritable(path: &Path, error: &std::io::Error) -> Diagnostic {
+    Diagnostic::error("output::unwritable", format!("cannot write into {}: {error}", path.display()))
+        .with_help("choose a folder that can be written")
+}
+
+/// A robot file names a URDF that is a file.
+fn is_urdf(path: &Path) -> Result<(), Diagnostic> {
+    let refused = |why: &str, help: &str| {
+        Err(Diagnostic::error("new::urdf", format!("{} {why}", path.display())).with_help(help))
+    };
+    if is_standard_input(path) {
+        return refused("is standard input, and a robot file names its URDF", "give the URDF as a file");
+    }
+    if path.is_dir() {
+        return refused("is a folder", "give a .urdf file");
+    }
+    let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+    if is_toml {
+        return refused("is a robot file already", "give a .urdf file, or edit the robot file");
+    }
+    Ok(())
+}
+
+/// The check of the written file, which must find what the URDF alone finds.
+fn checked(written: &Path, before: &RobotDescription, arguments: &Arguments) -> Result<RobotCheck, Failure> {
+    let description = load_robot_with(written, &arguments.arm.robot.packages().ros())?;
+    for each in [Use::Clearance, Use::Physics] {
+        if before.for_use(each).is_ok()
+            && let Err(mut lost) = description.for_use(each)
+        {
+            let message = format!(
+                "a robot.toml in {} marks the top of a project, so that files above it are not opened",
+                arguments.out.display()
+            );
+            lost.push(Diagnostic::error("new::project", message).with_help(
+                "choose a folder beside or above that of the URDF, such as the one that holds both URDF and meshes",
+            ));
+            return Err(lost.into());
+        }
+    }
+    congruent::check(&description, &CheckOptions::default())
+        .map_err(|error| Diagnostic::error("check::robot", error.to_string()).into())
+}
+
+fn report(
+    written: &Path,
+    description: &RobotDescription,
+    (draft, check): (&RobotFileDraft, RobotCheck),
+) -> NewRobot {
+    NewRobot {
+        file: written.display().to_string(),
+        urdf: description.urdf_path.display().to_string(),
+        robot: description.name.clone(),
+        chain: description.reported_chain(),
+        has_table: draft.no_table.is_none(),
+        no_table: draft.no_table.as_ref().map(Finding::from),
+        tolerance: draft.tolerance,
+        verdict: check.geometry.verdict,
+        worst: check.geometry.worst,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
+    }
+}
+
+fn text(report: &NewRobot) -> String {
+    let mut text = format!("written to {}\n", report.file);
+    text += &paragraph(&report.chain.to_string(), 2, 4);
+    text += &paragraph(&format!("refers to {}; nothing is copied", report.urdf), 2, 4);
+    if let Some(why) = &report.no_table {
+        text += &paragraph(&format!("without a table: {why}"), 2, 4);
+    }
+    let worst = length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad);
+    let tolerance = length_and_angle(report.tolerance.position_m, report.tolerance.orientation_rad);
+    let _ = match report.verdict {
+        Agreement::NothingCompared => writeln!(text, "  check: nothing to compare: no table, and no physics"),
+        verdict => writeln!(text, "  check: {verdict}, worst {worst} (tolerance {tolerance})"),
+    };
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_that_were_made_are_removed_and_no_others() {
+        let there = tempfile::tempdir().unwrap();
+        let inner = there.path().join("a/b");
+        Folders::make(&inner).unwrap().remove();
+        assert!(there.path().exists() && !there.path().join("a").exists());
+        let made = Folders::make(&inner).unwrap();
+        fs::write(there.path().join("a/file"), "").unwrap();
+        made.remove();
+        assert!(there.path().join("a/file").exists() && !inner.exists());
+        Folders::make(there.path()).unwrap().remove();
+        assert!(there.path().exists());
+    }
+}

@@ -1,0 +1,118 @@
+//! `congruent new scenario`: a scenario for a robot, which has been run.
+
+use std::path::PathBuf;
+
+use congruent::{
+    description::{Diagnostic, Finding, RobotDescription, Use, is_standard_input},
+    starter::{NewScenario, ScenarioDraft, scenario, try_scenario},
+    twin::{
+        Outcome, RunSetup,
+        report::lines,
+        verdict::{CheckResult, Status},
+    },
+};
+
+use crate::{
+    failure::Failure,
+    input::{RobotArgument, files_of},
+    output_file::{NewFile, folder_of},
+    print::Printer,
+    table::paragraph,
+};
+
+/// A commented scenario for a robot, which passes.
+///
+/// The joints of the chain move a little and come back, within their limits and with links apart; the controller is
+/// computed torque, or playback without forces for a robot that no forces can move. Model and twin, limits, tracking and
+/// distances are checked. The scenario is run before it is written. A robot that cannot be simulated, or of which no
+/// scenario passes, gets none, with the reason.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// The scenario file, whose name without .toml is that of the scenario.
+    #[arg(long, value_name = "FILE.toml")]
+    out: PathBuf,
+    /// Replace the file of --out if it exists.
+    #[arg(long)]
+    force: bool,
+}
+
+pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let out = &arguments.out;
+    let refused = |message: String, help: &str| Diagnostic::error("new::scenario", message).with_help(help);
+    if is_standard_input(&arguments.robot.robot) {
+        let message = "the robot came from standard input, and a scenario names its robot".to_owned();
+        return Err(refused(message, "give the robot as a file").into());
+    }
+    if out.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
+        let message = format!("--out {}: the name of a scenario file ends in .toml", out.display());
+        return Err(refused(message, "for example --out scenarios/first.toml").into());
+    }
+    let description = arguments.robot.load_for(Use::Physics, printer)?;
+    let inputs = files_of(&description);
+    let file = NewFile { option: "--out", path: out, force: arguments.force };
+    let folder = folder_of(out)?;
+    file.may_be_written(&inputs)?;
+    let name = out.file_name().unwrap_or_default();
+    let draft = scenario(&description, &folder.join(name))?;
+    let (setup, outcome) = file.write(&draft.text, &inputs, |written| {
+        let setup = RunSetup::load_with(written, &[], &arguments.robot.packages().ros())?;
+        let outcome = try_scenario(&setup)?;
+        passed(&outcome)?;
+        Ok((setup, outcome))
+    })?;
+    let report = report(arguments, (&description, draft), (&setup, outcome));
+    printer.result(&report, text)?;
+    Ok(0)
+}
+
+/// The written file must do what its draft did.
+fn passed(outcome: &Outcome) -> Result<(), Failure> {
+    let failed = |check: &&CheckResult| check.status != Status::Pass;
+    match outcome.checks.iter().find(failed) {
+        None => Ok(()),
+        Some(check) => {
+            let why = lines(check).join("; ");
+            let message =
+                format!("the scenario does not pass as it is written: check {}: {why}", check.check);
+            Err(Failure::Machine(message))
+        }
+    }
+}
+
+fn report(
+    arguments: &Arguments,
+    (description, draft): (&RobotDescription, ScenarioDraft),
+    (setup, outcome): (&RunSetup, Outcome),
+) -> NewScenario {
+    NewScenario {
+        file: arguments.out.display().to_string(),
+        robot: description.name.clone(),
+        chain: description.reported_chain(),
+        joints: draft.joints,
+        controller: setup.scenario.controller.kind.clone(),
+        duration_s: setup.clock.duration_s(),
+        remarks: draft.remarks,
+        checks: outcome.checks,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
+    }
+}
+
+fn text(report: &NewScenario) -> String {
+    let mut text = format!("written to {}, which passes\n", report.file);
+    text += &paragraph(&report.chain.to_string(), 2, 4);
+    let joints = report.joints.join(", ");
+    let (seconds, controller) = (report.duration_s, &report.controller);
+    let line = format!("there and back in {seconds:.1} s, controller {controller}: {joints}");
+    text += &paragraph(&line, 2, 4);
+    for remark in &report.remarks {
+        text += &paragraph(remark, 2, 4);
+    }
+    for check in &report.checks {
+        let words = lines(check);
+        let worst = words.first().map_or(String::new(), |line| format!(": {line}"));
+        text += &paragraph(&format!("{} {}{worst}", check.status.word(), check.check), 2, 4);
+    }
+    text
+}

@@ -1,0 +1,12 @@
+//! Files to start from: a robot file for a URDF, a scenario for a robot. Each is tried before anyone relies on it.
+
+mod joint_move;
+mod robot_file;
+mod scenario;
+mod scenario_text;
+mod settings;
+mod touching;
+mod written;
+
+pub use robot_file::{NewRobot, RobotFileDraft, robot_file};
+pub use scenario::{NewScenario, ScenarioDraft, scenario, try_scenario};

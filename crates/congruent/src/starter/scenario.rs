@@ -1,0 +1,275 @@
+//! `congruent new scenario`: a scenario that passes, found by trying it.
+
+use std::path::{Path, PathBuf};
+
+use congruent_description::{
+    Diagnostic, Finding, ReportedChain, RobotDescription, Use, display::quantity, relative_path,
+};
+use congruent_twin::{
+    Outcome, Run, RunSetup,
+    recorder::NoRecorder,
+    report::lines,
+    scenario::{Check, CheckKind, ClearanceCheck, ContactCheck, ControllerSettings, OnViolation, Scenario},
+    verdict::{CheckResult, Status},
+};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{
+    joint_move::{JointMove, moves},
+    scenario_text::{Content, text},
+    settings::{checks, computed_torque, gravity_compensation, motion_settings, start_settings},
+    touching::{Distances, FarthestMove},
+    written::absolute,
+};
+
+/// Links must stay apart by this at least, and by half of what the motion leaves them if that is less.
+const MOST_MINIMUM_M: f64 = 0.02;
+/// The controller that places the robot at its setpoint.
+const PLAYBACK: &str = "kinematic";
+/// Sizes of the motion that are tried with forces, the largest first.
+const SIZES: [f64; 3] = [1.0, 0.5, 0.25];
+
+/// A scenario that has passed, and its text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ScenarioDraft {
+    /// The text of the file.
+    pub text: String,
+    /// The links that come nearest to each other, and what was left out with the reason.
+    pub remarks: Vec<String>,
+    /// Joints that move.
+    pub joints: Vec<String>,
+}
+
+/// The answer of `congruent new scenario`.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct NewScenario {
+    /// The scenario file that was written.
+    pub file: String,
+    /// Name of the robot.
+    pub robot: String,
+    /// Base and tip, and who named them.
+    pub chain: ReportedChain,
+    /// Joints that move.
+    pub joints: Vec<String>,
+    /// Kind of the controller.
+    pub controller: String,
+    /// Simulated time.
+    pub duration_s: f64,
+    /// What is left out, and why.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
+    /// The checks of the written file, which was run.
+    pub checks: Vec<CheckResult>,
+    /// Warnings about the input.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Finding>,
+}
+
+/// A scenario for the chain of `description`, to be written to `file`, an absolute path: some joints move and come back,
+/// links stay apart, and all checks pass.
+///
+/// # Errors
+/// What keeps the robot from being simulated, or from passing.
+pub fn scenario(description: &RobotDescription, file: &Path) -> Result<ScenarioDraft, Vec<Diagnostic>> {
+    description.for_use(Use::Physics)?;
+    let (mut content, largest) = content(description, file)?;
+    let mut last = String::new();
+    let forces = [computed_torque(), gravity_compensation()];
+    let forces = forces.into_iter().flat_map(|controller| SIZES.map(|size| (size, controller.clone())));
+    let playback = std::iter::once((1.0, ControllerSettings::default()));
+    for (size, controller) in forces.chain(playback) {
+        let is_playback = controller.kind == PLAYBACK;
+        let motion = largest.scaled(&description.robot, size);
+        content.scenario.motion = motion_settings(description, &motion);
+        content.scenario.controller = controller;
+        let (results, setup) = match tried(&content.scenario, description) {
+            Ok(tried) => tried,
+            Err(findings) if is_playback => return Err(findings),
+            Err(findings) => {
+                last = crate::listed(&findings);
+                continue;
+            }
+        };
+        match refused(&results) {
+            Some((CheckKind::Agreement, why)) => return Err(disagrees(description, &why).into()),
+            Some((_, why)) => last = why,
+            None => {
+                if is_playback {
+                    let remark =
+                        "played back without forces, so without the checks dynamics and power: with forces";
+                    content.remarks.push(format!("{remark} it does not pass ({last})"));
+                }
+                leave_out(&mut content, &results);
+                let joints = motion.moving.iter();
+                let joints = joints.map(|&at| joint_name(description, at).to_owned()).collect();
+                return Ok(ScenarioDraft {
+                    text: text(description, &content, setup.clock.duration_s()),
+                    remarks: content.remarks,
+                    joints,
+                });
+            }
+        }
+    }
+    let message = format!("no motion of this robot was found that passes: {last}");
+    Err(Diagnostic::error("new::scenario", message).into())
+}
+
+/// Runs a scenario without recording it.
+///
+/// # Errors
+/// What is wrong with it, or what has broken the run.
+pub fn try_scenario(setup: &RunSetup) -> Result<Outcome, Vec<Diagnostic>> {
+    let broken = |error: &dyn std::error::Error| vec![Diagnostic::error("new::run", error.to_string())];
+    let mut checks = setup.checks();
+    let run = Run::new(setup).map_err(|error| broken(&error))?;
+    let (outcome, result) = run.finish(&mut checks, &mut NoRecorder, |_| {});
+    result.map_err(|error| broken(&error))?;
+    Ok(outcome)
+}
+
+fn tried(
+    scenario: &Scenario,
+    description: &RobotDescription,
+) -> Result<(Vec<CheckResult>, RunSetup), Vec<Diagnostic>> {
+    let setup = RunSetup::new(scenario.clone(), description.clone())?;
+    Ok((try_scenario(&setup)?.checks, setup))
+}
+
+/// Checks that say how well the physics follows the equations of motion: they are left out if they do not pass, which says
+/// nothing about the scenario.
+fn is_optional(kind: CheckKind) -> bool {
+    matches!(kind, CheckKind::Dynamics | CheckKind::Power | CheckKind::Twist)
+}
+
+/// The first check that must pass and does not.
+fn refused(results: &[CheckResult]) -> Option<(CheckKind, String)> {
+    let failed = |result: &&CheckResult| result.status == Status::Fail && !is_optional(result.check);
+    let result = results.iter().find(failed)?;
+    // The violation is the first of its lines.
+    let why = lines(result).into_iter().next().unwrap_or_default();
+    Some((result.check, format!("check {}: {why}", result.check)))
+}
+
+/// Takes out the checks that have nothing to check, and the optional ones that do not pass, and says so.
+fn leave_out(content: &mut Content, results: &[CheckResult]) {
+    let does_not_pass = |result: &&CheckResult| match result.status {
+        Status::Pass => false,
+        // There was nothing to check, such as limits that no one states.
+        Status::Skipped => true,
+        Status::Fail | Status::Error => is_optional(result.check),
+    };
+    let left_out: Vec<&CheckResult> = results.iter().filter(does_not_pass).collect();
+    let scenario = &mut content.scenario;
+    scenario.check.retain(|check| !left_out.iter().any(|result| result.check == check.kind()));
+    // Of a playback it is said already.
+    let without_forces = scenario.controller.kind == PLAYBACK;
+    let needs_forces = |kind| matches!(kind, CheckKind::Dynamics | CheckKind::Power);
+    for result in left_out.iter().filter(|result| !(without_forces && needs_forces(result.check))) {
+        let why = lines(result).into_iter().next().unwrap_or_default();
+        content.remarks.push(format!("no check {}: {why}", result.check));
+    }
+}
+
+fn disagrees(description: &RobotDescription, why: &str) -> Diagnostic {
+    let message = format!("the model and the twin of \"{}\" are not the same robot: {why}", description.name);
+    Diagnostic::error("new::agreement", message)
+        .with_help("`congruent check` says why; a scenario can only pass for a robot that agrees")
+}
+
+/// The scenario but for its controller, and its motion.
+fn content(description: &RobotDescription, file: &Path) -> Result<(Content, JointMove), Vec<Diagnostic>> {
+    let moves = moves(description);
+    let Some(first) = moves.first() else {
+        let message = format!(
+            "no joint between \"{}\" and \"{}\" can move: there is nothing to run",
+            description.robot.link(description.base).name,
+            description.robot.link(description.tip).name
+        );
+        return Err(Diagnostic::error("new::no_joint", message)
+            .with_help("choose a chain in the robot file: base and tip")
+            .into());
+    };
+    let mut content = Content { scenario: Scenario::default(), remarks: Vec::new() };
+    content.scenario.check = checks(description);
+    let farthest = of_distances(description, &moves, &mut content)?;
+    let motion = farthest.unwrap_or_else(|| first.clone());
+    let folder = file.parent().unwrap_or(Path::new("."));
+    content.scenario.name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    content.scenario.robot = relative_path(folder, &absolute(&description_path(description)));
+    content.scenario.start = start_settings(description, &motion);
+    Ok((content, motion))
+}
+
+/// Adds the checks of distances, with what is to be said of them; returns the motion that they are for.
+fn of_distances(
+    description: &RobotDescription,
+    moves: &[JointMove],
+    content: &mut Content,
+) -> Result<Option<JointMove>, Vec<Diagnostic>> {
+    let remarks = &mut content.remarks;
+    if let Err(findings) = description.for_use(Use::Clearance) {
+        remarks.push(format!("no check of distances: {}", crate::listed(&findings).replace('\n', "; ")));
+        return Ok(None);
+    }
+    let distances = Distances::new(description)
+        .map_err(|error| vec![Diagnostic::error("new::shape", error.to_string())])?
+        .farthest(description, moves);
+    let Some(FarthestMove { motion, least_m, ignored, touching }) = distances else { return Ok(None) };
+    if !ignored.is_empty() {
+        let why = "since their convex hulls overlap or are nearer than 1 mm";
+        remarks.push(format!("pairs that are ignored, {why}: {}", listed_pairs(&ignored)));
+    }
+    if !touching.is_empty() {
+        let pairs = listed_pairs(&touching);
+        remarks.push(format!("of these only touch on this motion: {pairs}; none without was found"));
+    }
+    let Some(least_m) = least_m else {
+        remarks.push("no check of distances: no two links could come near each other".to_owned());
+        return Ok(Some(motion));
+    };
+    remarks.push(format!("links stay {} apart", quantity(least_m, "m")));
+    let minimum_m = one_digit_below(least_m / 2.0).min(MOST_MINIMUM_M);
+    let on_violation = OnViolation::default();
+    let clearance = ClearanceCheck { minimum_m, pairs: Vec::new(), ignore: ignored.clone(), on_violation };
+    let contact = ContactCheck { ignore: ignored, ..ContactCheck::default() };
+    content.scenario.check.extend([Check::Clearance(clearance), Check::Contact(contact)]);
+    Ok(Some(motion))
+}
+
+fn listed_pairs(pairs: &[[String; 2]]) -> String {
+    pairs.iter().map(|[a, b]| format!("{a} and {b}")).collect::<Vec<_>>().join(", ")
+}
+
+/// What a scenario names: the folder of a `robot.toml`, or the file.
+fn description_path(description: &RobotDescription) -> PathBuf {
+    let path = &description.path;
+    let is_usual = path.file_name().is_some_and(|name| name == "robot.toml");
+    match path.parent().filter(|_| is_usual) {
+        Some(folder) if folder.as_os_str().is_empty() => ".".into(),
+        Some(folder) => folder.to_owned(),
+        None => path.clone(),
+    }
+}
+
+/// The largest number with one digit that is not above `value`.
+fn one_digit_below(value: f64) -> f64 {
+    let power = value.log10().floor();
+    let digit = 10_f64.powf(power);
+    ((value / digit).floor() * digit * 1e9).round() / 1e9
+}
+
+fn joint_name(description: &RobotDescription, coordinate: usize) -> &str {
+    &description.robot.joint(description.robot.movable_joints()[coordinate]).name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn minimum_distances_have_one_digit() {
+        let found = [0.0334, 0.02, 0.000_17, 0.0999].map(one_digit_below);
+        assert_eq!(found.map(f64::to_bits), [0.03, 0.02, 0.0001, 0.09].map(f64::to_bits));
+    }
+}
