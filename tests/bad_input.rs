@@ -174,7 +174,7 @@ fn case_13_an_answer_to_a_violation_that_is_none() {
         ("on_violation = true", ["boolean `true`", "expected a string"]),
         (
             "on_violaton = \"stop\"",
-            ["unknown key \"on_violaton\"", "known keys: position_m, orientation_rad, on_violation"],
+            ["unknown key \"on_violaton\"", "known keys: position_m, position_mm, orientation_rad, orientation_deg, on_violation"],
         ),
     ] {
         let bench = Workbench::new();
@@ -214,7 +214,7 @@ fn case_23_a_servo_that_cannot_be() {
 fn case_23_a_goal_that_cannot_be() {
     for (keys, words) in [
         ("position_m = 1e-6", ["missing key \"tcp\"", "tcp"]),
-        ("tcp = { xyz_m = [1, 0, 0] }", ["missing key \"position_m\"", "position_m"]),
+        ("tcp = { xyz_m = [1, 0, 0] }", ["the check has no `position_m`", "`position_mm`"]),
         (
             "tcp = { rpy_deg = [1, 0, 0] }\nposition_m = 1e-6",
             ["no tolerance `orientation_rad`", "both for a pose"],

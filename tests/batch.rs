@@ -37,7 +37,7 @@ const AGREEMENT: &str = "[[check]]\nkind = \"agreement\"\n";
 /// A goal out of reach.
 const FAR_GOAL: &str = "[[check]]\nkind = \"goal\"\ntcp = { xyz_m = [0, 0, 9] }\nposition_m = 0.1\n";
 /// The tenth line of the file is wrong.
-const WRONG: &str = "[[check]]\nkind = \"agreement\"\nposition_mm = 1\n";
+const WRONG: &str = "[[check]]\nkind = \"agreement\"\nposition_cm = 1\n";
 
 /// The elements of this name below a node.
 fn below<'a>(node: Node<'a, 'a>, name: &'static str) -> Vec<Node<'a, 'a>> {
@@ -147,7 +147,7 @@ fn one_bad_scenario_of_three_keeps_no_other_from_running() {
         assert_eq!(words(&cases), expected);
         let (suite, _, _, message) = &cases[position];
         assert_eq!(suite, &bad);
-        assert!(message.contains(&format!("{bad}:11: ")) && message.contains("position_mm"), "{message}");
+        assert!(message.contains(&format!("{bad}:11: ")) && message.contains("position_cm"), "{message}");
         for name in ["first", "second"] {
             assert!(bench.path().join("out").join(name).join("report.json").is_file(), "{name}");
         }
