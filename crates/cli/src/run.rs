@@ -9,6 +9,7 @@ use std::{
 
 use congruent::{
     description::{Diagnostic, display::quantity},
+    page::PageFormat,
     twin::{
         ExecuteError, Options, RecordingFormat, RunSetup,
         diagnosis::RunDiagnosis,
@@ -159,7 +160,7 @@ fn run_all(
 ) -> Vec<Answer<Ran>> {
     let options = Options {
         out: arguments.out.clone(),
-        recording: (!arguments.no_recording).then_some(recording_format()).flatten(),
+        recordings: recordings(arguments),
     };
     let jobs = arguments.threads(loaded.len());
     let waiting = Mutex::new(loaded.into_iter().enumerate());
@@ -180,6 +181,12 @@ fn run_all(
     });
     answers.sort_by_key(|(index, _)| *index);
     answers.into_iter().map(|(_, answer)| answer).collect()
+}
+
+/// The files that take the samples: the recording, and the page, which links to it.
+fn recordings(arguments: &Arguments) -> Vec<&'static dyn RecordingFormat> {
+    let recording = (!arguments.no_recording).then_some(recording_format()).flatten();
+    recording.into_iter().chain([&PageFormat as &dyn RecordingFormat]).collect()
 }
 
 /// The format of recordings, if this command was built with one.

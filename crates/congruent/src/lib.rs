@@ -10,6 +10,7 @@ pub use congruent_description as description;
 pub use congruent_dynamics as dynamics;
 pub use congruent_dynamics_agreement as dynamics_agreement;
 pub use congruent_kinematics as kinematics;
+pub use congruent_page as page;
 #[cfg(feature = "recording")]
 pub use congruent_recording as recording;
 pub use congruent_simulation as simulation;

@@ -13,4 +13,4 @@ pub use fault_table::{FaultRow, FaultTable, SeenBy};
 pub use files::{OutputError, OutputFolder, write_whole};
 pub use junit::{Clock, Reason, TestCase, TestResult, TestSuite, write_junit};
 pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
-pub use sentence::{lines, sentence_at};
+pub use sentence::{limit_words, lines, margin_words, quantity_words, sentence_at};

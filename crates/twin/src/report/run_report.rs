@@ -169,6 +169,35 @@ impl RunReport {
         }
     }
 
+    /// The verdict as a sentence.
+    pub fn sentence(&self) -> String {
+        let failed = self.checks.iter().filter(|check| check.status == Status::Fail);
+        let failed: Vec<&str> = failed.map(|check| check.check.word()).collect();
+        let failed = failed.join(", ");
+        match (self.verdict, &self.expected) {
+            (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
+            (Verdict::AsExpected, Expectation::Fail { .. }) => format!("{failed} fails, as expected"),
+            (Verdict::NotAsExpected, _) if failed.is_empty() => {
+                "every check passes, against expectation".to_owned()
+            }
+            (Verdict::NotAsExpected, _) => format!("{failed} fails, against expectation"),
+            (Verdict::NothingChecked, _) => "nothing was checked".to_owned(),
+            (Verdict::Broken, _) => "the run ended with an error".to_owned(),
+        }
+    }
+
+    /// The command that runs the same again.
+    pub fn command(&self) -> String {
+        let mut command = format!("congruent run {}", self.scenario_file.as_deref().unwrap_or("FILE"));
+        for change in &self.overrides {
+            command += &format!(" --set '{}'", change.replace('\'', r"'\''"));
+        }
+        if !self.overrides.iter().any(|change| change.starts_with("seed=")) {
+            command += &format!(" --seed {}", self.seed);
+        }
+        command
+    }
+
     /// The checks, those that failed first.
     pub fn checks_failed_first(&self) -> Vec<&CheckResult> {
         let mut checks: Vec<&CheckResult> = self.checks.iter().collect();
