@@ -26,6 +26,7 @@ mod faults;
 mod forward_goldens;
 mod golden;
 mod jacobian_goldens;
+mod pages;
 mod pairing;
 mod planted_dynamics;
 mod robots;

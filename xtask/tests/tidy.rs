@@ -19,7 +19,15 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("recording", &["description", "kinematics", "simulation", "agreement", "twin"]),
     (
         "page",
-        &["description", "kinematics", "simulation", "agreement", "dynamics-agreement", "calibration", "twin"],
+        &[
+            "description",
+            "kinematics",
+            "simulation",
+            "agreement",
+            "dynamics-agreement",
+            "calibration",
+            "twin",
+        ],
     ),
     (
         "congruent",

@@ -11,6 +11,7 @@ mod input;
 mod inspect;
 mod model;
 mod output_file;
+mod page_file;
 mod plot_file;
 mod print;
 mod run;

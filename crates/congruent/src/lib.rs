@@ -22,7 +22,9 @@ mod run_comparison;
 pub mod schema;
 mod with_physics;
 
-pub use check::{DeclaredSource, OtherDescription, RobotCheck, check, check_against, check_suite};
+pub use check::{
+    DeclaredSource, OtherDescription, RobotCheck, check, check_against, check_suite, checked_robot,
+};
 pub use run_comparison::{NotComparable, RunComparison, compare_runs};
 pub use with_physics::{forward, joint_dynamics};
 

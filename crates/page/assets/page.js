@@ -30,11 +30,15 @@
     const size = Math.abs(value);
     return size < 1e-4 || size >= 1e7 ? value.toExponential(1).replace(".0e", "e") : String(Number(value.toPrecision(3)));
   };
-  const SMALL = { m: [[1, "m"], [1e-3, "mm"], [1e-6, "um"], [1e-9, "nm"]], rad: [[1, "rad"], [1e-6, "urad"], [1e-9, "nrad"]] };
-  // A length or an angle on a logarithmic axis, with the unit in which it has few digits.
-  const withUnit = (value, unit) => {
-    const step = (SMALL[unit] || []).find(([size]) => Math.abs(value) >= size * 0.9995);
-    return step ? digits(value / step[0]) + " " + step[1] : digits(value) + " " + unit;
+  // From a value on, the unit in which it is shown and how many there are of it.
+  const DEGREES = 180 / Math.PI;
+  const LENGTHS = [[10, "m", 1], [1e-4, "mm", 1e3], [1e-6, "um", 1e6], [1e-9, "nm", 1e9]];
+  const ANGLES = [[1e-3 / DEGREES, "deg", DEGREES], [1e-6, "urad", 1e6], [1e-9, "nrad", 1e9]];
+  // Powers of ten are round in radians alone.
+  const STEPS = { m: LENGTHS, rad: ANGLES, "rad on an axis": [[1e-4, "rad", 1], ...ANGLES.slice(1)] };
+  const withUnit = (value, unit, place = "") => {
+    const step = STEPS[unit + place].find(([from]) => Math.abs(value) >= from * 0.9995);
+    return step ? digits(value * step[2]) + " " + step[1] : digits(value) + " " + unit;
   };
 
   // Each line on the times of all lines of its chart.
@@ -104,7 +108,7 @@
       line(bbox.left, y, bbox.left + bbox.width, y, css("--bad"), 1.5, [7, 4]);
       ctx.fillStyle = css("--bad");
       ctx.textAlign = "right";
-      if (y > bbox.top && y < bbox.top + bbox.height) {
+      if (y >= bbox.top - 1 && y <= bbox.top + bbox.height + 1) {
         const above = y - bbox.top > 16 * ratio;
         ctx.fillText(limit.name, bbox.left + bbox.width - 4 * ratio, y + (above ? -4 : 13) * ratio);
       }
@@ -145,9 +149,10 @@
         { ...axis, size: small ? 28 : 34, values: (plot, ticks) => ticks.map((tick) => digits(tick) + " s") },
         {
           ...axis,
-          size: chart.log ? 64 : 58,
+          size: chart.log ? 70 : 58,
+          filter: (plot, ticks) => ticks,
           splits: chart.log ? (plot, _, low, high) => decades(low, high) : undefined,
-          values: (plot, ticks) => ticks.map((tick) => (tick == null ? "" : chart.log ? withUnit(tick, chart.unit) : digits(tick))),
+          values: (plot, ticks) => ticks.map((tick) => (tick == null ? "" : chart.log ? withUnit(tick, chart.unit, chart.unit === "rad" ? " on an axis" : "") : digits(tick))),
           label: chart.log ? undefined : chart.unit,
           labelSize: 16,
           labelFont: "11px system-ui, sans-serif",

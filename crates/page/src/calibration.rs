@@ -135,8 +135,8 @@ fn correction(each: &EstimatedCorrection, report: &CalibrationReport, at: &Point
 
 fn shown(unit: ParameterUnit, value: f64) -> String {
     match unit {
-        ParameterUnit::Rad => angle(value),
-        ParameterUnit::M => length(value),
+        ParameterUnit::Angle => angle(value),
+        ParameterUnit::Length => length(value),
     }
 }
 

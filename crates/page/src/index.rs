@@ -113,7 +113,8 @@ fn nearest(report: &RunReport) -> Markup {
 /// The quantity that uses most of its limit, of the checks that passed; quantities of no size, as rounding, do not count.
 fn tightest(report: &RunReport) -> Option<(&'static str, &Measure, f64)> {
     let passed = report.checks.iter().filter(|check| check.status == Status::Pass);
-    let measures = passed.flat_map(|check| check.measures.iter().map(|measure| (check.check.word(), measure)));
+    let measures =
+        passed.flat_map(|check| check.measures.iter().map(|measure| (check.check.word(), measure)));
     let share = |measure: &Measure| {
         let worst = measure.worst.as_ref()?.value;
         let share = match measure.bound {

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use congruent::{
     RobotCheck,
     agreement::compare::{Agreement, CheckOptions},
-    check_suite,
-    description::{Diagnostic, Robot, load_robot_with, read_configurations},
+    check_suite, checked_robot,
+    description::{Diagnostic, RobotDescription, load_robot_with, read_configurations},
+    page::{CheckEntry, check_page},
     twin::report::TestSuite,
 };
 
@@ -17,9 +18,10 @@ use super::{
     tolerance::ToleranceArgument,
 };
 use crate::{
-    batch::{Batch, BatchReport},
+    batch::{Answer, Batch, BatchReport},
     failure::{FAILED, Failure, NOTHING},
     input::{ChainArguments, PackageArguments},
+    page_file::PageArgument,
     print::Printer,
 };
 
@@ -61,12 +63,15 @@ pub(crate) struct Arguments {
     /// cannot be loaded.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
+    #[command(flatten)]
+    page: PageArgument,
 }
 
 /// The report on one robot, and whether its first checks are shown too.
 struct Checked {
     report: RobotCheck,
-    robot: Robot,
+    description: RobotDescription,
+    other: Option<RobotDescription>,
     with_basics: bool,
 }
 
@@ -87,7 +92,7 @@ impl BatchReport for Checked {
 
     fn text(&self) -> String {
         let basics = if self.with_basics { basics(&self.report.geometry.basics) } else { String::new() };
-        text(&self.report, &self.robot) + &basics
+        text(&self.report, &self.description.robot) + &basics
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -98,7 +103,20 @@ impl BatchReport for Checked {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let batch = Batch::begin(&arguments.robots, arguments.junit.as_deref(), printer)?;
     let robots = arguments.robots.iter();
-    batch.finish(robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect())
+    let answers: Vec<Answer<Checked>> =
+        robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect();
+    let written = arguments.page.write(|| page(&answers));
+    batch.finish_with_page(answers, written)
+}
+
+fn page(answers: &[Answer<Checked>]) -> String {
+    check_page(&answers.iter().map(entry).collect::<Vec<_>>())
+}
+
+fn entry(answer: &Answer<Checked>) -> CheckEntry<'_> {
+    let result = answer.report();
+    let result = result.map(|of| checked_robot(&of.report, &of.description, of.other.as_ref()));
+    CheckEntry { input: answer.input(), result }
 }
 
 fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
@@ -115,16 +133,17 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         description.tolerance = tolerance.replace(declared);
     }
     let options = CheckOptions { seed: arguments.seed, configurations };
-    let compared = match &arguments.against {
+    let ros = arguments.packages.ros();
+    let other = arguments.against.as_ref().map(|other| load_robot_with(other, &ros)).transpose()?;
+    let compared = match &other {
         Some(other) => {
-            let other = load_robot_with(other, &arguments.packages.ros())?;
             batch.warn(&other.path, &other.warnings);
-            congruent::check_against(&description, &other, &options)
+            congruent::check_against(&description, other, &options)
         }
         None => congruent::check(&description, &options),
     };
     let mut report = compared
         .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
-    Ok(Checked { report, robot: description.robot, with_basics: arguments.basics })
+    Ok(Checked { report, description, other, with_basics: arguments.basics })
 }

@@ -92,7 +92,11 @@ fn drawn_at(robot: &CheckedRobot<'_>) -> Option<DrawnAt> {
         };
         let pair = certificates.iter().find(attains)?.name;
         let [q, _] = brackets.attained_at(structure);
-        return Some(DrawnAt { q, pair, what: "Where the difference of the tips comes nearest to its bound" });
+        return Some(DrawnAt {
+            q,
+            pair,
+            what: "Where the difference of the tips comes nearest to its bound",
+        });
     }
     let mut q = RobotQ::zeros(structure.dof());
     for (joint, value) in worst.at.iter() {
@@ -128,7 +132,7 @@ fn picture(robot: &CheckedRobot<'_>) -> Markup {
     let tips: Vec<_> = arms.iter().map(|arm| arm.skeleton.tip.translation.vector).collect();
     let tips_apart_m = tips.windows(2).map(|tips| (tips[0] - tips[1]).norm()).fold(0.0, f64::max);
     let bodies = shapes(&description.robot, &urdf).into_iter();
-    let bodies = bodies.map(|points| Body { class: "shape", name: None, points }).collect();
+    let bodies = bodies.map(|(_, points)| Body::shape(points)).collect();
     let two = TwoArms { figure: Figure { bodies, arms, path: Vec::new() }, tips_apart_m };
     let caption = html! {
         (what) " (" (pair.title()) "): " (JointValues::of_robot(&description.robot, q).for_people(&description.robot))

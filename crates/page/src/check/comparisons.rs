@@ -1,7 +1,10 @@
 //! The comparisons of poses: two sources each, with the largest difference beside the tolerance, then link by link.
 
 use congruent_agreement::compare::{Agreement, CheckReport, Comparison, PoseSource};
-use congruent_description::{Tolerance, display::{angle, length}};
+use congruent_description::{
+    Tolerance,
+    display::{angle, length},
+};
 use congruent_kinematics::PoseError;
 use maud::{Markup, html};
 
@@ -83,8 +86,15 @@ fn cells(error: &PoseError, tolerance: &Tolerance, at: &Pointer) -> Markup {
 
 fn bar(error: f64, tolerance: f64) -> Markup {
     let holds = error <= tolerance;
-    let percent = if holds && tolerance > 0.0 { 100.0 * error / tolerance } else if holds { 0.0 } else { 100.0 };
-    let label = if holds { format!("{percent:.0} % of the tolerance") } else { "above the tolerance".to_owned() };
+    let percent = if holds && tolerance > 0.0 {
+        100.0 * error / tolerance
+    } else if holds {
+        0.0
+    } else {
+        100.0
+    };
+    let label =
+        if holds { format!("{percent:.0} % of the tolerance") } else { "above the tolerance".to_owned() };
     html! {
         div.bar.(if holds { "good" } else { "bad" }) role="img" aria-label=(label) {
             div style=(format!("width:{percent:.1}%")) {}

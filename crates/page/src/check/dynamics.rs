@@ -1,7 +1,7 @@
 //! The comparisons of dynamics: the result, its causes with their lines, and what else differs.
 
-use congruent_dynamics_agreement::{DynamicsExplanation, DynamicsReport, FigureDifference};
 use congruent_description::display::number;
+use congruent_dynamics_agreement::{DynamicsExplanation, DynamicsReport, FigureDifference};
 use maud::{Markup, html};
 
 use super::page::CheckedRobot;
@@ -29,8 +29,7 @@ pub(super) fn dynamics(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
 }
 
 fn compared(report: &DynamicsReport, at: &Pointer) -> Markup {
-    let (outcome, word) =
-        if report.agrees() { (Outcome::Good, "agree") } else { (Outcome::Bad, "disagree") };
+    let (outcome, word) = if report.agrees() { (Outcome::Good, "agree") } else { (Outcome::Bad, "disagree") };
     let percent = format!("{} %", number(100.0 * report.difference_relative));
     html! {
         div.card.(outcome.class()) {
@@ -65,6 +64,7 @@ fn others(report: &DynamicsReport) -> Vec<String> {
     let limits = report.limits.iter().map(congruent_dynamics_agreement::LimitDifference::sentence);
     let torques = report.invariants.iter().filter(|_| !report.has_same_torques());
     let torques = torques.flat_map(congruent_dynamics_agreement::Invariants::sentences);
-    let worst = report.worst_gravity().map(|worst| format!("worst gravity torque difference {}", worst.sentence()));
+    let worst =
+        report.worst_gravity().map(|worst| format!("worst gravity torque difference {}", worst.sentence()));
     limits.chain(torques).chain(report.hidden_sentences().into_iter().take(SHOWN)).chain(worst).collect()
 }

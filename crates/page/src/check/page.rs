@@ -4,7 +4,10 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport},
     report::foremost,
 };
-use congruent_description::{RobotDescription, display::{angle, length, length_and_angle}};
+use congruent_description::{
+    RobotDescription,
+    display::{angle, length, length_and_angle},
+};
 use congruent_dynamics_agreement::DynamicsReport;
 use maud::{Markup, html};
 

@@ -1,6 +1,8 @@
 //! Why two models differ: each fault at its lines of the file, what to write there, and the difference before and after.
 
-use congruent_agreement::report::{Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedStage};
+use congruent_agreement::report::{
+    Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedStage,
+};
 use congruent_description::{
     Diagnostic,
     display::{angle, length, length_and_angle},

@@ -18,10 +18,7 @@ impl Camera {
     fn from_azimuth(azimuth_rad: f64) -> Self {
         let (sin, cos) = azimuth_rad.sin_cos();
         let (sin_up, cos_up) = ELEVATION_RAD.sin_cos();
-        Self {
-            right: Vector3::new(-sin, cos, 0.0),
-            up: Vector3::new(-cos * sin_up, -sin * sin_up, cos_up),
-        }
+        Self { right: Vector3::new(-sin, cos, 0.0), up: Vector3::new(-cos * sin_up, -sin * sin_up, cos_up) }
     }
 
     /// The direction from which the lines are longest together.

@@ -26,6 +26,19 @@ pub(crate) struct Body {
     pub(crate) class: &'static str,
     pub(crate) name: Option<String>,
     pub(crate) points: Vec<Point3<f64>>,
+    /// Whether it is what a check found.
+    pub(crate) is_marked: bool,
+}
+
+impl Body {
+    /// A shape of the arm.
+    pub(crate) fn shape(points: Vec<Point3<f64>>) -> Self {
+        Self { class: "shape", name: None, points, is_marked: false }
+    }
+
+    fn classes(&self) -> String {
+        format!("{}{}", self.class, if self.is_marked { " marked" } else { "" })
+    }
 }
 
 /// Everything that a picture shows.
@@ -48,13 +61,17 @@ const AROUND_DIFFERENCE: f64 = 4.0;
 /// A difference of this share of the picture or more needs no enlargement, and one of less than that cannot be drawn.
 const DISCERNIBLE: [f64; 2] = [1e-7, 0.15];
 
+/// Tips that are nearer to each other are drawn as one. Unit: m.
+const DRAWN_M: f64 = 1e-6;
+
 impl Figure {
     /// The whole of it.
     pub(crate) fn whole(&self, title: &str) -> Markup {
         let camera = self.camera();
         let seen: Vec<Point2<f64>> = self.arm_points().map(|point| camera.project(&point)).collect();
         let Some(first) = seen.first() else { return html! {} };
-        let (low, high) = seen.iter().fold((*first, *first), |(low, high), point| (low.inf(point), high.sup(point)));
+        let (low, high) =
+            seen.iter().fold((*first, *first), |(low, high), point| (low.inf(point), high.sup(point)));
         let canvas = Canvas::showing(low, high, MARGIN);
         self.drawn(&camera, &canvas, title)
     }
@@ -79,12 +96,12 @@ impl Figure {
 
     fn camera(&self) -> Camera {
         let lines = self.arms.iter().flat_map(|arm| arm.skeleton.links.iter().copied());
-        // The difference of two tips counts as much as a link, however small it is.
+        // The difference of two tips counts as much as a link, unless it is rounding.
         let tips: Vec<Point3<f64>> =
             self.arms.iter().map(|arm| arm.skeleton.tip.translation.vector.into()).collect();
         let way = self.path.windows(2).map(|points| [points[0], points[1]]);
         let apart = tips.windows(2).filter_map(|tips| {
-            let direction = (tips[1] - tips[0]).try_normalize(0.0)?;
+            let direction = (tips[1] - tips[0]).try_normalize(DRAWN_M)?;
             Some([tips[0], tips[0] + direction * 0.3])
         });
         Camera::showing(&lines.chain(way).chain(apart).collect::<Vec<_>>())
@@ -99,11 +116,12 @@ impl Figure {
 
     fn drawn(&self, camera: &Camera, canvas: &Canvas, title: &str) -> Markup {
         let at = |point: &Point3<f64>| canvas.at(&camera.project(point));
-        let outline = |points: &[Point3<f64>]| canvas.outline(points.iter().map(|point| camera.project(point)));
+        let outline =
+            |points: &[Point3<f64>]| canvas.outline(points.iter().map(|point| camera.project(point)));
         let unit = canvas.width_m();
         canvas.svg(title, html! {
             @for body in &self.bodies {
-                (canvas.polygon(&outline(&body.points), body.class))
+                (canvas.polygon(&outline(&body.points), &body.classes()))
             }
             @for body in &self.bodies {
                 @if let Some(name) = &body.name { (canvas.label(&outline(&body.points), name)) }

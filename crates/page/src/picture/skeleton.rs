@@ -1,6 +1,6 @@
 //! An arm as lines, and shapes as points.
 
-use congruent_description::{Geometry, LinkIndex, Robot};
+use congruent_description::{Geometry, Link, LinkIndex, Robot};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// Most vertices of a mesh that are looked at: an outline has few corners.
@@ -24,22 +24,29 @@ impl Skeleton {
         let links = robot.joints().iter().map(|joint| [origin(joint.parent), origin(joint.child)]);
         let joints = robot.movable_joints().iter().map(|&joint| {
             let joint = robot.joint(joint);
-            (origin(joint.child), root_from_links[joint.child.get()].rotation * joint.axis_in_joint.into_inner())
+            (
+                origin(joint.child),
+                root_from_links[joint.child.get()].rotation * joint.axis_in_joint.into_inner(),
+            )
         });
         Self { links: links.collect(), joints: joints.collect(), tip: root_from_links[tip.get()] }
     }
 }
 
-/// Points of each link's collision shapes, or of its visual ones if it has no others.
-pub(crate) fn shapes(robot: &Robot, root_from_links: &[Isometry3<f64>]) -> Vec<Vec<Point3<f64>>> {
-    let of_link = |(index, link): (usize, &congruent_description::Link)| {
+/// Points of each shape of the links, with the name of the link: of its collision shapes, or of its visual ones if it has
+/// no others.
+pub(crate) fn shapes<'a>(
+    robot: &'a Robot,
+    root_from_links: &[Isometry3<f64>],
+) -> Vec<(&'a str, Vec<Point3<f64>>)> {
+    let of_link = |(link, root_from_link): (&'a Link, &Isometry3<f64>)| {
         let shapes = if link.collisions.is_empty() { &link.visuals } else { &link.collisions };
-        let each = shapes.iter().map(|shape| {
-            corners(&shape.geometry, &(root_from_links[index] * shape.link_from_shape))
+        let points = shapes.iter().map(|shape| {
+            (link.name.as_str(), corners(&shape.geometry, &(root_from_link * shape.link_from_shape)))
         });
-        each.collect::<Vec<_>>()
+        points.collect::<Vec<_>>()
     };
-    robot.links().iter().enumerate().flat_map(of_link).filter(|points| !points.is_empty()).collect()
+    robot.links().iter().zip(root_from_links).flat_map(of_link).collect()
 }
 
 /// Points whose outline is that of a shape.

@@ -91,19 +91,27 @@ impl Canvas {
     }
 
     pub(crate) fn polygon(&self, corners: &[Point2<f64>], class: &str) -> Markup {
-        html! { @if corners.len() > 2 { polygon.(class) points=(listed(corners)) {} } }
+        html! { @if corners.len() > 2 { polygon class=(class) points=(listed(corners)) {} } }
     }
 
     pub(crate) fn polyline(&self, points: &[Point2<f64>], class: &str) -> Markup {
         html! { @if points.len() > 1 { polyline.(class) points=(listed(points)) {} } }
     }
 
-    /// The name of what has these corners, at the highest corner inside the picture.
+    /// The name of what has these corners, above the highest of them that is in the picture; of what has none there, at
+    /// the edge that is nearest to it.
     pub(crate) fn label(&self, corners: &[Point2<f64>], name: &str) -> Markup {
-        let inside = |point: &&Point2<f64>| (20.0..WIDTH - 60.0).contains(&point.x) && (14.0..HEIGHT).contains(&point.y);
-        let highest = corners.iter().filter(inside).min_by(|a, b| a.y.total_cmp(&b.y));
+        let inside =
+            |at: &Point2<f64>| Point2::new(at.x.clamp(12.0, WIDTH - 90.0), at.y.clamp(18.0, HEIGHT - 30.0));
+        let outside = |at: &Point2<f64>| (inside(at) - at).norm();
+        let nearest = corners
+            .iter()
+            .min_by(|a, b| (outside(a) > 0.0).cmp(&(outside(b) > 0.0)).then(a.y.total_cmp(&b.y)));
         html! {
-            @if let Some(at) = highest { text.name x=(tenths(at.x)) y=(tenths(at.y - 5.0)) { (name) } }
+            @if let Some(at) = nearest {
+                @let at = inside(at);
+                text.name x=(tenths(at.x)) y=(tenths(at.y - 5.0)) { (name) }
+            }
         }
     }
 

@@ -48,7 +48,8 @@ fn rows(check: &CheckResult, at: &Pointer) -> Markup {
                 }
             }
             @if further > 0 { tr { td.again {} td.again {} td colspan="5" { (further) " further values are in the report" } } }
-            @if !check.notes.is_empty() {
+            // Those of a check that failed stand above the table.
+            @if !check.notes.is_empty() && check.status != Status::Fail {
                 tr.notes { td.again {} td colspan="6" { @for note in &check.notes { p { (note) } } } }
             }
         }
@@ -72,7 +73,6 @@ fn cells(measure: &Measure, at: &Pointer) -> Markup {
     let Some(worst) = &measure.worst else {
         return html! { td data-label="worst value" { (what) ": no value" } td data-label="limit" { (limit(measure, at)) } td {} td {} td {} };
     };
-    // Of a constant value the start of its violation tells more, as in the sentences.
     let at_worst = at.key("worst");
     html! {
         td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown(measure, worst))) }
@@ -101,6 +101,8 @@ fn limit(measure: &Measure, at: &Pointer) -> Markup {
 fn bar(measure: &Measure, worst: f64) -> Markup {
     let share = match measure.bound {
         _ if measure.limit <= 0.0 || !worst.is_finite() => return html! {},
+        // A joint inside its range is not near a limit of zero, which has no shares.
+        Bound::AtMost if worst < 0.0 => return html! {},
         Bound::AtMost => worst / measure.limit,
         Bound::AtLeast | Bound::Above if worst <= 0.0 => 1.0,
         Bound::AtLeast | Bound::Above => measure.limit / worst,

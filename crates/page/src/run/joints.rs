@@ -1,6 +1,9 @@
 //! Motion of the joints: position, velocity and effort of each, with its limits. Joints that stand still come last, folded.
 
-use congruent_description::{Joint, display::{position, quantity}};
+use congruent_description::{
+    Joint,
+    display::{position, quantity},
+};
 use maud::{Markup, html};
 
 use super::{over_time::figure, recorder::RunContent};
@@ -67,7 +70,9 @@ fn chart(plotted: JointQuantity, joint: usize, run: &RunContent) -> Chart {
 
 /// The limits of a joint that a description states; a limit of zero is none.
 fn limits(quantity: JointQuantity, joint: &Joint) -> Vec<f64> {
-    let stated = |limit: Option<f64>| limit.filter(|&limit| limit > 0.0).map_or(Vec::new(), |limit| vec![-limit, limit]);
+    let stated = |limit: Option<f64>| {
+        limit.filter(|&limit| limit > 0.0).map_or(Vec::new(), |limit| vec![-limit, limit])
+    };
     match quantity {
         JointQuantity::Velocity => stated(joint.limit.and_then(|limit| limit.velocity)),
         JointQuantity::Effort => stated(joint.limit.and_then(|limit| limit.effort)),
@@ -113,7 +118,9 @@ fn one(joint: usize, run: &RunContent, plots: &Plots) -> Markup {
 
 /// From where to where a joint moved, and how far it stayed from its limits.
 fn range_words(joint: usize, of: &Joint, run: &RunContent) -> String {
-    let Some((low, high)) = run.series.range_of_joint(JointQuantity::Position, joint) else { return String::new() };
+    let Some((low, high)) = run.series.range_of_joint(JointQuantity::Position, joint) else {
+        return String::new();
+    };
     let (low, high, unit) = (f64::from(low), f64::from(high), of.kind.unit());
     let went = format!("{} to {}", position(low, unit), position(high, unit));
     match of.position_range() {

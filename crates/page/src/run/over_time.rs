@@ -60,7 +60,8 @@ fn errors(quantity: &str, report: &RunReport, run: &RunContent) -> Chart {
     let is_position = quantity == "position";
     let mut lines: Vec<(f32, Line)> = Vec::new();
     for (link, name) in run.names.links.iter().enumerate() {
-        let error = if is_position { run.series.position_error(link) } else { run.series.orientation_error(link) };
+        let error =
+            if is_position { run.series.position_error(link) } else { run.series.orientation_error(link) };
         let Some((values, largest)) = error else { continue };
         // Two computations of one chain: the table is not asked there.
         let is_urdf = report.links.get(link).is_some_and(|of| of.source == PoseSource::Urdf);
@@ -72,9 +73,8 @@ fn errors(quantity: &str, report: &RunReport, run: &RunContent) -> Chart {
     lines.sort_by(|(a, x), (b, y)| x.hidden.cmp(&y.hidden).then(b.total_cmp(a)));
     let mut lines: Vec<Line> = lines.into_iter().map(|(_, line)| line).collect();
     lines.iter_mut().skip(SHOWN).for_each(|line| line.hidden = true);
-    let limits = limits(report, |check, measure| {
-        check == CheckKind::Agreement && measure.quantity == quantity
-    });
+    let limits =
+        limits(report, |check, measure| check == CheckKind::Agreement && measure.quantity == quantity);
     let unit = if is_position { "m" } else { "rad" };
     Chart { id: quantity.to_owned(), unit, scale: 1.0, log: true, lines, limits }
 }
@@ -85,8 +85,9 @@ fn distances(report: &RunReport, run: &RunContent) -> Chart {
         nearest.clearance.line("links and obstacles", &run.names.pairs),
         nearest.zones.line("forbidden zones", &run.names.zones),
     ];
-    let limits =
-        limits(report, |check, _| matches!(check, CheckKind::Clearance | CheckKind::Zone | CheckKind::Contact));
+    let limits = limits(report, |check, _| {
+        matches!(check, CheckKind::Clearance | CheckKind::Zone | CheckKind::Contact)
+    });
     let lines = lines.into_iter().flatten().collect();
     Chart { id: "clearance".to_owned(), unit: "mm", scale: 1e3, log: false, lines, limits }
 }
@@ -107,9 +108,8 @@ fn tracking(id: &str, (unit, scale): (&'static str, f64), report: &RunReport, ru
     let mut lines: Vec<Line> = lines.into_iter().map(|(_, line)| line).collect();
     lines.iter_mut().skip(SHOWN).for_each(|line| line.hidden = true);
     let quantity = if unit == "deg" { "path_error_of_angle" } else { "path_error_of_shift" };
-    let mut limits = limits(report, |check, measure| {
-        check == CheckKind::Tracking && measure.quantity == quantity
-    });
+    let mut limits =
+        limits(report, |check, measure| check == CheckKind::Tracking && measure.quantity == quantity);
     // The error has a sign, its limit has none.
     limits.extend(limits.clone().into_iter().map(|limit| Limit { value: -limit.value, ..limit }));
     Chart { id: id.to_owned(), unit, scale, log: false, lines, limits }
@@ -137,7 +137,8 @@ fn marks(report: &RunReport) -> Vec<Mark> {
         kind: "motion",
     };
     let failed = report.checks.iter().filter(|check| check.status == Status::Fail);
-    let stop = report.stopped.iter().map(|stop| Mark { time_s: stop.time_s, text: "stop".to_owned(), kind: "stop" });
+    let stop =
+        report.stopped.iter().map(|stop| Mark { time_s: stop.time_s, text: "stop".to_owned(), kind: "stop" });
     (1..).zip(&report.motions).map(motion).chain(failed.filter_map(violation)).chain(stop).collect()
 }
 

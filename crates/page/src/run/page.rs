@@ -24,7 +24,7 @@ pub(super) fn run_page(report: &RunReport, run: &RunContent, folder: &Path) -> S
         (header(report, folder))
         (what_is_wrong(report))
         (checks(report))
-        (scene(run))
+        (scene(report, run))
         (over_time(&plots))
         (joints(run, &plots))
         (actuators(report))

@@ -1,6 +1,9 @@
 //! Takes the samples of a run for its page, and writes the page with the report.
 
-use std::{fs, path::{Path, PathBuf}};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use congruent_description::{RobotDescription, Tolerance};
 use congruent_simulation::Obstacle;

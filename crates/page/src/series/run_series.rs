@@ -6,11 +6,7 @@ use congruent_kinematics::{Pose, PoseError};
 use congruent_twin::{Sample, source::JointSample};
 use nalgebra::{Isometry3, Point3};
 
-use super::{
-    buckets::Buckets,
-    distances::NearestOverTime,
-    plots::Floats,
-};
+use super::{buckets::Buckets, distances::NearestOverTime, plots::Floats};
 
 /// Most buckets of a series. Each has up to two values: a wide screen has no more points.
 const MOST_BUCKETS: usize = 750;
@@ -84,7 +80,11 @@ pub(crate) struct RunSeries {
 
 impl RunSeries {
     /// Before the first sample of a run of so many steps.
-    pub(crate) fn new(description: &RobotDescription, tolerance: Tolerance, (step_s, steps): (f64, u64)) -> Self {
+    pub(crate) fn new(
+        description: &RobotDescription,
+        tolerance: Tolerance,
+        (step_s, steps): (f64, u64),
+    ) -> Self {
         let robot = &description.robot;
         let (links, joints) = (robot.links().len(), robot.dof());
         let series = 2 * links + JOINT_QUANTITIES.len() * joints;
@@ -126,9 +126,8 @@ impl RunSeries {
 
     fn keep_largest(&mut self, sample: &Sample<'_>) {
         let Tolerance { position_m, orientation_rad } = self.tolerance;
-        let ratio = |error: &PoseError| {
-            (error.position_m / position_m).max(error.orientation_rad / orientation_rad)
-        };
+        let ratio =
+            |error: &PoseError| (error.position_m / position_m).max(error.orientation_rad / orientation_rad);
         for (link, error) in sample.errors.iter().enumerate() {
             if ratio(error) > self.largest.ratio {
                 let largest = &mut self.largest;
