@@ -67,8 +67,7 @@ fn header(report: &CalibrationReport) -> Markup {
                     (count(&root.key("components"), report.components)) " components, redundancy "
                     (count(&root.key("redundancy"), report.redundancy))
                 }
-                dt { "model" } dd { (report.model) }
-                dt { "chain" } dd { (report.chain) }
+                dt { "corrected" } dd { (report.model) ", " (report.chain) }
                 dt { "use" }
                 dd {
                     @match report.recommended {

@@ -117,8 +117,8 @@ fn outcome(report: &CheckReport) -> (Outcome, &'static str) {
 fn one(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
     html! {
         (header(robot, at))
-        (comparisons(robot.geometry, at))
         (why(robot.geometry, at))
+        (comparisons(robot.geometry, at))
         (certificate(robot, at))
         (dynamics(robot, at))
         (requested(robot.geometry, at))
@@ -137,8 +137,8 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
             dl.facts {
                 dt { "file" } dd { code { (report.file) } }
                 @if let Some(other) = robot.other { dt { "against" } dd { code { (other.path.display()) } } }
-                dt { "chain" } dd { (report.chain) }
-                dt { "compared at" } dd { (count(&at.key("configurations"), report.configurations)) " configurations, seed " (count(&at.key("seed"), report.seed)) }
+                dt { "compared" } dd { (report.chain) }
+                dt { "at" } dd { (count(&at.key("configurations"), report.configurations)) " configurations, seed " (count(&at.key("seed"), report.seed)) }
                 dt { "tolerance" }
                 dd {
                     @let tolerance = (&report.tolerance, at.key("tolerance"));

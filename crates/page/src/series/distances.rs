@@ -7,12 +7,12 @@ use super::{
     plots::{Floats, Line},
 };
 
-/// Time between two looks at least, the same as that of recordings, which then have measured already.
-const PERIOD_S: f64 = 0.01;
+/// Time between two looks at least, a multiple of the period of recordings, which then have measured already.
+const PERIOD_S: f64 = 0.02;
 /// Most looks.
-const MOST: u64 = 600;
+const MOST: u64 = 400;
 /// Room for the way to rest after a stop, which follows the end, and for the last instant.
-const ROOM: usize = 1200;
+const ROOM: usize = 1000;
 
 /// The smallest distance at some instants, and between which two.
 #[derive(Debug, Clone, Default)]
@@ -107,9 +107,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_more_than_a_hundred_looks_a_second_and_six_hundred_in_all() {
-        assert_eq!(stride(0.001, 4000), 10);
-        assert_eq!(stride(0.001, 600_000), 1000);
-        assert_eq!(stride(0.02, 10), 1);
+    fn no_more_than_fifty_looks_a_second_and_four_hundred_in_all() {
+        assert_eq!(stride(0.001, 4000), 20);
+        assert_eq!(stride(0.001, 600_000), 1500);
+        assert_eq!(stride(0.05, 10), 1);
     }
 }
