@@ -81,7 +81,7 @@
   };
 
   // Limits across, and instants down.
-  const annotate = (chart) => (plot) => {
+  const annotate = (chart, small) => (plot) => {
     const { ctx, bbox } = plot;
     ctx.save();
     ctx.beginPath();
@@ -102,6 +102,12 @@
       const x = Math.round(plot.valToPos(mark.time_s, "x", true));
       const strong = mark.kind !== "motion";
       line(x, bbox.top, x, bbox.top + bbox.height, css(strong ? "--bad" : "--grid"), strong ? 1.5 : 1, strong ? [4, 3] : []);
+      if (strong && !small) {
+        const left = x > bbox.left + bbox.width - 90 * ratio;
+        ctx.fillStyle = css("--bad");
+        ctx.textAlign = left ? "right" : "left";
+        ctx.fillText(mark.text, x + (left ? -5 : 5) * ratio, bbox.top + 12 * ratio);
+      }
     }
     for (const limit of chart.limits) {
       const y = plot.valToPos(limit.value * (chart.log ? 1 : chart.scale), "y", true);
@@ -160,7 +166,7 @@
         },
       ],
       series: [{ label: "time", value: (plot, value) => (value == null ? "" : digits(value) + " s") }, ...series],
-      hooks: { draw: [annotate(chart)] },
+      hooks: { draw: [annotate(chart, small)] },
     };
     return new uPlot(options, aligned(chart), place);
   };

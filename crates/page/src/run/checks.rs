@@ -47,7 +47,7 @@ fn rows(check: &CheckResult, at: &Pointer) -> Markup {
                     (cells(measure, &at.key("measures").key(index)))
                 }
             }
-            @if further > 0 { tr { td.again {} td.again {} td colspan="5" { (further) " further values are in the report" } } }
+            @if further > 0 { tr { td.again {} td.again {} td colspan="5" { "and " (further) " more in the report" } } }
             // Those of a check that failed stand above the table.
             @if !check.notes.is_empty() && check.status != Status::Fail {
                 tr.notes { td.again {} td colspan="6" { @for note in &check.notes { p { (note) } } } }

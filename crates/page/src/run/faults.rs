@@ -10,6 +10,9 @@ use maud::{Markup, html};
 
 use crate::parts::{Pointer, diagnosis};
 
+/// Lines of a check that failed which are shown above the table.
+const SHOWN: usize = 8;
+
 /// The section; nothing if no check failed and nothing is injected.
 pub(super) fn what_is_wrong(report: &RunReport) -> Markup {
     html! { (failures(report)) (cause(report)) (found(report)) (servos(report)) }
@@ -25,7 +28,9 @@ fn failures(report: &RunReport) -> Markup {
                 @for check in failed {
                     div.card.bad {
                         h3 { (check.check) @if let Some(line) = check.line { span.small { " line " (line) " of the scenario" } } }
-                        ul { @for line in lines(check) { li { (line) } } }
+                        @let lines = lines(check);
+                        ul { @for line in lines.iter().take(SHOWN) { li { (line) } } }
+                        @if lines.len() > SHOWN { p.small { "and " (lines.len() - SHOWN) " more, in the table below" } }
                     }
                 }
             }
