@@ -2,12 +2,12 @@
 
 use congruent_description::display::length;
 use maud::{Markup, html};
-use nalgebra::{Point2, Point3};
+use nalgebra::{Point2, Point3, Vector2, Vector3};
 
 use super::{
     camera::Camera,
     skeleton::Skeleton,
-    svg::{Canvas, Style},
+    svg::{self, Canvas, Style},
 };
 
 /// An arm, with its name in the legend.
@@ -89,7 +89,7 @@ impl Figure {
             return None;
         }
         let middle = camera.project(&nalgebra::center(&a, &b));
-        let half = nalgebra::Vector2::repeat(0.5 * AROUND_DIFFERENCE * difference_m);
+        let half = Vector2::repeat(0.5 * AROUND_DIFFERENCE * difference_m);
         let canvas = Canvas::showing(middle - half, middle + half, 0.0);
         Some(self.drawn(&camera, &canvas, title))
     }
@@ -119,37 +119,37 @@ impl Figure {
         let outline =
             |points: &[Point3<f64>]| canvas.outline(points.iter().map(|point| camera.project(point)));
         let unit = canvas.width_m();
-        canvas.svg(title, html! {
+        let content = html! {
             @for body in &self.bodies {
-                (canvas.polygon(&outline(&body.points), &body.classes()))
+                (svg::polygon(&outline(&body.points), &body.classes()))
             }
             @for body in &self.bodies {
                 @if let Some(name) = &body.name { (canvas.label(&outline(&body.points), name)) }
             }
-            (canvas.polyline(&self.path.iter().map(at).collect::<Vec<_>>(), "way"))
+            (svg::polyline(&self.path.iter().map(at).collect::<Vec<_>>(), "way"))
             @for arm in &self.arms {
                 g.arm.(arm.class) {
-                    @for [from, to] in &arm.skeleton.links { (canvas.line([at(from), at(to)], Style::Link)) }
+                    @for [from, to] in &arm.skeleton.links { (svg::line([at(from), at(to)], Style::Link)) }
                     @for (origin, axis) in &arm.skeleton.joints {
                         @let reach = axis * (AXIS * unit);
-                        (canvas.line([at(&(origin - reach)), at(&(origin + reach))], Style::Axis))
-                        (canvas.circle(at(origin)))
+                        (svg::line([at(&(origin - reach)), at(&(origin + reach))], Style::Axis))
+                        (svg::circle(at(origin)))
                     }
                 }
             }
             @for arm in &self.arms {
-                @let origin = Point3::from(arm.skeleton.tip.translation.vector);
+                @let tip = arm.skeleton.tip;
+                @let origin = Point3::from(tip.translation.vector);
                 g.triad.(arm.class) {
-                    @for (axis, class) in [(0, "x"), (1, "y"), (2, "z")] {
-                        @let mut along = nalgebra::Vector3::zeros();
-                        @let () = along[axis] = TRIAD * unit;
-                        @let end = origin + arm.skeleton.tip.rotation * along;
-                        (canvas.line([at(&origin), at(&end)], Style::Frame(class)))
+                    @for (axis, class) in [(Vector3::x(), "x"), (Vector3::y(), "y"), (Vector3::z(), "z")] {
+                        @let end = origin + tip.rotation * axis * (TRIAD * unit);
+                        (svg::line([at(&origin), at(&end)], Style::Frame(class)))
                     }
                 }
             }
             (canvas.scale_bar())
-        })
+        };
+        svg::picture(title, &content)
     }
 }
 

@@ -71,33 +71,6 @@ impl Canvas {
         corners
     }
 
-    /// The picture around its content; what is outside is cut off.
-    pub(crate) fn svg(&self, title: &str, content: Markup) -> Markup {
-        html! {
-            svg role="img" viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) xmlns="http://www.w3.org/2000/svg" {
-                title { (title) }
-                (content)
-            }
-        }
-    }
-
-    pub(crate) fn line(&self, [from, to]: [Point2<f64>; 2], style: Style) -> Markup {
-        let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(tenths);
-        html! { line.(style.class()) x1=(x1) y1=(y1) x2=(x2) y2=(y2) {} }
-    }
-
-    pub(crate) fn circle(&self, at: Point2<f64>) -> Markup {
-        html! { circle cx=(tenths(at.x)) cy=(tenths(at.y)) r="5" {} }
-    }
-
-    pub(crate) fn polygon(&self, corners: &[Point2<f64>], class: &str) -> Markup {
-        html! { @if corners.len() > 2 { polygon class=(class) points=(listed(corners)) {} } }
-    }
-
-    pub(crate) fn polyline(&self, points: &[Point2<f64>], class: &str) -> Markup {
-        html! { @if points.len() > 1 { polyline.(class) points=(listed(points)) {} } }
-    }
-
     /// The name of what has these corners, above the highest of them that is in the picture; of what has none there, at
     /// the edge that is nearest to it.
     pub(crate) fn label(&self, corners: &[Point2<f64>], name: &str) -> Markup {
@@ -127,6 +100,33 @@ impl Canvas {
             }
         }
     }
+}
+
+/// The picture around its content; what is outside is cut off.
+pub(crate) fn picture(title: &str, content: &Markup) -> Markup {
+    html! {
+        svg role="img" viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) xmlns="http://www.w3.org/2000/svg" {
+            title { (title) }
+            (content)
+        }
+    }
+}
+
+pub(crate) fn line([from, to]: [Point2<f64>; 2], style: Style) -> Markup {
+    let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(tenths);
+    html! { line.(style.class()) x1=(x1) y1=(y1) x2=(x2) y2=(y2) {} }
+}
+
+pub(crate) fn circle(at: Point2<f64>) -> Markup {
+    html! { circle cx=(tenths(at.x)) cy=(tenths(at.y)) r="5" {} }
+}
+
+pub(crate) fn polygon(corners: &[Point2<f64>], class: &str) -> Markup {
+    html! { @if corners.len() > 2 { polygon class=(class) points=(listed(corners)) {} } }
+}
+
+pub(crate) fn polyline(points: &[Point2<f64>], class: &str) -> Markup {
+    html! { @if points.len() > 1 { polyline.(class) points=(listed(points)) {} } }
 }
 
 fn listed(points: &[Point2<f64>]) -> String {

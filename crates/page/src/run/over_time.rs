@@ -133,7 +133,7 @@ fn limits(report: &RunReport, is_chosen: impl Fn(CheckKind, &Measure) -> bool) -
 fn marks(report: &RunReport) -> Vec<Mark> {
     let motion = |(number, motion): (usize, &congruent_twin::report::MotionTimes)| Mark {
         time_s: motion.starts_s,
-        text: format!("{number}"),
+        text: number.to_string(),
         kind: "motion",
     };
     let failed = report.checks.iter().filter(|check| check.status == Status::Fail);

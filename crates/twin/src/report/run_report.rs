@@ -188,14 +188,12 @@ impl RunReport {
 
     /// The command that runs the same again.
     pub fn command(&self) -> String {
-        let mut command = format!("congruent run {}", self.scenario_file.as_deref().unwrap_or("FILE"));
-        for change in &self.overrides {
-            command += &format!(" --set '{}'", change.replace('\'', r"'\''"));
-        }
-        if !self.overrides.iter().any(|change| change.starts_with("seed=")) {
-            command += &format!(" --seed {}", self.seed);
-        }
-        command
+        let file = self.scenario_file.as_deref().unwrap_or("FILE");
+        let quoted = |change: &String| format!("--set '{}'", change.replace('\'', r"'\''"));
+        let has_seed = self.overrides.iter().any(|change| change.starts_with("seed="));
+        let seed = (!has_seed).then(|| format!("--seed {}", self.seed));
+        let words = ["congruent run".to_owned(), file.to_owned()].into_iter();
+        words.chain(self.overrides.iter().map(quoted)).chain(seed).collect::<Vec<_>>().join(" ")
     }
 
     /// The checks, those that failed first.
