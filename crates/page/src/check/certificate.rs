@@ -42,10 +42,9 @@ fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
                     tr {
                         th scope="row" { (certificate.title) }
                         @match &certificate.brackets {
-                            Some(Brackets { position_m, orientation_rad }) => {
-                                @let both = [(position_m, at.key("position_m"), length as fn(f64) -> String), (orientation_rad, at.key("orientation_rad"), angle)];
-                                td data-label="largest found" { (pair(&both, |bracket| bracket.attained, "attained")) }
-                                td data-label="certified" { (pair(&both, |bracket| bracket.certified, "certified")) }
+                            Some(brackets) => {
+                                td data-label="largest found" { (both(brackets, &at, (|of| of.attained, "attained"))) }
+                                td data-label="certified" { (both(brackets, &at, (|of| of.certified, "certified"))) }
                             }
                             None => { td colspan="2" { "no bound: a joint has no limits, or is no pure screw motion" } }
                         }
@@ -62,16 +61,12 @@ fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
     }
 }
 
-fn pair(
-    brackets: &[(&ReportedBracket, Pointer, fn(f64) -> String); 2],
-    of: fn(&ReportedBracket) -> f64,
-    key: &str,
-) -> Markup {
+/// A value of both brackets, by its name in the report.
+fn both(brackets: &Brackets, at: &Pointer, (of, key): (fn(&ReportedBracket) -> f64, &str)) -> Markup {
+    let (metres, radians) = (of(&brackets.position_m), of(&brackets.orientation_rad));
     html! {
-        @for (index, (bracket, at, shown)) in brackets.iter().enumerate() {
-            @if index > 0 { " and " }
-            (value(&at.key(key), of(bracket), &shown(of(bracket))))
-        }
+        (value(&at.keys(&["position_m", key]), metres, &length(metres))) " and "
+        (value(&at.keys(&["orientation_rad", key]), radians, &angle(radians)))
     }
 }
 

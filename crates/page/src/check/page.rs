@@ -46,7 +46,7 @@ pub fn check_page(entries: &[CheckEntry<'_>]) -> String {
         return document(&title, &body, None);
     }
     let mut order: Vec<usize> = (0..entries.len()).collect();
-    order.sort_by_key(|&entry| entry_outcome(&entries[entry]).0);
+    order.sort_by_key(|&entry| (entries[entry].result.is_ok(), entry_outcome(&entries[entry]).0));
     let disagree = entries.iter().filter(|entry| entry_outcome(entry).0 != Outcome::Good).count();
     let title = format!("{} robots checked", entries.len());
     let body = html! {
@@ -148,9 +148,9 @@ fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
                     @if report.replaced_tolerance.is_some() { " (by --tolerance)" }
                 }
             }
-            @for sentence in &robot.not_compared { p.error { (sentence) } }
+            @for sentence in &robot.not_compared { p.note { (sentence) } }
             @for not_asked in &report.not_asked {
-                @for finding in &not_asked.findings { p.error { "not asked: " (not_asked.source) ": " (finding.message) } }
+                @for finding in &not_asked.findings { p.note { "not asked: " (not_asked.source) ": " (finding.message) } }
             }
         }
     }

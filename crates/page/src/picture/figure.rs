@@ -124,7 +124,7 @@ impl Figure {
                 (svg::polygon(&outline(&body.points), &body.classes()))
             }
             @for body in &self.bodies {
-                @if let Some(name) = &body.name { (canvas.label(&outline(&body.points), name)) }
+                @if let Some(name) = &body.name { (svg::label(&outline(&body.points), name)) }
             }
             (svg::polyline(&self.path.iter().map(at).collect::<Vec<_>>(), "way"))
             @for arm in &self.arms {

@@ -71,23 +71,6 @@ impl Canvas {
         corners
     }
 
-    /// The name of what has these corners, above the highest of them that is in the picture; of what has none there, at
-    /// the edge that is nearest to it.
-    pub(crate) fn label(&self, corners: &[Point2<f64>], name: &str) -> Markup {
-        let inside =
-            |at: &Point2<f64>| Point2::new(at.x.clamp(12.0, WIDTH - 90.0), at.y.clamp(18.0, HEIGHT - 30.0));
-        let outside = |at: &Point2<f64>| (inside(at) - at).norm();
-        let nearest = corners
-            .iter()
-            .min_by(|a, b| (outside(a) > 0.0).cmp(&(outside(b) > 0.0)).then(a.y.total_cmp(&b.y)));
-        html! {
-            @if let Some(at) = nearest {
-                @let at = inside(at);
-                text.name x=(tenths(at.x)) y=(tenths(at.y - 5.0)) { (name) }
-            }
-        }
-    }
-
     /// A bar with its length.
     pub(crate) fn scale_bar(&self) -> Markup {
         let length_m = round_length(0.22 * self.width_m());
@@ -127,6 +110,22 @@ pub(crate) fn polygon(corners: &[Point2<f64>], class: &str) -> Markup {
 
 pub(crate) fn polyline(points: &[Point2<f64>], class: &str) -> Markup {
     html! { @if points.len() > 1 { polyline.(class) points=(listed(points)) {} } }
+}
+
+/// The name of what has these corners, above the highest of them that is in the picture; of what has none there, at
+/// the edge that is nearest to it.
+pub(crate) fn label(corners: &[Point2<f64>], name: &str) -> Markup {
+    let inside =
+        |at: &Point2<f64>| Point2::new(at.x.clamp(12.0, WIDTH - 90.0), at.y.clamp(18.0, HEIGHT - 30.0));
+    let outside = |at: &Point2<f64>| (inside(at) - at).norm();
+    let nearest =
+        corners.iter().min_by(|a, b| (outside(a) > 0.0).cmp(&(outside(b) > 0.0)).then(a.y.total_cmp(&b.y)));
+    html! {
+        @if let Some(at) = nearest {
+            @let at = inside(at);
+            text.name x=(tenths(at.x)) y=(tenths(at.y - 5.0)) { (name) }
+        }
+    }
 }
 
 fn listed(points: &[Point2<f64>]) -> String {

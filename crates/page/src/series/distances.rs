@@ -18,7 +18,7 @@ const ROOM: usize = 1000;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Distances {
     times_s: Vec<f32>,
-    distances_m: Vec<f32>,
+    values_m: Vec<f32>,
     pairs: Vec<usize>,
 }
 
@@ -26,7 +26,7 @@ impl Distances {
     fn with_capacity(rows: usize) -> Self {
         Self {
             times_s: Vec::with_capacity(rows),
-            distances_m: Vec::with_capacity(rows),
+            values_m: Vec::with_capacity(rows),
             pairs: Vec::with_capacity(rows),
         }
     }
@@ -43,7 +43,7 @@ impl Distances {
         let of_values: Vec<usize> = self.pairs.iter().map(of_pair).collect();
         (!self.pairs.is_empty()).then(|| Line {
             name: name.to_owned(),
-            values: Floats(self.distances_m.clone()),
+            values: Floats(self.values_m.clone()),
             times_s: Some(Floats(self.times_s.clone())),
             subjects: of_values,
             subject_names: subjects.iter().map(|&pair| names[pair].clone()).collect(),
@@ -54,7 +54,7 @@ impl Distances {
     fn look(&mut self, time_s: f64, clearance: &mut Clearance) {
         let Some(Nearest { distance_m, pair }) = clearance.nearest() else { return };
         self.times_s.push(single(time_s));
-        self.distances_m.push(single(distance_m));
+        self.values_m.push(single(distance_m));
         self.pairs.push(pair);
     }
 }
