@@ -13,7 +13,7 @@ use congruent_kinematics::{Pose, UrdfTree, move_inside_limits};
 use maud::{Markup, html};
 use nalgebra::Isometry3;
 
-use super::page::CheckedRobot;
+use super::checked_robot::CheckedRobot;
 use crate::{
     parts::{Pointer, value},
     picture::{Arm, Body, Figure, Skeleton, TwoArms, shapes},

@@ -4,7 +4,7 @@ use congruent_description::display::number;
 use congruent_dynamics_agreement::{DynamicsExplanation, DynamicsReport, FigureDifference};
 use maud::{Markup, html};
 
-use super::page::CheckedRobot;
+use super::checked_robot::CheckedRobot;
 use crate::parts::{Outcome, Pointer, badge, changed, value};
 
 /// Values of a cause that are shown; the report has all.

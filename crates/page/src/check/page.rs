@@ -4,30 +4,13 @@ use congruent_agreement::{
     compare::{Agreement, CheckReport},
     report::foremost,
 };
-use congruent_description::{
-    RobotDescription,
-    display::{angle, length, length_and_angle},
-};
-use congruent_dynamics_agreement::DynamicsReport;
+use congruent_description::display::{angle, length, length_and_angle};
 use maud::{Markup, html};
 
-use super::{certificate::certificate, comparisons::comparisons, dynamics::dynamics};
+use super::{
+    certificate::certificate, checked_robot::CheckedRobot, comparisons::comparisons, dynamics::dynamics,
+};
 use crate::parts::{Outcome, Pointer, badge, count, diagnosis, document, value, warnings};
-
-/// The report on one robot with what its page shows besides.
-#[derive(Debug, Clone)]
-pub struct CheckedRobot<'a> {
-    /// The robot.
-    pub description: &'a RobotDescription,
-    /// The report on its geometry.
-    pub geometry: &'a CheckReport,
-    /// The other description that it was compared with.
-    pub other: Option<&'a RobotDescription>,
-    /// The comparisons of dynamics, as the report has them: `dynamics`, then `other_dynamics`.
-    pub dynamics: Vec<&'a DynamicsReport>,
-    /// What was not compared, in sentences.
-    pub not_compared: Vec<String>,
-}
 
 /// What became of one input of a check.
 #[derive(Debug, Clone)]
