@@ -6,8 +6,11 @@ use congruent_description::{
 };
 use maud::{Markup, html};
 
-use super::{over_time::figure, recorder::RunContent};
-use crate::series::{Chart, JointQuantity, Limit, Line, Plots};
+use super::content::RunContent;
+use crate::{
+    parts::plot,
+    series::{Chart, JointQuantity, Limit, Line, Plots},
+};
 
 /// A joint that moves less than this stands still. Unit: rad or m.
 const STANDSTILL: f32 = 1e-4;
@@ -109,7 +112,7 @@ fn one(joint: usize, run: &RunContent, plots: &Plots) -> Markup {
             h3 { (run.names.joints[joint]) " " span.small { (range_words(joint, of, run)) } }
             div.plots {
                 @for quantity in PLOTTED.iter().filter(|quantity| has(quantity)) {
-                    (figure(&id(*quantity, joint), &caption(*quantity, of)))
+                    (plot(&id(*quantity, joint), &caption(*quantity, of)))
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 mod actuators;
 mod checks;
+mod content;
 mod faults;
 mod header;
 mod joints;

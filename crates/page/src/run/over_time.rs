@@ -9,8 +9,11 @@ use congruent_twin::{
 };
 use maud::{Markup, html};
 
-use super::{joints, recorder::RunContent};
-use crate::series::{Chart, JointQuantity, Limit, Line, Mark, Plots};
+use super::{content::RunContent, joints};
+use crate::{
+    parts::plot,
+    series::{Chart, JointQuantity, Limit, Line, Mark, Plots},
+};
 
 /// Lines of a plot that are shown before others are chosen.
 const SHOWN: usize = 8;
@@ -44,15 +47,10 @@ pub(super) fn over_time(plots: &Plots) -> Markup {
             noscript { p.error { "The plots need JavaScript. All values of the tables are here without it." } }
             p #script-error hidden {}
             @for (id, caption) in figures {
-                @if plots.charts.iter().any(|chart| chart.id == id) { (figure(id, caption)) }
+                @if plots.charts.iter().any(|chart| chart.id == id) { (plot(id, caption)) }
             }
         }
     }
-}
-
-/// The place of a plot, with what it shows.
-pub(super) fn figure(id: &str, caption: &str) -> Markup {
-    html! { figure.plot data-chart=(id) { figcaption { (caption) } div.chart {} } }
 }
 
 /// Errors of all links; those of links that the table does not move follow from the URDF and are hidden.

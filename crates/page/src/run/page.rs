@@ -8,11 +8,11 @@ use maud::html;
 use super::{
     actuators::actuators,
     checks::checks,
+    content::RunContent,
     faults::what_is_wrong,
     header::{header, reproduction},
     joints::joints,
     over_time::{charts, over_time},
-    recorder::RunContent,
     scene::scene,
 };
 use crate::parts::{document, warnings};

@@ -5,17 +5,15 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use congruent_description::{RobotDescription, Tolerance};
-use congruent_simulation::Obstacle;
+use congruent_description::Tolerance;
 use congruent_twin::{
     Recording, RecordingFormat, Run, RunSetup, Sample,
-    monitor::Names,
     recorder::{Recorder, RecordingError},
     report::RunReport,
     scenario::Check,
 };
 
-use super::page;
+use super::{content::RunContent, page};
 use crate::series::RunSeries;
 
 /// The page of a run, `report.html`.
@@ -42,18 +40,6 @@ impl RecordingFormat for PageFormat {
             },
         }))
     }
-}
-
-/// What a page tells beside the report.
-#[derive(Debug)]
-pub(super) struct RunContent {
-    pub(super) names: Names,
-    pub(super) description: RobotDescription,
-    pub(super) obstacles: Vec<Obstacle>,
-    /// Whether an obstacle does not stay where it is at first.
-    pub(super) obstacles_move: bool,
-    pub(super) zones: Vec<Obstacle>,
-    pub(super) series: RunSeries,
 }
 
 #[derive(Debug)]

@@ -15,7 +15,7 @@ use congruent_twin::{
 use maud::{Markup, html};
 use nalgebra::Isometry3;
 
-use super::recorder::RunContent;
+use super::content::RunContent;
 use crate::picture::{Arm, Body, Figure, Skeleton, TwoArms, corners, shapes};
 
 /// The section.
