@@ -32,6 +32,7 @@ mod frames;
 mod golden;
 mod jacobian_goldens;
 mod new_files;
+mod pages;
 mod pairing;
 mod planted_dynamics;
 mod robots;

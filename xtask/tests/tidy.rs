@@ -18,6 +18,18 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("twin", &["description", "kinematics", "dynamics", "simulation", "agreement"]),
     ("recording", &["description", "kinematics", "simulation", "agreement", "twin"]),
     (
+        "page",
+        &[
+            "description",
+            "kinematics",
+            "simulation",
+            "agreement",
+            "dynamics-agreement",
+            "calibration",
+            "twin",
+        ],
+    ),
+    (
         "congruent",
         &[
             "description",
@@ -30,6 +42,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "analysis",
             "twin",
             "recording",
+            "page",
         ],
     ),
     ("cli", &["congruent"]),

@@ -116,8 +116,21 @@ impl<'a> Batch<'a> {
 
     /// Writes the files for CI, prints all answers, and returns the worst exit code. Answers are in the order of the inputs;
     /// for people the worst come first.
-    pub(crate) fn finish<R: BatchReport>(&self, mut answers: Vec<Answer<R>>) -> Result<u8, Failure> {
+    pub(crate) fn finish<R: BatchReport>(&self, answers: Vec<Answer<R>>) -> Result<u8, Failure> {
+        self.finish_with_page(answers, Ok(()))
+    }
+
+    /// The same; `written` says whether the page over all answers was written.
+    pub(crate) fn finish_with_page<R: BatchReport>(
+        &self,
+        mut answers: Vec<Answer<R>>,
+        written: Result<(), Failure>,
+    ) -> Result<u8, Failure> {
         let mut code = answers.iter().map(Answer::exit_code).fold(0, worse);
+        if let Err(failure) = written {
+            Printer::explain(None, &failure);
+            code = worse(code, failure.exit_code());
+        }
         if self.ci.is_wanted() {
             let suites: Vec<TestSuite> = answers.iter().map(Answer::suite).collect();
             for failure in self.ci.finish(&suites) {
@@ -132,6 +145,18 @@ impl<'a> Batch<'a> {
             self.printer.result(&result?, R::text)?;
         }
         Ok(code)
+    }
+}
+
+impl<R> Answer<R> {
+    /// The input as it was named.
+    pub(crate) fn input(&self) -> String {
+        shown(&self.input)
+    }
+
+    /// The report, or why there is none.
+    pub(crate) fn report(&self) -> Result<&R, String> {
+        self.result.as_ref().map_err(|failure| reason(failure).message)
     }
 }
 

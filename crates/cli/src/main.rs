@@ -13,6 +13,7 @@ mod inspect;
 mod model;
 mod new;
 mod output_file;
+mod page_file;
 mod plot_file;
 mod print;
 mod run;

@@ -9,11 +9,12 @@ use std::{
 
 use congruent::{
     description::{Diagnostic, display::quantity},
+    page::{IndexEntry, PageFormat, index_page},
     twin::{
         ExecuteError, Options, RecordingFormat, RunSetup,
         diagnosis::RunDiagnosis,
         execute,
-        report::{OutputFolder, Reason, RunReport, TestCase, TestResult, TestSuite, lines},
+        report::{OutputFolder, Reason, RunReport, TestCase, TestResult, TestSuite, lines, write_whole},
         scenario::{CheckKind, Expectation, Override},
         source::ActuatorUse,
         verdict::{CheckResult, Status, Verdict},
@@ -30,7 +31,8 @@ use crate::{
     print::Printer,
 };
 
-/// Runs scenario files and writes report, JUnit and recording of each to its own folder.
+/// Runs scenario files and writes report, page, JUnit and recording of each to its own folder; of several an index of the
+/// pages besides.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Scenario files.
@@ -124,7 +126,32 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let batch = Batch::begin(&arguments.scenarios, &arguments.ci, printer)?;
     let loaded = load(arguments, &batch);
     let bars = printer.is_interactive().then(MultiProgress::new);
-    batch.finish(run_all(loaded, arguments, (&batch, bars.as_ref())))
+    let answers = run_all(loaded, arguments, (&batch, bars.as_ref()));
+    let written = write_index(&answers, &arguments.out);
+    batch.finish_with_page(answers, written)
+}
+
+/// The page over all scenarios of a call, beside their folders, if there are several and one of them ran.
+fn write_index(answers: &[Answer<Ran>], out: &Path) -> Result<(), Failure> {
+    if answers.len() < 2 || answers.iter().all(|answer| answer.report().is_err()) {
+        return Ok(());
+    }
+    let entries: Vec<IndexEntry<'_>> = answers.iter().map(entry).collect();
+    let page = index_page(&entries);
+    write_whole(&out.join("index.html"), page.as_bytes())
+        .map_err(|error| unwritable(&error, "choose a folder that can be written with --out"))
+}
+
+fn entry(answer: &Answer<Ran>) -> IndexEntry<'_> {
+    let page = |ran: &Ran| {
+        let folder = ran.results.as_ref().ok()?.path().file_name()?;
+        Some(format!("{}/report.html", folder.to_string_lossy()))
+    };
+    IndexEntry {
+        input: answer.input(),
+        page: answer.report().ok().and_then(page),
+        result: answer.report().map(|ran| &ran.report),
+    }
 }
 
 /// Reads all scenarios before the first one runs, so that a fault in the last is known at once.
@@ -162,10 +189,7 @@ fn run_all(
     arguments: &Arguments,
     (batch, bars): (&Batch<'_>, Option<&MultiProgress>),
 ) -> Vec<Answer<Ran>> {
-    let options = Options {
-        out: arguments.out.clone(),
-        recording: (!arguments.no_recording).then_some(recording_format()).flatten(),
-    };
+    let options = Options { out: arguments.out.clone(), recordings: recordings(arguments) };
     let jobs = arguments.threads(loaded.len());
     let waiting = Mutex::new(loaded.into_iter().enumerate());
     let work = || {
@@ -185,6 +209,12 @@ fn run_all(
     });
     answers.sort_by_key(|(index, _)| *index);
     answers.into_iter().map(|(_, answer)| answer).collect()
+}
+
+/// The files that take the samples: the recording, and the page, which links to it.
+fn recordings(arguments: &Arguments) -> Vec<&'static dyn RecordingFormat> {
+    let recording = (!arguments.no_recording).then_some(recording_format()).flatten();
+    recording.into_iter().chain([&PageFormat as &dyn RecordingFormat]).collect()
 }
 
 /// The format of recordings, if this command was built with one.

@@ -10,6 +10,7 @@ pub use congruent_description as description;
 pub use congruent_dynamics as dynamics;
 pub use congruent_dynamics_agreement as dynamics_agreement;
 pub use congruent_kinematics as kinematics;
+pub use congruent_page as page;
 #[cfg(feature = "recording")]
 pub use congruent_recording as recording;
 pub use congruent_simulation as simulation;
@@ -22,7 +23,9 @@ pub mod schema;
 pub mod starter;
 mod with_physics;
 
-pub use check::{DeclaredSource, OtherDescription, RobotCheck, check, check_against, check_suite};
+pub use check::{
+    DeclaredSource, OtherDescription, RobotCheck, check, check_against, check_suite, checked_robot,
+};
 pub use run_comparison::{NotComparable, RunComparison, compare_runs};
 pub use with_physics::{forward, joint_dynamics};
 

@@ -166,6 +166,10 @@ impl Recording for RerunRecorder {
 pub struct RerunFormat;
 
 impl RecordingFormat for RerunFormat {
+    fn file_name(&self) -> &'static str {
+        "recording.rrd"
+    }
+
     fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
         let recorder = RerunRecorder::create(path, run.setup(), run.names(), run.model().sources())?;
         Ok(Box::new(recorder))

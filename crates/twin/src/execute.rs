@@ -16,8 +16,9 @@ use crate::{
 pub struct Options<'a> {
     /// The folder above the scenarios' own folders.
     pub out: PathBuf,
-    /// How a recording is made; `None` for none.
-    pub recording: Option<&'a dyn RecordingFormat>,
+    /// The files that take the samples of the run, such as a recording for a viewer and a page: each kind once. They are
+    /// completed in this order.
+    pub recordings: Vec<&'a dyn RecordingFormat>,
 }
 
 /// A recording in progress: it takes samples, and the report at the end.
@@ -31,6 +32,9 @@ pub trait Recording: Recorder {
 
 /// A kind of recording.
 pub trait RecordingFormat: Sync {
+    /// Name of the file in the folder of the scenario.
+    fn file_name(&self) -> &'static str;
+
     /// Creates the file of a run that is about to start.
     ///
     /// # Errors
@@ -42,7 +46,7 @@ impl std::fmt::Debug for Options<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Options")
             .field("out", &self.out)
-            .field("recording", &self.recording.is_some())
+            .field("recordings", &self.recordings.iter().map(|format| format.file_name()).collect::<Vec<_>>())
             .finish()
     }
 }
@@ -93,13 +97,14 @@ pub fn execute(
         |source: RunError| ExecuteError::CannotRun { scenario: setup.scenario.name.clone(), source };
     let run = Run::new(setup).map_err(cannot_run)?;
     let sources = run.model().sources().to_vec();
-    let mut recording = match options.recording {
-        Some(format) => Some(format.begin(&folder.file(RECORDING.partial), &run)?),
-        None => None,
-    };
+    let mut recordings = Vec::new();
+    for format in &options.recordings {
+        let file = StreamedFile::new(format.file_name());
+        recordings.push((format.begin(&folder.file(&file.partial), &run)?, file));
+    }
     let mut trajectory = Trajectory::begin(&folder, &run)?;
     let mut recorders = Recorders::default();
-    recorders.0.extend(recording.as_mut().map(|recording| &mut **recording as &mut dyn Recorder));
+    recorders.0.extend(recordings.iter_mut().map(|(recording, _)| &mut **recording as &mut dyn Recorder));
     recorders.0.extend(trajectory.as_mut().map(|trajectory| &mut trajectory.recorder as &mut dyn Recorder));
     let (mut outcome, mut result) = run.finish(&mut checks, &mut recorders, progress);
     explain(setup, &mut outcome);
@@ -110,13 +115,13 @@ pub fn execute(
         result = result.and(closed.map_err(RunError::from));
     }
     let mut report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
-    if let Some(recording) = recording {
+    for (recording, file) in recordings {
         let closed = recording.finish(&report);
-        settled.push(RECORDING.settle(&folder, &closed));
+        settled.push(file.settle(&folder, &closed));
         if let Err(error) = closed {
             // The error of the run is reported before an error of the recording that follows from it.
-            let first = result.err().unwrap_or(error.into());
-            report = RunReport::new(setup, &sources, outcome, Some(&first));
+            result = result.and(Err(error.into()));
+            report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
         }
     }
     // Each is tried, even if another has failed.
@@ -132,19 +137,21 @@ pub fn execute(
 }
 
 /// A file that is written during the run, under a temporary name.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct StreamedFile {
-    partial: &'static str,
+    partial: String,
     name: &'static str,
 }
 
-const RECORDING: StreamedFile = StreamedFile { partial: "recording.rrd.partial", name: "recording.rrd" };
-
 impl StreamedFile {
+    fn new(name: &'static str) -> Self {
+        Self { partial: format!("{name}.partial"), name }
+    }
+
     /// Gives the file its name if it is complete. Otherwise it is removed: on a full disk it takes the space of the
     /// report, which matters more.
-    fn settle(self, folder: &OutputFolder, closed: &Result<(), RecordingError>) -> Result<(), OutputError> {
-        if closed.is_ok() { folder.publish(self.partial, self.name) } else { folder.remove(self.partial) }
+    fn settle(&self, folder: &OutputFolder, closed: &Result<(), RecordingError>) -> Result<(), OutputError> {
+        if closed.is_ok() { folder.publish(&self.partial, self.name) } else { folder.remove(&self.partial) }
     }
 }
 
@@ -157,11 +164,11 @@ struct Trajectory {
 impl Trajectory {
     fn begin(folder: &OutputFolder, run: &Run<'_>) -> Result<Option<Self>, RecordingError> {
         let Some(format) = run.setup().scenario.output.trajectory else { return Ok(None) };
-        let (partial, name) = match format {
-            TrajectoryFormat::Csv => ("trajectory.csv.partial", "trajectory.csv"),
-            TrajectoryFormat::Parquet => ("trajectory.parquet.partial", "trajectory.parquet"),
-        };
-        let recorder = TrajectoryRecorder::create(&folder.file(partial), format, run)?;
-        Ok(Some(Self { file: StreamedFile { partial, name }, recorder }))
+        let file = StreamedFile::new(match format {
+            TrajectoryFormat::Csv => "trajectory.csv",
+            TrajectoryFormat::Parquet => "trajectory.parquet",
+        });
+        let recorder = TrajectoryRecorder::create(&folder.file(&file.partial), format, run)?;
+        Ok(Some(Self { file, recorder }))
     }
 }

@@ -49,7 +49,10 @@ pub struct Brackets {
 impl Brackets {
     /// The configurations of the robot that attain them; joints that do not move the tip are at zero, or at
     /// the limit nearest to zero.
-    pub(crate) fn attained_at(&self, robot: &Robot) -> [RobotQ; 2] {
+    ///
+    /// # Panics
+    /// If the robot is not the one that was bracketed.
+    pub fn attained_at(&self, robot: &Robot) -> [RobotQ; 2] {
         [&self.position_m, &self.orientation_rad].map(|bracket| {
             let mut q = RobotQ::zeros(robot.dof());
             for (joint, value) in bracket.at.iter() {

@@ -17,12 +17,14 @@ use congruent::{
         display::{length_and_angle, number},
         units::Unit,
     },
+    page::calibration_page,
     twin::report::write_whole,
 };
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, named},
+    page_file::PageArgument,
     print::Printer,
     table::wrapped,
 };
@@ -68,6 +70,8 @@ pub(crate) struct Arguments {
     /// Plots the cost over the most significant correction and the residual of each row, as SVG.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    page: PageArgument,
     /// Seed of the random configurations of which the most informative are chosen.
     #[arg(long, default_value_t = 0)]
     seed: u64,
@@ -83,6 +87,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         let svg = plot::svg(&report).map_err(|error| Failure::Machine(error.to_string()))?;
         write_whole(path, svg.as_bytes()).map_err(|error| Failure::Machine(error.to_string()))?;
     }
+    arguments.page.write(|| calibration_page(&report, &description.robot))?;
     printer.result(&report, |report| text(report, &description.robot))?;
     Ok(match report.verdict {
         CalibrationVerdict::Explained

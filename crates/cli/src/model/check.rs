@@ -6,8 +6,9 @@ use congruent::{
     RobotCheck,
     agreement::compare::{Agreement, CheckOptions},
     analysis::plot::errors,
-    check_suite,
-    description::{Diagnostic, Robot, load_robot_with, read_configurations},
+    check_suite, checked_robot,
+    description::{Diagnostic, RobotDescription, load_robot_with, read_configurations},
+    page::{CheckEntry, check_page},
     twin::report::TestSuite,
 };
 
@@ -19,10 +20,11 @@ use super::{
     tolerance::ToleranceArgument,
 };
 use crate::{
-    batch::{Batch, BatchReport},
+    batch::{Answer, Batch, BatchReport},
     ci::CiArguments,
     failure::{FAILED, Failure, NOTHING},
     input::{ChainArguments, PackageArguments, files_of},
+    page_file::PageArgument,
     plot_file::PlotArgument,
     print::Printer,
 };
@@ -69,12 +71,15 @@ pub(crate) struct Arguments {
     packages: PackageArguments,
     #[command(flatten)]
     ci: CiArguments,
+    #[command(flatten)]
+    page: PageArgument,
 }
 
 /// The report on one robot, and whether its first checks are shown too.
 struct Checked {
     report: RobotCheck,
-    robot: Robot,
+    description: RobotDescription,
+    other: Option<RobotDescription>,
     with_basics: bool,
     with_table: bool,
 }
@@ -97,7 +102,7 @@ impl BatchReport for Checked {
     fn text(&self) -> String {
         let basics = if self.with_basics { basics(&self.report.geometry.basics) } else { String::new() };
         let at_configurations = if self.with_table { table } else { lines };
-        text(&self.report, &self.robot, &at_configurations(&self.report.geometry)) + &basics
+        text(&self.report, &self.description.robot, &at_configurations(&self.report.geometry)) + &basics
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -109,7 +114,20 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     one_plot(arguments)?;
     let batch = Batch::begin(&arguments.robots, &arguments.ci, printer)?;
     let robots = arguments.robots.iter();
-    batch.finish(robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect())
+    let answers: Vec<Answer<Checked>> =
+        robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect();
+    let written = arguments.page.write(|| page(&answers));
+    batch.finish_with_page(answers, written)
+}
+
+fn page(answers: &[Answer<Checked>]) -> String {
+    check_page(&answers.iter().map(entry).collect::<Vec<_>>())
+}
+
+fn entry(answer: &Answer<Checked>) -> CheckEntry<'_> {
+    let result = answer.report();
+    let result = result.map(|of| checked_robot(&of.report, &of.description, of.other.as_ref()));
+    CheckEntry { input: answer.input(), result }
 }
 
 /// A plot is of one robot, at configurations.
@@ -141,11 +159,12 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         description.tolerance = tolerance.replace(declared);
     }
     let options = CheckOptions { seed: arguments.seed, configurations };
-    let compared = match &arguments.against {
+    let ros = arguments.packages.ros();
+    let other = arguments.against.as_ref().map(|other| load_robot_with(other, &ros)).transpose()?;
+    let compared = match &other {
         Some(other) => {
-            let other = load_robot_with(other, &arguments.packages.ros())?;
             batch.warn(&other.path, &other.warnings);
-            congruent::check_against(&description, &other, &options)
+            congruent::check_against(&description, other, &options)
         }
         None => congruent::check(&description, &options),
     };
@@ -154,5 +173,5 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
     arguments.plot.write(|| errors(&chart(&report.geometry)))?;
     let (with_basics, with_table) = (arguments.basics, arguments.table);
-    Ok(Checked { report, robot: description.robot, with_basics, with_table })
+    Ok(Checked { report, description, other, with_basics, with_table })
 }

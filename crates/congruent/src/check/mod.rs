@@ -3,6 +3,7 @@
 mod against;
 mod checked;
 mod declared;
+mod page;
 mod physics;
 mod robot_check;
 mod sides;
@@ -11,5 +12,6 @@ mod suite;
 pub use against::OtherDescription;
 pub use checked::{check, check_against};
 pub use declared::DeclaredSource;
+pub use page::checked_robot;
 pub use robot_check::RobotCheck;
 pub use suite::check_suite;

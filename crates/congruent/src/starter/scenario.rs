@@ -230,8 +230,13 @@ fn of_distances(
     };
     remarks.push(format!("links stay {} apart", quantity(least_m, "m")));
     let minimum_m = one_digit_below(least_m / 2.0).min(MOST_MINIMUM_M);
-    let on_violation = OnViolation::default();
-    let clearance = ClearanceCheck { minimum_m, pairs: Vec::new(), ignore: ignored.clone(), on_violation };
+    let clearance = ClearanceCheck {
+        minimum_m: Some(minimum_m),
+        minimum_mm: None,
+        pairs: Vec::new(),
+        ignore: ignored.clone(),
+        on_violation: OnViolation::default(),
+    };
     let contact = ContactCheck { ignore: ignored, ..ContactCheck::default() };
     content.scenario.check.extend([Check::Clearance(clearance), Check::Contact(contact)]);
     Ok(Some(motion))

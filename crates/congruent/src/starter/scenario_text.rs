@@ -100,8 +100,12 @@ fn of_check(check: &Check) -> (Vec<(&'static str, String)>, &'static str) {
     let given = |key: &'static str, value: Option<f64>| value.map(|value| (key, number(value)));
     match check {
         Check::Agreement(check) => {
-            let keys =
-                [given("position_m", check.position_m), given("orientation_rad", check.orientation_rad)];
+            let keys = [
+                given("position_m", check.position_m),
+                given("position_mm", check.position_mm),
+                given("orientation_rad", check.orientation_rad),
+                given("orientation_deg", check.orientation_deg),
+            ];
             (keys.into_iter().flatten().collect(), "model against twin, every link, every sample")
         }
         Check::Tracking(TrackingCheck { path_deg, path_mm, goal_deg, goal_mm, .. }) => {
@@ -114,7 +118,8 @@ fn of_check(check: &Check) -> (Vec<(&'static str, String)>, &'static str) {
             (keys.into_iter().flatten().collect(), "the twin against its setpoint")
         }
         Check::Clearance(check) => {
-            let mut keys = vec![("minimum_m", number(check.minimum_m))];
+            let keys = [given("minimum_m", check.minimum_m), given("minimum_mm", check.minimum_mm)];
+            let mut keys: Vec<_> = keys.into_iter().flatten().collect();
             keys.extend(ignore(&check.ignore));
             (keys, "distance between links")
         }

@@ -5,8 +5,7 @@ use std::{fmt::Write, sync::Arc};
 use congruent_twin::{
     recorder::RecordingError,
     report::{RunReport, lines},
-    scenario::Expectation,
-    verdict::{CheckResult, Status, Verdict},
+    verdict::CheckResult,
 };
 use re_chunk::external::arrow::array::{ArrayRef, Float64Array, StringArray, UInt64Array};
 use re_sdk_types::{
@@ -40,45 +39,12 @@ fn properties(report: &RunReport) -> AnyValues {
         .with_component_from_data("trajectory_sha256", text(&report.trajectory_sha256))
         .with_component_from_data("congruent", text(report.versions.congruent))
         .with_component_from_data("physics", text(report.versions.physics))
-        .with_component_from_data("command", text(&command(report)))
+        .with_component_from_data("command", text(&report.command()))
         .with_component_from_data("report", text(&json))
 }
 
-/// The verdict as a sentence.
-pub(crate) fn verdict(report: &RunReport) -> String {
-    let failed: Vec<_> = report
-        .checks
-        .iter()
-        .filter(|check| check.status == Status::Fail)
-        .map(|check| check.check.word())
-        .collect();
-    let failed = failed.join(", ");
-    match (report.verdict, &report.expected) {
-        (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
-        (Verdict::AsExpected, Expectation::Fail { .. }) => format!("{failed} fails, as expected"),
-        (Verdict::NotAsExpected, _) if failed.is_empty() => {
-            "every check passes, against expectation".to_owned()
-        }
-        (Verdict::NotAsExpected, _) => format!("{failed} fails, against expectation"),
-        (Verdict::NothingChecked, _) => "nothing was checked".to_owned(),
-        (Verdict::Broken, _) => "the run ended with an error".to_owned(),
-    }
-}
-
-fn command(report: &RunReport) -> String {
-    let file = report.scenario_file.as_deref().unwrap_or("FILE");
-    let mut command = format!("congruent run {file}");
-    for change in &report.overrides {
-        let _ = write!(command, " --set '{}'", change.replace('\'', r"'\''"));
-    }
-    if !report.overrides.iter().any(|change| change.starts_with("seed=")) {
-        let _ = write!(command, " --seed {}", report.seed);
-    }
-    command
-}
-
 fn markdown(report: &RunReport) -> String {
-    let mut text = format!("### {}: {}\n\n", escaped(&report.scenario), escaped(&verdict(report)));
+    let mut text = format!("### {}: {}\n\n", escaped(&report.scenario), escaped(&report.sentence()));
     if let Some(error) = &report.error {
         let _ = writeln!(text, "{}\n", escaped(error));
     }
@@ -100,7 +66,7 @@ fn markdown(report: &RunReport) -> String {
         escaped(versions.congruent),
         escaped(versions.physics),
     );
-    let _ = writeln!(text, "```\n{}\n```", command(report).replace("```", ""));
+    let _ = writeln!(text, "```\n{}\n```", report.command().replace("```", ""));
     text
 }
 

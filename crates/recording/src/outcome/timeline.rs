@@ -12,7 +12,7 @@ use re_sdk_types::{
     components::{Color, TextLogLevel},
 };
 
-use super::{measures::first_violation, summary};
+use super::measures::first_violation;
 use crate::{
     rrd::{paths, times::SampleTime, writer::RrdWriter},
     scene::palette,
@@ -137,7 +137,7 @@ fn write_events(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
     if let Some(error) = &report.error {
         events.push((end_s, TextLogLevel::CRITICAL, error.clone()));
     }
-    let verdict = summary::verdict(report);
+    let verdict = report.sentence();
     let level = if report.exit_code == 0 { TextLogLevel::INFO } else { TextLogLevel::ERROR };
     events.push((end_s, level, verdict));
     events.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));

@@ -32,8 +32,10 @@ pub struct OutputFolder {
 }
 
 /// All files that a run may write.
-const RESULTS: [&str; 9] = [
+const RESULTS: [&str; 11] = [
     "report.json",
+    "report.html",
+    "report.html.partial",
     "junit.xml",
     "recording.rrd",
     "recording.rrd.partial",

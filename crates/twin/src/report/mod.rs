@@ -18,6 +18,6 @@ pub use fault_table::{FaultRow, FaultTable, SeenBy};
 pub use files::{OutputError, OutputFolder, write_whole};
 pub use junit::write_junit;
 pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
-pub use sentence::{lines, sentence_at};
+pub use sentence::{limit_words, lines, margin_words, quantity_words, sentence_at};
 pub use step_summary::step_summary;
 pub use suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};

@@ -182,6 +182,33 @@ impl RunReport {
         }
     }
 
+    /// The verdict as a sentence.
+    pub fn sentence(&self) -> String {
+        let failed = self.checks.iter().filter(|check| check.status == Status::Fail);
+        let failed: Vec<&str> = failed.map(|check| check.check.word()).collect();
+        let failed = failed.join(", ");
+        match (self.verdict, &self.expected) {
+            (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
+            (Verdict::AsExpected, Expectation::Fail { .. }) => format!("{failed} fails, as expected"),
+            (Verdict::NotAsExpected, _) if failed.is_empty() => {
+                "every check passes, against expectation".to_owned()
+            }
+            (Verdict::NotAsExpected, _) => format!("{failed} fails, against expectation"),
+            (Verdict::NothingChecked, _) => "nothing was checked".to_owned(),
+            (Verdict::Broken, _) => "the run ended with an error".to_owned(),
+        }
+    }
+
+    /// The command that runs the same again.
+    pub fn command(&self) -> String {
+        let file = self.scenario_file.as_deref().unwrap_or("FILE");
+        let quoted = |change: &String| format!("--set '{}'", change.replace('\'', r"'\''"));
+        let has_seed = self.overrides.iter().any(|change| change.starts_with("seed="));
+        let seed = (!has_seed).then(|| format!("--seed {}", self.seed));
+        let words = ["congruent run".to_owned(), file.to_owned()].into_iter();
+        words.chain(self.overrides.iter().map(quoted)).chain(seed).collect::<Vec<_>>().join(" ")
+    }
+
     /// The checks, those that failed first.
     pub fn checks_failed_first(&self) -> Vec<&CheckResult> {
         let mut checks: Vec<&CheckResult> = self.checks.iter().collect();

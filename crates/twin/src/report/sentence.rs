@@ -37,7 +37,7 @@ fn contacts(contacts: &[Contact]) -> impl Iterator<Item = String> + '_ {
 /// left`. A violation that began at another time is told with that time.
 fn sentence(measure: &Measure) -> String {
     let Some(worst) = &measure.worst else {
-        return format!("{}: no value, {}", words(measure.quantity), limit(measure));
+        return format!("{}: no value, {}", quantity_words(measure.quantity), limit_words(measure));
     };
     let shown = |moment: &Moment| quantity(moment.value, measure.unit);
     match &measure.first_violation {
@@ -60,8 +60,8 @@ pub fn sentence_at(measure: &Measure, moment: &Moment) -> String {
     if value.is_infinite() {
         return format!(
             "{} not reached at {subject} until {time}, {}",
-            words(measure.quantity),
-            limit(measure)
+            quantity_words(measure.quantity),
+            limit_words(measure)
         );
     }
     if measure.quantity == "distance" && *value < 0.0 {
@@ -71,8 +71,18 @@ pub fn sentence_at(measure: &Measure, moment: &Moment) -> String {
             overlap(*value, measure)
         );
     }
-    let (what, shown) = (words(measure.quantity), quantity(*value, measure.unit));
-    format!("{what} {shown} at {subject} ({time}), {}: {}", limit(measure), margin(*value, measure))
+    let (what, shown) = (quantity_words(measure.quantity), quantity(*value, measure.unit));
+    format!("{what} {shown} at {subject} ({time}), {}: {}", limit_words(measure), margin(*value, measure))
+}
+
+/// How far a value is from its limit, as a column of a table has it: `13.8 mm left`.
+pub fn margin_words(measure: &Measure, value: f64) -> String {
+    match measure.quantity {
+        ANGLE_BEYOND_LIMIT | SHIFT_BEYOND_LIMIT => beyond_joint_limit(value, measure),
+        _ if value.is_infinite() => "not reached".to_owned(),
+        "distance" if value < 0.0 => overlap(value, measure),
+        _ => margin(value, measure),
+    }
 }
 
 /// The limit of an overlap, which is a distance below 0, and how far it is from it.
@@ -91,7 +101,7 @@ fn overlap(value: f64, measure: &Measure) -> String {
 }
 
 /// The limit: `at most 1 um`.
-fn limit(measure: &Measure) -> String {
+pub fn limit_words(measure: &Measure) -> String {
     if measure.quantity == "distance" && measure.limit < 0.0 {
         return format!("overlap at most {}", quantity(-measure.limit, measure.unit));
     }
@@ -147,7 +157,8 @@ fn beyond_joint_limit(value: f64, measure: &Measure) -> String {
     }
 }
 
-fn words(quantity: &str) -> String {
+/// The name of a quantity in words.
+pub fn quantity_words(quantity: &str) -> String {
     quantity.replace('_', " ").replace("tcp", "TCP")
 }
 

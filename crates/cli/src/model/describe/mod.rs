@@ -13,6 +13,7 @@ use congruent::{
 use self::text::text;
 use crate::{
     batch::{Batch, BatchReport},
+    ci::CiArguments,
     failure::Failure,
     input::{ChainArguments, PackageArguments},
     print::Printer,
@@ -48,7 +49,8 @@ impl BatchReport for DescriptionSummary {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let batch = Batch::begin(&arguments.robots, None, printer)?;
+    let ci = CiArguments::default();
+    let batch = Batch::begin(&arguments.robots, &ci, printer)?;
     let summary = |path: &Path| {
         let description = arguments.chain.of(load_robot_with(path, &arguments.packages.ros())?)?;
         batch.warn(path, &description.warnings);

@@ -1,0 +1,35 @@
+//! The report of a check as its page shows it.
+
+use congruent_agreement::SourcePair;
+use congruent_description::RobotDescription;
+use congruent_page::CheckedRobot;
+
+use super::robot_check::RobotCheck;
+
+/// The report on a robot for [`check_page`](congruent_page::check_page), with the descriptions that it is about.
+pub fn checked_robot<'a>(
+    report: &'a RobotCheck,
+    description: &'a RobotDescription,
+    other: Option<&'a RobotDescription>,
+) -> CheckedRobot<'a> {
+    let mut not_compared = Vec::new();
+    if let Some(why) = report.against.as_ref().and_then(|against| against.dynamics_not_compared.as_ref()) {
+        let mut compared = report.geometry.comparisons.iter();
+        let has_poses = compared.any(|of| of.name == SourcePair::UrdfOther);
+        let what = if has_poses { "dynamics is" } else { "poses and dynamics are" };
+        not_compared.push(format!("with the other description, {what} not compared: {why}"));
+    }
+    let declared = report.declared_dynamics.as_ref().map(|declared| declared.not_declared.join("; "));
+    not_compared.extend(
+        declared
+            .filter(|left_out| !left_out.is_empty())
+            .map(|left_out| format!("[[inertial]] does not declare, so that it is not compared: {left_out}")),
+    );
+    CheckedRobot {
+        description,
+        geometry: &report.geometry,
+        other,
+        dynamics: report.all_dynamics().collect(),
+        not_compared,
+    }
+}

@@ -1,0 +1,161 @@
+//! The certificates: the largest difference that was found and the bound that no configuration exceeds, and the arm where
+//! the difference is largest.
+
+use congruent_agreement::{
+    SourcePair,
+    compare::{Brackets, CheckReport, Model, ReportedBracket, ReportedCertificate},
+};
+use congruent_description::{
+    JointValues, RobotDescription, RobotQ,
+    display::{angle, length},
+};
+use congruent_kinematics::{Pose, UrdfTree, move_inside_limits};
+use maud::{Markup, html};
+use nalgebra::Isometry3;
+
+use super::checked_robot::CheckedRobot;
+use crate::{
+    parts::{Pointer, value},
+    picture::{Arm, Body, Figure, Skeleton, TwoArms, shapes},
+};
+
+/// The section.
+pub(super) fn certificate(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
+    let report = robot.geometry;
+    html! {
+        section {
+            h2 { "Over the whole joint range" }
+            @if report.certificates.is_empty() { p { "There is no chain of joints to bound." } }
+            @else { (table(&report.certificates, &at.key("certificates"))) }
+            (picture(robot))
+        }
+    }
+}
+
+fn table(certificates: &[ReportedCertificate], at: &Pointer) -> Markup {
+    html! {
+        table {
+            thead { tr { th { "compared" } th { "largest difference found" } th { "certified: nowhere more than" } } }
+            tbody {
+                @for (index, certificate) in certificates.iter().enumerate() {
+                    @let at = at.key(index);
+                    tr {
+                        th scope="row" { (certificate.title) }
+                        @match &certificate.brackets {
+                            Some(brackets) => {
+                                td data-label="largest found" { (both(brackets, &at, (|of| of.attained, "attained"))) }
+                                td data-label="certified" { (both(brackets, &at, (|of| of.certified, "certified"))) }
+                            }
+                            None => { td colspan="2" { "no bound: a joint has no limits, or is no pure screw motion" } }
+                        }
+                    }
+                    @if let Some(premise) = &certificate.premise {
+                        tr.notes { td {} td colspan="2" {
+                            "its joints are " @if !premise.holds { "not " } "pure screw motions: residual "
+                            (value(&at.keys(&["premise", "residual_m"]), premise.residual_m, &length(premise.residual_m)))
+                        } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A value of both brackets, by its name in the report.
+fn both(brackets: &Brackets, at: &Pointer, (of, key): (fn(&ReportedBracket) -> f64, &str)) -> Markup {
+    let (metres, radians) = (of(&brackets.position_m), of(&brackets.orientation_rad));
+    html! {
+        (value(&at.keys(&["position_m", key]), metres, &length(metres))) " and "
+        (value(&at.keys(&["orientation_rad", key]), radians, &angle(radians)))
+    }
+}
+
+/// Where the arm is drawn, and why there.
+struct DrawnAt {
+    q: RobotQ,
+    pair: SourcePair,
+    what: &'static str,
+}
+
+/// The configuration that attains the bound of the position, or the worst that was found.
+fn drawn_at(robot: &CheckedRobot<'_>) -> Option<DrawnAt> {
+    let CheckReport { certificates, certificate_bracket, worst, comparisons, .. } = robot.geometry;
+    let structure = &robot.description.robot;
+    if let Some(brackets) = certificate_bracket {
+        let attains = |of: &&ReportedCertificate| {
+            of.brackets.as_ref().is_some_and(|of| of.position_m == brackets.position_m)
+        };
+        let pair = certificates.iter().find(attains)?.name;
+        let [q, _] = brackets.attained_at(structure);
+        return Some(DrawnAt {
+            q,
+            pair,
+            what: "Where the difference of the tips comes nearest to its bound",
+        });
+    }
+    let mut q = RobotQ::zeros(structure.dof());
+    for (joint, value) in worst.at.iter() {
+        q[structure.coordinate(structure.find_joint(joint)?)?] = value;
+    }
+    move_inside_limits(&mut q, structure);
+    let pair = comparisons.iter().find(|of| of.worst == *worst).map_or(SourcePair::ModelUrdf, |of| of.name);
+    Some(DrawnAt { q, pair, what: "Where the largest difference was found" })
+}
+
+fn picture(robot: &CheckedRobot<'_>) -> Markup {
+    let Some(drawn) = drawn_at(robot) else { return html! {} };
+    let DrawnAt { q, pair, what } = &drawn;
+    let description = robot.description;
+    let Some(urdf) = poses_by_urdf(description, q) else { return html! {} };
+    let arm = |class: &'static str, name: &str, of: &RobotDescription, poses: &[Isometry3<f64>]| Arm {
+        class,
+        name: name.to_owned(),
+        skeleton: Skeleton::new(&of.robot, poses, of.tip),
+    };
+    let mut arms = vec![arm("twin", "URDF", description, &urdf)];
+    match (pair, robot.other) {
+        (SourcePair::UrdfOther, Some(other)) => {
+            let poses = poses_by_urdf(other, &of_other(description, other, q));
+            arms.extend(poses.map(|poses| arm("model", "other URDF", other, &poses)));
+        }
+        _ if description.dh.is_some() => {
+            let poses = poses_by_model(description, q);
+            arms.extend(poses.map(|poses| arm("model", "DH table", description, &poses)));
+        }
+        _ => {}
+    }
+    let tips: Vec<_> = arms.iter().map(|arm| arm.skeleton.tip.translation.vector).collect();
+    let tips_apart_m = tips.windows(2).map(|tips| (tips[0] - tips[1]).norm()).fold(0.0, f64::max);
+    let bodies = shapes(&description.robot, &urdf).into_iter();
+    let bodies = bodies.map(|(_, points)| Body::shape(points)).collect();
+    let two = TwoArms { figure: Figure { bodies, arms, path: Vec::new() }, tips_apart_m };
+    let caption = html! {
+        (what) " (" (pair.title()) "): " (JointValues::of_robot(&description.robot, q).for_people(&description.robot))
+        ". The tips are " (length(tips_apart_m)) " apart."
+    };
+    two.markup(&caption)
+}
+
+fn poses_by_urdf(description: &RobotDescription, q: &RobotQ) -> Option<Vec<Isometry3<f64>>> {
+    let mut poses = vec![Pose::identity(); description.robot.links().len()];
+    UrdfTree::new(&description.robot).root_from_links_into(q, &mut poses).ok()?;
+    Some(poses.iter().map(Pose::to_isometry).collect())
+}
+
+fn poses_by_model(description: &RobotDescription, q: &RobotQ) -> Option<Vec<Isometry3<f64>>> {
+    let mut model = Model::new(description).ok()?;
+    let poses = model.root_from_links(q).ok()?;
+    Some(poses.iter().map(Pose::to_isometry).collect())
+}
+
+/// The same positions by the names of the joints.
+fn of_other(description: &RobotDescription, other: &RobotDescription, q: &RobotQ) -> RobotQ {
+    let mut there = RobotQ::zeros(other.robot.dof());
+    for (joint, value) in JointValues::of_robot(&description.robot, q).iter() {
+        let coordinate = other.robot.find_joint(joint).and_then(|joint| other.robot.coordinate(joint));
+        if let Some(coordinate) = coordinate {
+            there[coordinate] = value;
+        }
+    }
+    there
+}

@@ -1,0 +1,20 @@
+//! What a page of a check shows of one robot.
+
+use congruent_agreement::compare::CheckReport;
+use congruent_description::RobotDescription;
+use congruent_dynamics_agreement::DynamicsReport;
+
+/// The report on one robot with what its page shows besides.
+#[derive(Debug, Clone)]
+pub struct CheckedRobot<'a> {
+    /// The robot.
+    pub description: &'a RobotDescription,
+    /// The report on its geometry.
+    pub geometry: &'a CheckReport,
+    /// The other description that it was compared with.
+    pub other: Option<&'a RobotDescription>,
+    /// The comparisons of dynamics, as the report has them: `dynamics`, then `other_dynamics`.
+    pub dynamics: Vec<&'a DynamicsReport>,
+    /// What was not compared, in sentences.
+    pub not_compared: Vec<String>,
+}

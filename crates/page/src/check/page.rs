@@ -1,0 +1,187 @@
+//! The page of a check: one robot, or several below a table of them.
+
+use congruent_agreement::{
+    compare::{Agreement, CheckReport},
+    report::foremost,
+};
+use congruent_description::display::{angle, length, length_and_angle};
+use maud::{Markup, html};
+
+use super::{
+    certificate::certificate, checked_robot::CheckedRobot, comparisons::comparisons, dynamics::dynamics,
+};
+use crate::parts::{Outcome, Pointer, badge, count, diagnosis, document, value, warnings};
+
+/// What became of one input of a check.
+#[derive(Debug, Clone)]
+pub struct CheckEntry<'a> {
+    /// The input as it was named.
+    pub input: String,
+    /// The report, or why there is none.
+    pub result: Result<CheckedRobot<'a>, String>,
+}
+
+/// The page over all inputs, the worst first.
+pub fn check_page(entries: &[CheckEntry<'_>]) -> String {
+    if let [CheckEntry { result: Ok(robot), .. }] = entries {
+        let body = one(robot, &Pointer::root());
+        let title = format!("{}: {}", robot.geometry.robot, outcome(robot.geometry).1);
+        return document(&title, &body, None);
+    }
+    let mut order: Vec<usize> = (0..entries.len()).collect();
+    order.sort_by_key(|&entry| (entries[entry].result.is_ok(), entry_outcome(&entries[entry]).0));
+    let disagree = entries.iter().filter(|entry| entry_outcome(entry).0 != Outcome::Good).count();
+    let title = format!("{} robots checked", entries.len());
+    let body = html! {
+        header {
+            p.kind { "Is the model the same robot?" }
+            h1 { (title) }
+            p.verdict {
+                @if disagree == 0 { (badge(Outcome::Good, "ALL AGREE")) }
+                @else { (badge(Outcome::Bad, &format!("{disagree} OF {} DO NOT AGREE", entries.len()))) }
+            }
+        }
+        (table(entries, &order))
+        @for &at in &order {
+            @if let Ok(robot) = &entries[at].result {
+                article id=(format!("robot-{at}")) { (one(robot, &Pointer::root().key(at))) }
+            }
+        }
+    };
+    document(&title, &body, None)
+}
+
+fn table(entries: &[CheckEntry<'_>], order: &[usize]) -> Markup {
+    html! {
+        section {
+            table {
+                thead { tr { th { "robot" } th { "result" } th { "largest difference" } } }
+                tbody {
+                    @for &at in order {
+                        @let entry = &entries[at];
+                        @let (outcome, word) = entry_outcome(entry);
+                        tr {
+                            th scope="row" {
+                                @if entry.result.is_ok() { a href=(format!("#robot-{at}")) { (entry.input) } }
+                                @else { (entry.input) }
+                            }
+                            td { (badge(outcome, word)) }
+                            td {
+                                @match &entry.result {
+                                    Ok(robot) => (largest(robot.geometry)),
+                                    Err(reason) => (reason),
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn largest(report: &CheckReport) -> String {
+    length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad)
+}
+
+fn entry_outcome(entry: &CheckEntry<'_>) -> (Outcome, &'static str) {
+    entry.result.as_ref().map_or((Outcome::Bad, "NOT CHECKED"), |robot| outcome(robot.geometry))
+}
+
+fn outcome(report: &CheckReport) -> (Outcome, &'static str) {
+    match report.verdict {
+        Agreement::Agree => (Outcome::Good, "AGREE"),
+        Agreement::Disagree => (Outcome::Bad, "DISAGREE"),
+        Agreement::NothingCompared => (Outcome::Unclear, "NOTHING COMPARED"),
+    }
+}
+
+/// The report on one robot, at a place of the document.
+fn one(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
+    html! {
+        (header(robot, at))
+        (why(robot.geometry, at))
+        (comparisons(robot.geometry, at))
+        (certificate(robot, at))
+        (dynamics(robot, at))
+        (requested(robot.geometry, at))
+        (warnings(&robot.geometry.warnings))
+    }
+}
+
+fn header(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
+    let report = robot.geometry;
+    let (outcome, word) = outcome(report);
+    html! {
+        header {
+            p.kind { "Is the model the same robot?" }
+            h1 { (report.robot) }
+            p.verdict { (badge(outcome, word)) " " span.sentence { (sentence(robot)) } }
+            dl.facts {
+                dt { "file" } dd { code { (report.file) } }
+                @if let Some(other) = robot.other { dt { "against" } dd { code { (other.path.display()) } } }
+                dt { "compared" } dd { (report.chain) }
+                dt { "at" } dd { (count(&at.key("configurations"), report.configurations)) " configurations, seed " (count(&at.key("seed"), report.seed)) }
+                dt { "tolerance" }
+                dd {
+                    @let tolerance = (&report.tolerance, at.key("tolerance"));
+                    (value(&tolerance.1.key("position_m"), tolerance.0.position_m, &length(tolerance.0.position_m)))
+                    " and "
+                    (value(&tolerance.1.key("orientation_rad"), tolerance.0.orientation_rad, &angle(tolerance.0.orientation_rad)))
+                    @if report.replaced_tolerance.is_some() { " (by --tolerance)" }
+                }
+            }
+            @for sentence in &robot.not_compared { p.note { (sentence) } }
+            @for not_asked in &report.not_asked {
+                @for finding in &not_asked.findings { p.note { "not asked: " (not_asked.source) ": " (finding.message) } }
+            }
+        }
+    }
+}
+
+fn sentence(robot: &CheckedRobot<'_>) -> String {
+    let report = robot.geometry;
+    let poses_disagree = report.comparisons.iter().any(|of| of.verdict == Agreement::Disagree);
+    match report.verdict {
+        Agreement::NothingCompared => "There is no table, and the physics was not asked.".to_owned(),
+        Agreement::Agree => format!("All sources agree; the largest difference is {}.", largest(report)),
+        Agreement::Disagree if poses_disagree => format!("The largest difference is {}.", largest(report)),
+        Agreement::Disagree => "The poses agree, the dynamics does not.".to_owned(),
+    }
+}
+
+/// Why the poses disagree.
+fn why(report: &CheckReport, at: &Pointer) -> Markup {
+    let Some(shown) = foremost(&report.diagnoses) else { return html! {} };
+    let index = report.diagnoses.iter().position(|other| std::ptr::eq(other, shown)).unwrap_or_default();
+    html! {
+        section {
+            h2 { "Why they differ" }
+            (diagnosis(shown, &at.key("diagnoses").key(index)))
+        }
+    }
+}
+
+/// The differences at the configurations of --configurations.
+fn requested(report: &CheckReport, at: &Pointer) -> Markup {
+    html! {
+        @if !report.at_configurations.is_empty() {
+            section {
+                h2 { "At the requested configurations" }
+                table {
+                    thead { tr { th { "configuration" } th { "position" } th { "orientation" } } }
+                    tbody {
+                        @for (index, of) in report.at_configurations.iter().enumerate() {
+                            @let at = at.key("at_configurations").key(index);
+                            tr {
+                                th scope="row" { (index + 1) }
+                                td data-label="position" { (value(&at.key("position_m"), of.error.position_m, &length(of.error.position_m))) }
+                                td data-label="orientation" { (value(&at.key("orientation_rad"), of.error.orientation_rad, &angle(of.error.orientation_rad))) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The index over the runs of one call: the worst first, each with a link to its page.
+
+use congruent_description::display::quantity;
+use congruent_twin::{
+    report::{RunReport, lines},
+    verdict::{Bound, Measure, Status, Verdict},
+};
+use maud::{Markup, html};
+
+use crate::{
+    parts::{Outcome, badge, document},
+    run::{capitalised, outcome},
+};
+
+/// One scenario of a call.
+#[derive(Debug, Clone)]
+pub struct IndexEntry<'a> {
+    /// The scenario file as it was named.
+    pub input: String,
+    /// Its page, relative to the index; `None` if there is none.
+    pub page: Option<String>,
+    /// The report, or why there is none.
+    pub result: Result<&'a RunReport, String>,
+}
+
+impl IndexEntry<'_> {
+    fn outcome(&self) -> (Outcome, &'static str) {
+        self.result.as_ref().map_or((Outcome::Bad, "DID NOT START"), |report| outcome(report))
+    }
+
+    /// Worst first: what could not run, what failed, then what is nearest to a limit.
+    fn rank(&self) -> (u8, f64) {
+        let Ok(report) = &self.result else { return (0, 0.0) };
+        let verdict = match report.verdict {
+            Verdict::Broken => 1,
+            Verdict::NothingChecked => 2,
+            Verdict::NotAsExpected => 3,
+            Verdict::AsExpected => 4,
+        };
+        (verdict, -tightest(report).map_or(0.0, |(_, _, share)| share))
+    }
+}
+
+/// The page; entries keep their order if they are equally good.
+pub fn index_page(entries: &[IndexEntry<'_>]) -> String {
+    let mut order: Vec<&IndexEntry<'_>> = entries.iter().collect();
+    order.sort_by(|a, b| {
+        let ((a, a_share), (b, b_share)) = (a.rank(), b.rank());
+        a.cmp(&b).then(a_share.total_cmp(&b_share))
+    });
+    let bad = entries.iter().filter(|entry| entry.outcome().0 != Outcome::Good).count();
+    let title = format!("{} scenarios", entries.len());
+    let body = html! {
+        header {
+            p.kind { "Runs of scenarios" }
+            h1 { (title) }
+            p.verdict {
+                @if bad == 0 { (badge(Outcome::Good, "ALL PASS")) }
+                @else { (badge(Outcome::Bad, &format!("{bad} OF {} DO NOT PASS", entries.len()))) }
+            }
+        }
+        section {
+            table {
+                thead { tr { th { "scenario" } th { "result" } th { "what happened" } th { "nearest to its limit" } th { "robot" } } }
+                tbody { @for entry in order { (row(entry)) } }
+            }
+        }
+    };
+    document(&title, &body, None)
+}
+
+fn row(entry: &IndexEntry<'_>) -> Markup {
+    let (outcome, word) = entry.outcome();
+    let name = entry.result.as_ref().map_or(entry.input.as_str(), |report| report.scenario.as_str());
+    html! {
+        tr {
+            th scope="row" {
+                @match &entry.page { Some(page) => a href=(page) { (name) }, None => (name) }
+            }
+            td { (badge(outcome, word)) }
+            @match &entry.result {
+                Ok(report) => {
+                    td data-label="what happened" { (happened(report)) }
+                    td data-label="nearest to its limit" { (nearest(report)) }
+                    td data-label="robot" { (report.robot) span.small { ", " (quantity(report.simulation.duration_s, "s")) } }
+                }
+                Err(reason) => { td colspan="3" { (reason) } }
+            }
+        }
+    }
+}
+
+/// The verdict, and the first thing that failed.
+fn happened(report: &RunReport) -> Markup {
+    let failed = report.checks_failed_first().into_iter().find(|check| check.status == Status::Fail);
+    let line = failed.and_then(|check| lines(check).into_iter().next());
+    html! {
+        (capitalised(&report.sentence())) "."
+        @if let Some(error) = &report.error { p.small { (error) } }
+        @else if let Some(line) = line { p.small { (line) } }
+    }
+}
+
+fn nearest(report: &RunReport) -> Markup {
+    html! {
+        @if let Some((check, measure, share)) = tightest(report) {
+            (check) ": " (format!("{:.0} % of the limit", 100.0 * share))
+            @if let Some(worst) = &measure.worst { p.small { (worst.subject) } }
+        }
+    }
+}
+
+/// The quantity that uses most of its limit, of the checks that passed; quantities of no size, as rounding, do not count.
+fn tightest(report: &RunReport) -> Option<(&'static str, &Measure, f64)> {
+    let passed = report.checks.iter().filter(|check| check.status == Status::Pass);
+    let measures =
+        passed.flat_map(|check| check.measures.iter().map(|measure| (check.check.word(), measure)));
+    let share = |measure: &Measure| {
+        let worst = measure.worst.as_ref()?.value;
+        let share = match measure.bound {
+            Bound::AtMost => worst / measure.limit,
+            Bound::AtLeast | Bound::Above => measure.limit / worst,
+        };
+        (measure.limit > 0.0 && share.is_finite()).then_some(share)
+    };
+    let shares = measures.filter_map(|(check, measure)| Some((check, measure, share(measure)?)));
+    shares.max_by(|a, b| a.2.total_cmp(&b.2))
+}

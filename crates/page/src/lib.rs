@@ -1,0 +1,18 @@
+//! Reports as pages: one HTML file each, which carries its style, its script and its data, needs no network, and prints.
+//!
+//! Text and numbers come from the reports; beside a number for people stands the exact one with its place in the JSON
+//! report (`<data data-path value>`), so that a test can compare the two. Text from files is escaped by maud.
+
+mod assets;
+mod calibration;
+mod check;
+mod index;
+mod parts;
+mod picture;
+mod run;
+mod series;
+
+pub use calibration::calibration_page;
+pub use check::{CheckEntry, CheckedRobot, check_page};
+pub use index::{IndexEntry, index_page};
+pub use run::PageFormat;

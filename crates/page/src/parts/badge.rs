@@ -1,0 +1,37 @@
+//! A verdict: a word with a sign and a colour, so that none of the three is needed alone.
+
+use maud::{Markup, html};
+
+/// How something went.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Outcome {
+    Bad,
+    Unclear,
+    Good,
+}
+
+impl Outcome {
+    /// The class in the style sheet.
+    pub(crate) fn class(self) -> &'static str {
+        match self {
+            Self::Bad => "bad",
+            Self::Unclear => "unclear",
+            Self::Good => "good",
+        }
+    }
+
+    fn sign(self) -> &'static str {
+        match self {
+            Self::Bad => "\u{2717}",
+            Self::Unclear => "!",
+            Self::Good => "\u{2713}",
+        }
+    }
+}
+
+/// The word with its sign.
+pub(crate) fn badge(outcome: Outcome, word: &str) -> Markup {
+    html! {
+        span.badge.(outcome.class()) { span.sign aria-hidden="true" { (outcome.sign()) } " " (word) }
+    }
+}

@@ -1,0 +1,38 @@
+//! The document around a page. It carries its style and its scripts, and forbids every request.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::{assets, series::Plots};
+
+/// What a browser may do with a page: show it, with its own styles and scripts. Nothing is fetched from anywhere.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; \
+                      base-uri 'none'; form-action 'none'";
+
+/// The whole text of a page.
+pub(crate) fn document(title: &str, body: &Markup, plots: Option<&Plots>) -> String {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta name="referrer" content="no-referrer";
+                title { (title) }
+                @if plots.is_some() { style { (PreEscaped(assets::UPLOT_CSS)) } }
+                style { (PreEscaped(assets::PAGE_CSS)) }
+            }
+            body {
+                main { (body) }
+                footer { "made by congruent " (env!("CARGO_PKG_VERSION")) }
+                @if let Some(plots) = plots {
+                    script type="application/json" #plots { (PreEscaped(plots.json())) }
+                    script { (PreEscaped(assets::UPLOT_JS)) }
+                    script { (PreEscaped(assets::PAGE_JS)) }
+                }
+            }
+        }
+    }
+    .into_string()
+}

@@ -1,0 +1,17 @@
+//! What all pages are made of.
+
+mod badge;
+mod diagnosis;
+mod document;
+mod lines;
+mod plot;
+mod value;
+mod warnings;
+
+pub(crate) use badge::{Outcome, badge};
+pub(crate) use diagnosis::diagnosis;
+pub(crate) use document::document;
+pub(crate) use lines::changed;
+pub(crate) use plot::plot;
+pub(crate) use value::{Pointer, count, value};
+pub(crate) use warnings::warnings;

@@ -1,0 +1,9 @@
+//! A picture of the arm: links as lines between the frames of the joints, in SVG.
+
+mod camera;
+mod figure;
+mod skeleton;
+mod svg;
+
+pub(crate) use figure::{Arm, Body, Figure, TwoArms};
+pub(crate) use skeleton::{Skeleton, corners, shapes};

@@ -1,0 +1,19 @@
+//! What the page of a run shows beside the report.
+
+use congruent_description::RobotDescription;
+use congruent_simulation::Obstacle;
+use congruent_twin::monitor::Names;
+
+use crate::series::RunSeries;
+
+/// What a page tells beside the report.
+#[derive(Debug)]
+pub(super) struct RunContent {
+    pub(super) names: Names,
+    pub(super) description: RobotDescription,
+    pub(super) obstacles: Vec<Obstacle>,
+    /// Whether an obstacle does not stay where it is at first.
+    pub(super) obstacles_move: bool,
+    pub(super) zones: Vec<Obstacle>,
+    pub(super) series: RunSeries,
+}

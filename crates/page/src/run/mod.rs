@@ -1,0 +1,15 @@
+//! The page of a run.
+
+mod actuators;
+mod checks;
+mod content;
+mod faults;
+mod header;
+mod joints;
+mod over_time;
+mod page;
+mod recorder;
+mod scene;
+
+pub(crate) use header::{capitalised, outcome};
+pub use recorder::PageFormat;

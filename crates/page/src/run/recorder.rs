@@ -1,0 +1,76 @@
+//! Takes the samples of a run for its page, and writes the page with the report.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use congruent_description::Tolerance;
+use congruent_twin::{
+    Recording, RecordingFormat, Run, RunSetup, Sample,
+    recorder::{Recorder, RecordingError},
+    report::RunReport,
+    scenario::Check,
+};
+
+use super::{content::RunContent, page};
+use crate::series::RunSeries;
+
+/// The page of a run, `report.html`.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PageFormat;
+
+impl RecordingFormat for PageFormat {
+    fn file_name(&self) -> &'static str {
+        "report.html"
+    }
+
+    fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
+        let setup = run.setup();
+        let clock = (setup.clock.step_s, setup.clock.steps);
+        Ok(Box::new(PageRecorder {
+            path: path.to_owned(),
+            run: RunContent {
+                names: run.names().clone(),
+                description: setup.description.clone(),
+                obstacles: setup.obstacles.clone(),
+                obstacles_move: !setup.bodies.is_empty(),
+                zones: setup.zones.iter().map(|zone| zone.space.clone()).collect(),
+                series: RunSeries::new(&setup.description, tolerance(setup), clock),
+            },
+        }))
+    }
+}
+
+#[derive(Debug)]
+struct PageRecorder {
+    path: PathBuf,
+    run: RunContent,
+}
+
+impl Recorder for PageRecorder {
+    fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
+        self.run.series.push(sample);
+        Ok(())
+    }
+}
+
+impl Recording for PageRecorder {
+    fn finish(mut self: Box<Self>, report: &RunReport) -> Result<(), RecordingError> {
+        self.run.series.finish();
+        let folder = self.path.parent().unwrap_or(Path::new("."));
+        let html = page::run_page(report, &self.run, folder);
+        fs::write(&self.path, html).map_err(|error| RecordingError {
+            message: format!("cannot write {}: {error}", self.path.display()),
+        })
+    }
+}
+
+/// The limits of the checks of agreement, or the tolerance of the robot file.
+fn tolerance(setup: &RunSetup) -> Tolerance {
+    let limits = setup.scenario.check.iter().find_map(|check| {
+        let Check::Agreement(limits) = check else { return None };
+        Some(Tolerance { position_m: limits.position_m?, orientation_rad: limits.orientation_rad? })
+    });
+    limits.unwrap_or(setup.description.tolerance)
+}

@@ -1,0 +1,116 @@
+//! The picture of a run: model and twin where they differ most, or the twin where another check was first violated; with
+//! what stands around and the path of the TCP.
+
+use congruent_description::{
+    Robot, RobotQ,
+    display::{angle, length, quantity},
+};
+use congruent_kinematics::{Pose, UrdfTree};
+use congruent_simulation::Obstacle;
+use congruent_twin::{
+    report::{RunReport, sentence_at},
+    scenario::CheckKind,
+    verdict::{CheckResult, Measure, Moment, Status},
+};
+use maud::{Markup, html};
+use nalgebra::Isometry3;
+
+use super::content::RunContent;
+use crate::picture::{Arm, Body, Figure, Skeleton, TwoArms, corners, shapes};
+
+/// The section.
+pub(super) fn scene(report: &RunReport, run: &RunContent) -> Markup {
+    let violated = violation(report).and_then(|found| Some((found, poses(run, found.2)?)));
+    let picture = match violated {
+        Some(((check, measure, moment), poses)) => at_violation((check, measure, moment), &poses, run),
+        None => at_largest_difference(run),
+    };
+    html! { section { h2 { "The arm" } (picture) } }
+}
+
+/// Where the check that failed first was first violated; `None` if model and twin differ, which is shown instead.
+fn violation(report: &RunReport) -> Option<(&CheckResult, &Measure, &Moment)> {
+    let mut failed = report.checks.iter().filter(|check| check.status == Status::Fail);
+    if failed.any(|check| check.check == CheckKind::Agreement) {
+        return None;
+    }
+    let check = report.checks_failed_first().into_iter().find(|check| check.status == Status::Fail)?;
+    let first =
+        check.measures.iter().filter_map(|measure| Some((measure, measure.first_violation.as_ref()?)));
+    let (measure, moment) = first.min_by(|(_, a), (_, b)| a.time_s.total_cmp(&b.time_s))?;
+    Some((check, measure, moment))
+}
+
+/// Poses of the twin at the configuration of a moment.
+fn poses(run: &RunContent, moment: &Moment) -> Option<Vec<Isometry3<f64>>> {
+    let robot = &run.description.robot;
+    let mut q = RobotQ::zeros(robot.dof());
+    for (joint, value) in moment.q.iter() {
+        q[robot.coordinate(robot.find_joint(joint)?)?] = value;
+    }
+    let mut poses = vec![Pose::identity(); robot.links().len()];
+    UrdfTree::new(robot).root_from_links_into(&q, &mut poses).ok()?;
+    Some(poses.iter().map(Pose::to_isometry).collect())
+}
+
+fn at_violation(
+    (check, measure, moment): (&CheckResult, &Measure, &Moment),
+    poses: &[Isometry3<f64>],
+    run: &RunContent,
+) -> Markup {
+    let subjects = subjects(&moment.subject, &run.description.robot);
+    let arms = vec![arm("twin", "twin (physics)", poses, run)];
+    let figure = Figure { bodies: bodies(poses, run, &subjects), arms, path: run.series.tcp_path.points() };
+    let caption = html! {
+        "At " (quantity(moment.time_s, "s")) ", where check " (check.check) " was first violated: "
+        (sentence_at(measure, moment)) "." (moving(run))
+    };
+    TwoArms { figure, tips_apart_m: 0.0 }.markup(&caption)
+}
+
+/// Links, obstacles and zones that a value is about: of a joint, the link that moves with it.
+fn subjects<'a>(subject: &'a str, robot: &'a Robot) -> Vec<&'a str> {
+    let of_joint = robot.find_joint(subject).map(|joint| robot.link(robot.joint(joint).child).name.as_str());
+    subject.split("--").chain(of_joint).collect()
+}
+
+fn at_largest_difference(run: &RunContent) -> Markup {
+    let largest = &run.series.largest;
+    let tip = run.description.tip.get();
+    let model: Vec<Isometry3<f64>> = largest.model.iter().map(Pose::to_isometry).collect();
+    let arms = vec![arm("twin", "twin (physics)", &largest.twin, run), arm("model", "model", &model, run)];
+    let figure = Figure { bodies: bodies(&largest.twin, run, &[]), arms, path: run.series.tcp_path.points() };
+    let tips_apart_m = (largest.twin[tip].translation.vector - model[tip].translation.vector).norm();
+    let caption = html! {
+        "Model and twin where they differ most, at " (quantity(largest.time_s, "s")) ": by "
+        (length(largest.error.position_m)) " and " (angle(largest.error.orientation_rad)) " at link "
+        (run.names.links[largest.link]) "." (moving(run))
+    };
+    TwoArms { figure, tips_apart_m }.markup(&caption)
+}
+
+fn moving(run: &RunContent) -> &'static str {
+    if run.obstacles_move { " Obstacles are where they are at the start." } else { "" }
+}
+
+fn arm(class: &'static str, name: &str, poses: &[Isometry3<f64>], run: &RunContent) -> Arm {
+    let description = &run.description;
+    let skeleton = Skeleton::new(&description.robot, poses, description.tip);
+    Arm { class, name: name.to_owned(), skeleton }
+}
+
+/// Obstacles, zones, and the shapes of the arm; those that a check found are marked.
+fn bodies(poses: &[Isometry3<f64>], run: &RunContent, marked: &[&str]) -> Vec<Body> {
+    let is_marked = |name: &str| marked.contains(&name);
+    let around = |class: &'static str, body: &Obstacle| Body {
+        class,
+        name: Some(body.name.clone()),
+        points: corners(&body.geometry, &body.world_from_obstacle),
+        is_marked: is_marked(&body.name),
+    };
+    let mut bodies: Vec<Body> = run.obstacles.iter().map(|body| around("obstacle", body)).collect();
+    bodies.extend(run.zones.iter().map(|zone| around("zone", zone)));
+    let shapes = shapes(&run.description.robot, poses).into_iter();
+    bodies.extend(shapes.map(|(link, points)| Body { is_marked: is_marked(link), ..Body::shape(points) }));
+    bodies
+}

@@ -1,0 +1,115 @@
+//! The smallest distances over time. They are measured now and then: an exact distance costs more than a physics step.
+
+use congruent_twin::proximity::{Clearance, Nearest};
+
+use super::{
+    buckets::single,
+    plots::{Floats, Line},
+};
+
+/// Time between two looks at least, a multiple of the period of recordings, which then have measured already.
+const PERIOD_S: f64 = 0.02;
+/// Most looks.
+const MOST: u64 = 400;
+/// Room for the way to rest after a stop, which follows the end, and for the last instant.
+const ROOM: usize = 1000;
+
+/// The smallest distance at some instants, and between which two.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Distances {
+    times_s: Vec<f32>,
+    values_m: Vec<f32>,
+    pairs: Vec<usize>,
+}
+
+impl Distances {
+    fn with_capacity(rows: usize) -> Self {
+        Self {
+            times_s: Vec::with_capacity(rows),
+            values_m: Vec::with_capacity(rows),
+            pairs: Vec::with_capacity(rows),
+        }
+    }
+
+    /// The line of a plot, each value with the name of its pair; `None` if there is no pair.
+    pub(crate) fn line(&self, name: &str, names: &[String]) -> Option<Line> {
+        let mut subjects: Vec<usize> = Vec::new();
+        let of_pair = |pair: &usize| {
+            subjects.iter().position(|known| known == pair).unwrap_or_else(|| {
+                subjects.push(*pair);
+                subjects.len() - 1
+            })
+        };
+        let of_values: Vec<usize> = self.pairs.iter().map(of_pair).collect();
+        (!self.pairs.is_empty()).then(|| Line {
+            name: name.to_owned(),
+            values: Floats(self.values_m.clone()),
+            times_s: Some(Floats(self.times_s.clone())),
+            subjects: of_values,
+            subject_names: subjects.iter().map(|&pair| names[pair].clone()).collect(),
+            ..Line::default()
+        })
+    }
+
+    fn look(&mut self, time_s: f64, clearance: &mut Clearance) {
+        let Some(Nearest { distance_m, pair }) = clearance.nearest() else { return };
+        self.times_s.push(single(time_s));
+        self.values_m.push(single(distance_m));
+        self.pairs.push(pair);
+    }
+}
+
+/// Distances between links and to obstacles, and from links to the zones that are forbidden to them.
+#[derive(Debug)]
+pub(crate) struct NearestOverTime {
+    /// Steps between two looks.
+    stride: u64,
+    pub(crate) clearance: Distances,
+    pub(crate) zones: Distances,
+}
+
+impl NearestOverTime {
+    /// For a run of so many steps.
+    pub(crate) fn new(step_s: f64, steps: u64) -> Self {
+        Self {
+            stride: stride(step_s, steps),
+            clearance: Distances::with_capacity(ROOM),
+            zones: Distances::with_capacity(ROOM),
+        }
+    }
+
+    /// Looks at this instant, if it is time.
+    pub(crate) fn observe(
+        &mut self,
+        (step, is_last, time_s): (u64, bool, f64),
+        clearance: &mut Clearance,
+        zones: &mut Clearance,
+    ) {
+        if step.is_multiple_of(self.stride) || is_last {
+            self.clearance.look(time_s, clearance);
+            self.zones.look(time_s, zones);
+        }
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a step is positive, and the cast of floats saturates"
+)]
+fn stride(step_s: f64, steps: u64) -> u64 {
+    let at_least = ((PERIOD_S / step_s).round() as u64).max(1);
+    at_least * steps.div_ceil(MOST.saturating_mul(at_least)).max(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_more_than_fifty_looks_a_second_and_four_hundred_in_all() {
+        assert_eq!(stride(0.001, 4000), 20);
+        assert_eq!(stride(0.001, 600_000), 1500);
+        assert_eq!(stride(0.05, 10), 1);
+    }
+}

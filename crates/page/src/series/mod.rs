@@ -1,0 +1,9 @@
+//! What a page shows over time.
+
+mod buckets;
+mod distances;
+mod plots;
+mod run_series;
+
+pub(crate) use plots::{Chart, Limit, Line, Mark, Plots};
+pub(crate) use run_series::{JointQuantity, RunSeries};
