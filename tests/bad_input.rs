@@ -176,7 +176,7 @@ fn case_13_an_answer_to_a_violation_that_is_none() {
             "on_violaton = \"stop\"",
             [
                 "unknown key \"on_violaton\"",
-                "known keys: position_m, position_mm, orientation_rad, orientation_deg, on_violation",
+                "known keys: position_m, position_mm, orientation_rad,",
             ],
         ),
     ] {

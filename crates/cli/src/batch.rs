@@ -9,7 +9,7 @@ use std::{
 
 use congruent::{
     description::{Diagnostic, Finding},
-    twin::report::{CasePlace, OutputError, Reason, TestResult, TestSuite},
+    twin::report::{CasePlace, Reason, TestResult, TestSuite},
 };
 use serde::Serialize;
 
@@ -251,14 +251,6 @@ fn place(failure: &Failure) -> Option<CasePlace> {
     let Failure::Input(findings) = failure else { return None };
     let of = |finding: Finding| CasePlace::of(finding.file.as_deref(), finding.line);
     findings.iter().map(Finding::from).find_map(of)
-}
-
-/// A path that cannot be written is bad input, a full disk is a failure of the machine.
-pub(crate) fn unwritable(error: &OutputError, help: &str) -> Failure {
-    if error.is_full() {
-        return Failure::Machine(error.to_string());
-    }
-    Diagnostic::error("run::output", error.to_string()).with_help(help).into()
 }
 
 fn shown(path: &Path) -> String {

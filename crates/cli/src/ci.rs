@@ -12,7 +12,10 @@ use congruent::{
     twin::report::{TestSuite, github_annotations, step_summary, write_junit},
 };
 
-use crate::{batch::unwritable, failure::Failure, print::Printer};
+use crate::{
+    failure::{Failure, unwritable},
+    print::Printer,
+};
 
 /// Files and lines for CI.
 #[derive(Debug, Default, clap::Args)]

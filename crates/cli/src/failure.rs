@@ -1,6 +1,6 @@
 //! Failures of commands and their exit codes.
 
-use congruent::description::Diagnostic;
+use congruent::{description::Diagnostic, twin::report::OutputError};
 
 /// A check failed.
 pub(crate) const FAILED: u8 = 1;
@@ -18,6 +18,14 @@ pub(crate) fn worse(a: u8, b: u8) -> u8 {
     const FROM_BEST: [u8; 5] = [0, FAILED, NOTHING, BAD_INPUT, BROKEN];
     let rank = |code: u8| FROM_BEST.iter().position(|&known| known == code);
     if rank(b) > rank(a) { b } else { a }
+}
+
+/// A path that cannot be written is bad input, a full disk is a failure of the machine.
+pub(crate) fn unwritable(error: &OutputError, help: &str) -> Failure {
+    if error.is_full() {
+        return Failure::Machine(error.to_string());
+    }
+    Diagnostic::error("run::output", error.to_string()).with_help(help).into()
 }
 
 /// Why a command has no result.

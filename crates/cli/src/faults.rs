@@ -16,8 +16,7 @@ use congruent::{
 };
 
 use crate::{
-    batch::unwritable,
-    failure::{BROKEN, FAILED, Failure, worse},
+    failure::{BROKEN, FAILED, Failure, unwritable, worse},
     input::PackageArguments,
     print::Printer,
 };

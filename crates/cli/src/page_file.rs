@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use congruent::twin::report::write_whole;
 
-use crate::{batch::unwritable, failure::Failure};
+use crate::failure::{Failure, unwritable};
 
 /// The file of a page.
 #[derive(Debug, clap::Args)]

@@ -24,9 +24,9 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use serde::{Serialize, Serializer};
 
 use crate::{
-    batch::{Answer, Batch, BatchReport, unwritable},
+    batch::{Answer, Batch, BatchReport},
     ci::CiArguments,
-    failure::{BROKEN, Failure},
+    failure::{BROKEN, Failure, unwritable},
     input::PackageArguments,
     print::Printer,
 };
