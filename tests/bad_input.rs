@@ -174,10 +174,7 @@ fn case_13_an_answer_to_a_violation_that_is_none() {
         ("on_violation = true", ["boolean `true`", "expected a string"]),
         (
             "on_violaton = \"stop\"",
-            [
-                "unknown key \"on_violaton\"",
-                "known keys: position_m, position_mm, orientation_rad,",
-            ],
+            ["unknown key \"on_violaton\"", "known keys: position_m, position_mm, orientation_rad,"],
         ),
     ] {
         let bench = Workbench::new();

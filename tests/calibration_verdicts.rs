@@ -1,8 +1,6 @@
 //! `congruent calibrate`: measurements that the corrections do not explain, or that cannot verify them. The
 //! errors of units, order and frame are made in measurements that are right without them.
 
-use std::time::{Duration, Instant};
-
 use serde_json::{Value, json};
 
 use crate::{
@@ -201,15 +199,10 @@ fn repetitions_are_left_out_together() {
 }
 
 #[test]
-#[expect(clippy::disallowed_methods, reason = "the time it takes is what is tested")]
-fn one_absurd_coordinate_is_an_outlier_in_good_time() {
-    /// Kind: bound; seen 0.7 s. From least squares alone the search for the rows that agree took 40 s.
-    const MOST: Duration = Duration::from_secs(10);
+fn one_absurd_coordinate_is_an_outlier() {
     let mut rows = poses(40);
     rows[5]["translation_m"][1] = json!(1e5);
-    let start = Instant::now();
     let answer = judged(&rows, "dh");
-    assert!(start.elapsed() < MOST, "{:?}", start.elapsed());
     let report = answer.json();
     assert_eq!((answer.code, &report["verdict"]), (0, &json!("unexplained_rows")), "{report}");
     let outliers = report["outliers"].as_array().unwrap();

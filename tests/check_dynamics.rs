@@ -266,6 +266,27 @@ fn masses_in_frames_of_a_wrong_table_are_not_compared() {
 }
 
 #[test]
+fn a_frame_that_does_not_move_with_its_joint_is_no_agreement() {
+    let robot = RobotCopy::of("ur5e");
+    let file = fs::read_to_string(robot.robot_file()).unwrap();
+    fs::write(robot.robot_file(), file.replacen("frame = \"dh3\"", "frame = \"dh2\"", 1)).unwrap();
+    let answer = robot.against_declared();
+    assert_eq!(answer.code, 2, "{}", answer.stdout);
+    let finding = &answer.json()["findings"][0];
+    assert_eq!(finding["severity"], "error", "{finding}");
+    let line = file.lines().position(|line| line.contains("frame = \"dh3\"")).unwrap() + 1;
+    assert_eq!(finding["line"], line, "{finding}");
+}
+
+#[test]
+fn a_link_that_is_only_turned_is_the_one_that_is_named() {
+    let robot = RobotCopy::of("ur5e");
+    let of_tool = "rpy=\"1.5707963267948966 0 1.5707963267948966\"";
+    robot.replace("joint", "flange-tool0", of_tool, "rpy=\"1.5 0 1.5\"");
+    assert_eq!(robot.against_original().json()["worst"]["link"], "tool0");
+}
+
+#[test]
 fn gravity_in_another_direction() {
     let gravity = |value: &str| format!("[dynamics]\ngravity_m_s2 = {value}");
     declared("[dynamics]", &gravity("[0, -9.81, 0]"), ("gravity_direction", "gravity"), "gravity_m_s2");

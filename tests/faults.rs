@@ -151,7 +151,9 @@ fn a_wrong_fault_is_refused_at_its_place() {
     refused("kinematic", share, "scenario::fault_value", "share", "");
     let same = "kind = \"swapped_joints\"\njoints = [\"elbow_joint\", \"elbow_joint\"]";
     refused("kinematic", same, "scenario::fault_value", "joints = [\"elbow", "another joint");
-    for (time_s, help) in [("0.0015", "give 0.001 s or 0.002 s"), ("0.0004", "give 0.001 s"), ("-0.001", ""), ("nan", "")] {
+    for (time_s, help) in
+        [("0.0015", "give 0.001 s or 0.002 s"), ("0.0004", "give 0.001 s"), ("-0.001", ""), ("nan", "")]
+    {
         let latency = format!("kind = \"latency\"\ntime_s = {time_s}");
         refused("kinematic", &latency, "scenario::fault_value", "time_s", help);
     }

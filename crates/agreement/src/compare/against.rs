@@ -50,7 +50,7 @@ impl CheckReport {
             here.tip.extend(tips.map(|tip| TipDifference { pair, ..tip }));
         }
         self.verdict = verdict(&self.comparisons);
-        self.worst = worst_of(&self.comparisons);
+        self.worst = worst_of(&self.comparisons, &self.tolerance);
         let brackets = worst(&self.certificates);
         self.certificate = brackets.as_ref().map(Brackets::bounds);
         self.certificate_bracket = brackets;

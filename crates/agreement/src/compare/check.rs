@@ -1,9 +1,8 @@
 //! The comparison of model, URDF and physics without motion: are they the same robot?
 
-use congruent_description::{Diagnostic, Finding, JointValues, RobotDescription, RobotQ};
+use congruent_description::{Diagnostic, Finding, JointValues, RobotDescription, RobotQ, Tolerance};
 use congruent_kinematics::{
-    KinematicsError, LinkPoses, Pose, PoseError, ScrewChain, ScrewTree, UrdfTree, larger,
-    sample_configurations,
+    KinematicsError, LinkPoses, Pose, PoseError, ScrewChain, ScrewTree, UrdfTree, sample_configurations,
 };
 
 use super::{
@@ -78,7 +77,7 @@ pub fn check(
         chain: description.reported_chain(),
         table_compared: description.dh.is_some(),
         verdict: verdict(&comparisons),
-        worst: worst_of(&comparisons),
+        worst: worst_of(&comparisons, &description.tolerance),
         tolerance: description.tolerance,
         replaced_tolerance: None,
         configurations: configurations.len(),
@@ -155,16 +154,25 @@ pub(super) fn verdict(comparisons: &[Comparison]) -> Agreement {
     }
 }
 
-/// The largest difference of all comparisons, separately in position and in orientation.
-pub(super) fn worst_of(comparisons: &[Comparison]) -> WorstDifference {
-    let further = |a: WorstDifference, b: WorstDifference| {
-        let orientation_rad = larger(a.error.orientation_rad, b.error.orientation_rad);
-        let PoseError { position_m, .. } = a.error;
-        let furthest = if position_m.is_nan() || b.error.position_m <= position_m { a } else { b };
-        WorstDifference { error: PoseError { orientation_rad, ..furthest.error }, ..furthest }
-    };
-    let worst = comparisons.iter().map(|comparison| comparison.worst.clone());
-    worst.reduce(further).expect("screws are always compared with the URDF")
+/// The largest difference of all comparisons, separately in position and in orientation; link and configuration are
+/// those of the position, unless the orientation alone is beyond the tolerance.
+pub(super) fn worst_of(comparisons: &[Comparison], tolerance: &Tolerance) -> WorstDifference {
+    let errors = comparisons.iter().map(|comparison| comparison.worst.error);
+    let error = errors.fold(PoseError::default(), PoseError::larger);
+    let is_turned_only = is_turned_only(&error, tolerance);
+    let size = |error: &PoseError| if is_turned_only { error.orientation_rad } else { error.position_m };
+    let mut worst = &comparisons.first().expect("screws are always compared with the URDF").worst;
+    for Comparison { worst: other, .. } in comparisons {
+        if !(size(&worst.error).is_nan() || size(&other.error) <= size(&worst.error)) {
+            worst = other;
+        }
+    }
+    WorstDifference { error, ..worst.clone() }
+}
+
+/// Whether the orientation alone is beyond the tolerance, so that its place is the one to name.
+fn is_turned_only(worst: &PoseError, tolerance: &Tolerance) -> bool {
+    worst.position_m <= tolerance.position_m && !worst.is_within(tolerance)
 }
 
 /// Poses of all links at one configuration, by each source.
@@ -253,6 +261,8 @@ struct RunningComparison {
     worst: Vec<PoseError>,
     /// Link and configuration of the largest distance, of the links that decide.
     furthest: (usize, usize),
+    /// The same of the largest angle.
+    most_turned: (usize, usize),
 }
 
 impl RunningComparison {
@@ -271,6 +281,7 @@ impl RunningComparison {
             worst: vec![PoseError::default(); sources.len()],
             decides,
             furthest: (first, 0),
+            most_turned: (first, 0),
         }
     }
 
@@ -284,6 +295,9 @@ impl RunningComparison {
                 if error.position_m > self.worst[self.furthest.0].position_m {
                     self.furthest = (link, configuration);
                 }
+                if error.orientation_rad > self.worst[self.most_turned.0].orientation_rad {
+                    self.most_turned = (link, configuration);
+                }
             }
             self.worst[link] = self.worst[link].larger(error);
         }
@@ -295,7 +309,8 @@ impl RunningComparison {
         let deciding = || self.worst.iter().zip(&self.decides).filter(|(_, decides)| **decides);
         let worst = deciding().fold(PoseError::default(), |worst, (error, _)| worst.larger(*error));
         let agrees = worst.is_within(&description.tolerance);
-        let (link, configuration) = self.furthest;
+        let is_turned_only = is_turned_only(&worst, &description.tolerance);
+        let (link, configuration) = if is_turned_only { self.most_turned } else { self.furthest };
         let links = robot.links().iter().zip(&self.sources).zip(&self.worst);
         Comparison {
             name: self.pair,

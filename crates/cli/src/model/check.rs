@@ -7,7 +7,7 @@ use congruent::{
     agreement::compare::{Agreement, CheckOptions},
     analysis::plot::errors,
     check_suite, checked_robot,
-    description::{Diagnostic, RobotDescription, load_robot_with, read_configurations},
+    description::{Diagnostic, RobotDescription, Severity, load_robot_with, read_configurations},
     page::{CheckEntry, check_page},
     twin::report::TestSuite,
 };
@@ -170,8 +170,19 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
     };
     let mut report = compared
         .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
+    let unusable = unusable_inertials(&description);
+    if report.geometry.verdict == Agreement::Agree && !unusable.is_empty() {
+        return Err(unusable.into());
+    }
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
     arguments.plot.write(|| errors(&chart(&report.geometry)))?;
     let (with_basics, with_table) = (arguments.basics, arguments.table);
     Ok(Checked { report, description, other, with_basics, with_table })
+}
+
+/// Entries in frames that do not move with their joint: warnings as long as the table may be wrong, which the geometry
+/// tells.
+fn unusable_inertials(description: &RobotDescription) -> Vec<Diagnostic> {
+    let of_inertials = description.warnings.iter().filter(|warning| warning.code == "robot_file::inertial");
+    of_inertials.map(|warning| Diagnostic { severity: Severity::Error, ..warning.clone() }).collect()
 }
