@@ -6,8 +6,8 @@
 
 use crate::actuation::commands::{Gains, Motor};
 
-/// How much faster than its limit a joint may be driven, as a share of the limit.
-const SPEED_MARGIN: f64 = 1e-3;
+/// How much faster than its limit an actuator may drive a joint, as a share of the limit.
+pub const SPEED_MARGIN: f64 = 1e-3;
 /// A spring takes a torque as a shift of its rest position up to here, rad or m: the sum loses 1e-14 at most.
 const LARGEST_SHIFT: f64 = 100.0;
 

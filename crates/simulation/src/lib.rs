@@ -23,7 +23,7 @@ pub use actuation::{
     Setpoint, Torque,
 };
 pub use carried::CarriedBody;
-pub use drive::Saturation;
+pub use drive::{SPEED_MARGIN, Saturation};
 pub use error::SimulationError;
 pub use settings::{Obstacle, Touches, WorldSettings};
 pub use world::{World, WorldSnapshot};

@@ -7,8 +7,8 @@ use super::{
     context::CheckContext,
     forces::{DYNAMICS_RELATIVE_PER_S, DynamicsMonitor, POWER_RELATIVE_PER_S, PowerMonitor},
     joints::{
-        AT_THE_END, AT_THE_LIMIT, CycleTimeMonitor, LimitsMonitor, TrackingMonitor, examine_limits,
-        examine_tracking,
+        AT_THE_END, AT_THE_LIMIT, CycleTimeMonitor, LARGEST_EFFORT_SHARE, LARGEST_VELOCITY_SHARE,
+        LimitsMonitor, TrackingMonitor, examine_limits, examine_tracking,
     },
     monitor::{Monitor, Observed},
     names::Names,
@@ -146,8 +146,8 @@ pub(crate) fn write_out_limits(check: &mut Check, description: &RobotDescription
         Check::Limits(check) => {
             fill(&mut check.tolerance_rad, check.tolerance_deg, AT_THE_LIMIT);
             fill(&mut check.tolerance_m, check.tolerance_mm, AT_THE_LIMIT);
-            check.velocity_share.get_or_insert(1.0);
-            check.effort_share.get_or_insert(1.0);
+            check.velocity_share.get_or_insert(LARGEST_VELOCITY_SHARE);
+            check.effort_share.get_or_insert(LARGEST_EFFORT_SHARE);
         }
         Check::Power(check) => {
             check.relative.get_or_insert(POWER_RELATIVE_PER_S * step_s);

@@ -79,7 +79,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     /// One quantity under its four keys: in degrees, radians, metres and millimetres. Infinity for what is not given.
-    fn given(&mut self, keys: [(&str, &BTreeMap<String, f64>); 4]) -> Vec<f64> {
+    fn given(&mut self, keys: [(&'static str, &BTreeMap<String, f64>); 4]) -> Vec<f64> {
         let mut values = vec![f64::INFINITY; self.robot.dof()];
         let as_it_is: ToSi = |_, value| value;
         let units: [(Unit, ToSi); 4] = [
@@ -90,11 +90,12 @@ impl Reader<'_> {
         ];
         // Named joints come after all others, so that they keep their own value.
         for is_every in [true, false] {
+            let mut given_by = vec![None; self.robot.dof()];
             for ((key, by_joint), unit) in keys.into_iter().zip(units) {
                 let chosen = by_joint.iter().filter(|(name, _)| (*name == EVERY) == is_every);
                 let place = self.place.key(key);
                 let set = chosen.filter_map(|(name, &value)| {
-                    let found = self.set(&mut values, (name, value), unit);
+                    let found = self.set(&mut values, (key, name, value), unit, &mut given_by);
                     found.map_err(|error| crate::scenario::mark(error, place.key_span(name))).err()
                 });
                 let errors: Vec<Diagnostic> = set.collect();
@@ -107,17 +108,30 @@ impl Reader<'_> {
     fn set(
         &self,
         values: &mut [f64],
-        (name, value): (&str, f64),
+        (key, name, value): (&'static str, &str, f64),
         (unit, to_si): (Unit, ToSi),
+        given_by: &mut [Option<&'static str>],
     ) -> Result<(), Diagnostic> {
         if !(value.is_finite() && value > 0.0) {
             let message = format!("limit of \"{name}\": expected a finite number above 0");
             return Err(Diagnostic::error("scenario::number", message));
         }
         for coordinate in self.coordinates(name, unit)? {
+            if let Some(first) = given_by[coordinate].replace(key) {
+                return Err(self.twice(name, first));
+            }
             values[coordinate] = to_si(unit, value);
         }
         Ok(())
+    }
+
+    /// The fault of a value that another key has given already; the caller marks its own place.
+    fn twice(&self, name: &str, first: &str) -> Diagnostic {
+        let place = self.place.key(first);
+        let written = place.has(name).then(|| place.key(name).line()).flatten();
+        let line = written.map_or_else(String::new, |line| format!(" in line {line}"));
+        let message = format!("the limit of \"{name}\" is given by {first}{line} already");
+        Diagnostic::error("scenario::limit_twice", message).with_help("keep exactly one of the two")
     }
 
     /// The coordinates that a name means, of joints that turn or of joints that slide.

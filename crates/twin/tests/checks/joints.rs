@@ -116,6 +116,26 @@ fn a_share_is_at_most_the_whole() {
     assert!(refused(Check::Limits(check)).starts_with("scenario::number: check.margin_m: expected a finite"));
 }
 
+/// Without a duration the move goes up to the velocity limit, and the servo that follows it a little beyond.
+#[test]
+fn a_move_of_least_time_keeps_the_limits_that_it_is_planned_with() {
+    let mut scenario = scenario(servo(), limits());
+    scenario.start.joints_rad.insert("shoulder".to_owned(), -1.5);
+    scenario.start.joints_rad.insert("elbow".to_owned(), -1.9);
+    scenario.simulation.duration_s = None;
+    let long = [("shoulder", 1.5), ("elbow", 1.9)].map(|(name, target)| (name.to_owned(), target));
+    let MotionSettings::Joints(motion) = &mut scenario.motion[0] else { panic!("{scenario:#?}") };
+    (motion.move_joints_rad, motion.duration_s) = (long.into(), None);
+    let least = result(&setup(scenario.clone(), &arm(&[])));
+    passes(&least);
+    let share = worst(&least, "share_of_velocity_limit");
+    assert!(share > 1.0 && share <= 1.001, "the test is of a joint at its limit: {share}");
+    // What the resolved scenario has is what was checked.
+    let written = setup(scenario, &arm(&[])).scenario.check.swap_remove(0);
+    let Check::Limits(written) = written else { panic!("{written:#?}") };
+    assert_eq!((written.velocity_share, written.effort_share), (Some(1.001), Some(1.0)));
+}
+
 fn tracked(tracking: &TrackingCheck, controller: congruent_twin::scenario::ControllerSettings) -> RunSetup {
     setup(scenario(controller, Check::Tracking(*tracking)), &arm(&[]))
 }

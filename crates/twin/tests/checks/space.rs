@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use congruent_twin::{
     RunSetup,
-    scenario::{Check, ContactCheck, MotionSettings, ObstacleSettings},
+    scenario::{Check, ContactCheck, MotionSettings, ObstacleSettings, ZoneCheck, ZoneSettings},
     verdict::Status,
 };
 
@@ -79,4 +79,31 @@ fn without_a_pair_there_is_nothing_to_check() {
     let check = Check::Contact(ContactCheck::default());
     let alone = result(&setup(scenario(controlled("kinematic", 0.0, 0.0), check), &arm(&[])));
     assert_eq!(alone.status, Status::Skipped, "{alone:#?}");
+}
+
+/// The finger's ball slides from y = 0.07 m to 0.14 m; its front is at 0.12 m to 0.19 m.
+#[test]
+fn every_link_that_enters_a_zone_is_reported_with_its_time() {
+    let mut scenario = slid(ContactCheck::default()).scenario;
+    let zone = |name: &str, at_m: f64| ZoneSettings {
+        name: name.to_owned(),
+        links: vec!["finger".to_owned()],
+        box_m: Some([0.2, 0.2, 0.2]),
+        // Its face is 0.1 m before its middle.
+        xyz_m: Some([1.05, at_m + 0.1, 0.0]),
+        ..ZoneSettings::default()
+    };
+    scenario.obstacle.clear();
+    scenario.zone = vec![zone("first", 0.14), zone("second", 0.17), zone("third", 0.3)];
+    scenario.check = vec![Check::Zone(ZoneCheck::default())];
+    let result = result(&setup(scenario, &arm(&[])));
+    assert_eq!(result.status, Status::Fail, "{result:#?}");
+    let entered: Vec<_> =
+        result.measures.iter().map(|measure| measure.first_violation.as_ref().unwrap()).collect();
+    let names: Vec<&str> = entered.iter().map(|moment| moment.subject.as_str()).collect();
+    assert_eq!(names, ["finger--first", "finger--second"]);
+    // 20 mm and 50 mm of 70 mm in 0.8 s.
+    for (moment, way) in entered.iter().zip([2.0, 5.0]) {
+        assert!((moment.time_s - 0.8 * way / 7.0).abs() < 1.5e-3, "{moment:?}");
+    }
 }

@@ -4,6 +4,7 @@
 //! yields. It is told apart from one that is driven beyond: by a setpoint outside, or because it goes on outwards.
 
 use congruent_description::{Diagnostic, JointKind, RobotDescription, display::quantity};
+use congruent_simulation::SPEED_MARGIN;
 
 use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
@@ -22,6 +23,12 @@ pub(crate) const AT_THE_LIMIT: f64 = 1e-6;
 const ON_THE_STOP: f64 = 1e-3;
 /// Efforts are clipped at their limit, but for rounding. No unit.
 const ROUNDING: f64 = 1e-9;
+
+/// Largest share of the velocity limit if the scenario does not say: motions are planned up to the limit, and the controller that
+/// follows them may drive a joint faster by what the actuators allow.
+pub(crate) const LARGEST_VELOCITY_SHARE: f64 = 1.0 + SPEED_MARGIN;
+/// Likewise of the effort limit, at which efforts are clipped.
+pub(crate) const LARGEST_EFFORT_SHARE: f64 = 1.0;
 
 /// How far a joint that turns is beyond its limit; negative inside its range.
 pub(crate) const ANGLE_BEYOND_LIMIT: &str = "angle_beyond_limit";
@@ -79,13 +86,17 @@ pub(crate) struct LimitsMonitor {
 
 /// Whether the shares are shares.
 pub(crate) fn examine(check: &LimitsCheck, place: FilePlace<'_>) -> Result<(), Diagnostic> {
-    let shares = [("velocity_share", check.velocity_share), ("effort_share", check.effort_share)];
-    match shares.into_iter().find(|(_, share)| share.is_some_and(|share| share > 1.0)) {
+    let shares = [
+        ("velocity_share", check.velocity_share, LARGEST_VELOCITY_SHARE),
+        ("effort_share", check.effort_share, LARGEST_EFFORT_SHARE),
+    ];
+    match shares.into_iter().find(|&(_, share, largest)| share.is_some_and(|share| share > largest)) {
         None => Ok(()),
-        Some((key, share)) => {
+        Some((key, share, largest)) => {
             let message = format!("`{key}` = {} allows more than the limit", share.unwrap_or_default());
             let error = Diagnostic::error("scenario::share", message);
-            Err(place.key(key).mark(error.with_help("give a share of the limit, at most 1")))
+            let help = format!("give a share of the limit, at most {largest}, the default");
+            Err(place.key(key).mark(error.with_help(help)))
         }
     }
 }
@@ -94,7 +105,7 @@ impl LimitsMonitor {
     pub(crate) fn new(check: &LimitsCheck, context: &CheckContext<'_>) -> Self {
         let [tolerance_rad, margin_rad, tolerance_m, margin_m] = check.unit_keys().map(|keys| keys.value());
         let watch = |quantity, unit, limit| Watch::new(quantity, unit, Bound::AtMost, limit, context.dof());
-        let share = |share: Option<f64>| share.unwrap_or(1.0) + ROUNDING;
+        let share = |share: Option<f64>, largest: f64| share.unwrap_or(largest) + ROUNDING;
         let margins = [margin_rad, margin_m].map(|margin| margin.unwrap_or(0.0));
         let tolerances = [tolerance_rad, tolerance_m].map(|tolerance| tolerance.unwrap_or(AT_THE_LIMIT));
         // With a margin, a value that holds is negative: inside the range.
@@ -111,8 +122,12 @@ impl LimitsMonitor {
                 angular: watch("angle_into_stop", "rad", ON_THE_STOP),
                 linear: watch("shift_into_stop", "m", ON_THE_STOP),
             },
-            velocity: watch("share_of_velocity_limit", "", share(check.velocity_share)),
-            effort: watch("share_of_effort_limit", "", share(check.effort_share)),
+            velocity: watch(
+                "share_of_velocity_limit",
+                "",
+                share(check.velocity_share, LARGEST_VELOCITY_SHARE),
+            ),
+            effort: watch("share_of_effort_limit", "", share(check.effort_share, LARGEST_EFFORT_SHARE)),
             samples: 0,
         }
     }

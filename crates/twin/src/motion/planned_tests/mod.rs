@@ -392,3 +392,28 @@ fn paths_that_cannot_be_driven_are_refused() {
     let arc = ArcMotion { arc_tcp, speed_m_s: Some(0.1), ..ArcMotion::default() };
     refused(vec![MotionSettings::Arc(arc)], "scenario::arc", &["straight line"]);
 }
+
+#[test]
+fn a_limit_in_two_units_is_refused() {
+    let every = |value: f64| BTreeMap::from([("*".to_owned(), value)]);
+    let elbow = |value: f64| BTreeMap::from([("elbow_joint".to_owned(), value)]);
+    let motion =
+        || vec![MotionSettings::Joints(JointMotion { duration_s: Some(1.0), ..JointMotion::default() })];
+    let twice = [
+        LimitSettings { velocity_deg_s: elbow(60.0), velocity_rad_s: elbow(1.0), ..LimitSettings::default() },
+        LimitSettings {
+            acceleration_deg_s2: every(60.0),
+            acceleration_rad_s2: every(1.0),
+            ..LimitSettings::default()
+        },
+    ];
+    let said = twice.map(|limits| setup(motion(), limits).map(|_| ()).unwrap_err());
+    for found in &said {
+        assert_eq!((found.len(), found[0].code), (1, "scenario::limit_twice"), "{found:#?}");
+    }
+    assert_eq!(said[0][0].message, "the limit of \"elbow_joint\" is given by velocity_deg_s already");
+    // A named joint and all others, each in its own unit, are two different limits.
+    let both =
+        LimitSettings { velocity_deg_s: every(60.0), velocity_rad_s: elbow(1.0), ..LimitSettings::default() };
+    assert_eq!(setup(motion(), both).unwrap().trajectory.limits.velocity[2], 1.0);
+}

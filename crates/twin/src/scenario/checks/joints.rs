@@ -42,7 +42,7 @@ pub struct LimitsCheck {
     /// The same in millimetres.
     #[serde(default, deserialize_with = "optional_non_negative", skip_serializing_if = "Option::is_none")]
     pub margin_mm: Option<f64>,
-    /// Largest share of a joint's velocity limit; 1 if it is left out.
+    /// Largest share of a joint's velocity limit; 1.001 if it is left out, which is what the actuators allow.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub velocity_share: Option<f64>,
     /// Largest share of a joint's effort limit; 1 if it is left out.
