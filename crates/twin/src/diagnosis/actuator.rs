@@ -20,35 +20,41 @@ pub(super) fn fault(
     observed: &Observed<'_>,
     joint: usize,
     residuals: &[Residual],
-    OffWindow { residuals: window, samples }: OffWindow,
+    window: OffWindow,
 ) -> Option<Fit> {
-    let of_window = &residuals[window.samples()];
+    let of_window: Vec<&Residual> =
+        residuals[window.residuals.samples()].iter().filter(|residual| !residual.is_held[joint]).collect();
     let left: Vec<f64> = of_window.iter().map(|residual| residual.missing[joint]).collect();
     let effort: Vec<f64> = of_window.iter().map(|residual| residual.effort[joint]).collect();
-    let make = |kind: FaultKind, values: Vec<FaultQuantity>| {
-        let (from_s, mut until_s) = observed.times(samples);
-        if kind == FaultKind::AddedFriction {
-            until_s = observed.times_in_motion(samples, &[joint]).1;
-        }
+    let make = |kind: FaultKind, values: Vec<FaultQuantity>, ends: bool| {
+        let (from_s, until_s) = observed.times(window.samples);
+        let until_s = until_s.filter(|_| ends);
         let joints = vec![observed.name(joint)];
         RunFault { kind, joints, link: None, values, from_s, until_s }
     };
     let mut fits = Vec::new();
     if let Some((parameters, remaining)) = least_squares(std::slice::from_ref(&effort), &left) {
         let share = 1.0 + parameters[0];
+        let ends = window.ends(residuals, joint, |residual| parameters[0] * residual.effort[joint]);
         let fault = if share.abs() < NO_SHARE {
-            make(FaultKind::LostTorque, Vec::new())
+            make(FaultKind::LostTorque, Vec::new(), ends)
         } else {
-            make(FaultKind::ScaledTorque, vec![FaultQuantity::share(share)])
+            make(FaultKind::ScaledTorque, vec![FaultQuantity::share(share)], ends)
         };
         // A joint that nothing drives does not follow its setpoint.
-        let is_possible = share > NO_SHARE || (share > -NO_SHARE && !follows(observed, joint, samples));
+        let is_possible =
+            share > NO_SHARE || (share > -NO_SHARE && !follows(observed, joint, window.samples));
         fits.extend(is_possible.then_some(Fit { fault, remaining, parameters: 1 }));
     }
-    fits.extend(friction(joint, of_window, observed.unit(joint)).into_iter().map(|(values, remaining)| {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "one or two")]
-        let parameters = values.len() as i32;
-        Fit { fault: make(FaultKind::AddedFriction, values), remaining, parameters }
+    let fastest = fastest(joint, &of_window);
+    fits.extend(friction(joint, &of_window).into_iter().map(|([dry, viscous], remaining)| {
+        let ends = window.ends(residuals, joint, |residual| {
+            let speed = residual.qd[1][joint];
+            if speed.abs() > SLIDING_PART * fastest { dry.copysign(speed) + viscous * speed } else { 0.0 }
+        });
+        let values = FaultQuantity::friction([dry, viscous], observed.unit(joint));
+        let parameters = if dry > 0.0 && viscous > 0.0 { 2 } else { 1 };
+        Fit { fault: make(FaultKind::AddedFriction, values, ends), remaining, parameters }
     }));
     best(fits)
 }
@@ -65,12 +71,17 @@ fn follows(observed: &Observed<'_>, joint: usize, window: Window) -> bool {
     spread(setpoint) > STANDS && spread(&behind) < BEHIND * spread(setpoint)
 }
 
-/// Dry friction, viscous friction, and both, while the joint slides.
-fn friction(joint: usize, residuals: &[Residual], unit: &'static str) -> Vec<(Vec<FaultQuantity>, f64)> {
+/// Largest speed of a joint.
+fn fastest(joint: usize, residuals: &[&Residual]) -> f64 {
+    residuals.iter().map(|residual| residual.qd[1][joint].abs()).fold(0.0, f64::max)
+}
+
+/// Dry friction, viscous friction, and both, while the joint slides; with what each leaves.
+fn friction(joint: usize, residuals: &[&Residual]) -> Vec<([f64; 2], f64)> {
     let speed = |residual: &Residual| residual.qd[1][joint];
-    let fastest = residuals.iter().map(|residual| speed(residual).abs()).fold(0.0, f64::max);
-    let sliding: Vec<&Residual> =
-        residuals.iter().filter(|residual| speed(residual).abs() > SLIDING_PART * fastest).collect();
+    let fastest = fastest(joint, residuals);
+    let is_sliding = |residual: &&Residual| speed(residual).abs() > SLIDING_PART * fastest;
+    let sliding: Vec<&Residual> = residuals.iter().copied().filter(is_sliding).collect();
     let left: Vec<f64> = sliding.iter().map(|residual| residual.missing[joint]).collect();
     let dry: Vec<f64> = sliding.iter().map(|residual| -speed(residual).signum()).collect();
     let viscous: Vec<f64> = sliding.iter().map(|residual| -speed(residual)).collect();
@@ -85,7 +96,7 @@ fn friction(joint: usize, residuals: &[Residual], unit: &'static str) -> Vec<(Ve
                 .iter()
                 .zip(parameters)
                 .for_each(|(&place, parameter): (&usize, f64)| both[place] = parameter);
-            fits.push((FaultQuantity::friction(both, unit), remaining));
+            fits.push((both, remaining));
         }
     }
     fits

@@ -10,12 +10,16 @@ use super::{
     fit::Fit,
     observed::Observed,
     payload,
-    residual::{OffWindow, Residual, first_contact, residuals},
+    residual::{Held, OffWindow, Residual, first_contact, residuals},
     store::SampleStore,
     stuck, tool, transport,
 };
 use crate::{
-    bodies::MovingBodies, fault::RunFault, proximity::Clearance, scenario::FaultKind, setup::RunSetup,
+    bodies::MovingBodies,
+    fault::RunFault,
+    proximity::Clearance,
+    scenario::{ControllerKind, FaultKind},
+    setup::RunSetup,
 };
 
 /// What is wrong with the twin, from the samples of the run alone.
@@ -142,11 +146,17 @@ impl Search<'_> {
 
     /// The efforts that are reported against those that the motion needs.
     fn efforts(&mut self, setup: &RunSetup, first_contact: Option<usize>) -> Result<(), DynamicsError> {
-        let mut residuals = residuals(&self.observed, setup.declared_dynamics())?;
-        if residuals.is_empty() {
-            self.not_followed();
-            return Ok(());
+        match setup.controller.kind {
+            ControllerKind::Kinematic => {
+                self.not_followed();
+                return Ok(());
+            }
+            // Nobody asks the joints to be anywhere, and no drive reports an effort.
+            ControllerKind::Passive => return Ok(()),
+            _ => {}
         }
+        let limits = setup.actuator_limits();
+        let mut residuals = residuals(&self.observed, setup.declared_dynamics(), &limits)?;
         if let Some(contact) = first_contact {
             residuals.retain(|residual| residual.sample < contact);
         }
@@ -155,13 +165,16 @@ impl Search<'_> {
             robot.joints().iter().filter_map(|joint| robot.coordinate(joint.mimic?.master)).collect();
         // The effort of a joint that others follow moves those as well.
         self.open.retain(|joint| !masters.contains(joint));
-        let off: Vec<(usize, OffWindow)> = self
-            .open
-            .iter()
-            .filter_map(|&joint| Some((joint, self.off_window(&residuals, joint)?)))
-            .collect();
-        let alone: Vec<Fit> =
-            off.iter().filter_map(|&(joint, window)| self.of_actuator(joint, (&residuals, window))).collect();
+        let (mut off, mut alone) = (Vec::new(), Vec::new());
+        for &joint in &self.open {
+            let of = |held: Held| self.off_window(&residuals, (joint, held));
+            let stuck =
+                of(Held::Counts).and_then(|window| stuck::fault(&self.observed, joint, window.samples));
+            let window = of(if stuck.is_some() { Held::Counts } else { Held::LeftOut });
+            let Some(window) = window else { continue };
+            off.push((joint, window));
+            alone.extend(stuck.or_else(|| actuator::fault(&self.observed, joint, &residuals, window)));
+        }
         let joints: Vec<usize> = off.iter().map(|&(joint, _)| joint).collect();
         let together = off.iter().map(|&(_, window)| window).reduce(OffWindow::with);
         let Some(together) = together else { return Ok(()) };
@@ -176,11 +189,6 @@ impl Search<'_> {
         Ok(())
     }
 
-    fn of_actuator(&self, joint: usize, (residuals, window): (&[Residual], OffWindow)) -> Option<Fit> {
-        stuck::fault(&self.observed, joint, window.samples)
-            .or_else(|| actuator::fault(&self.observed, joint, residuals, window))
-    }
-
     /// Joints of a robot that is placed at its setpoints, and are not there.
     fn not_followed(&mut self) {
         for &joint in &self.open {
@@ -190,10 +198,10 @@ impl Search<'_> {
     }
 
     /// When the residual of a joint is more than the length of a step makes it, until the joint stops at a limit.
-    fn off_window(&self, residuals: &[Residual], joint: usize) -> Option<OffWindow> {
+    fn off_window(&self, residuals: &[Residual], (joint, held): (usize, Held)) -> Option<OffWindow> {
         let before_limit = self.observed.samples_before_limit(joint);
         let usable = residuals.partition_point(|residual| residual.sample < before_limit);
         let residuals = &residuals[..usable];
-        OffWindow::of(residuals, self.observed.samples(), joint)
+        OffWindow::of(residuals, self.observed.samples(), (joint, held))
     }
 }

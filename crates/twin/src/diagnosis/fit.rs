@@ -69,26 +69,81 @@ pub(super) fn rms(values: impl Iterator<Item = f64>) -> f64 {
     if count > 0.0 { f64::sqrt(sum / count) } else { 0.0 }
 }
 
-/// The parameters `p` that bring `columns p` nearest to `values`, and what they leave of it, as a part.
+/// The parameters `p` that bring `columns p` nearest to `values`.
+#[derive(Debug)]
+pub(super) struct Solution {
+    pub(super) parameters: Vec<f64>,
+    /// What they leave of the values, as a part.
+    pub(super) remaining: f64,
+    /// Whether a parameter follows from the values, and not only sums of it with others.
+    pub(super) is_shown: Vec<bool>,
+}
+
+/// The parameters of columns that are told apart as far as rounding allows, and what they leave, as a part.
 pub(super) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<(Vec<f64>, f64)> {
-    /// Directions of the parameters that change nothing are left at zero.
     const SINGULAR: f64 = 1e-9;
+    let scales: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
+    let Solution { parameters, remaining, .. } = solve((columns, &scales), values, SINGULAR)?;
+    Some((parameters, remaining))
+}
+
+/// The Euclidean norm.
+pub(super) fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>().sqrt()
+}
+
+/// The parameters of columns that are divided by `scales`. Directions of the parameters whose singular value is below the part
+/// `singular` of the largest are left at zero.
+pub(super) fn solve(
+    (columns, scales): (&[Vec<f64>], &[f64]),
+    values: &[f64],
+    singular: f64,
+) -> Option<Solution> {
+    /// A parameter with less of a direction that is left out does not depend on it. Kind: engineering.
+    const PART_OF_DIRECTION: f64 = 0.05;
     let whole = rms(values.iter().copied());
-    if values.is_empty() || whole <= 0.0 {
+    if values.is_empty() || whole <= 0.0 || scales.iter().any(|scale| !scale.is_finite() || *scale <= 0.0) {
         return None;
     }
-    let columns: Vec<DVector<f64>> =
-        columns.iter().map(|column| DVector::from_column_slice(column)).collect();
-    let scales: Vec<f64> = columns.iter().map(DVector::norm).collect();
-    if scales.iter().any(|scale| !scale.is_finite() || *scale <= 0.0) {
-        return None;
-    }
-    let scaled: Vec<DVector<f64>> =
-        columns.iter().zip(&scales).map(|(column, scale)| column / *scale).collect();
-    let matrix = DMatrix::from_columns(&scaled);
+    let scaled =
+        columns.iter().zip(scales).map(|(column, scale)| DVector::from_column_slice(column) / *scale);
+    let matrix = DMatrix::from_columns(&scaled.collect::<Vec<_>>());
     let values = DVector::from_column_slice(values);
-    let solved = matrix.clone().svd(true, true).solve(&values, SINGULAR).ok()?;
+    let svd = matrix.clone().svd(true, true);
+    let smallest = singular * svd.singular_values.max();
+    let solved = svd.solve(&values, smallest).ok()?;
+    let directions = svd.v_t.as_ref()?;
+    let is_shown = |parameter: usize| {
+        let of_directions = directions.column(parameter);
+        let mut each = of_directions.iter().zip(svd.singular_values.iter());
+        each.all(|(part, value)| *value > smallest || part.abs() < PART_OF_DIRECTION)
+    };
     let left = &values - &matrix * &solved;
-    let parameters = solved.iter().zip(&scales).map(|(value, scale)| value / scale).collect();
-    Some((parameters, rms(left.iter().copied()) / whole))
+    Some(Solution {
+        parameters: solved.iter().zip(scales).map(|(value, scale)| value / scale).collect(),
+        remaining: rms(left.iter().copied()) / whole,
+        is_shown: (0..columns.len()).map(is_shown).collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parameter_without_effect_is_not_shown() {
+        let column = |of: fn(f64) -> f64| (0..100).map(|at| of(f64::from(at) / 10.0)).collect::<Vec<f64>>();
+        let nothing = column(|at| 1e-15 * (7.0 * at).sin());
+        let columns = [column(f64::sin), column(f64::cos), nothing];
+        let values: Vec<f64> = columns[0].iter().zip(&columns[1]).map(|(a, b)| 2.0 * a - 3.0 * b).collect();
+        let scale = norm(&columns[0]);
+        let solution = solve((&columns, &[scale; 3]), &values, 1e-3).expect("they are independent");
+        assert_eq!(solution.is_shown, [true, true, false]);
+        assert!((solution.parameters[0] - 2.0).abs() < 1e-9 && (solution.parameters[1] + 3.0).abs() < 1e-9);
+        assert!(solution.parameters[2].abs() < 1e-9 && solution.remaining < 1e-9);
+        // Of two that have the same effect only the sum is shown.
+        let twice = [columns[0].clone(), columns[0].clone(), columns[1].clone()];
+        let solution = solve((&twice, &[scale; 3]), &values, 1e-3).expect("a column is independent");
+        assert_eq!(solution.is_shown, [false, false, true]);
+    }
 }

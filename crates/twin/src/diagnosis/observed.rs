@@ -15,6 +15,10 @@ const SLOW: f64 = 1e-3;
 /// Within this of its limit a joint may be held by it, rad and m.
 const AT_LIMIT: f64 = 1e-4;
 
+/// Rounding of a position beyond this is more than that of the poses, rad and m: a simulation that has become unstable says
+/// nothing from then on.
+const FARTHEST: f64 = 1e5;
+
 /// All kept samples as series over time, joint by joint.
 #[derive(Debug)]
 pub(super) struct Observed<'a> {
@@ -40,7 +44,8 @@ pub(super) struct Observed<'a> {
 
 impl<'a> Observed<'a> {
     pub(super) fn new(store: &'a SampleStore, robot: &'a Robot, clock: &'a RunClock) -> Self {
-        let samples = store.steps().len();
+        let is_told = |&sample: &usize| store.sample(sample).q.iter().all(|q| q.abs() < FARTHEST);
+        let samples = (0..store.steps().len()).take_while(is_told).count();
         let series = |of: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
             (0..robot.dof()).map(|joint| (0..samples).map(|sample| of(joint, sample)).collect()).collect()
         };
@@ -52,12 +57,12 @@ impl<'a> Observed<'a> {
         });
         for ((q, measured), &joint) in q.iter_mut().zip(&measured).zip(robot.movable_joints()) {
             if robot.joint(joint).kind.is_angular() {
-                unwind(q, measured.first().copied().unwrap_or(0.0));
+                unwind(q, measured, store.steps());
             }
         }
         let minus = |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a - b).collect();
         let error = measured.iter().zip(&q).map(minus).collect();
-        let times_s = store.steps().iter().map(|&step| clock.time_s(step)).collect();
+        let times_s = store.steps()[..samples].iter().map(|&step| clock.time_s(step)).collect();
         let (uncertainty, is_used) = (Vec::new(), vec![true; samples]);
         let mut observed = Self {
             store,
@@ -224,11 +229,50 @@ fn nearest_turn(angle: f64, near: f64) -> f64 {
     angle + std::f64::consts::TAU * ((near - angle) / std::f64::consts::TAU).round()
 }
 
-/// Takes out jumps by whole turns: the first angle is the one nearest to `first`.
-fn unwind(angles: &mut [f64], first: f64) {
-    let mut before = first;
-    for angle in angles {
-        *angle = nearest_turn(*angle, before);
-        before = *angle;
+/// Takes out jumps by whole turns: the first angle is the one nearest to the measured one, and the others are nearest to the
+/// one before. Over steps that are not kept, and if the joint has turned as far as the encoder says in a single one, they are
+/// nearest to the one before with what the encoder has gone since.
+fn unwind(angles: &mut [f64], measured: &[f64], steps: &[u64]) {
+    /// How near to that it then is, rad.
+    const AS_MEASURED: f64 = 0.1;
+    if let (Some(angle), Some(measured)) = (angles.first_mut(), measured.first()) {
+        *angle = nearest_turn(*angle, *measured);
+    }
+    for sample in 1..angles.len() {
+        let before = angles[sample - 1];
+        let as_measured = before + measured[sample] - measured[sample - 1];
+        let angle = nearest_turn(angles[sample], as_measured);
+        let is_as_measured =
+            steps[sample] > steps[sample - 1] + 1 || (angle - as_measured).abs() < AS_MEASURED;
+        angles[sample] = if is_as_measured { angle } else { nearest_turn(angle, before) };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_turns_between_kept_samples_are_those_of_the_encoder() {
+        let positions: Vec<f64> = (0..200).map(|sample| 2.9 * f64::from(sample)).collect();
+        let mut steps: Vec<u64> = (0..200).map(|sample| 8 * sample).collect();
+        let wrapped: Vec<f64> = positions.iter().map(|&angle| nearest_turn(angle, 0.0)).collect();
+        let largest =
+            |shown: &[f64]| shown.iter().zip(&positions).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        // Drift and offset of an encoder do not become turns.
+        for rate in [0.0, 0.01, -0.01] {
+            let measured: Vec<f64> =
+                positions.iter().zip(0_u32..).map(|(q, at)| q + 1.0 + rate * f64::from(at)).collect();
+            let mut shown = wrapped.clone();
+            unwind(&mut shown, &measured, &steps);
+            assert!(largest(&shown) < 1e-9, "{}", largest(&shown));
+        }
+        // An encoder that jumps by more than half a turn from one step to the next does not turn the joint.
+        steps = (0..200).collect();
+        let jumps: Vec<f64> =
+            positions.iter().enumerate().map(|(at, q)| q + if at < 100 { 0.0 } else { 3.5 }).collect();
+        let mut shown = wrapped;
+        unwind(&mut shown, &jumps, &steps);
+        assert!(largest(&shown) < 1e-9, "{}", largest(&shown));
     }
 }

@@ -5,7 +5,11 @@ use congruent_dynamics::{BodyTree, DynamicsBuffer, DynamicsError, JointMotion};
 use nalgebra::Isometry3;
 
 use super::{fit::Window, observed::Observed};
-use crate::{bodies::MovingBodies, proximity::Clearance, setup::DeclaredDynamics};
+use crate::{
+    bodies::MovingBodies,
+    proximity::Clearance,
+    setup::{ActuatorLimits, DeclaredDynamics},
+};
 
 /// Residuals below this part of the largest effort of the joint are the difference of the engine's step from its limit, which
 /// is proportional to its length. Worst seen without fault, beyond what `CHANGES` takes: 0.0018, in steps of 1 ms, on UR5e and
@@ -13,6 +17,13 @@ use crate::{bodies::MovingBodies, proximity::Clearance, setup::DeclaredDynamics}
 const STEP_PART: f64 = 0.02;
 /// The same for the largest effort of any joint, whose motion the others feel. Worst seen 1.6e-4.
 const COUPLED_PART: f64 = 1e-3;
+/// The same for the largest declared dry friction of any joint, which the solver of the engine approaches. Kind: solver. Worst
+/// seen without fault: 0.036, in arms of seven joints with friction that move with soft gains.
+const FRICTION_PART: f64 = 0.05;
+/// In a step in which any actuator is at a limit, this part of the effort of a joint, and of the largest of any. Kind:
+/// engineering. Worst seen without fault: 0.1; an actuator that exerts nothing, or works against a brake, is off by 1.
+const LIMITED_PART: f64 = 0.3;
+const LIMITED_COUPLED: f64 = 0.02;
 /// What a step is off by is what changes in it: this many times the change of the needed effort.
 const CHANGES: f64 = 3.0;
 /// Rounding of second differences, N m: 1e-15 rad over 1e-6 s^2, times 10 kg m^2.
@@ -20,41 +31,77 @@ const SMALLEST: f64 = 1e-6;
 /// Fewer residuals that are off are the ringing after an impact, not a fault.
 const FEWEST: usize = 40;
 
+/// Whether what is missing of a joint counts in steps in which dry friction may hold it: all that is known is how much at least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Held {
+    Counts,
+    LeftOut,
+}
+
 /// When residuals are off: a range of them, and the samples in which the fault that makes them is there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OffWindow {
     pub(super) residuals: Window,
     pub(super) samples: Window,
+    /// What counts as off, without what a step changes.
+    threshold: f64,
+    /// Number of residuals before the joint came to a limit.
+    usable: usize,
 }
 
 impl OffWindow {
-    /// From the first to the last of `usable` residuals of a joint that are more than the length of a step makes them. If
-    /// hardly any follow, the fault lasts to the end of the run as far as is known.
-    pub(super) fn of(usable: &[Residual], samples: usize, joint: usize) -> Option<Self> {
+    /// From the first to the last of `usable` residuals of a joint that are more than the length of a step makes them, those
+    /// in which friction holds it included or not. If hardly any follow, the fault lasts to the end of the run as far as is
+    /// known.
+    pub(super) fn of(usable: &[Residual], samples: usize, (joint, held): (usize, Held)) -> Option<Self> {
         let largest =
             |joint: usize| usable.iter().map(|residual| residual.effort[joint].abs()).fold(0.0, f64::max);
         let joints = usable.first()?.effort.len();
         let of_any = (0..joints).map(largest).fold(0.0, f64::max);
-        let threshold = SMALLEST.max(STEP_PART * largest(joint)).max(COUPLED_PART * of_any);
+        let friction = FRICTION_PART * usable.first()?.friction;
+        let threshold = SMALLEST.max(STEP_PART * largest(joint)).max(COUPLED_PART * of_any).max(friction);
         let is_off = |index: usize| {
-            let Residual { missing, change, .. } = &usable[index];
-            missing[joint].abs() > threshold + CHANGES * change[joint]
+            let residual = &usable[index];
+            let counts = held == Held::Counts || !residual.is_held[joint];
+            let limited =
+                if residual.is_limited { residual.of_limits(joint) + LIMITED_COUPLED * of_any } else { 0.0 };
+            counts && residual.missing[joint].abs() > threshold + CHANGES * residual.change[joint] + limited
         };
         let residuals = Window::of(usable.len(), is_off)?;
-        if residuals.samples().filter(|&index| is_off(index)).count() < FEWEST {
+        let off = residuals.samples().filter(|&index| is_off(index)).count();
+        // What friction does not hold for once it holds again: a brake holds at most times.
+        let is_held = residuals.samples().any(|index| held == Held::Counts && usable[index].is_held[joint]);
+        if off < FEWEST || (is_held && 2 * off < residuals.len()) {
             return None;
         }
         let lasts = usable.len() - residuals.end < FEWEST;
         let end = if lasts { samples } else { usable[residuals.end].sample };
         // An effort acts in the step before the sample that shows it.
         let first = usable[residuals.first].sample - 1;
-        Some(Self { residuals, samples: Window { first, end } })
+        Some(Self { residuals, samples: Window { first, end }, threshold, usable: usable.len() })
+    }
+
+    /// Whether the window ends before the run because the fault does: it would show in enough of what follows. `expected` is
+    /// what would be missing of the joint with the fault.
+    pub(super) fn ends(self, all: &[Residual], joint: usize, expected: impl Fn(&Residual) -> f64) -> bool {
+        /// So far above what counts as off a fault shows in every sample.
+        const CLEARLY: f64 = 2.0;
+        let would_show = |residual: &&Residual| {
+            let off = self.threshold + CHANGES * residual.change[joint];
+            !residual.is_held[joint] && expected(residual).abs() > CLEARLY * off
+        };
+        let after = all.get(self.residuals.end..self.usable).unwrap_or_default();
+        after.iter().filter(would_show).take(FEWEST).count() == FEWEST
     }
 
     /// From the first of both to the last.
     pub(super) fn with(self, other: Self) -> Self {
         let both = |a: Window, b: Window| Window { first: a.first.min(b.first), end: a.end.max(b.end) };
-        Self { residuals: both(self.residuals, other.residuals), samples: both(self.samples, other.samples) }
+        Self {
+            residuals: both(self.residuals, other.residuals),
+            samples: both(self.samples, other.samples),
+            ..self
+        }
     }
 }
 
@@ -69,12 +116,37 @@ pub(super) struct Residual {
     pub(super) qd: [Vec<f64>; 2],
     pub(super) qdd: Vec<f64>,
     pub(super) effort: Vec<f64>,
-    /// Needed minus reported, by joint.
+    /// Needed minus reported, by joint; of a joint at rest what dry friction does not explain.
     pub(super) missing: Vec<f64>,
+    /// Whether dry friction may hold the joint, with any effort up to its own: what is missing is then at least this much.
+    pub(super) is_held: Vec<bool>,
+    /// Whether any actuator is at its largest effort or speed, which may take a part of the step: its effort is then not that
+    /// of the whole step, and the others feel it.
+    is_limited: bool,
+    /// Largest declared dry friction of any joint.
+    friction: f64,
     /// Whether the effort that was reported has arrived.
     is_known: bool,
     /// How much the needed effort has changed since the residual before, by joint.
     change: Vec<f64>,
+}
+
+impl Residual {
+    /// What a step in which an actuator is at a limit may be off by, beside what others make it.
+    fn of_limits(&self, joint: usize) -> f64 {
+        LIMITED_PART * self.effort[joint].abs()
+    }
+
+    /// Whether any actuator is at its largest effort or speed.
+    fn is_at(&self, limits: &[ActuatorLimits]) -> bool {
+        /// Nearer to a limit than this part of it is at it. Kind: engineering.
+        const AT_LIMIT: f64 = 1e-3;
+        let reaches = |value: f64, limit: f64| value.abs() >= (1.0 - AT_LIMIT) * limit;
+        limits.iter().enumerate().any(|(joint, limit)| {
+            let speeds = self.qd.iter().map(|qd| qd[joint]);
+            reaches(self.effort[joint], limit.effort) || speeds.into_iter().any(|qd| reaches(qd, limit.speed))
+        })
+    }
 }
 
 /// The mean change of the needed effort from residual to residual in a neighbourhood, which a single zero does not hide.
@@ -103,6 +175,7 @@ fn find_changes(residuals: &mut [Residual], dof: usize) {
 pub(super) fn residuals(
     observed: &Observed<'_>,
     mut declared: DeclaredDynamics<'_>,
+    limits: &[ActuatorLimits],
 ) -> Result<Vec<Residual>, DynamicsError> {
     let mut found: Vec<Residual> = Vec::new();
     for sample in 2..observed.samples() {
@@ -115,6 +188,9 @@ pub(super) fn residuals(
     }
     find_changes(&mut found, observed.robot.dof());
     found.retain(|residual| residual.is_known);
+    for residual in &mut found {
+        residual.is_limited = residual.is_at(limits);
+    }
     let is_driven = found.iter().any(|residual| residual.effort.iter().any(|effort| effort.abs() > 0.0));
     Ok(if is_driven { found } else { Vec::new() })
 }
@@ -148,20 +224,39 @@ fn residual(
         None => (residual.clone(), false),
     };
     residual.iter_mut().zip(&effort).for_each(|(residual, effort)| *residual -= effort);
+    let friction = tree.resistances().iter().map(|resistance| resistance.friction).fold(0.0, f64::max);
+    let standing = STANDING_SPEED.max(STANDING_PART * qd[1].iter().map(|qd| qd.abs()).fold(0.0, f64::max));
+    let mut is_held = vec![false; q.len()];
     for (joint, resistance) in tree.resistances().iter().enumerate() {
-        if stands([qd[0][joint], qd[1][joint]]) {
+        is_held[joint] = resistance.friction > 0.0 && stands([qd[0][joint], qd[1][joint]], standing);
+        if is_held[joint] {
             residual[joint] = not_held(residual[joint], resistance.friction, mean[joint]);
         }
     }
-    Ok(Residual { sample, q, qd, qdd, effort, missing: residual, is_known, change })
+    Ok(Residual {
+        sample,
+        q,
+        qd,
+        qdd,
+        effort,
+        missing: residual,
+        is_held,
+        is_limited: false,
+        friction,
+        is_known,
+        change,
+    })
 }
 
 /// Slower than this, rad/s or m/s, a joint stands: dry friction holds it. Kind: solver; the engine lets it creep.
 const STANDING_SPEED: f64 = 1e-4;
 
-/// Whether a joint stands in a step, or turns round in it.
-fn stands([before, after]: [f64; 2]) -> bool {
-    before * after <= 0.0 || before.abs().max(after.abs()) < STANDING_SPEED
+/// The same as a part of the speed of the fastest joint, whose motion makes the others creep. Worst seen 4e-4.
+const STANDING_PART: f64 = 1e-3;
+
+/// Whether a joint stands in a step, or turns round in it; slower than `standing` it stands.
+fn stands([before, after]: [f64; 2], standing: f64) -> bool {
+    before * after <= 0.0 || before.abs().max(after.abs()) < standing
 }
 
 /// What a residual that was computed with the friction of a speed is if the joint stands, which dry friction of any size up

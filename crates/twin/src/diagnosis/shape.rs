@@ -71,7 +71,7 @@ pub(super) fn fit(
     let samples = error.len();
     let sums = Sums::new(error, series, is_used, count);
     let gain = |first: usize, end: usize| sums.fit(series, Window { first, end }).1;
-    let mut window = Window { first: 0, end: samples };
+    let mut window = coarse(Window::of(samples, |sample| error[sample].powi(2) > negligible), samples, gain);
     for _ in 0..ROUNDS {
         let first = (0..window.end).max_by(|&a, &b| gain(a, window.end).total_cmp(&gain(b, window.end)))?;
         let last = (first + 1..=samples).max_by(|&a, &b| gain(first, a).total_cmp(&gain(first, b)))?;
@@ -87,6 +87,24 @@ pub(super) fn fit(
         window.first = (window.first..window.end).rev().find(|&first| gain(first, window.end) >= enough)?;
     }
     Some(Shape { window, factor: sums.fit(series, window).0, count })
+}
+
+/// The best window of a grid over the samples that are off, over the whole run if none is by itself. Begin and end are sought
+/// together: of an axis that is flipped for a while, the best begin of a window that lasts to the end of the run is not that of
+/// the fault.
+fn coarse(off: Option<Window>, samples: usize, gain: impl Fn(usize, usize) -> f64) -> Window {
+    /// Places of a begin or an end.
+    const PLACES: usize = 128;
+    let whole = Window { first: 0, end: samples };
+    let range = off.unwrap_or(whole);
+    let place = |index: usize| range.first + index * range.len() / PLACES;
+    let windows = (0..PLACES).flat_map(|first| (first + 1..=PLACES).map(move |end| (first, end)));
+    let windows = windows.map(|(first, end)| Window { first: place(first), end: place(end) });
+    let better = |best: (Window, f64), window: Window| {
+        let gain = gain(window.first, window.end);
+        if gain > best.1 { (window, gain) } else { best }
+    };
+    windows.filter(|window| window.first < window.end).fold((whole, gain(0, samples)), better).0
 }
 
 impl Shape {

@@ -56,15 +56,17 @@ fn size(pose: &Isometry3<f64>) -> f64 {
 fn constant(window: Window, pose: impl Fn(usize) -> Isometry3<f64>) -> (Isometry3<f64>, f64) {
     #[expect(clippy::cast_precision_loss, reason = "samples are few")]
     let count = window.len() as f64;
+    // Turns are counted from the first one: half a turn this way is half a turn the other way.
+    let first = pose(window.first).rotation;
     let (shift, turn) = window.samples().map(&pose).fold(
         (Vector3::zeros(), Vector3::zeros()),
         |(shift, turn): (Vector3<f64>, Vector3<f64>), pose| {
-            (shift + pose.translation.vector, turn + pose.rotation.scaled_axis())
+            (shift + pose.translation.vector, turn + (first.inverse() * pose.rotation).scaled_axis())
         },
     );
     let mean = Isometry3::from_parts(
         Translation3::from(shift / count),
-        UnitQuaternion::from_scaled_axis(turn / count),
+        first * UnitQuaternion::from_scaled_axis(turn / count),
     );
     let left = rms(window.samples().map(|sample| size(&(mean.inverse() * pose(sample)))));
     (mean, left / size(&mean))

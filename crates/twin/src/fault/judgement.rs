@@ -1,5 +1,7 @@
 //! Whether a diagnosis has found the faults that a scenario has injected.
 
+use std::f64::consts::TAU;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -9,6 +11,9 @@ use crate::scenario::FaultKind;
 /// How far a found value may be from the true one, as a part of the largest value of the fault in the same unit.
 const OFF_BY_PART: f64 = 0.05;
 
+/// A value this near is the same, in its unit: rounding, where the fault has no value of this unit but zero.
+const SAME: f64 = 1e-9;
+
 /// How far the share of lost readings may be from the probability of a loss: three standard deviations of 1400 readings, of
 /// which every second is lost.
 const SHARE_OFF_BY: f64 = 0.04;
@@ -17,7 +22,8 @@ const SHARE_OFF_BY: f64 = 0.04;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Judgement {
-    /// Every fault is found with kind, joint or link, and values within 5 %, and nothing else.
+    /// Every fault is found with kind, joint or link, and values within 5 % (or 1e-9), and nothing else. Coordinates
+    /// that the motion does not show are not found, and not compared.
     Right,
     /// Kind and joint or link are found; a value is farther away.
     OtherValue,
@@ -51,12 +57,45 @@ fn values_are_near(injected: &RunFault, found: &RunFault) -> bool {
     let value = |fault: &RunFault, quantity: &str| {
         fault.values.iter().find(|value| value.quantity == quantity).map_or(0.0, |value| value.value)
     };
+    let is_found = |quantity: &str| found.values.iter().any(|value| value.quantity == quantity);
     let near = |known: &FaultQuantity| {
         let of_unit = injected.values.iter().filter(|value| value.unit == known.unit);
         let scale = of_unit.map(|value| value.value.abs()).fold(known.value.abs(), f64::max);
         let allowed =
             if injected.kind == FaultKind::DroppedSamples { SHARE_OFF_BY } else { OFF_BY_PART * scale };
-        (value(injected, known.quantity) - value(found, known.quantity)).abs() <= allowed
+        let difference = (value(injected, known.quantity) - value(found, known.quantity)).abs();
+        // A turn by 180 deg is one by -180 deg.
+        let is_turn = injected.kind == FaultKind::ShiftedTool && known.unit == "rad";
+        let difference = if is_turn { difference.min((TAU - difference).abs()) } else { difference };
+        difference <= allowed.max(SAME)
+            || (injected.kind == FaultKind::WrongPayload && !is_found(known.quantity))
     };
     injected.values.iter().chain(&found.values).all(near)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Isometry3, Vector3};
+
+    use super::*;
+
+    #[test]
+    fn rounding_and_whole_turns_are_no_other_value() {
+        let turned = |x, yaw| {
+            let shift = Isometry3::new(Vector3::new(x, 0.0, 0.0), Vector3::new(0.0, 0.0, yaw));
+            vec![RunFault {
+                kind: FaultKind::ShiftedTool,
+                joints: Vec::new(),
+                link: Some("tool0".to_owned()),
+                values: FaultQuantity::shift(&shift),
+                from_s: 0.0,
+                until_s: None,
+            }]
+        };
+        let half = std::f64::consts::PI;
+        assert_eq!(judge(&turned(0.0, 1.5), &turned(1e-15, 1.5)), Judgement::Right);
+        assert_eq!(judge(&turned(0.0, 1.5), &turned(1e-6, 1.5)), Judgement::OtherValue);
+        assert_eq!(judge(&turned(0.0, half), &turned(0.0, 1e-9 - half)), Judgement::Right);
+        assert_eq!(judge(&turned(0.0, half), &turned(0.0, -1.0)), Judgement::OtherValue);
+    }
 }

@@ -181,7 +181,11 @@ pub(super) fn describe(
         }
         FaultAction::WrongPayload { load } => {
             link = Some(load.link.get());
-            FaultQuantity::payload(load.inertia.mass_kg, load.inertia.link_from_inertial.translation.vector)
+            FaultQuantity::payload(
+                load.inertia.mass_kg,
+                load.inertia.link_from_inertial.translation.vector,
+                [true; 3],
+            )
         }
         FaultAction::ShiftedTool { tip, tip_from_shifted, .. } => {
             link = Some(*tip);

@@ -63,12 +63,13 @@ impl FaultQuantity {
         present.map(|(quantity, value, unit)| Self { quantity, value, unit }).collect()
     }
 
-    /// Mass and place of a payload, the latter in the frame of link `tip`.
-    pub(crate) fn payload(mass_kg: f64, com_in_tip: Vector3<f64>) -> Vec<Self> {
+    /// Mass and place of a payload, the latter in the frame of link `tip`: the coordinates that are known.
+    pub(crate) fn payload(mass_kg: f64, com_in_tip: Vector3<f64>, is_known: [bool; 3]) -> Vec<Self> {
         let mass = Self { quantity: "mass", value: mass_kg, unit: "kg" };
-        let place = ["x", "y", "z"].into_iter().zip(com_in_tip.iter());
+        let place = ["x", "y", "z"].into_iter().zip(com_in_tip.iter()).zip(is_known);
+        let known = place.filter(|(_, is_known)| *is_known);
         std::iter::once(mass)
-            .chain(place.map(|(quantity, &value)| Self { quantity, value, unit: "m" }))
+            .chain(known.map(|((quantity, &value), _)| Self { quantity, value, unit: "m" }))
             .collect()
     }
 
@@ -110,10 +111,10 @@ impl RunFault {
             }
             FaultKind::AddedFriction => format!("added friction, {}", self.listed()),
             FaultKind::WrongPayload => {
-                let place = self.values[1..]
-                    .iter()
-                    .map(|value| position(value.value, value.unit))
-                    .collect::<Vec<_>>();
+                let place = ["x", "y", "z"].map(|name| {
+                    let known = value(name).map(|value| position(value.value, value.unit));
+                    known.unwrap_or_else(|| format!("{name} not shown by this motion"))
+                });
                 format!("carries {} that nobody knows of, at ({})", shown("mass"), place.join(", "))
             }
             FaultKind::ShiftedTool => format!("stands elsewhere, by {}", self.listed()),
