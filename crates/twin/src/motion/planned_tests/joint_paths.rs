@@ -120,20 +120,20 @@ fn tables_that_cannot_be_played_are_refused_with_their_line() {
     }
 }
 
-/// From row to row the joint goes at 160 deg/s, in between the spline is faster than the limit of 180 deg/s.
+/// From row to row the joint goes at 156 deg/s, in between the spline is faster than the limit of 180 deg/s.
 #[test]
 fn a_spline_that_is_faster_than_the_limits_between_its_rows_is_warned_of() {
-    let text = "time_s,elbow_joint_deg\n0,90\n0.25,130\n0.5,90\n0.75,130\n1,90\n";
+    let text = "time_s,elbow_joint_deg\n0,90\n0.25,91\n0.5,130\n0.75,91\n1,90\n";
     let (_folder, motion) = playback(text, Between::Spline);
     let setup = planned(motion);
     let warning = setup.warnings.iter().find(|warning| warning.code == "scenario::over_limit").unwrap();
-    let said = &warning.message;
-    assert!(said.starts_with("joint \"elbow_joint\" would move at "), "{said}");
+    let said = warning.message.strip_prefix("joint \"elbow_joint\" would move at ").unwrap();
     assert!(said.ends_with(" s, its limit is 180 deg/s"), "{said}");
-    // Of the value that is said the run has the same.
-    let largest =
-        instants(&setup).iter().fold(0.0_f64, |largest, now| largest.max(now.qd[2].abs())).to_degrees();
-    assert!(largest > 200.0 && said.contains(&format!("move at {largest:.0} deg/s")), "{largest}: {said}");
+    // The setpoints of the run are as fast, but for three digits and the instants that are looked at.
+    let found = instants(&setup);
+    let largest = found.iter().fold(0.0_f64, |largest, now| largest.max(now.qd[2].abs())).to_degrees();
+    let value: f64 = said.split(' ').next().unwrap().parse().unwrap();
+    assert!(largest > 185.0 && (value - largest).abs() < 1.0, "{largest}: {said}");
     let (_folder, motion) = playback(text, Between::Linear);
     assert!(planned(motion).warnings.iter().all(|warning| warning.code != "scenario::over_limit"));
 }
