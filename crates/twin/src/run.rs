@@ -2,6 +2,7 @@
 //! sample after another. It does not know what the source is.
 
 use congruent_agreement::{compare::Model, report::ReportedDiagnosis};
+use congruent_description::Robot;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
 use nalgebra::Isometry3;
 use sha2::{Digest, Sha256};
@@ -17,7 +18,7 @@ use crate::{
     setup::RunSetup,
     source::{ActuatorUse, JointStateSource, SimulationSource, SourceError, stop_accelerations},
     stopping::Stopping,
-    verdict::{CheckResult, CheckValue, Status, Stop},
+    verdict::{CheckResult, CheckValue, Status, Stop, StopAcceleration, StopLimit},
 };
 
 /// Why a run cannot start or cannot continue.
@@ -237,6 +238,7 @@ impl<'a> Run<'a> {
             time_s: self.setup.clock.time_s(step),
             motions_s: self.setup.trajectory.duration_s() + longer_s(self.source.as_ref()),
             is_last: false,
+            is_stopping: self.stopping.is_some(),
             joints: self.source.joints(),
             forces: self.source.step_forces(),
             model: self.model.latest(),
@@ -300,9 +302,10 @@ impl<'a> Run<'a> {
         let stopped = self.stopping.as_ref().map(|stopping| {
             let result = &mut results[stopping.check()];
             let declared = self.setup.trajectory.declared_accelerations();
-            let accelerations = stop_accelerations(&self.setup.description.robot, declared);
-            result.notes.push(stopping.note(steps, &accelerations));
-            stopping.report(result, &self.names.joints, &accelerations)
+            let robot = &self.setup.description.robot;
+            let braked = braked(robot, declared, self.source.stopped_at_end_of_range());
+            result.notes.push(stopping.note(steps, robot, &braked));
+            stopping.report(result, &self.names.joints, braked)
         });
         let outcome = Outcome {
             diagnosis: has_failed.then(|| diagnose(self.setup, &self.store, &mut self.clearance)).flatten(),
@@ -317,6 +320,18 @@ impl<'a> Run<'a> {
         };
         (outcome, result)
     }
+}
+
+/// How each joint was slowed down in a stop.
+fn braked(robot: &Robot, declared: &[f64], lost: &[Option<f64>]) -> Vec<StopAcceleration> {
+    let limits = stop_accelerations(robot, declared).into_iter().zip(robot.movable_joint_names());
+    let one = |(at, ((limit, source), joint)): (usize, ((f64, StopLimit), &str))| StopAcceleration {
+        joint: joint.to_owned(),
+        limit,
+        source,
+        lost_at_end_of_range: lost.get(at).copied().flatten(),
+    };
+    limits.enumerate().map(one).collect()
 }
 
 /// By how much the motions end later than planned.

@@ -22,6 +22,8 @@ pub struct Sample<'a> {
     /// Whether no step follows. For monitors this is the end of the scenario, for recorders also the end
     /// by a check at this instant.
     pub is_last: bool,
+    /// Whether a check stops the run: from its violation on the setpoint leaves the motions and comes to rest.
+    pub is_stopping: bool,
     /// The joints: true states, measured states and setpoints.
     pub joints: JointSample<'a>,
     /// What acted in the step that led here.

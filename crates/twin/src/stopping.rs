@@ -1,7 +1,7 @@
 //! The way of an arm to rest, after the first violation of a check that stops the run.
 
 use congruent_description::{
-    JointValues, RobotQ,
+    JointValues, Robot, RobotQ,
     display::{length, quantity},
 };
 use nalgebra::Vector3;
@@ -84,7 +84,7 @@ impl Stopping {
     }
 
     /// In words, as a remark on the check.
-    pub(crate) fn note(&self, steps: u64, accelerations: &[(f64, StopLimit)]) -> String {
+    pub(crate) fn note(&self, steps: u64, robot: &Robot, accelerations: &[StopAcceleration]) -> String {
         let (time, step) = (quantity(self.time_s, "s"), self.step);
         let note = format!("stopped the run at {time}, after {step} of {steps} steps");
         if !self.can_stop {
@@ -92,13 +92,16 @@ impl Stopping {
         }
         let (duration, way) = (quantity(self.duration_s, "s"), length(self.tcp_path_m));
         let rest = if self.is_at_rest { "at rest" } else { "not at rest" };
-        let declared = accelerations.iter().filter(|(_, source)| *source == StopLimit::Declared).count();
+        let declared = accelerations.iter().filter(|used| used.source == StopLimit::Declared).count();
         let braked = match declared {
             0 => "velocity limits in 0.25 s, none is declared".to_owned(),
             _ if declared == accelerations.len() => "as declared".to_owned(),
             _ => format!("as declared for {declared} of {} joints", accelerations.len()),
         };
-        format!("{note}; the arm is {rest} {duration} later, its TCP {way} further (accelerations: {braked})")
+        let ends = ends_of_range(robot, accelerations);
+        format!(
+            "{note}; the arm is {rest} {duration} later, its TCP {way} further (accelerations: {braked}{ends})"
+        )
     }
 
     /// For the report.
@@ -106,7 +109,7 @@ impl Stopping {
         &self,
         result: &CheckResult,
         joints: &[String],
-        accelerations: &[(f64, StopLimit)],
+        accelerations: Vec<StopAcceleration>,
     ) -> Stop {
         let gone: Vec<f64> = self.q.iter().zip(&self.from).map(|(to, from)| to - from).collect();
         Stop {
@@ -120,14 +123,22 @@ impl Stopping {
                 duration_s: self.duration_s,
                 joints: JointValues::new(joints, &gone),
                 tcp_path_m: self.tcp_path_m,
-                accelerations: joints
-                    .iter()
-                    .zip(accelerations)
-                    .map(|(joint, &(limit, source))| StopAcceleration { joint: joint.clone(), limit, source })
-                    .collect(),
+                accelerations,
             }),
         }
     }
+}
+
+/// Joints that came to the end of their range on the way to rest, in words.
+fn ends_of_range(robot: &Robot, accelerations: &[StopAcceleration]) -> String {
+    let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+    let lost =
+        joints.zip(accelerations).filter_map(|(joint, used)| Some((joint, used.lost_at_end_of_range?)));
+    let words = lost.map(|(joint, speed)| {
+        let speed = quantity(speed, &format!("{}/s", joint.kind.unit()));
+        format!(", but {} reached the end of its range at {speed} and was stopped there at once", joint.name)
+    });
+    words.collect()
 }
 
 #[cfg(test)]

@@ -203,6 +203,10 @@ pub struct StopAcceleration {
     pub limit: f64,
     /// Where it is from.
     pub source: StopLimit,
+    /// The speed, rad/s or m/s, that its setpoint lost at once where it came to the end of the joint's range in the stop, beyond
+    /// this acceleration; absent if it did not come there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lost_at_end_of_range: Option<f64>,
 }
 
 /// Where the acceleration of a stop is from.

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use congruent_description::{Diagnostic, RobotDescription, RobotQ, display::quantity};
+use congruent_description::{
+    Diagnostic, RobotDescription, RobotQ,
+    display::{quantity, quantity_in_full},
+};
 
 use super::{
     course::PlannedMove,
@@ -13,7 +16,7 @@ use crate::scenario::{FilePlace, OverLimit};
 
 /// The code of the warning that a motion takes longer than the scenario says.
 pub(super) const SLOWED: &str = "scenario::slowed";
-/// In units of the third digit: a duration that rounding has put above it is not rounded up. Kind: rounding.
+/// In units of the fourth digit: a duration that rounding has put above it is not rounded up. Kind: rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// The robot, the start of the motion, and its place in the scenario file.
@@ -37,21 +40,10 @@ impl Planning<'_> {
         where_: impl Fn(f64) -> String,
     ) -> Result<PlannedMove, Diagnostic> {
         let Some(excess) = worst_excess(&planned, self.limits) else { return Ok(planned) };
-        let Excess { rate, time_s, value, limit, .. } = excess;
         let duration_s = planned.pace.duration_s();
         let least_s = rounded_up(duration_s * excess.slower);
-        let robot = &self.description.robot;
-        let joint = robot.joint(robot.movable_joints()[excess.coordinate]);
-        let unit = format!("{}{}", joint.kind.unit(), rate.per());
-        let [value, limit] = [value, limit].map(|value| quantity(value, &unit));
-        let message = format!(
-            "joint \"{}\" {} {value} at {}{}, its limit is {limit}",
-            joint.name,
-            rate.words(),
-            quantity(time_s, "s"),
-            where_(time_s),
-        );
-        let [least, given] = [least_s, duration_s].map(|duration_s| quantity(duration_s, "s"));
+        let message = self.in_words(&excess, &where_(excess.time_s));
+        let [least, given] = [quantity_in_full(least_s, "s"), quantity(duration_s, "s")];
         match self.limits.over_limit {
             OverLimit::Refuse => {
                 let error = Diagnostic::error("scenario::over_limit", message);
@@ -72,10 +64,38 @@ impl Planning<'_> {
     }
 }
 
-/// Up to the next value of three digits, as people read and write it.
+impl Planning<'_> {
+    /// Warns of a move that is taken as it is.
+    pub(super) fn warn_beyond_limits(&mut self, planned: &PlannedMove, times: f64, place: FilePlace<'_>) {
+        let excess = worst_excess(planned, self.limits);
+        if let Some(excess) = excess.filter(|excess| excess.value > times * excess.limit) {
+            let warning = Diagnostic::warning("scenario::over_limit", self.in_words(&excess, ""));
+            let slower = quantity_in_full(rounded_up(planned.pace.duration_s() * excess.slower), "s");
+            let help = format!("the table is played as it is; over {slower} in all it would keep this limit");
+            self.warnings.push(place.mark(warning.with_help(help)));
+        }
+    }
+
+    /// An excess in words; `where_` says where along a path it is.
+    fn in_words(&self, excess: &Excess, where_: &str) -> String {
+        let robot = &self.description.robot;
+        let joint = robot.joint(robot.movable_joints()[excess.coordinate]);
+        let unit = format!("{}{}", joint.kind.unit(), excess.rate.per());
+        let [value, limit] = [excess.value, excess.limit].map(|value| quantity(value, &unit));
+        format!(
+            "joint \"{}\" {} {value} at {}{where_}, its limit is {limit}",
+            joint.name,
+            excess.rate.words(),
+            quantity(excess.time_s, "s"),
+        )
+    }
+}
+
+/// Up to the next value of four digits, as people read and write it.
 fn rounded_up(duration_s: f64) -> f64 {
-    let unit = 10.0_f64.powf(duration_s.log10().floor() - 2.0);
-    (duration_s / unit - ROUNDING).ceil() * unit
+    // Divided by a power of ten, a whole number has the digits that it is written with.
+    let per_s = 10.0_f64.powf(3.0 - duration_s.log10().floor());
+    (duration_s * per_s - ROUNDING).ceil() / per_s
 }
 
 /// The fault of a move without a duration whose joint has no velocity limit.

@@ -78,8 +78,10 @@ impl<'a> ReferenceGenerator<'a> {
         trajectory: &'a Trajectory,
         description: &'a RobotDescription,
     ) -> Result<Self, KinematicsError> {
-        let servo_controller =
-            trajectory.has_servo().then(|| ServoController::new(description)).transpose()?;
+        let servo_controller = trajectory
+            .has_servo()
+            .then(|| ServoController::new(description, &trajectory.limits.velocity))
+            .transpose()?;
         Ok(Self::with(trajectory, description, servo_controller))
     }
 

@@ -49,6 +49,25 @@ impl PoseSettings {
             || self.matrix.is_some()
     }
 
+    /// Whether a position is given.
+    fn has_position(&self) -> bool {
+        self.xyz_m.is_some() || self.xyz_mm.is_some() || self.matrix.is_some()
+    }
+
+    /// The pose of a target of the tool, which is nowhere without a position.
+    ///
+    /// # Errors
+    /// It has no position, or as [`PoseSettings::isometry`].
+    pub(crate) fn target(&self, place: FilePlace<'_>) -> Result<Isometry3<f64>, Diagnostic> {
+        if self.has_position() {
+            return self.isometry(place);
+        }
+        let message = "the target has no position: `xyz_m` (or `xyz_mm`) is missing";
+        let help =
+            "give the position of the tool centre point in the world; to turn on the spot, the present one";
+        Err(place.mark(Diagnostic::error("scenario::target_position", message).with_help(help)))
+    }
+
     /// The pose; `place` is its place in the file.
     ///
     /// # Errors

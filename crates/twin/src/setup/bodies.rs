@@ -193,6 +193,16 @@ fn grasp(
         let message = format!("\"{}\": {}", settings.body, too_heavy(mass_kg));
         return Err(place.key("mass_kg").mark(Diagnostic::error("scenario::grasp", message)));
     }
+    let of_the_mass = [("inertia_kg_m2", settings.inertia_kg_m2), ("com_m", settings.com_m)];
+    let without_mass =
+        of_the_mass.into_iter().find(|(_, given)| given.is_some() && settings.mass_kg.is_none());
+    if let Some((key, _)) = without_mass {
+        let message = format!("`{key}` of \"{}\" has no effect without `mass_kg`", settings.body);
+        let error = Diagnostic::error("scenario::grasp", message);
+        return Err(place
+            .key(key)
+            .mark(error.with_help("give `mass_kg`, or leave it out: the body loads nothing")));
+    }
     let (from_s, until_s) = (settings.from_s, settings.until_s.unwrap_or(f64::INFINITY));
     if until_s <= from_s {
         let message =

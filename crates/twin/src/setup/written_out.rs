@@ -23,6 +23,7 @@ pub(super) fn write_out_defaults(
     scenario.simulation.duration_s = Some(clock.duration_s());
     scenario.start = written_start(&description.robot, start);
     for motion in &mut scenario.motion {
+        write_out_profile(motion);
         let rates = match motion {
             MotionSettings::Servo(servo) => {
                 servo.gain_per_s.get_or_insert(DEFAULT_GAIN_PER_S);
@@ -47,6 +48,16 @@ pub(super) fn write_out_defaults(
     for check in &mut scenario.check {
         write_out_limits(check, description, clock.step_s);
     }
+}
+
+/// Only a duration has a profile to choose.
+fn write_out_profile(motion: &mut MotionSettings) {
+    let profile = match motion {
+        MotionSettings::Line(line) if line.duration_s.is_some() => &mut line.profile,
+        MotionSettings::Arc(arc) if arc.duration_s.is_some() => &mut arc.profile,
+        _ => return,
+    };
+    profile.get_or_insert_default();
 }
 
 /// Makes the paths of other files absolute.

@@ -35,6 +35,9 @@ pub(super) struct Braking {
     speed: Vec<f64>,
     /// For each joint, the positions between which the setpoint stays.
     ranges: Vec<(f64, f64)>,
+    /// For each joint the speed with which its setpoint came to the end of its range, where it stays at once; `None` if it
+    /// came to rest before.
+    at_end_of_range: Vec<Option<f64>>,
     q: RobotQ,
     qd: Vec<f64>,
     qdd: Vec<f64>,
@@ -61,6 +64,7 @@ impl Braking {
             from: q.clone(),
             speed: qd.to_vec(),
             ranges: joints.zip(q).map(range).collect(),
+            at_end_of_range: vec![None; qd.len()],
             q: q.clone(),
             qd: qd.to_vec(),
             qdd: vec![0.0; qd.len()],
@@ -78,9 +82,18 @@ impl Braking {
             let q = from + speed * way_s;
             self.q[joint] = q.clamp(lower, upper);
             let is_free = (lower..=upper).contains(&q);
+            if !is_free {
+                // Between this step and the one before the speed changes by less than anyone reads.
+                self.at_end_of_range[joint].get_or_insert((speed * left).abs());
+            }
             self.qd[joint] = if is_free { speed * left } else { 0.0 };
             self.qdd[joint] = if is_free && left > 0.0 { -speed / self.lasts_s } else { 0.0 };
         }
+    }
+
+    /// For each joint the speed, rad/s or m/s, that it lost at once at the end of its range; `None` if it slowed down as told.
+    pub(super) fn at_end_of_range(&self) -> &[Option<f64>] {
+        &self.at_end_of_range
     }
 
     pub(super) fn q(&self) -> &RobotQ {
@@ -137,6 +150,10 @@ mod tests {
         let mut braking = Braking::new((&[0.95, 1.25].into(), &[0.5, 0.5]), 0.0, &robot(), &LIMITS);
         braking.advance(0.25);
         assert_eq!((&braking.q()[..], braking.qd()), (&[1.0, 1.25][..], &[0.0, 0.0][..]));
+        // Half of the stop is over: both lost 0.25 of 0.5 at once.
+        assert_eq!(braking.at_end_of_range(), [Some(0.25), Some(0.25)]);
+        braking.advance(0.3);
+        assert_eq!(braking.at_end_of_range(), [Some(0.25), Some(0.25)], "the first time counts");
     }
 
     #[test]

@@ -94,6 +94,12 @@ pub trait JointStateSource {
         false
     }
 
+    /// In a stop, for each movable joint the speed that its setpoint lost at once at the end of the joint's range, rad/s or m/s;
+    /// `None` for one that slows down within its acceleration. Empty without a stop.
+    fn stopped_at_end_of_range(&self) -> &[Option<f64>] {
+        &[]
+    }
+
     /// Motions that were planned in the run and take longer than the scenario says: the run is as much longer.
     fn slowed(&self) -> &[SlowedMotion] {
         &[]

@@ -253,6 +253,10 @@ impl JointStateSource for SimulationSource<'_> {
         true
     }
 
+    fn stopped_at_end_of_range(&self) -> &[Option<f64>] {
+        self.braking.as_ref().map_or(&[], Braking::at_end_of_range)
+    }
+
     fn finish(&mut self) -> Result<Vec<ServoResult>, SourceError> {
         self.reference.finish(self.faults.measured().q).map_err(SourceError::new)
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use congruent_twin::{
     RunSetup,
-    scenario::{Check, CycleTimeCheck, LimitsCheck, MotionSettings, Scenario, TrackingCheck},
+    scenario::{Check, CycleTimeCheck, LimitsCheck, MotionSettings, OnViolation, Scenario, TrackingCheck},
     verdict::{CheckResult, Status},
 };
 
@@ -212,7 +212,7 @@ fn tracking_needs_limits_that_mean_something() {
     assert!(refused(twice).contains("given twice"));
 }
 
-fn cycle(limit_s: f64, edit: fn(&mut Scenario)) -> CheckResult {
+fn cycle(limit_s: f64, edit: impl FnOnce(&mut Scenario)) -> CheckResult {
     let check = CycleTimeCheck {
         limit_s,
         tolerance_rad: None,
@@ -236,6 +236,25 @@ fn the_motions_end_in_time() {
     let late = cycle(0.8, |_| {});
     assert_eq!(late.status, Status::Fail, "{late:#?}");
     assert_eq!(measure(&late, "cycle_time").first_violation.as_ref().unwrap().time_s, 0.801);
+}
+
+/// The way to rest is no end of the motions.
+#[test]
+fn a_run_that_is_stopped_before_its_end_has_no_cycle_time() {
+    let stopped = cycle(0.5, |scenario| {
+        if let Check::CycleTime(check) = &mut scenario.check[0] {
+            check.on_violation = OnViolation::Stop;
+        }
+    });
+    assert_eq!(stopped.status, Status::Fail, "{stopped:#?}");
+    assert_eq!(worst(&stopped, "cycle_time"), f64::INFINITY);
+    assert_eq!(measure(&stopped, "cycle_time").first_violation.as_ref().unwrap().time_s, 0.501);
+    notes(&stopped, "the run was stopped before the end of its motions: there is no cycle time");
+    // Another check stops the run before the limit: nothing is known.
+    let fast =
+        LimitsCheck { velocity_share: Some(0.1), on_violation: OnViolation::Stop, ..LimitsCheck::default() };
+    let by_another = cycle(9.0, |scenario| scenario.check.push(Check::Limits(fast)));
+    assert!(measure(&by_another, "cycle_time").worst.is_none(), "{by_another:#?}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use congruent_twin::{
     Outcome, RunSetup,
-    scenario::{Check, LimitsCheck, OnViolation},
+    scenario::{Between, Check, LimitsCheck, MotionSettings, OnViolation, PlaybackMotion},
     source::{JointSample, JointStateSource, SimulationSource, SourceError},
     verdict::{Status, StopLimit},
 };
@@ -60,6 +60,36 @@ fn a_stop_keeps_the_declared_accelerations() {
     assert_eq!(used[..2], [("shoulder", 12.0, from_velocity), ("elbow", 7.5, declared)]);
     let note = outcome.checks[0].notes.last().unwrap();
     assert!(note.ends_with("(accelerations: as declared for 1 of 4 joints)"), "{note}");
+}
+
+/// The elbow's range ends on its way: there it cannot slow down as slowly as is declared, and the report says so.
+#[test]
+fn a_stop_at_the_end_of_a_range_is_said() {
+    let end = ("lower=\"-2\" upper=\"2\" effort=\"200\"", "lower=\"-2\" upper=\"0.8\" effort=\"200\"");
+    let mut late = stopped(controlled("kinematic", 0.0, 0.0)).scenario;
+    let table = std::env::temp_dir().join(format!("congruent_stop_{}.csv", std::process::id()));
+    std::fs::write(&table, "time_s,elbow_rad\n0,0\n0.4,0.8\n0.8,0\n").unwrap();
+    let play_csv = table.display().to_string();
+    late.motion = vec![MotionSettings::Playback(PlaybackMotion { play_csv, between: Between::Linear })];
+    late.limits.acceleration_rad_s2 = [("*".to_owned(), 0.8)].into();
+    let check = Check::Limits(LimitsCheck {
+        on_violation: OnViolation::Stop,
+        velocity_share: Some(0.5),
+        ..LimitsCheck::default()
+    });
+    late.check = vec![check];
+    let setup = setup(late, &arm(&[end]));
+    std::fs::remove_file(&table).unwrap();
+    let outcome = outcome(&setup, None);
+    let rest = outcome.stopped.as_ref().unwrap().rest.as_ref().unwrap();
+    // From 2 rad/s at once, 0.8 rad on: sqrt(4 - 2 * 0.8 * 0.8) rad/s are left.
+    let lost: Vec<_> = rest.accelerations.iter().map(|used| used.lost_at_end_of_range).collect();
+    let speed = lost[1].unwrap();
+    assert!((speed - (4.0_f64 - 1.28).sqrt()).abs() < 5e-3, "{speed}");
+    assert!([0, 2, 3].iter().all(|&joint| lost[joint].is_none()), "{lost:?}");
+    let note = outcome.checks[0].notes.last().unwrap();
+    let said = "but elbow reached the end of its range at 94";
+    assert!(note.contains(said) && note.contains("stopped there at once"), "{note}");
 }
 
 #[test]

@@ -27,6 +27,7 @@ pub(crate) struct CycleTimeMonitor {
     since_s: Option<f64>,
     samples: u64,
     is_commanded: bool,
+    is_stopped: bool,
 }
 
 impl CycleTimeMonitor {
@@ -40,6 +41,7 @@ impl CycleTimeMonitor {
             since_s: None,
             samples: 0,
             is_commanded: true,
+            is_stopped: false,
         }
     }
 
@@ -57,6 +59,20 @@ impl CycleTimeMonitor {
     }
 }
 
+impl CycleTimeMonitor {
+    /// The setpoint leaves the motions: an arm that has not come to their end by now never does.
+    fn stop(&mut self, sample: &Sample<'_>) {
+        if std::mem::replace(&mut self.is_stopped, true) {
+            return;
+        }
+        match (self.since_s, self.time.worst_subject()) {
+            (Some(since_s), _) => self.time.observe(since_s, self.kinds.len(), sample),
+            (None, Some(unfinished)) => self.time.observe(f64::INFINITY, unfinished, sample),
+            (None, None) => {}
+        }
+    }
+}
+
 impl Monitor for CycleTimeMonitor {
     fn observe(&mut self, sample: &mut Sample<'_>) {
         if sample.joints.setpoint.is_none() {
@@ -64,6 +80,10 @@ impl Monitor for CycleTimeMonitor {
             return;
         }
         self.samples += 1;
+        if sample.is_stopping {
+            self.stop(sample);
+            return;
+        }
         let unfinished = self.unfinished(sample);
         match unfinished {
             None => self.since_s = Some(self.since_s.unwrap_or(sample.time_s)),
@@ -89,6 +109,9 @@ impl Monitor for CycleTimeMonitor {
         let mut notes = Vec::new();
         if !self.is_commanded {
             notes.push("the source of joint states has no setpoint".to_owned());
+        } else if self.is_stopped && self.since_s.is_none() {
+            notes
+                .push("the run was stopped before the end of its motions: there is no cycle time".to_owned());
         } else if measure.worst.is_none() {
             notes.push("the run ended before its motions: there is no cycle time".to_owned());
         }

@@ -5,7 +5,8 @@ mod limits;
 mod tracking;
 
 pub(super) use cycle_time::{AT_THE_END, CycleTimeMonitor};
-pub(crate) use limits::LARGEST_VELOCITY_SHARE;
 pub(crate) use limits::{ANGLE_BEYOND_LIMIT, SHIFT_BEYOND_LIMIT};
-pub(super) use limits::{AT_THE_LIMIT, LARGEST_EFFORT_SHARE, LimitsMonitor, examine as examine_limits};
+pub(super) use limits::{
+    AT_THE_LIMIT, LARGEST_EFFORT_SHARE, LARGEST_VELOCITY_SHARE, LimitsMonitor, examine as examine_limits,
+};
 pub(super) use tracking::{TrackingMonitor, examine as examine_tracking};

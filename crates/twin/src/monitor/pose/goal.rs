@@ -27,7 +27,7 @@ pub(crate) fn examine(check: &GoalCheck, place: FilePlace<'_>) -> Result<Isometr
     let [position, orientation] = check.unit_keys();
     position.required(place)?;
     let place = place.key("tcp");
-    let world_from_target = check.tcp.isometry(place)?;
+    let world_from_target = check.tcp.target(place)?;
     if check.tcp.has_rotation() == orientation.value().is_some() {
         return Ok(world_from_target);
     }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use congruent_description::{Diagnostic, display::quantity};
+use congruent_simulation::SPEED_MARGIN;
 
 use super::{
     joint_path::check_positions,
@@ -17,6 +18,10 @@ use crate::{
     },
     scenario::{Between, PlaybackMotion, Profile},
 };
+
+/// How many times its limit a derivative of a table may have: a table has few digits, and one that a run has written has what its
+/// actuators allow.
+const DIGITS: f64 = 1.0 + SPEED_MARGIN;
 
 pub(in crate::motion) fn plan(
     settings: &PlaybackMotion,
@@ -52,7 +57,10 @@ pub(in crate::motion) fn plan(
     check_positions(&spline, duration_s, planning)?;
     let pace = Pace::Shape { profile: Profile::Linear, duration_s };
     let to = points.swap_remove(points.len() - 1);
-    // Rows are held against the limits as they are read: a file is played as it is.
+    // Rows are held against the limits as they are read, a spline swings out between them: a file is played as it is.
     let planned = PlannedMove { way: Way::Spline(spline), to, pace, begins_s: 0.0 };
+    if settings.between == Between::Spline {
+        planning.warn_beyond_limits(&planned, DIGITS, place);
+    }
     Ok(Motion { duration_s, course: Course::Planned(planned) })
 }

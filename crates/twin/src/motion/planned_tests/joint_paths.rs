@@ -120,6 +120,41 @@ fn tables_that_cannot_be_played_are_refused_with_their_line() {
     }
 }
 
+/// From row to row the joint goes at 156 deg/s, in between the spline is faster than the limit of 180 deg/s.
+#[test]
+fn a_spline_that_is_faster_than_the_limits_between_its_rows_is_warned_of() {
+    let text = "time_s,elbow_joint_deg\n0,90\n0.25,91\n0.5,130\n0.75,91\n1,90\n";
+    let (_folder, motion) = playback(text, Between::Spline);
+    let setup = planned(motion);
+    let warning = setup.warnings.iter().find(|warning| warning.code == "scenario::over_limit").unwrap();
+    let said = warning.message.strip_prefix("joint \"elbow_joint\" would move at ").unwrap();
+    assert!(said.ends_with(" s, its limit is 180 deg/s"), "{said}");
+    // The setpoints of the run are as fast, but for three digits and the instants that are looked at.
+    let found = instants(&setup);
+    let largest = found.iter().fold(0.0_f64, |largest, now| largest.max(now.qd[2].abs())).to_degrees();
+    let value: f64 = said.split(' ').next().unwrap().parse().unwrap();
+    assert!(largest > 185.0 && (value - largest).abs() < 1.0, "{largest}: {said}");
+    let (_folder, motion) = playback(text, Between::Linear);
+    assert!(planned(motion).warnings.iter().all(|warning| warning.code != "scenario::over_limit"));
+}
+
+/// A servo keeps the velocities that the scenario declares, all joints slower alike.
+#[test]
+fn a_servo_keeps_declared_velocities() {
+    let servo = ServoMotion {
+        servo_tcp: pose((start() + Vector3::new(0.1, 0.2, 0.1)).into()),
+        method: ServoMethod::default(),
+        gain_per_s: Some(20.0),
+        duration_s: 1.0,
+    };
+    let velocity_deg_s = BTreeMap::from([("*".to_owned(), 20.0)]);
+    let limits = LimitSettings { velocity_deg_s, ..LimitSettings::default() };
+    let setup = setup(vec![MotionSettings::Servo(servo)], limits).unwrap();
+    let speeds = instants(&setup).into_iter().flat_map(|now| now.qd);
+    let largest = speeds.fold(0.0_f64, |largest, qd| largest.max(qd.abs())).to_degrees();
+    assert!((largest - 20.0).abs() < 1e-6, "{largest}");
+}
+
 #[test]
 fn motions_after_a_servo_start_where_it_ended() {
     let from = start();

@@ -19,26 +19,37 @@ pub(super) enum Drive {
     Duration { duration_s: f64, profile: Profile },
 }
 
-/// The one of both that is given.
+/// The one of both that is given, with what belongs to it alone.
 pub(super) fn drive(
-    (speed_m_s, duration_s, profile): (Option<f64>, Option<f64>, Profile),
+    (speed_m_s, duration_s, profile): (Option<f64>, Option<f64>, Option<Profile>),
     (acceleration_m_s2, jerk_m_s3): (Option<f64>, Option<f64>),
     place: FilePlace<'_>,
 ) -> Result<Drive, Diagnostic> {
+    let refused = |key: &str, message: &str, help: &str| {
+        let error = Diagnostic::error("scenario::path_speed", message).with_help(help);
+        Err(place.key(key).mark(error))
+    };
     match (speed_m_s, duration_s) {
+        (Some(_), None) if profile.is_some() => {
+            let message =
+                "`profile` is over a duration; with `speed_m_s` the tool starts and stops at constant jerk";
+            refused("profile", message, "leave `profile` out, or give `duration_s` instead of the speed")
+        }
+        (None, Some(_)) if acceleration_m_s2.is_some() => {
+            let message = "`acceleration_m_s2` belongs to a speed; over `duration_s` the profile tells the acceleration";
+            refused("acceleration_m_s2", message, "leave it out, or give `speed_m_s` instead of the duration")
+        }
+        (None, Some(_)) if jerk_m_s3.is_some() => {
+            let message = "`jerk_m_s3` belongs to a speed; over `duration_s` the profile tells the jerk";
+            refused("jerk_m_s3", message, "leave it out, or give `speed_m_s` instead of the duration")
+        }
         (Some(speed_m_s), None) => Ok(Drive::Speed(rates(speed_m_s, acceleration_m_s2, jerk_m_s3))),
-        (None, Some(duration_s)) => Ok(Drive::Duration { duration_s, profile }),
-        (None, None) => Err(place.mark(
-            Diagnostic::error("scenario::path_speed", "the motion has no speed")
-                .with_help("give `speed_m_s`, or `duration_s`"),
-        )),
-        (Some(_), Some(_)) => Err(place.key("duration_s").mark(
-            Diagnostic::error(
-                "scenario::path_speed",
-                "`speed_m_s` and `duration_s` both say how fast the tool is",
-            )
-            .with_help("give one of them"),
-        )),
+        (None, Some(duration_s)) => Ok(Drive::Duration { duration_s, profile: profile.unwrap_or_default() }),
+        (None, None) => refused("", "the motion has no speed", "give `speed_m_s`, or `duration_s`"),
+        (Some(_), Some(_)) => {
+            let message = "`speed_m_s` and `duration_s` both say how fast the tool is";
+            refused("duration_s", message, "give one of them")
+        }
     }
 }
 

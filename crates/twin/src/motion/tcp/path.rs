@@ -188,7 +188,7 @@ fn pose_of(
     before: &Isometry3<f64>,
     place: FilePlace<'_>,
 ) -> Result<Isometry3<f64>, Diagnostic> {
-    let mut pose = settings.isometry(place)?;
+    let mut pose = settings.target(place)?;
     if !settings.has_rotation() {
         pose.rotation = before.rotation;
     }
@@ -203,7 +203,7 @@ fn arc_of(arc: &ArcMotion, before: &Isometry3<f64>, place: FilePlace<'_>) -> Res
         let error = Diagnostic::error("scenario::arc", "`via` is a position, the rotation is that of `to`");
         return Err(via_place.mark(error.with_help("the tool turns evenly from its start to `to`")));
     }
-    let via = arc.arc_tcp.via.isometry(via_place)?.translation.vector;
+    let via = arc.arc_tcp.via.target(via_place)?.translation.vector;
     let to = pose_of(&arc.arc_tcp.to, before, place.key("to"))?;
     Segment::arc(*before, via, to).ok_or_else(|| {
         let error =

@@ -27,7 +27,7 @@ pub(super) fn target(
     planning: &Planning<'_>,
 ) -> Result<(Arm, IkTarget), Diagnostic> {
     let part = if pose.has_rotation() { TargetPart::Pose } else { TargetPart::Position };
-    let world_from_tcp = Pose::from(pose.isometry(place)?);
+    let world_from_tcp = Pose::from(pose.target(place)?);
     let no_arm = |error| no_arm(&error, place);
     let description = planning.description;
     let tree = UrdfTree::new(&description.robot);

@@ -54,6 +54,7 @@ pub(in crate::motion) fn plan(settings: &ServoMotion, planning: &Planning<'_>) -
 #[derive(Debug, Clone)]
 pub(in crate::motion) struct ServoController<'a> {
     robot: &'a Robot,
+    velocity: &'a [f64],
     solver: IkSolver,
     measured: ArmQ,
     commanded: ArmQ,
@@ -69,11 +70,16 @@ pub(in crate::motion) struct StepInterval {
 }
 
 impl<'a> ServoController<'a> {
-    pub(in crate::motion) fn new(description: &'a RobotDescription) -> Result<Self, KinematicsError> {
+    /// `velocity` has the largest speed of each movable joint, infinity for none.
+    pub(in crate::motion) fn new(
+        description: &'a RobotDescription,
+        velocity: &'a [f64],
+    ) -> Result<Self, KinematicsError> {
         let arm = Arm::of(description)?;
         let joints = arm.joints().len();
         Ok(Self {
             robot: &description.robot,
+            velocity,
             solver: IkSolver::new(arm),
             measured: ArmQ::zeros(joints),
             commanded: ArmQ::zeros(joints),
@@ -102,8 +108,7 @@ impl<'a> ServoController<'a> {
         let share = -(-servo.gain_per_s * moved_s).exp_m1();
         let joints = self.solver.arm().joints();
         let times_too_fast = |(joint, change): (&ArmJoint, &f64)| {
-            let fastest = self.robot.joint(joint.joint).limit.and_then(|limit| limit.velocity).unwrap_or(0.0);
-            if fastest > 0.0 { share * change.abs() / (fastest * moved_s) } else { 0.0 }
+            share * change.abs() / (self.velocity[joint.coordinate] * moved_s)
         };
         let slower = joints.iter().zip(&self.change).map(times_too_fast).fold(1.0, f64::max);
         self.before.copy_from_slice(q);

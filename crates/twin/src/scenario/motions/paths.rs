@@ -25,9 +25,9 @@ pub struct LineMotion {
     /// How long it takes, instead of a speed.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
-    /// The profile over `duration_s`.
-    #[serde(default)]
-    pub profile: Profile,
+    /// The profile over `duration_s`, quintic if left out; a speed has its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Profile>,
     /// Acceleration with a speed, along the path and across it; 1.2 m/s^2 if left out.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub acceleration_m_s2: Option<f64>,
@@ -61,9 +61,9 @@ pub struct ArcMotion {
     /// How long it takes, instead of a speed.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub duration_s: Option<f64>,
-    /// The profile over `duration_s`.
-    #[serde(default)]
-    pub profile: Profile,
+    /// The profile over `duration_s`, quintic if left out; a speed has its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Profile>,
     /// Acceleration with a speed, along the path and across it; 1.2 m/s^2 if left out.
     #[serde(default, deserialize_with = "optional_positive", skip_serializing_if = "Option::is_none")]
     pub acceleration_m_s2: Option<f64>,
