@@ -216,10 +216,13 @@ fn case_23_a_goal_that_cannot_be() {
         ("position_m = 1e-6", ["missing key \"tcp\"", "tcp"]),
         ("tcp = { xyz_m = [1, 0, 0] }", ["the check has no `position_m`", "`position_mm`"]),
         (
-            "tcp = { rpy_deg = [1, 0, 0] }\nposition_m = 1e-6",
+            "tcp = { xyz_m = [1, 0, 0], rpy_deg = [1, 0, 0] }\nposition_m = 1e-6",
             ["no tolerance `orientation_rad`", "both for a pose"],
         ),
-        ("tcp = {}\nposition_m = 1\norientation_rad = 1", ["the goal has none", "neither for a position"]),
+        (
+            "tcp = { xyz_m = [1, 0, 0] }\nposition_m = 1\norientation_rad = 1",
+            ["the goal has none", "neither for a position"],
+        ),
     ] {
         let bench = Workbench::new();
         bench.edit("scenario.toml", "kind = \"agreement\"", &format!("kind = \"goal\"\n{keys}"));
