@@ -342,7 +342,7 @@ fn largest_seen(one: &Trigonometric) -> f64 {
 }
 
 /// Control values of one acceleration or product of speeds. Kind: speed; some 5 ms.
-const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 10;
+const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 20;
 /// Where fewer boxes can be divided the sum of amplitudes is the better bound. Kind: choice.
 const FEWEST_BOXES: usize = 10;
 /// Random motions for a torque of too many joints. Kind: choice.
