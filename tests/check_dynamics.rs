@@ -271,11 +271,9 @@ fn a_frame_that_does_not_move_with_its_joint_is_no_agreement() {
     let file = fs::read_to_string(robot.robot_file()).unwrap();
     fs::write(robot.robot_file(), file.replacen("frame = \"dh3\"", "frame = \"dh2\"", 1)).unwrap();
     let answer = robot.against_declared();
-    assert_eq!(answer.code, 2, "{}", answer.stdout);
     let finding = &answer.json()["findings"][0];
-    assert_eq!(finding["severity"], "error", "{finding}");
-    let line = file.lines().position(|line| line.contains("frame = \"dh3\"")).unwrap() + 1;
-    assert_eq!(finding["line"], line, "{finding}");
+    assert_eq!((answer.code, &finding["severity"]), (2, &"error".into()), "{finding}");
+    assert!(finding["message"].as_str().unwrap().contains("\"dh2\""), "{finding}");
 }
 
 #[test]

@@ -257,6 +257,12 @@ fn attained_and_certified(golden: &Value) -> [f64; 2] {
     ["attained", "certified"].map(|key| number(&golden[key]))
 }
 
+/// The other program moves the Panda's fingers one by one. Here one follows the other, so that what is attained with
+/// them apart bounds nothing from below.
+fn fingers_are_together(q: &Value) -> bool {
+    q["panda_finger_joint1"] == q["panda_finger_joint2"]
+}
+
 fn check_gravity(
     fault: &Value,
     [candidate, reference]: [&Side; 2],
@@ -266,11 +272,14 @@ fn check_gravity(
     let id = text(&fault["id"]);
     let golden = fault["gravity_n_m"]["by_joint"].as_object().expect("joints");
     for (joint, golden) in golden {
+        let is_possible = fingers_are_together(&golden["q"]);
         let golden = attained_and_certified(golden);
         let bracket = found.by_joint.iter().find(|bracket| bracket.joint == *joint);
         let Some(bracket) = bracket else { panic!("{id}: nothing at {joint}, expected {golden:?}") };
         brackets.check(&format!("{id} {joint}"), [bracket.attained_n_m, bracket.certified_n_m], golden);
-        assert!(bracket.attained_n_m >= golden[0] * (1.0 - CLIMBED), "{id} {joint}: {bracket:?}");
+        if is_possible {
+            assert!(bracket.attained_n_m >= golden[0] * (1.0 - CLIMBED), "{id} {joint}: {bracket:?}");
+        }
         let at = RobotQ::from(bracket.q.clone());
         let zeros = vec![0.0; at.len()];
         let still = At { q: &at, qd: &zeros, qdd: &zeros };
@@ -294,7 +303,7 @@ fn check_inertia(fault: &Value, found: &TorqueCertificate, brackets: &mut Bracke
     };
     let [low, high] = [bracket.attained_n_m, bracket.certified_n_m].map(|value| value / ACCELERATION);
     brackets.check(&format!("{id} {joint}, row of inertia"), [low, high], golden);
-    if bracket.boxes > 0 {
+    if bracket.boxes > 0 && fingers_are_together(&fault["mass_matrix_row"]["q"]) {
         assert!(low >= golden[0] * (1.0 - CLIMBED_SUM), "{id} {joint}: {bracket:?} {golden:?}");
     }
 }
