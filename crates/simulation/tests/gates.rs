@@ -1,5 +1,5 @@
 //! The gates on the corpus of real robots, against numbers from Pinocchio and `MuJoCo`. Numbers (a01
-//! and so on) are those of the table of gates; the part that needs no file is `physics.rs`.
+//! and so on) are those of the table of gates; the part that needs no golden file is `arms/`.
 
 #![expect(clippy::print_stdout, reason = "the worst values, for those who run with --nocapture")]
 
@@ -9,11 +9,11 @@ mod support;
 
 use std::path::Path;
 
-use congruent_description::{Joint, JointParts, Robot, RobotQ, load_robot};
+use congruent_description::{Joint, Robot, RobotQ, load_robot};
 use congruent_simulation::{Torque, World, WorldSettings};
 use nalgebra::{DMatrix, DVector, Isometry3, Quaternion, UnitQuaternion};
 use serde_json::Value;
-use support::{at, make, run, steps, worst};
+use support::{at, bits, make, rebuilt, run, steps, with_step, worst};
 
 const ROBOTS: [&str; 9] =
     ["baxter", "denso_hsr065", "fanuc_m10ia", "iiwa14", "panda", "rrr_arm", "so100", "ur5e", "xarm7_gripper"];
@@ -87,28 +87,14 @@ fn goldens() -> Vec<(&'static str, Golden)> {
     ROBOTS.iter().map(|name| (*name, Golden::load(&corpus.join(name)))).collect()
 }
 
-/// The robot with each joint changed; mimic joints become free.
-fn changed(robot: &Robot, change: impl Fn(&mut Joint)) -> Robot {
-    let parts = robot.joints().iter().map(|joint| {
-        let mut parts = JointParts {
-            joint: joint.clone(),
-            parent: robot.link(joint.parent).name.clone(),
-            child: robot.link(joint.child).name.clone(),
-            mimic: None,
-        };
-        change(&mut parts.joint);
-        parts
-    });
-    Robot::new(robot.name(), robot.links().to_vec(), parts.collect()).expect("it was a robot before")
-}
-
 /// What Pinocchio and `MuJoCo` computed: nothing but inertia and gravity.
 fn frictionless(robot: &Robot) -> Robot {
     changed(robot, |joint| (joint.damping, joint.friction, joint.limit) = (0.0, 0.0, None))
 }
 
-fn with_step(step_s: f64) -> WorldSettings {
-    WorldSettings { step_s, ..WorldSettings::default() }
+/// The robot with each joint changed and no joint that mimics another.
+fn changed(robot: &Robot, change: impl Fn(&mut Joint)) -> Robot {
+    rebuilt(robot, |parts| change(&mut parts.joint))
 }
 
 /// Origin of a link, m, and entries of its quaternion; rounding of up to 20 products of about 1 m
@@ -338,8 +324,4 @@ fn a13_repeated_and_restored_runs_are_equal_bit_by_bit() {
             assert_eq!(bits(&first), bits(&second), "{name} {kind}: restored");
         }
     }
-}
-
-fn bits(world: &World) -> Vec<u64> {
-    world.q().iter().chain(world.qd()).map(|number| number.to_bits()).collect()
 }

@@ -11,8 +11,7 @@ mod support;
 
 use std::path::Path;
 
-use congruent_description::{Joint, JointParts, Robot, RobotQ, load_robot};
-use congruent_simulation::WorldSettings;
+use congruent_description::{Joint, Robot, RobotQ, load_robot};
 
 pub(crate) const ARMS: [&str; 2] = ["ur5e", "panda"];
 
@@ -39,23 +38,4 @@ pub(crate) fn q0(robot: &Robot) -> RobotQ {
         }
     };
     joints.map(at).collect()
-}
-
-pub(crate) fn with_step(step_s: f64) -> WorldSettings {
-    WorldSettings { step_s, ..WorldSettings::default() }
-}
-
-/// The robot's joints as parts, each changed; the name of a master makes a joint a mimic of it.
-pub(crate) fn rebuilt(robot: &Robot, change: impl Fn(&mut JointParts)) -> Robot {
-    let parts = robot.joints().iter().map(|joint| {
-        let mut parts = JointParts {
-            joint: joint.clone(),
-            parent: robot.link(joint.parent).name.clone(),
-            child: robot.link(joint.child).name.clone(),
-            mimic: None,
-        };
-        change(&mut parts);
-        parts
-    });
-    Robot::new(robot.name(), robot.links().to_vec(), parts.collect()).expect("it was a robot before")
 }

@@ -6,9 +6,8 @@ use congruent_simulation::{World, WorldSettings};
 use nalgebra::{DVector, Isometry3, Vector3};
 
 use crate::{
-    ARMS, free, q0, rebuilt,
-    support::{at, make, run, steps, worst},
-    with_step,
+    ARMS, free, q0,
+    support::{at, make, rebuilt, run, steps, with_step, worst},
 };
 
 /// Kinetic and potential energy, J; the potential from the poses of links and their masses.

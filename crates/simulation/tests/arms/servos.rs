@@ -5,8 +5,8 @@ use congruent_simulation::{World, WorldSettings};
 use nalgebra::Vector3;
 
 use crate::{
-    ARMS, arm, free, q0, rebuilt,
-    support::{at, make, run, worst},
+    ARMS, arm, free, q0,
+    support::{at, bits, make, rebuilt, run, worst},
 };
 
 /// Drift under gravity compensation, rad or m in 10 s; rounding of g(q), an equilibrium that is not stable; worst seen
@@ -149,10 +149,6 @@ fn a13_repeated_and_restored_runs_are_equal_bit_by_bit() {
         let robot = arm(name, |_| {});
         let q0 = q0(&robot);
         let target = RobotQ::from(vec![0.1; q0.len()]);
-        let bits = |world: &World| {
-            let numbers = world.q().iter().chain(world.qd()).chain(world.torque());
-            numbers.map(|number| number.to_bits()).collect::<Vec<u64>>()
-        };
         for kind in ["passive", "pd"] {
             let mut controller = make(kind, 300.0, 20.0);
             let mut first = at(&robot, &WorldSettings::default(), &q0);

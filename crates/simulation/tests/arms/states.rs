@@ -8,9 +8,8 @@ use congruent_simulation::{Torque, World, WorldSettings};
 use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::{
-    ARMS, free, q0, rebuilt,
-    support::{at, run, worst},
-    with_step,
+    ARMS, free, q0,
+    support::{at, rebuilt, run, with_step, worst},
 };
 
 /// Without limits and resistances, all joints independent, at the state of the table and with speeds.

@@ -175,6 +175,27 @@ pub fn make(kind: &str, stiffness: f64, damping: f64) -> Box<dyn Controller> {
     }
 }
 
+/// The usual settings with this step.
+pub fn with_step(step_s: f64) -> WorldSettings {
+    WorldSettings { step_s, ..WorldSettings::default() }
+}
+
+/// The robot's joints as parts, each changed; the name of a master makes a joint a mimic of it; no
+/// other joint is one.
+pub fn rebuilt(robot: &Robot, change: impl Fn(&mut JointParts)) -> Robot {
+    let parts = robot.joints().iter().map(|joint| {
+        let mut parts = JointParts {
+            joint: joint.clone(),
+            parent: robot.link(joint.parent).name.clone(),
+            child: robot.link(joint.child).name.clone(),
+            mimic: None,
+        };
+        change(&mut parts);
+        parts
+    });
+    Robot::new(robot.name(), robot.links().to_vec(), parts.collect()).unwrap()
+}
+
 /// A world with the robot at `q`, at rest.
 pub fn at(robot: &Robot, settings: &WorldSettings, q: &RobotQ) -> World {
     let mut world = World::new(robot, settings).unwrap();
@@ -199,4 +220,10 @@ pub fn run(world: &mut World, controller: &mut dyn Controller, q: &RobotQ, steps
 pub fn worst(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Positions, velocities and torques, and the number of steps, for comparisons bit by bit.
+pub fn bits(world: &World) -> (Vec<u64>, u64) {
+    let numbers = world.q().iter().chain(world.qd()).chain(world.torque());
+    (numbers.map(|number| number.to_bits()).collect(), world.step_count())
 }
