@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use crate::{
     calibration::Bench,
-    command::{congruent, congruent_json, text},
+    command::{allowing, congruent, congruent_json, text},
     corpus::workspace,
 };
 
@@ -225,8 +225,7 @@ fn a_call_that_is_killed_leaves_no_green_junit_file() {
     let bench = Bench::new();
     let long = scenario(&bench, "long", &format!("[simulation]\nduration_s = 50000\n{AGREEMENT}"));
     let (out, file) = (text(bench.path()), bench.path().join("junit.xml"));
-    let mut call = Command::new(env!("CARGO_BIN_EXE_congruent"))
-        .args(["run", &long, "--no-recording", "--out", &out, "--junit", &text(&file)])
+    let mut call = allowing(&["run", &long, "--no-recording", "--out", &out, "--junit", &text(&file)])
         .stdout(Stdio::null())
         .spawn()
         .unwrap();

@@ -9,6 +9,8 @@ use std::{
 
 use serde_json::Value;
 
+use crate::corpus::workspace;
+
 /// What the command did.
 #[derive(Debug)]
 pub(crate) struct Answer {
@@ -26,14 +28,23 @@ impl Answer {
     }
 }
 
-/// Runs `congruent` with these arguments, from the root of the workspace.
+/// Commands that open no file that another file names.
+const WITHOUT_ACCESS: [&str; 4] = ["inspect", "compare", "schema", "--help"];
+
+/// Runs `congruent` with these arguments, from the root of the workspace. Files of tests are in temporary folders and name
+/// robots of the workspace and of the corpus, which is allowed here.
 pub(crate) fn congruent<S: AsRef<OsStr>>(arguments: &[S]) -> Answer {
+    answer(&allowing(arguments).output().expect("the command starts"))
+}
+
+/// The same with nothing allowed.
+pub(crate) fn congruent_alone<S: AsRef<OsStr>>(arguments: &[S]) -> Answer {
     answer(&command(arguments).output().expect("the command starts"))
 }
 
 /// The same with this text on standard input.
 pub(crate) fn congruent_with_input<S: AsRef<OsStr>>(arguments: &[S], input: &str) -> Answer {
-    let mut command = command(arguments);
+    let mut command = allowing(arguments);
     let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = pipes.spawn().expect("the command starts");
     // A command that refuses its arguments reads nothing.
@@ -41,13 +52,24 @@ pub(crate) fn congruent_with_input<S: AsRef<OsStr>>(arguments: &[S], input: &str
     answer(&child.wait_with_output().expect("the command ends"))
 }
 
+/// The command, which may open the robots of the workspace and of the corpus.
+pub(crate) fn allowing<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
+    let mut command = command(arguments);
+    let has_access = |first: &OsStr| WITHOUT_ACCESS.iter().all(|each| first != OsStr::new(each));
+    let is_help = arguments.iter().any(|argument| argument.as_ref() == OsStr::new("--help"));
+    // Whether there is a corpus is told by the tests that use it.
+    let corpus = std::env::var_os("CONGRUENT_CORPUS").map(|path| workspace().join(path));
+    if !is_help && arguments.first().is_some_and(|first| has_access(first.as_ref())) {
+        for folder in [Some(workspace()), corpus].into_iter().flatten() {
+            command.arg("--allow").arg(folder);
+        }
+    }
+    command
+}
+
 fn command<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_congruent"));
-    command
-        .args(arguments)
-        .current_dir(crate::corpus::workspace())
-        .env_remove("GITHUB_ACTIONS")
-        .env_remove("COLUMNS"); // the width of help
+    command.args(arguments).current_dir(workspace()).env_remove("GITHUB_ACTIONS").env_remove("COLUMNS"); // the width of help
     command
 }
 

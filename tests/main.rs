@@ -27,6 +27,7 @@ mod diagnosis_chains;
 mod dynamics_causes;
 mod dynamics_goldens;
 mod faults;
+mod fence;
 mod forward_goldens;
 mod frames;
 mod golden;

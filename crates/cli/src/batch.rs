@@ -4,6 +4,7 @@ use std::{
     fmt::Write,
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
+    sync::{Mutex, PoisonError},
     time::Instant,
 };
 
@@ -54,6 +55,8 @@ pub(crate) struct Batch<'a> {
     printer: &'a Printer,
     inputs: &'a [PathBuf],
     ci: &'a CiArguments,
+    /// The files that were read for them, which no result may replace.
+    read: Mutex<Vec<PathBuf>>,
 }
 
 impl<'a> Batch<'a> {
@@ -69,8 +72,22 @@ impl<'a> Batch<'a> {
             let reason = Reason { kind: "unfinished".to_owned(), message };
             TestSuite::of_case(shown(input), "end", TestResult::Error(reason))
         };
-        ci.begin(|| inputs.iter().map(unfinished).collect())?;
-        Ok(Self { printer, inputs, ci })
+        ci.begin(inputs, || inputs.iter().map(unfinished).collect())?;
+        Ok(Self { printer, inputs, ci, read: Mutex::new(inputs.to_vec()) })
+    }
+
+    /// Notes files that were read.
+    ///
+    /// # Errors
+    /// A file for CI would replace one of them.
+    pub(crate) fn reads(&self, files: &[PathBuf]) -> Result<(), Diagnostic> {
+        self.read.lock().unwrap_or_else(PoisonError::into_inner).extend_from_slice(files);
+        self.ci.is_none_of(files)
+    }
+
+    /// The files that were read.
+    pub(crate) fn read(&self) -> Vec<PathBuf> {
+        self.read.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// The name of an input in front of its findings, if there are several inputs.
@@ -133,7 +150,7 @@ impl<'a> Batch<'a> {
         }
         if self.ci.is_wanted() {
             let suites: Vec<TestSuite> = answers.iter().map(Answer::suite).collect();
-            for failure in self.ci.finish(&suites) {
+            for failure in self.ci.finish(&suites, &self.read()) {
                 Printer::explain(None, &failure);
                 code = BROKEN;
             }

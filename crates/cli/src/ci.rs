@@ -1,8 +1,8 @@
 //! What CI reads of a call: a JUnit file, a summary in Markdown, and annotations at lines.
 
 use std::{
-    fs::{self, OpenOptions},
-    io::{self, Write},
+    fs::{self, File, OpenOptions},
+    io::{self, Read, Write},
     path::{Path, PathBuf},
 };
 
@@ -14,8 +14,12 @@ use congruent::{
 
 use crate::{
     failure::{Failure, unwritable},
+    output_file::refuse_inputs,
     print::Printer,
 };
+
+/// In so many bytes a JUnit file begins.
+const HEAD_BYTES: u64 = 4096;
 
 /// Files and lines for CI.
 #[derive(Debug, Default, clap::Args)]
@@ -46,9 +50,23 @@ impl CiArguments {
         Self { junit: Some(path.to_owned()), ..Self::default() }
     }
 
-    /// Finds out at once whether the files can be written. Until the end the JUnit file has these suites.
-    pub(crate) fn begin(&self, unfinished: impl FnOnce() -> Vec<TestSuite>) -> Result<(), Failure> {
+    /// The files replace none of these, which are read.
+    pub(crate) fn is_none_of(&self, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
+        let files = [("--junit", &self.junit), ("--summary", &self.summary)];
+        let mut files = files.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?)));
+        files.try_for_each(|(option, path)| refuse_inputs(option, path, inputs))
+    }
+
+    /// Finds out at once whether the files can be written, and that they replace none of `inputs`. Until the end the JUnit
+    /// file has these suites.
+    pub(crate) fn begin(
+        &self,
+        inputs: &[PathBuf],
+        unfinished: impl FnOnce() -> Vec<TestSuite>,
+    ) -> Result<(), Failure> {
+        self.is_none_of(inputs)?;
         if let Some(path) = &self.junit {
+            is_junit(path)?;
             write_junit(path, &unfinished())
                 .map_err(|error| unwritable(&error, "choose another file with --junit"))?;
         }
@@ -67,7 +85,7 @@ impl CiArguments {
     }
 
     /// Writes all that was asked for; what cannot be written loses nothing of the others.
-    pub(crate) fn finish(&self, suites: &[TestSuite]) -> Vec<Failure> {
+    pub(crate) fn finish(&self, suites: &[TestSuite], inputs: &[PathBuf]) -> Vec<Failure> {
         let junit = self.junit.as_deref().and_then(|path| write_junit(path, suites).err());
         if let Some(Host::Github) = self.annotate {
             Printer::annotations(&github_annotations(suites));
@@ -76,7 +94,8 @@ impl CiArguments {
             let error = append_to(path, &step_summary(suites)).err()?;
             Some(format!("cannot write {}: {error}", path.display()))
         };
-        let summary = self.summary.as_ref().and_then(append);
+        let summary = self.summary.as_ref().filter(|path| refuse_inputs("--summary", path, inputs).is_ok());
+        let summary = summary.and_then(append);
         junit.map(|error| error.to_string()).into_iter().chain(summary).map(Failure::Machine).collect()
     }
 }
@@ -87,4 +106,19 @@ fn append_to(path: &Path, text: &str) -> io::Result<()> {
         fs::create_dir_all(folder)?;
     }
     OpenOptions::new().append(true).create(true).open(path)?.write_all(text.as_bytes())
+}
+
+/// A JUnit file is written before the inputs are read that other files name, so it replaces only what is one.
+fn is_junit(path: &Path) -> Result<(), Diagnostic> {
+    let Ok(metadata) = fs::metadata(path) else { return Ok(()) };
+    if !metadata.is_file() || metadata.len() == 0 {
+        return Ok(());
+    }
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
+    if read.is_ok() && String::from_utf8_lossy(&head).contains("<testsuite") {
+        return Ok(());
+    }
+    let message = format!("--junit {} exists and is no JUnit file", path.display());
+    Err(Diagnostic::error("output::refused", message).with_help("choose another name, or remove the file"))
 }

@@ -1,6 +1,6 @@
 //! Failures of commands and their exit codes.
 
-use congruent::{description::Diagnostic, twin::report::OutputError};
+use congruent::{description::Diagnostic, twin::results::OutputError};
 
 /// A check failed.
 pub(crate) const FAILED: u8 = 1;

@@ -11,13 +11,14 @@ use congruent::{
     twin::{
         Run, RunSetup,
         recorder::NoRecorder,
-        report::{FaultTable, RunReport, write_whole},
+        report::{FaultTable, RunReport},
     },
 };
 
 use crate::{
-    failure::{BROKEN, FAILED, Failure, unwritable, worse},
-    input::PackageArguments,
+    failure::{BROKEN, FAILED, Failure, worse},
+    input::AccessArguments,
+    output_file::replace,
     print::Printer,
 };
 
@@ -33,16 +34,16 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
     #[command(flatten)]
-    packages: PackageArguments,
+    access: AccessArguments,
 }
 
 const BEGIN: &str = "<!-- faults: begin -->\n";
 const END: &str = "<!-- faults: end -->";
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
-    let ros = arguments.packages.ros();
+    let access = arguments.access.access()?;
     let load = |path: &PathBuf| -> Result<RunSetup, Failure> {
-        let setup = RunSetup::load_with(path, &[], &ros).and_then(RunSetup::for_simulation)?;
+        let setup = RunSetup::load_with(path, &[], &access).and_then(RunSetup::for_simulation)?;
         printer.warnings_of(Some(path), &setup.description.warnings);
         printer.warnings_of(Some(path), &setup.warnings);
         Ok(setup)
@@ -113,8 +114,8 @@ impl<'a> Document<'a> {
 
     fn write(&self, table: &str) -> Result<(), Failure> {
         let text = format!("{}{BEGIN}{table}{END}{}", self.before, self.after);
-        write_whole(self.path, text.as_bytes())
-            .map_err(|error| unwritable(&error, "choose another file with --markdown"))
+        // It is read and written.
+        replace("--markdown", self.path, &text, &[])
     }
 }
 

@@ -1,14 +1,18 @@
 //! Arguments that several commands share.
 
-use std::{collections::BTreeMap, path::PathBuf};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
 
 use congruent::description::{
-    Configurations, Diagnostic, JointState, Robot, RobotDescription, RobotQ, RosPackages, Use, configuration,
-    load_robot_with, outside_limits, outside_limits_warning, read_configurations, read_states, units::Unit,
+    Configurations, Diagnostic, FileAccess, JointState, Robot, RobotDescription, RobotQ, RosPackages, Use,
+    configuration, load_robot_with, outside_limits, outside_limits_warning, read_configurations, read_states,
+    units::Unit,
 };
 
 use crate::{failure::Failure, print::Printer};
@@ -19,33 +23,39 @@ pub(crate) struct RobotArgument {
     /// A folder with robot.toml, a robot file, a bare .urdf, or - for a URDF on standard input.
     pub(crate) robot: PathBuf,
     #[command(flatten)]
-    packages: PackageArguments,
+    access: AccessArguments,
 }
 
-/// Where meshes in packages are.
+/// Which files may be opened that other files name.
 #[derive(Debug, clap::Args)]
-pub(crate) struct PackageArguments {
+pub(crate) struct AccessArguments {
     /// Look for the packages of `package://` in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH` as well.
     #[arg(long)]
     ros_packages: bool,
+    /// Open files in this folder as well if a scenario, a robot file or a URDF names them. Without it these are files of
+    /// the project: the nearest folder at or above the given file with package.xml or .git, or else the folder above
+    /// its own. May be given several times.
+    #[arg(long, value_name = "DIR")]
+    allow: Vec<PathBuf>,
 }
 
-impl PackageArguments {
-    /// The packages of the environment, which is not read if they were not asked for.
-    pub(crate) fn ros(&self) -> RosPackages {
-        if self.ros_packages { RosPackages::from_environment() } else { RosPackages::default() }
+impl AccessArguments {
+    /// The environment is not read if its packages were not asked for.
+    pub(crate) fn access(&self) -> Result<FileAccess, Diagnostic> {
+        let ros = if self.ros_packages { RosPackages::from_environment() } else { RosPackages::default() };
+        FileAccess::new(ros, &self.allow)
     }
 }
 
 impl RobotArgument {
     /// Loads it without a word.
     fn read(&self) -> Result<RobotDescription, Failure> {
-        Ok(load_robot_with(&self.robot, &self.packages.ros())?)
+        Ok(load_robot_with(&self.robot, &self.access()?)?)
     }
 
-    /// Where its meshes are.
-    pub(crate) fn packages(&self) -> &PackageArguments {
-        &self.packages
+    /// Which files it may name.
+    pub(crate) fn access(&self) -> Result<FileAccess, Diagnostic> {
+        self.access.access()
     }
 
     /// Loads it for a use, which is refused before anything is printed, and prints its warnings.
@@ -59,9 +69,23 @@ impl RobotArgument {
 
 /// The files that a robot was read from, which no result may replace.
 pub(crate) fn files_of(description: &RobotDescription) -> Vec<PathBuf> {
-    let named =
-        [Some(&description.path), Some(&description.urdf_path), description.named_files.srdf.as_ref()];
-    named.into_iter().flatten().cloned().collect()
+    description.inputs.iter().map(|input| input.path.clone()).collect()
+}
+
+/// The same access with the files of a robot, which a new file about that robot may name wherever it is written.
+pub(crate) fn allowing_inputs(access: FileAccess, description: &RobotDescription) -> FileAccess {
+    description.inputs.iter().fold(access, |access, input| access.beside(&input.path))
+}
+
+/// Whether a new file names another that commands open only if it is allowed.
+pub(crate) fn needs_to_be_allowed(file: &Path, named: &Path) -> Option<Diagnostic> {
+    FileAccess::default().of_file(file).ok()?.check(named).err()?;
+    let folder = named.canonicalize().ok()?.parent()?.display().to_string();
+    let message = format!("{} is outside of the project of {}", named.display(), file.display());
+    Some(
+        Diagnostic::warning("new::outside", message)
+            .with_help(format!("other commands open it with --allow {folder}")),
+    )
 }
 
 /// A chain of the robot, if it is not the declared one.
@@ -159,7 +183,7 @@ impl ConfigurationArguments {
         }
         let q = configuration(&values, robot)?;
         let warning = outside_limits_warning(&outside_limits(&values, robot));
-        Ok(with_warning(Configurations { entries: vec![q], warning }, description, printer))
+        Ok(with_warning(Configurations { entries: vec![q], warning, input: None }, description, printer))
     }
 
     /// The same with the velocities, accelerations and torques of the file; at rest and without torques if there
@@ -193,7 +217,8 @@ impl ConfigurationArguments {
     }
 }
 
-/// The entries; their warning is printed and becomes one of the description, whose warnings are in each report.
+/// The entries; their warning is printed and becomes one of the description, whose warnings are in each report, and their
+/// file one of its inputs.
 pub(crate) fn with_warning<T>(
     read: Configurations<T>,
     description: &mut RobotDescription,
@@ -201,6 +226,7 @@ pub(crate) fn with_warning<T>(
 ) -> Vec<T> {
     printer.warnings(read.warning.as_slice());
     description.warnings.extend(read.warning);
+    description.inputs.extend(read.input);
     read.entries
 }
 

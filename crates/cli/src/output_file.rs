@@ -2,14 +2,16 @@
 //! overwritten that the user did not mean.
 
 use std::{
-    fs::{self, File, OpenOptions},
-    io::{self, Write},
+    fs, io,
     path::{Path, PathBuf},
 };
 
-use congruent::description::Diagnostic;
+use congruent::{
+    description::Diagnostic,
+    twin::results::{is_same_file, write_whole},
+};
 
-use crate::failure::Failure;
+use crate::failure::{self, Failure};
 
 /// Where a model is written.
 #[derive(Debug, clap::Args)]
@@ -58,10 +60,13 @@ impl NewFile<'_> {
         self.may_be_written(inputs)?;
         let path = self.path;
         let before = fs::read(path).ok();
-        whole(path, text.as_bytes()).map_err(|error| unwritable(path, &error))?;
+        write_whole(path, text.as_bytes()).map_err(|error| unwritable(path, &error.source))?;
         accept(path).inspect_err(|_| {
             // The refusal is what is reported.
-            let _ = before.map_or_else(|| fs::remove_file(path), |before| whole(path, &before));
+            match before {
+                Some(before) => drop(write_whole(path, &before)),
+                None => drop(fs::remove_file(path)),
+            }
         })
     }
 
@@ -75,9 +80,7 @@ impl NewFile<'_> {
         if path.is_dir() {
             return refused("is a folder", "give the name of a file in it");
         }
-        if inputs.iter().any(|input| is_same_file(path, input)) {
-            return refused("is a file that is read", "choose another name");
-        }
+        refuse_inputs(option, path, inputs)?;
         if !self.force && path.symlink_metadata().is_ok() {
             return refused("exists", "choose another name, or replace it with --force");
         }
@@ -91,39 +94,23 @@ pub(crate) fn folder_of(path: &Path) -> Result<PathBuf, Diagnostic> {
     folder.canonicalize().map_err(|error| unwritable(path, &error))
 }
 
-fn unwritable(path: &Path, error: &io::Error) -> Diagnostic {
+pub(crate) fn unwritable(path: &Path, error: &io::Error) -> Diagnostic {
     Diagnostic::error("output::unwritable", format!("cannot write {}: {error}", path.display()))
         .with_help("choose a file in a folder that exists and can be written")
 }
 
-/// Whether two paths lead to one file, by links of either kind.
-pub(crate) fn is_same_file(a: &Path, b: &Path) -> bool {
-    match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b || is_same_inode(&a, &b),
-        _ => false,
+/// No result replaces a file that is read.
+pub(crate) fn refuse_inputs(option: &str, path: &Path, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
+    if !inputs.iter().any(|input| is_same_file(path, input)) {
+        return Ok(());
     }
+    let message = format!("{option} {} is a file that is read", path.display());
+    Err(Diagnostic::error("output::refused", message).with_help("choose another name"))
 }
 
-#[cfg(unix)]
-fn is_same_inode(a: &Path, b: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let inode = |path: &Path| fs::metadata(path).map(|metadata| (metadata.dev(), metadata.ino())).ok();
-    inode(a).is_some_and(|a| Some(a) == inode(b))
-}
-
-#[cfg(not(unix))]
-fn is_same_inode(_: &Path, _: &Path) -> bool {
-    false
-}
-
-/// Writes a new file beside `path`, under a name that nobody has, and renames it.
-fn whole(path: &Path, contents: &[u8]) -> io::Result<()> {
-    let name = path.file_name().ok_or(io::ErrorKind::InvalidFilename)?.to_string_lossy();
-    let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
-    let mut file: File = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
-    let written = file.write_all(contents).and_then(|()| fs::rename(&temporary, path));
-    written.inspect_err(|_| {
-        // The remainder is of no use; the first error is the one to report.
-        let _ = fs::remove_file(&temporary);
-    })
+/// Writes what an option asks for, whole; it replaces any file but those of `inputs`.
+pub(crate) fn replace(option: &str, path: &Path, contents: &str, inputs: &[PathBuf]) -> Result<(), Failure> {
+    refuse_inputs(option, path, inputs)?;
+    let help = format!("choose a file that can be written with {option}");
+    write_whole(path, contents.as_bytes()).map_err(|error| failure::unwritable(&error, &help))
 }

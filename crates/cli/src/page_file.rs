@@ -2,9 +2,12 @@
 
 use std::path::PathBuf;
 
-use congruent::twin::report::write_whole;
+use congruent::description::Diagnostic;
 
-use crate::failure::{Failure, unwritable};
+use crate::{
+    failure::Failure,
+    output_file::{refuse_inputs, replace},
+};
 
 /// The file of a page.
 #[derive(Debug, clap::Args)]
@@ -15,10 +18,13 @@ pub(crate) struct PageArgument {
 }
 
 impl PageArgument {
+    /// The page replaces none of these files, which are read.
+    pub(crate) fn is_none_of(&self, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
+        self.html.as_ref().map_or(Ok(()), |path| refuse_inputs("--html", path, inputs))
+    }
+
     /// Makes and writes the page if the argument is given.
-    pub(crate) fn write(&self, page: impl FnOnce() -> String) -> Result<(), Failure> {
-        let Some(path) = &self.html else { return Ok(()) };
-        write_whole(path, page().as_bytes())
-            .map_err(|error| unwritable(&error, "choose a file that can be written with --html"))
+    pub(crate) fn write(&self, page: impl FnOnce() -> String, inputs: &[PathBuf]) -> Result<(), Failure> {
+        self.html.as_ref().map_or(Ok(()), |path| replace("--html", path, &page(), inputs))
     }
 }

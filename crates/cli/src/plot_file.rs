@@ -1,10 +1,13 @@
 //! `--plot FILE.svg`: writes the plot of a command.
 
-use std::path::PathBuf;
+use std::{fmt::Display, path::PathBuf};
 
-use congruent::{analysis::plot::PlotError, description::Diagnostic, twin::report::write_whole};
+use congruent::description::Diagnostic;
 
-use crate::{failure::Failure, output_file::is_same_file};
+use crate::{
+    failure::Failure,
+    output_file::{refuse_inputs, replace},
+};
 
 /// The file of a plot.
 #[derive(Debug, clap::Args)]
@@ -22,22 +25,17 @@ impl PlotArgument {
 
     /// The plot replaces none of these files, which are read.
     pub(crate) fn is_none_of(&self, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
-        let Some(path) = &self.plot else { return Ok(()) };
-        if inputs.iter().any(|input| is_same_file(path, input)) {
-            let message = format!("--plot {} is a file that is read", path.display());
-            return Err(Diagnostic::error("plot::output", message).with_help("choose another name"));
-        }
-        Ok(())
+        self.plot.as_ref().map_or(Ok(()), |path| refuse_inputs("--plot", path, inputs))
     }
 
     /// Draws and writes the plot if the argument is given.
-    pub(crate) fn write(&self, draw: impl FnOnce() -> Result<String, PlotError>) -> Result<(), Failure> {
+    pub(crate) fn write<E: Display>(
+        &self,
+        draw: impl FnOnce() -> Result<String, E>,
+        inputs: &[PathBuf],
+    ) -> Result<(), Failure> {
         let Some(path) = &self.plot else { return Ok(()) };
         let svg = draw().map_err(|error| Failure::Machine(error.to_string()))?;
-        write_whole(path, svg.as_bytes()).map_err(|error| {
-            Diagnostic::error("plot::output", error.to_string())
-                .with_help("choose a file that can be written with --plot")
-                .into()
-        })
+        replace("--plot", path, &svg, inputs)
     }
 }

@@ -3,6 +3,7 @@
 use std::{
     collections::BTreeMap,
     fmt::Write,
+    fs,
     path::{Path, PathBuf},
     sync::Mutex,
 };
@@ -14,7 +15,8 @@ use congruent::{
         ExecuteError, Options, RecordingFormat, RunSetup,
         diagnosis::RunDiagnosis,
         execute,
-        report::{OutputFolder, Reason, RunReport, TestCase, TestResult, TestSuite, lines, write_whole},
+        report::{Reason, RunReport, TestCase, TestResult, TestSuite, lines},
+        results::{FolderError, OutputFolder, write_whole},
         scenario::{CheckKind, Expectation, Override},
         source::ActuatorUse,
         verdict::{CheckResult, Status, Verdict},
@@ -27,7 +29,7 @@ use crate::{
     batch::{Answer, Batch, BatchReport},
     ci::CiArguments,
     failure::{BROKEN, Failure, unwritable},
-    input::PackageArguments,
+    input::AccessArguments,
     print::Printer,
 };
 
@@ -59,7 +61,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     ci: CiArguments,
     #[command(flatten)]
-    packages: PackageArguments,
+    access: AccessArguments,
 }
 
 fn parse_override(text: &str) -> Result<Override, String> {
@@ -84,7 +86,7 @@ impl Arguments {
 struct Ran {
     report: RunReport,
     /// Where its results are, or why they are not all on disk.
-    results: Result<OutputFolder, String>,
+    results: Result<PathBuf, String>,
 }
 
 impl Serialize for Ran {
@@ -100,7 +102,7 @@ impl BatchReport for Ran {
 
     fn text(&self) -> String {
         let results = match &self.results {
-            Ok(folder) => format!("results in {}", folder.path().display()),
+            Ok(folder) => format!("results in {}", folder.display()),
             Err(_) => "results are not all on disk".to_owned(),
         };
         format!("{}  {results}\n", described(&self.report))
@@ -124,12 +126,15 @@ impl BatchReport for Ran {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let batch = Batch::begin(&arguments.scenarios, &arguments.ci, printer)?;
-    let loaded = load(arguments, &batch);
+    let loaded = load(arguments, &batch)?;
     let bars = printer.is_interactive().then(MultiProgress::new);
     let answers = run_all(loaded, arguments, (&batch, bars.as_ref()));
     let written = write_index(&answers, &arguments.out);
     batch.finish_with_page(answers, written)
 }
+
+/// The page over several scenarios.
+const INDEX: &str = "index.html";
 
 /// The page over all scenarios of a call, beside their folders, if there are several and one of them ran.
 fn write_index(answers: &[Answer<Ran>], out: &Path) -> Result<(), Failure> {
@@ -138,13 +143,13 @@ fn write_index(answers: &[Answer<Ran>], out: &Path) -> Result<(), Failure> {
     }
     let entries: Vec<IndexEntry<'_>> = answers.iter().map(entry).collect();
     let page = index_page(&entries);
-    write_whole(&out.join("index.html"), page.as_bytes())
+    write_whole(&out.join(INDEX), page.as_bytes())
         .map_err(|error| unwritable(&error, "choose a folder that can be written with --out"))
 }
 
 fn entry(answer: &Answer<Ran>) -> IndexEntry<'_> {
     let page = |ran: &Ran| {
-        let folder = ran.results.as_ref().ok()?.path().file_name()?;
+        let folder = ran.results.as_ref().ok()?.file_name()?;
         Some(format!("{}/report.html", folder.to_string_lossy()))
     };
     IndexEntry {
@@ -155,22 +160,42 @@ fn entry(answer: &Answer<Ran>) -> IndexEntry<'_> {
 }
 
 /// Reads all scenarios before the first one runs, so that a fault in the last is known at once.
-fn load(arguments: &Arguments, batch: &Batch<'_>) -> Vec<Answer<RunSetup>> {
+///
+/// What earlier runs have left for any of them is removed here: a call that is killed leaves no results of others.
+fn load(arguments: &Arguments, batch: &Batch<'_>) -> Result<Vec<Answer<RunSetup>>, Failure> {
     let overrides = arguments.overrides();
     let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
-    let ros = arguments.packages.ros();
+    let access = arguments.access.access()?;
     let mut load = |path: &PathBuf| {
-        let setup = RunSetup::load_with(path, &overrides, &ros).and_then(RunSetup::for_simulation)?;
+        let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation)?;
         let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
         if let Some(first) = folders.get(&folder) {
             return Err(same_folder(&folder, first, path).into());
         }
         folders.insert(folder, path.clone());
+        let inputs: Vec<PathBuf> = setup.inputs.iter().map(|input| input.path.clone()).collect();
+        batch.reads(&inputs)?;
+        OutputFolder::create(&arguments.out, &setup.scenario.name, &setup.inputs).map_err(no_folder)?;
         batch.warn(path, &setup.description.warnings);
         batch.warn(path, &setup.warnings);
         Ok(setup)
     };
-    arguments.scenarios.iter().map(|path| batch.answer(path, || load(path))).collect()
+    if arguments.scenarios.len() > 1 {
+        // That of an earlier call; if it cannot be removed, it cannot be replaced either, which is told at the end.
+        let _ = fs::remove_file(arguments.out.join(INDEX));
+    }
+    Ok(arguments.scenarios.iter().map(|path| batch.answer(path, || load(path))).collect())
+}
+
+fn no_folder(error: FolderError) -> Failure {
+    let help = match error {
+        FolderError::Output(error) => {
+            return unwritable(&error, "choose a folder that can be written with --out");
+        }
+        FolderError::InUse { .. } => "wait for it, or give another folder with --out",
+        _ => "give another folder with --out",
+    };
+    Diagnostic::error("run::output", error.to_string()).with_help(help).into()
 }
 
 fn same_folder(folder: &Path, first: &Path, second: &Path) -> Diagnostic {
@@ -243,14 +268,13 @@ fn run_one(setup: &RunSetup, options: &Options<'_>, bars: Option<&MultiProgress>
         bar.finish_and_clear();
     }
     match result {
-        Ok((report, folder)) => Ok(Ran { report, results: Ok(folder) }),
+        Ok((report, folder)) => Ok(Ran { report, results: Ok(folder.path().to_owned()) }),
         Err(ExecuteError::Lost { report, source }) => {
             Printer::explain(setup.path.as_deref(), &Failure::Machine(source.to_string()));
             Ok(Ran { report: *report, results: Err(source.to_string()) })
         }
-        Err(ExecuteError::Output(error)) => {
-            Err(unwritable(&error, "choose a folder that can be written with --out"))
-        }
+        Err(ExecuteError::Folder(error)) => Err(no_folder(error)),
+        Err(ExecuteError::Output(error)) => Err(no_folder(error.into())),
         Err(ExecuteError::Recording(error)) => Err(Failure::Machine(error.to_string())),
         Err(error) => Err(Diagnostic::error("run::cannot_run", error.to_string()).into()),
     }

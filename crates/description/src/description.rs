@@ -11,6 +11,7 @@ use nalgebra::Isometry3;
 use crate::{
     chain::{ChainEnd, ChainEnds, ReportedChain, choose_tip},
     diagnostic::{Diagnostic, Use, known_names},
+    files::InputFile,
     model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance},
     robot_file::{DeclaredDynamics, InertialPlaces, RobotFilePlaces},
     urdf::UrdfPlaces,
@@ -73,6 +74,8 @@ pub struct RobotDescription {
     pub disabled_collisions: BTreeSet<(LinkIndex, LinkIndex)>,
     /// What is suspicious, and what stops another use than kinematics.
     pub warnings: Vec<Diagnostic>,
+    /// The files that were read: robot file, URDF, SRDF and meshes.
+    pub inputs: Vec<InputFile>,
     /// The texts of robot file and URDF.
     pub places: Places,
 }

@@ -1,7 +1,7 @@
 //! What a robot is: URDF, SRDF, `robot.toml` and meshes, read into a validated [`Robot`] or refused with
 //! diagnostics that say what is wrong, at which place, and what to do.
 //!
-//! Parsers take text and give a value or diagnostics; only `file.rs` opens files.
+//! Parsers take text and give a value or diagnostics; only `files/` opens files.
 
 mod chain;
 mod configuration_file;
@@ -9,13 +9,11 @@ mod description;
 mod diagnostic;
 pub mod display;
 mod edits;
-mod file;
+mod files;
 mod load;
 mod mesh;
 mod model;
-mod packages;
 mod robot_file;
-mod ros_packages;
 mod srdf;
 pub mod units;
 mod urdf;
@@ -33,7 +31,7 @@ pub use diagnostic::{
     line_column, nearest,
 };
 pub use edits::{ChangedLines, TextEdit, changed_lines};
-pub use file::{is_standard_input, read_regular_text, read_text};
+pub use files::{FileAccess, InputFile, RosPackages, is_standard_input, read_text};
 pub use load::{load_robot, load_robot_with, parse_robot};
 pub use mesh::read_mesh;
 pub use model::{
@@ -46,7 +44,6 @@ pub use robot_file::{
     InertialPoint, RobotFilePlaces, RowKey, ValuePlace, dh_section, relative_path, robot_file_schema,
     robot_file_text, robot_file_values, toml_string,
 };
-pub use ros_packages::RosPackages;
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use written::{
     array::fixed_array,

@@ -13,14 +13,12 @@ use crate::{
     chain::{ChainEnds, choose_tip},
     description::{NamedFiles, Places, RobotDescription},
     diagnostic::{Diagnostic, Diagnostics, SourceFile, Use},
-    file::{is_standard_input, not_found, read_regular_text, read_text},
+    files::{FileAccess, Packages, folder_of, not_found},
     mesh::MeshStore,
     model::{LinkIndex, Robot, Tolerance},
-    packages::Packages,
     robot_file::{
         self, Declared, InertialPlaces, ROBOT_FILE, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot,
     },
-    ros_packages::RosPackages,
     srdf::{self, SRDF_BYTES},
     urdf::{self, Repairs, URDF_BYTES, UrdfInputs, UrdfPlaces},
     written::toml_text::parse_toml,
@@ -41,14 +39,22 @@ const ACCEPTED: &str =
 /// # Errors
 /// Every diagnostic, errors and warnings, if at least one is an error.
 pub fn load_robot(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
-    load_robot_with(path, &RosPackages::default())
+    load_robot_with(path, &FileAccess::default())
 }
 
-/// The same with meshes in packages of ROS.
+/// The same with more files that may be opened, and a list of those that were.
 ///
 /// # Errors
 /// As [`load_robot`].
-pub fn load_robot_with(path: &Path, ros: &RosPackages) -> Result<RobotDescription, Vec<Diagnostic>> {
+pub fn load_robot_with(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
+    let own = access.fresh();
+    let description = load(path, &own)?;
+    let inputs = own.files();
+    access.add(&inputs);
+    Ok(RobotDescription { inputs, ..description })
+}
+
+fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
     let name = path.display();
     if path.is_dir() {
         let robot_file = path.join(ROBOT_FILE);
@@ -56,17 +62,17 @@ pub fn load_robot_with(path: &Path, ros: &RosPackages) -> Result<RobotDescriptio
             let message = format!("{name} is a directory without a {ROBOT_FILE}");
             return Err(vec![Diagnostic::error("load::no_robot_file", message).with_help(ACCEPTED)]);
         }
-        return load_robot_file(&robot_file, ros);
+        return load_robot_file(&robot_file, access);
     }
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        load_robot_file(path, ros)
+        load_robot_file(path, access)
     } else {
-        load_bare_urdf(path, ros)
+        load_bare_urdf(path, access)
     }
 }
 
-fn open(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Vec<Diagnostic>> {
-    read_text(path, most_bytes).map_err(|fault| {
+fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<Arc<SourceFile>, Vec<Diagnostic>> {
+    access.read_named_text(path, most_bytes).map_err(|fault| {
         let is_helpless = fault.code == "file::not_found" && fault.help.is_none();
         vec![if is_helpless { fault.with_help(ACCEPTED) } else { fault }]
     })
@@ -110,9 +116,9 @@ pub fn parse_robot(
     checked(declared, diagnostics, robot_file)
 }
 
-fn load_bare_urdf(path: &Path, ros: &RosPackages) -> Result<RobotDescription, Vec<Diagnostic>> {
-    let urdf = open(path, URDF_BYTES)?;
-    let (robot, warnings) = load_urdf(&urdf, (BTreeMap::new(), ros), &Repairs::default())?;
+fn load_bare_urdf(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
+    let urdf = open(path, access, URDF_BYTES)?;
+    let (robot, warnings) = load_urdf(&urdf, (BTreeMap::new(), access), &Repairs::default())?;
     Ok(bare(&urdf, robot, warnings))
 }
 
@@ -135,6 +141,7 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
         named_files: NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings,
+        inputs: Vec::new(),
         places: Places { urdf: Some(UrdfPlaces::new(Arc::clone(urdf))), ..Places::default() },
     }
     .with_doubts()
@@ -143,15 +150,15 @@ fn bare(urdf: &Arc<SourceFile>, robot: Robot, warnings: Vec<Diagnostic>) -> Robo
 /// Reads a URDF with its meshes.
 fn load_urdf(
     source: &Arc<SourceFile>,
-    (declared, ros): (BTreeMap<String, PathBuf>, &RosPackages),
+    (declared, access): (BTreeMap<String, PathBuf>, &FileAccess),
     repairs: &Repairs,
 ) -> Result<(Robot, Vec<Diagnostic>), Vec<Diagnostic>> {
     let path = &source.path;
-    let mut packages = Packages::new(parent(path), declared, ros.clone()).map_err(|error| {
+    let mut packages = Packages::new(folder_of(path), declared, access).map_err(|error| {
         let message = format!("{}: its folder cannot be read: {error}", path.display());
         vec![Diagnostic::error("file::unreadable", message)]
     })?;
-    let mut meshes = MeshStore::new(&mut packages);
+    let mut meshes = MeshStore::new(&mut packages, access);
     read_urdf(source, UrdfInputs { find_mesh: &mut |uri, scale| meshes.find(uri, scale), repairs })
 }
 
@@ -169,18 +176,11 @@ fn read_urdf(
     }
 }
 
-/// The folder of a file; a bare file name is in the current one, and so is what standard input names.
-fn parent(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() && !is_standard_input(path) => parent,
-        _ => Path::new("."),
-    }
-}
-
-fn load_robot_file(path: &Path, ros: &RosPackages) -> Result<RobotDescription, Vec<Diagnostic>> {
-    let source = open(path, ROBOT_FILE_BYTES)?;
+fn load_robot_file(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
+    let source = open(path, access, ROBOT_FILE_BYTES)?;
     let mut diagnostics = Diagnostics::default();
-    let description = read_robot_file(&source, ros, &mut diagnostics);
+    let access = access.of_file(path)?;
+    let description = read_robot_file(&source, &access, &mut diagnostics);
     checked(description, diagnostics, &source)
 }
 
@@ -203,19 +203,19 @@ fn checked(
 /// Everything about a robot file and the files that it names.
 fn read_robot_file(
     robot_file: &Arc<SourceFile>,
-    ros: &RosPackages,
+    access: &FileAccess,
     diagnostics: &mut Diagnostics,
 ) -> Option<RobotDescription> {
-    let (written, urdf_path) = written_robot(robot_file, diagnostics)?;
-    let folder = parent(&robot_file.path);
-    let packages = declared_packages(&written, folder, diagnostics);
+    let (written, urdf_path) = written_robot(robot_file, access, diagnostics)?;
+    let folder = folder_of(&robot_file.path);
+    let packages = declared_packages(&written, (folder, access), diagnostics);
     let named_files = NamedFiles {
         srdf: written.srdf.as_ref().map(|srdf| folder.join(srdf.get_ref())),
         packages: packages.clone(),
     };
     let repairs = written.repairs(robot_file);
-    let urdf = read_regular_text(&urdf_path, URDF_BYTES).map_err(Vec::from);
-    let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, (packages, ros), &repairs)?, urdf)));
+    let urdf = access.read_text(&urdf_path, URDF_BYTES).map_err(Vec::from);
+    let robot = urdf.and_then(|urdf| Ok((load_urdf(&urdf, (packages, access), &repairs)?, urdf)));
     let ((robot, warnings), urdf) = match robot {
         Ok(read) => read,
         Err(faults) => {
@@ -226,7 +226,7 @@ fn read_robot_file(
     };
     diagnostics.extend(warnings);
     let srdf = written.srdf.clone();
-    let disabled_collisions = disabled_collisions(srdf.as_ref(), folder, &robot, diagnostics);
+    let disabled_collisions = disabled_collisions(srdf.as_ref(), (folder, access), &robot, diagnostics);
     let description = declared(written, robot_file, &urdf, robot, diagnostics)?;
     Some(RobotDescription { named_files, disabled_collisions, ..description })
 }
@@ -261,18 +261,19 @@ fn declared(
         named_files: NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings: Vec::new(),
+        inputs: Vec::new(),
         places: Places { robot_file: table, inertials, urdf: Some(UrdfPlaces::new(Arc::clone(urdf))) },
     })
 }
 
 fn disabled_collisions(
     srdf: Option<&Spanned<PathBuf>>,
-    folder: &Path,
+    (folder, access): (&Path, &FileAccess),
     robot: &Robot,
     diagnostics: &mut Diagnostics,
 ) -> BTreeSet<(LinkIndex, LinkIndex)> {
     let Some(srdf) = srdf else { return BTreeSet::new() };
-    match read_regular_text(&folder.join(srdf.get_ref()), SRDF_BYTES) {
+    match access.read_text(&folder.join(srdf.get_ref()), SRDF_BYTES) {
         Ok(source) => {
             let (pairs, faults) = srdf::parse(&source, robot);
             diagnostics.extend(faults);
@@ -290,14 +291,19 @@ fn placed(fault: Diagnostic, named_at: &Range<usize>) -> Diagnostic {
     if fault.source.is_some() { fault } else { fault.at(named_at.clone()) }
 }
 
-fn written_robot(robot_file: &SourceFile, diagnostics: &mut Diagnostics) -> Option<(WrittenRobot, PathBuf)> {
+fn written_robot(
+    robot_file: &SourceFile,
+    access: &FileAccess,
+    diagnostics: &mut Diagnostics,
+) -> Option<(WrittenRobot, PathBuf)> {
     let written: WrittenRobot = parse_toml(&robot_file.text, diagnostics)?;
     let urdf = diagnostics.keep(written.urdf.as_ref().ok_or_else(|| {
         Diagnostic::error("robot_file::urdf", "the robot file has no key \"urdf\"")
             .at(0..0)
             .with_help("urdf = \"robot.urdf\", relative to the robot file")
     }))?;
-    let urdf_path = parent(&robot_file.path).join(urdf.get_ref());
+    let urdf_path = folder_of(&robot_file.path).join(urdf.get_ref());
+    diagnostics.keep(access.check(&urdf_path).map_err(|fault| fault.at(urdf.span())))?;
     if !urdf_path.exists() {
         let message =
             format!("urdf = \"{}\": {} does not exist", urdf.get_ref().display(), urdf_path.display());
@@ -309,11 +315,12 @@ fn written_robot(robot_file: &SourceFile, diagnostics: &mut Diagnostics) -> Opti
 
 fn declared_packages(
     written: &WrittenRobot,
-    folder: &Path,
+    (folder, access): (&Path, &FileAccess),
     diagnostics: &mut Diagnostics,
 ) -> BTreeMap<String, PathBuf> {
     let mut resolve = |(name, written): (&String, &Spanned<PathBuf>)| {
         let path = folder.join(written.get_ref());
+        diagnostics.keep(access.check(&path).map_err(|fault| fault.at(written.span())))?;
         let canonical = path.canonicalize().ok().filter(|path| path.is_dir());
         let folder = diagnostics.keep(canonical.ok_or_else(|| {
             let message = format!("package \"{name}\": {} is not a folder", path.display());

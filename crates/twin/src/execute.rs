@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::{
     recorder::{Recorder, Recorders, RecordingError},
-    report::{OutputError, OutputFolder, RunReport, explain, write_junit},
+    report::{RunReport, explain, write_junit},
+    results::{FolderError, OutputError, OutputFolder},
     run::{Run, RunError},
     scenario::TrajectoryFormat,
     setup::RunSetup,
@@ -55,6 +56,9 @@ impl std::fmt::Debug for Options<'_> {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExecuteError {
+    /// There is no folder for the results; this was found before the run.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     /// Results cannot be written; this was found before the run.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -90,7 +94,7 @@ pub fn execute(
     options: &Options<'_>,
     progress: impl FnMut(u64),
 ) -> Result<(RunReport, OutputFolder), ExecuteError> {
-    let folder = OutputFolder::create(&options.out, &setup.scenario.name)?;
+    let folder = OutputFolder::create(&options.out, &setup.scenario.name, &setup.inputs)?;
     folder.write("scenario.resolved.toml", setup.scenario.to_toml().as_bytes())?;
     let mut checks = setup.checks();
     let cannot_run =

@@ -15,6 +15,7 @@ pub mod motion;
 pub mod proximity;
 pub mod recorder;
 pub mod report;
+pub mod results;
 mod run;
 mod sample;
 pub mod scenario;

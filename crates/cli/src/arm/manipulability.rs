@@ -15,7 +15,7 @@ use congruent::{
 use super::length::positive_length;
 use crate::{
     failure::Failure,
-    input::{ArmArguments, ConfigurationArguments},
+    input::{ArmArguments, ConfigurationArguments, files_of},
     plot_file::PlotArgument,
     print::Printer,
     table::Table,
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let report = manipulability(&description, &configurations, arguments.length)
         .map_err(|error| Diagnostic::error("manipulability::robot", error.to_string()))?;
     if let (Some(q), Some(result)) = (configurations.first(), report.results.first()) {
-        arguments.plot.write(|| plot(&description, q, result))?;
+        arguments.plot.write(|| plot(&description, q, result), &files_of(&description))?;
     }
     printer.result(&report, |report| text(report, &description.robot))?;
     Ok(0)

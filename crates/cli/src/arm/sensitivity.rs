@@ -13,7 +13,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::ArmArguments,
+    input::{ArmArguments, files_of},
     plot_file::PlotArgument,
     print::Printer,
     table::{Table, wrapped},
@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
     let report = sensitivity(&description, &arguments.length_factors, sampling)
         .map_err(|error| Diagnostic::error("sensitivity::robot", error.to_string()))?;
-    arguments.plot.write(|| plot(&report))?;
+    arguments.plot.write(|| plot(&report), &files_of(&description))?;
     printer.result(&report, |report| text(report, &description.robot))?;
     Ok(0)
 }

@@ -13,7 +13,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::ArmArguments,
+    input::{ArmArguments, files_of},
     plot_file::PlotArgument,
     print::Printer,
     table::{Table, wrapped},
@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
     let (report, found) = workspace(&description, sampling)
         .map_err(|error| Diagnostic::error("workspace::robot", error.to_string()))?;
-    arguments.plot.write(|| plot(&report, &found))?;
+    arguments.plot.write(|| plot(&report, &found), &files_of(&description))?;
     printer.result(&report, |report| text(report, &description.robot))?;
     Ok(0)
 }

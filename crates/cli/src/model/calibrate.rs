@@ -18,13 +18,13 @@ use congruent::{
         units::Unit,
     },
     page::calibration_page,
-    twin::report::write_whole,
 };
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},
-    input::{ArmArguments, named},
+    input::{ArmArguments, files_of, named},
     page_file::PageArgument,
+    plot_file::PlotArgument,
     print::Printer,
     table::wrapped,
 };
@@ -67,9 +67,9 @@ pub(crate) struct Arguments {
     /// Number of configurations that are suggested for the next measurements.
     #[arg(long, default_value_t = 5)]
     next: usize,
-    /// Plots the cost over the most significant correction and the residual of each row, as SVG.
-    #[arg(long, value_name = "FILE.svg")]
-    plot: Option<PathBuf>,
+    // The cost over the most significant correction, and the residual of each row.
+    #[command(flatten)]
+    plot: PlotArgument,
     #[command(flatten)]
     page: PageArgument,
     /// Seed of the random configurations of which the most informative are chosen.
@@ -83,11 +83,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let rows = read_measurements(&arguments.measurements, &description.robot, &needed)?;
     let options = arguments.options(&rows)?;
     let report = calibrate(&description, &rows, &options)?;
-    if let Some(path) = &arguments.plot {
-        let svg = plot::svg(&report).map_err(|error| Failure::Machine(error.to_string()))?;
-        write_whole(path, svg.as_bytes()).map_err(|error| Failure::Machine(error.to_string()))?;
-    }
-    arguments.page.write(|| calibration_page(&report, &description.robot))?;
+    let mut inputs = files_of(&description);
+    inputs.push(arguments.measurements.clone());
+    arguments.plot.write(|| plot::svg(&report), &inputs)?;
+    arguments.page.write(|| calibration_page(&report, &description.robot), &inputs)?;
     printer.result(&report, |report| text(report, &description.robot))?;
     Ok(match report.verdict {
         CalibrationVerdict::Explained

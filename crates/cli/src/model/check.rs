@@ -23,7 +23,7 @@ use crate::{
     batch::{Answer, Batch, BatchReport},
     ci::CiArguments,
     failure::{FAILED, Failure, NOTHING},
-    input::{ChainArguments, PackageArguments, files_of},
+    input::{AccessArguments, ChainArguments, files_of},
     page_file::PageArgument,
     plot_file::PlotArgument,
     print::Printer,
@@ -68,7 +68,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     basics: bool,
     #[command(flatten)]
-    packages: PackageArguments,
+    access: AccessArguments,
     #[command(flatten)]
     ci: CiArguments,
     #[command(flatten)]
@@ -116,7 +116,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let robots = arguments.robots.iter();
     let answers: Vec<Answer<Checked>> =
         robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect();
-    let written = arguments.page.write(|| page(&answers));
+    let written = arguments.page.write(|| page(&answers), &batch.read());
     batch.finish_with_page(answers, written)
 }
 
@@ -144,23 +144,27 @@ fn one_plot(arguments: &Arguments) -> Result<(), Diagnostic> {
 }
 
 fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
-    let mut description = arguments.chain.of(load_robot_with(path, &arguments.packages.ros())?)?;
+    let mut description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
     let mut configurations = Vec::new();
     if let Some(path) = &arguments.configurations {
         let read = read_configurations(path, &description.robot)?;
         description.warnings.extend(read.warning);
+        description.inputs.extend(read.input);
         configurations = read.entries;
     }
-    let named = [&arguments.configurations, &arguments.against].into_iter().flatten().cloned();
-    arguments.plot.is_none_of(&files_of(&description).into_iter().chain(named).collect::<Vec<_>>())?;
     batch.warn(path, &description.warnings);
     let declared = description.tolerance;
     if let Some(tolerance) = arguments.tolerance {
         description.tolerance = tolerance.replace(declared);
     }
     let options = CheckOptions { seed: arguments.seed, configurations };
-    let ros = arguments.packages.ros();
-    let other = arguments.against.as_ref().map(|other| load_robot_with(other, &ros)).transpose()?;
+    let access = arguments.access.access()?;
+    let other = arguments.against.as_ref().map(|other| load_robot_with(other, &access)).transpose()?;
+    let mut inputs = files_of(&description);
+    inputs.extend(other.iter().flat_map(files_of));
+    arguments.plot.is_none_of(&inputs)?;
+    arguments.page.is_none_of(&inputs)?;
+    batch.reads(&inputs)?;
     let compared = match &other {
         Some(other) => {
             batch.warn(&other.path, &other.warnings);
@@ -175,7 +179,7 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         return Err(unusable.into());
     }
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
-    arguments.plot.write(|| errors(&chart(&report.geometry)))?;
+    arguments.plot.write(|| errors(&chart(&report.geometry)), &inputs)?;
     let (with_basics, with_table) = (arguments.basics, arguments.table);
     Ok(Checked { report, description, other, with_basics, with_table })
 }

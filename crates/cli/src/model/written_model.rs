@@ -5,15 +5,15 @@ use std::{fmt::Write, path::PathBuf};
 use congruent::{
     analysis::conversion::{Conversion, ConversionReport, ConversionSource, PoeReport, ScrewReport, convert},
     description::{
-        Diagnostic, RobotDescription, Tolerance,
+        Diagnostic, FileAccess, RobotDescription, Tolerance,
         display::{angle, length, length_and_angle},
-        is_standard_input, load_robot, robot_file_text, serde_name,
+        is_standard_input, load_robot_with, robot_file_text, serde_name,
     },
 };
 
 use crate::{
     failure::Failure,
-    input::files_of,
+    input::{allowing_inputs, files_of},
     output_file::{OutputArgument, folder_of},
     print::Printer,
 };
@@ -42,7 +42,10 @@ pub(super) fn answer(
             return Err(Diagnostic::error("output::name", message).into());
         }
         let text = comments(&report) + &robot_file(description, &report, section, &folder_of(path)?)?;
-        output.write(path, &text, &inputs, |written| Ok(load_robot(written).map(drop)?))?;
+        output.write(path, &text, &inputs, |written| {
+            let access = allowing_inputs(FileAccess::default(), description);
+            Ok(load_robot_with(written, &access).map(drop)?)
+        })?;
     } else {
         folder_of(path)?;
         output.write(path, &text(&report), &inputs, |_| Ok(()))?;

@@ -20,8 +20,8 @@ use congruent::{
 
 use crate::{
     failure::{FAILED, Failure, NOTHING},
-    input::{ArmArguments, files_of},
-    output_file::NewFile,
+    input::{ArmArguments, allowing_inputs, files_of, needs_to_be_allowed},
+    output_file::{NewFile, unwritable},
     print::Printer,
     table::paragraph,
 };
@@ -65,7 +65,11 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         ConventionArgument::Modified => ConversionTarget::Modified,
     };
     let made = Folders::make(&arguments.out)?;
-    let report = written(arguments, &description, to).inspect_err(|_| made.remove())?;
+    let mut report = written(arguments, &description, to).inspect_err(|_| made.remove())?;
+    if let Some(warning) = needs_to_be_allowed(&arguments.out.join(FILE), path) {
+        printer.warnings(std::slice::from_ref(&warning));
+        report.warnings.push(Finding::from(&warning));
+    }
     printer.result(&report, text)?;
     Ok(match report.verdict {
         Agreement::Agree => 0,
@@ -122,11 +126,6 @@ impl Folders {
     }
 }
 
-fn unwritable(path: &Path, error: &std::io::Error) -> Diagnostic {
-    Diagnostic::error("output::unwritable", format!("cannot write into {}: {error}", path.display()))
-        .with_help("choose a folder that can be written")
-}
-
 /// A robot file names a URDF that is a file.
 fn is_urdf(path: &Path) -> Result<(), Diagnostic> {
     let refused = |why: &str, help: &str| {
@@ -147,7 +146,8 @@ fn is_urdf(path: &Path) -> Result<(), Diagnostic> {
 
 /// The check of the written file, which must find what the URDF alone finds.
 fn checked(written: &Path, before: &RobotDescription, arguments: &Arguments) -> Result<RobotCheck, Failure> {
-    let description = load_robot_with(written, &arguments.arm.robot.packages().ros())?;
+    let access = allowing_inputs(arguments.arm.robot.access()?, before);
+    let description = load_robot_with(written, &access)?;
     for each in [Use::Clearance, Use::Physics] {
         if before.for_use(each).is_ok()
             && let Err(mut lost) = description.for_use(each)

@@ -14,7 +14,7 @@ use congruent::{
 
 use crate::{
     failure::Failure,
-    input::{RobotArgument, files_of},
+    input::{RobotArgument, allowing_inputs, files_of, needs_to_be_allowed},
     output_file::{NewFile, folder_of},
     print::Printer,
     table::paragraph,
@@ -57,12 +57,17 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let name = out.file_name().unwrap_or_default();
     let draft = scenario(&description, &folder.join(name))?;
     let (setup, outcome) = file.write(&draft.text, &inputs, |written| {
-        let setup = RunSetup::load_with(written, &[], &arguments.robot.packages().ros())?;
+        let setup =
+            RunSetup::load_with(written, &[], &allowing_inputs(arguments.robot.access()?, &description))?;
         let outcome = try_scenario(&setup)?;
         passed(&outcome)?;
         Ok((setup, outcome))
     })?;
-    let report = report(arguments, (&description, draft), (&setup, outcome));
+    let mut report = report(arguments, (&description, draft), (&setup, outcome));
+    if let Some(warning) = needs_to_be_allowed(out, &description.path) {
+        printer.warnings(std::slice::from_ref(&warning));
+        report.warnings.push(Finding::from(&warning));
+    }
     printer.result(&report, text)?;
     Ok(0)
 }

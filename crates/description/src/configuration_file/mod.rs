@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 use crate::{
     diagnostic::{Diagnostic, known_names},
-    file::read_text,
+    files::{FileAccess, InputFile},
     model::{Robot, RobotQ},
 };
 
@@ -76,6 +76,8 @@ pub struct Configurations<T> {
     pub entries: Vec<T>,
     /// Given positions outside the joint limits.
     pub warning: Option<Diagnostic>,
+    /// The file; `None` if they come from none.
+    pub input: Option<InputFile>,
 }
 
 /// Reads a file of configurations: a JSON array of `{"q": {joint: value}, ...}` in rad and m,
@@ -110,7 +112,8 @@ fn read<T>(
     robot: &Robot,
     vectors: impl Fn(&WrittenConfiguration) -> Result<T, Diagnostic>,
 ) -> Result<Configurations<T>, Vec<Diagnostic>> {
-    let source = read_text(path, MOST_BYTES)?;
+    let access = FileAccess::default();
+    let source = access.read_named_text(path, MOST_BYTES)?;
     let (mut index, mut outside, mut first_outside) = (0, Vec::new(), None);
     let entry = |written: WrittenConfiguration, place: Range<usize>| {
         index += 1;
@@ -130,7 +133,7 @@ fn read<T>(
         .map_err(|faults| faults.into_iter().map(|fault| fault.in_file(&source)).collect::<Vec<_>>())?;
     let warning = outside_limits_warning(&outside)
         .map(|warning| warning.at(first_outside.unwrap_or_default()).in_file(&source));
-    Ok(Configurations { entries, warning })
+    Ok(Configurations { entries, warning, input: access.files().pop() })
 }
 
 fn no_entry() -> Diagnostic {

@@ -14,10 +14,8 @@ use super::{
 };
 use crate::{
     diagnostic::Diagnostic,
-    file::read_bytes,
+    files::{FileAccess, Packages, Resolved},
     model::Mesh,
-    packages::{Packages, Resolved},
-    ros_packages::RosPackages,
 };
 
 /// The largest mesh file that is read.
@@ -35,13 +33,14 @@ pub(crate) type FindMesh<'a> = dyn FnMut(&str, Vector3<f64>) -> Result<FoundMesh
 /// Reads meshes inside the folders that `packages` allows.
 pub(crate) struct MeshStore<'a> {
     packages: &'a mut Packages,
+    access: &'a FileAccess,
     /// By file and the bits of the scale.
     read: BTreeMap<(PathBuf, [u64; 3]), Arc<Mesh>>,
 }
 
 impl<'a> MeshStore<'a> {
-    pub(crate) fn new(packages: &'a mut Packages) -> Self {
-        Self { packages, read: BTreeMap::new() }
+    pub(crate) fn new(packages: &'a mut Packages, access: &'a FileAccess) -> Self {
+        Self { packages, access, read: BTreeMap::new() }
     }
 
     /// The mesh that a URDF names by `uri`, in metres, scaled.
@@ -58,7 +57,7 @@ impl<'a> MeshStore<'a> {
         };
         // A format that is not read is not opened either.
         let format = MeshFormat::of(&extension).map_err(refused)?;
-        let read = format.parse(&read_bytes(&path, MESH_BYTES)?).map_err(refused)?;
+        let read = format.parse(&self.access.read_mesh(uri, &path, MESH_BYTES)?).map_err(refused)?;
         let mut warnings = self.warnings(uri, &path, &read);
         warnings.extend(warning);
         let mesh = Arc::new(scaled(path, read, scale).map_err(refused)?);
@@ -86,16 +85,22 @@ impl<'a> MeshStore<'a> {
     }
 }
 
-/// The mesh that another file in `folder` names, scaled; nothing outside of the project folder is opened.
+/// The mesh that another file in `folder` names, scaled; nothing outside of its project and of what `access` allows is
+/// opened.
 ///
 /// # Errors
 /// The file cannot be found or read, is outside of the project folder, or is no mesh.
-pub fn read_mesh(folder: &Path, uri: &str, scale: Vector3<f64>) -> Result<Arc<Mesh>, Diagnostic> {
+pub fn read_mesh(
+    folder: &Path,
+    uri: &str,
+    scale: Vector3<f64>,
+    access: &FileAccess,
+) -> Result<Arc<Mesh>, Diagnostic> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let mut packages = Packages::new(folder, BTreeMap::new(), RosPackages::default()).map_err(|error| {
+    let mut packages = Packages::new(folder, BTreeMap::new(), access).map_err(|error| {
         Diagnostic::error("file::unreadable", format!("{} cannot be read: {error}", folder.display()))
     })?;
-    let found = MeshStore::new(&mut packages).find(uri, scale).map_err(|fault| match fault.code {
+    let found = MeshStore::new(&mut packages, access).find(uri, scale).map_err(|fault| match fault.code {
         "mesh::outside" => {
             fault.with_help("put the mesh into the project folder, which is the only one that is read")
         }
@@ -134,8 +139,9 @@ mod tests {
     fn a_file_is_read_once_for_each_scale_and_mirroring_keeps_the_outside_out() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("a.obj"), TRIANGLE).unwrap();
-        let mut packages = Packages::new(folder.path(), BTreeMap::new(), RosPackages::default()).unwrap();
-        let mut store = MeshStore::new(&mut packages);
+        let access = FileAccess::default();
+        let mut packages = Packages::new(folder.path(), BTreeMap::new(), &access).unwrap();
+        let mut store = MeshStore::new(&mut packages, &access);
         let mut find = |scale| store.find("a.obj", scale).unwrap().mesh;
         let once = Vector3::new(1.0, 1.0, 1.0);
         assert!(Arc::ptr_eq(&find(once), &find(once)));
@@ -152,8 +158,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("a.obj"), format!("mtllib /etc/hosts\nmtllib b.mtl\n{TRIANGLE}"))
             .unwrap();
-        let mut packages = Packages::new(folder.path(), BTreeMap::new(), RosPackages::default()).unwrap();
-        let found = MeshStore::new(&mut packages).find("a.obj", Vector3::new(1.0, 1.0, 1.0)).unwrap();
+        let access = FileAccess::default();
+        let mut packages = Packages::new(folder.path(), BTreeMap::new(), &access).unwrap();
+        let found =
+            MeshStore::new(&mut packages, &access).find("a.obj", Vector3::new(1.0, 1.0, 1.0)).unwrap();
         let messages: Vec<_> = found.warnings.into_iter().map(|warning| warning.message).collect();
         assert_eq!(messages, ["mesh \"a.obj\": mtllib \"/etc/hosts\" leaves the project folder"]);
     }

@@ -1,7 +1,5 @@
 //! The inputs of planning a motion, and what every planned move is held against.
 
-use std::path::Path;
-
 use congruent_description::{
     Diagnostic, RobotDescription, RobotQ,
     display::{quantity, quantity_in_full},
@@ -12,7 +10,7 @@ use super::{
     excess::{Excess, worst_excess},
     timing::MotionLimits,
 };
-use crate::scenario::{FilePlace, OverLimit};
+use crate::scenario::{FilePlace, OverLimit, ScenarioFolder};
 
 /// The code of the warning that a motion takes longer than the scenario says.
 pub(super) const SLOWED: &str = "scenario::slowed";
@@ -24,7 +22,7 @@ pub(super) struct Planning<'a> {
     pub(super) description: &'a RobotDescription,
     pub(super) limits: &'a MotionLimits,
     /// The folder of the scenario file, in which other files are found.
-    pub(super) folder: &'a Path,
+    pub(super) folder: ScenarioFolder<'a>,
     /// The end of the previous motion; after a servo, whose end is not known, the last configuration that is.
     pub(super) from: &'a RobotQ,
     pub(super) place: FilePlace<'a>,

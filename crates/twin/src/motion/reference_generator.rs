@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use congruent_description::{Diagnostic, RobotDescription, RobotQ};
+use congruent_description::{Diagnostic, FileAccess, RobotDescription, RobotQ};
 use congruent_kinematics::KinematicsError;
 
 use super::{
@@ -11,7 +11,7 @@ use super::{
     tcp::tcp_servo::{ServoController, ServoResult, StepInterval},
     trajectory::{Trajectory, plan},
 };
-use crate::scenario::{FilePlace, MotionSettings};
+use crate::scenario::{FilePlace, MotionSettings, ScenarioFolder};
 
 /// Why there is no setpoint.
 #[derive(Debug, thiserror::Error)]
@@ -196,10 +196,12 @@ impl<'a> ReferenceGenerator<'a> {
     /// Plans a motion from the setpoint at which the arm is held now, so that the setpoint does not jump.
     fn plan(&mut self, settings: &MotionSettings, index: usize) -> Result<PlannedMove, MotionError> {
         let mut warnings = Vec::new();
+        // Motions after a servo name no file.
+        let access = FileAccess::default();
         let mut planning = Planning {
             description: self.description,
             limits: &self.trajectory.limits,
-            folder: Path::new(""),
+            folder: ScenarioFolder { path: Path::new(""), access: &access },
             from: &self.q,
             place: FilePlace::nowhere(),
             warnings: &mut warnings,

@@ -1,8 +1,6 @@
 //! The motions of a scenario, one after another. Moves are planned when the scenario is checked, servos are
 //! computed in the run (`reference_generator.rs`).
 
-use std::path::Path;
-
 use congruent_description::{Diagnostic, RobotDescription, RobotQ};
 
 use super::{
@@ -12,7 +10,7 @@ use super::{
     tcp::{path, tcp_move, tcp_servo},
     timing::MotionLimits,
 };
-use crate::scenario::{FilePlace, MotionSettings};
+use crate::scenario::{FilePlace, MotionSettings, ScenarioFolder};
 
 /// The motions of a scenario with what planning needs besides the robot.
 #[derive(Debug, Clone, Copy)]
@@ -21,7 +19,7 @@ pub(crate) struct MotionInput<'a> {
     pub(crate) places: FilePlace<'a>,
     pub(crate) limits: &'a MotionLimits,
     /// The folder in which files that a motion names are found.
-    pub(crate) folder: &'a Path,
+    pub(crate) folder: ScenarioFolder<'a>,
 }
 
 /// All motions of a scenario; the arm holds before the first and after the last.

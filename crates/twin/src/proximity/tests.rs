@@ -67,6 +67,7 @@ fn description() -> RobotDescription {
         named_files: congruent_description::NamedFiles::default(),
         disabled_collisions: BTreeSet::new(),
         warnings: Vec::new(),
+        inputs: Vec::new(),
         places: congruent_description::Places::default(),
     }
 }

@@ -4,10 +4,8 @@ use std::{fs, io, path::Path, time::Duration};
 
 use quick_junit::{NonSuccessKind, Property, Report, TestCaseStatus};
 
-use super::{
-    files::{OutputError, write_whole},
-    suite::{Clock, TestResult, TestSuite},
-};
+use super::suite::{Clock, TestResult, TestSuite};
+use crate::results::{OutputError, write_whole};
 
 /// Writes suites as one JUnit file; makes the folder that it goes to.
 ///

@@ -4,7 +4,6 @@
 mod annotations;
 mod causes;
 mod fault_table;
-mod files;
 mod junit;
 mod run_report;
 mod sentence;
@@ -15,7 +14,6 @@ mod test_suite;
 pub use annotations::github_annotations;
 pub(crate) use causes::explain;
 pub use fault_table::{FaultRow, FaultTable, SeenBy};
-pub use files::{OutputError, OutputFolder, write_whole};
 pub use junit::write_junit;
 pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
 pub use sentence::{limit_words, lines, margin_words, quantity_words, sentence_at};

@@ -1,7 +1,7 @@
 //! The report of one run.
 
 use congruent_agreement::{compare::PoseSource, report::ReportedDiagnosis};
-use congruent_description::Finding;
+use congruent_description::{Finding, InputFile};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -70,6 +70,9 @@ pub struct RunReport {
     pub trajectory_sha256: String,
     /// The source of the model's pose of each link.
     pub links: Vec<LinkSource>,
+    /// The files that it was made from: the scenario, the robot's files with its meshes, and those that the scenario
+    /// names.
+    pub inputs: Vec<InputFile>,
     /// Versions of the programs.
     pub versions: Versions,
     /// What was suspicious in the input.
@@ -174,6 +177,7 @@ impl RunReport {
             seed: setup.scenario.seed,
             trajectory_sha256: outcome.trajectory_sha256,
             links: links.map(|(link, &source)| LinkSource { link: link.name.clone(), source }).collect(),
+            inputs: setup.inputs.clone(),
             versions: Versions {
                 congruent: env!("CARGO_PKG_VERSION"),
                 physics: congruent_simulation::ENGINE,

@@ -5,6 +5,7 @@ mod bodies;
 mod checks;
 mod data;
 mod faults;
+mod folder;
 mod joints;
 mod motions;
 mod number;
@@ -27,6 +28,7 @@ pub use faults::{
     AddedFrictionFault, DroppedSamplesFault, EncoderDriftFault, EncoderOffsetFault, FaultKind, FaultSettings,
     JointFault, LatencyFault, ScaledTorqueFault, ShiftedToolFault, SwappedJointsFault, WrongPayloadFault,
 };
+pub(crate) use folder::ScenarioFolder;
 pub use joints::StartSettings;
 pub use motions::{
     ArcMotion, ArcSettings, Between, JointMotion, JointPathMotion, LimitSettings, LineMotion, MotionSettings,

@@ -1,7 +1,5 @@
 //! `[[obstacle]] path` and `[[grasp]]` as moving bodies, and what carried bodies weigh as payloads.
 
-use std::path::Path;
-
 use congruent_description::{
     Diagnostic, Diagnostics, Geometry, Inertia, LinkIndex, RobotDescription, known_names,
 };
@@ -17,7 +15,7 @@ use crate::{
     bodies::{BodyCourse, Grasp, MovingBody, PathPose},
     motion::Trajectory,
     proximity::ObstacleMobility,
-    scenario::{FilePlace, GraspSettings, ObstacleSettings, PoseSettings, Scenario},
+    scenario::{FilePlace, GraspSettings, ObstacleSettings, PoseSettings, Scenario, ScenarioFolder},
 };
 
 /// The bodies around the robot.
@@ -34,7 +32,7 @@ impl Surroundings {
     /// Builds all; their faults are kept in `found`.
     pub(super) fn new(
         scenario: &Scenario,
-        (place, folder): (FilePlace<'_>, &Path),
+        (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
         (description, trajectory): (&RobotDescription, Option<&Trajectory>),
         found: &mut Diagnostics,
     ) -> Self {

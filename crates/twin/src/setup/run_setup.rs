@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::{
-    Diagnostic, Diagnostics, Robot, RobotDescription, RobotQ, RosPackages, Use, load_robot_with,
+    Diagnostic, Diagnostics, FileAccess, InputFile, Robot, RobotDescription, RobotQ, Use, load_robot_with,
 };
 use congruent_dynamics::JointResistance;
 use congruent_kinematics::move_inside_limits;
@@ -28,7 +28,7 @@ use crate::{
     proximity::ObstacleMobility,
     scenario::{
         Check, CheckKind, Expectation, FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile,
-        StartSettings,
+        ScenarioFolder, StartSettings,
     },
 };
 
@@ -43,6 +43,8 @@ pub struct RunSetup {
     pub path: Option<PathBuf>,
     /// Values that replace those of the file, `KEY=VALUE`.
     pub overrides: Vec<String>,
+    /// The files that were read: the scenario, those of the robot, and those that the scenario names.
+    pub inputs: Vec<InputFile>,
     /// The robot with its model.
     pub description: RobotDescription,
     /// Clock and gravity.
@@ -78,33 +80,35 @@ impl RunSetup {
     /// # Errors
     /// Every finding, if at least one is an error.
     pub fn load(path: &Path, overrides: &[Override]) -> Result<Self, Vec<Diagnostic>> {
-        Self::load_with(path, overrides, &RosPackages::default())
+        Self::load_with(path, overrides, &FileAccess::default())
     }
 
-    /// The same with meshes in packages of ROS.
+    /// The same with more files that may be opened.
     ///
     /// # Errors
     /// As [`RunSetup::load`].
     pub fn load_with(
         path: &Path,
         overrides: &[Override],
-        ros: &RosPackages,
+        access: &FileAccess,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let file = ScenarioFile::read(path, overrides)?;
+        let access = access.fresh();
+        let file = ScenarioFile::read_with(path, overrides, &access)?;
+        let access = access.of_file(path)?;
         let in_file = |findings: Vec<Diagnostic>| findings.into_iter().map(|finding| file.mark(finding));
-        let description = match load_robot_with(&file.robot_path(), ros) {
-            Ok(description) => description,
-            Err(mut findings) => {
-                findings.extend(in_file(vec![robot_refused(&file)]));
-                findings.extend(file.findings().iter().cloned());
-                return Err(findings);
-            }
-        };
-        let mut scenario = file.scenario.clone();
-        if let Some(torques) = &mut scenario.controller.torque_file {
-            *torques = file.folder().join(&*torques).display().to_string();
-        }
-        let built = Self::build(scenario, description, (file.place(), &file.folder()));
+        let robot = file.robot_path();
+        let description =
+            match access.check(&robot).map_err(Vec::from).and_then(|()| load_robot_with(&robot, &access)) {
+                Ok(description) => description,
+                Err(mut findings) => {
+                    findings.extend(in_file(vec![robot_refused(&file)]));
+                    findings.extend(file.findings().iter().cloned());
+                    return Err(findings);
+                }
+            };
+        let folder = file.folder();
+        let folder = ScenarioFolder { path: &folder, access: &access };
+        let built = Self::build(file.scenario.clone(), description, (file.place(), folder));
         let mut setup = match built {
             Ok(setup) if file.findings().is_empty() => setup,
             Ok(_) => return Err(file.findings().to_vec()),
@@ -117,6 +121,7 @@ impl RunSetup {
         let mut warnings = Diagnostics::default();
         warnings.extend(in_file(std::mem::take(&mut setup.warnings)));
         setup.warnings = warnings.into_vec();
+        setup.inputs = access.files();
         setup.path = Some(path.to_owned());
         setup.overrides = overrides.iter().map(ToString::to_string).collect();
         Ok(setup)
@@ -132,13 +137,14 @@ impl RunSetup {
             return Err(wrong);
         }
         let folder = PathBuf::from(scenario.folder.clone().unwrap_or_default());
-        Self::build(scenario, description, (FilePlace::nowhere(), &folder))
+        let folder = ScenarioFolder { path: &folder, access: &FileAccess::default() };
+        Self::build(scenario, description, (FilePlace::nowhere(), folder))
     }
 
     fn build(
         mut scenario: Scenario,
         description: RobotDescription,
-        (place, folder): (FilePlace<'_>, &Path),
+        (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
     ) -> Result<Self, Vec<Diagnostic>> {
         let (mut found, mut warnings) = (Diagnostics::default(), Vec::new());
         let robot = &description.robot;
@@ -157,7 +163,7 @@ impl RunSetup {
         let clock = found.keep(RunClock::new(&scenario.simulation, clock, motions_s, &mut warnings));
         warnings.extend(clock.iter().flat_map(|clock| taken_too_late(&scenario, place, clock.duration_s())));
         found.keep(output::check(&scenario.output, place.key("output"), scenario.simulation.step_s));
-        let actuation = keep_all(&mut found, Actuation::new(&scenario, place, &description));
+        let actuation = keep_all(&mut found, Actuation::new(&scenario, (place, folder), &description));
         let planned = (&description, trajectory.as_ref());
         let Surroundings { obstacles, moving, payloads: held } =
             Surroundings::new(&scenario, (place, folder), planned, &mut found);
@@ -186,6 +192,7 @@ impl RunSetup {
             scenario,
             path: None,
             overrides: Vec::new(),
+            inputs: description.inputs.clone(),
             description,
             clock,
             start,

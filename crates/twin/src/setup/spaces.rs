@@ -1,12 +1,10 @@
 //! `[[obstacle]]` and `[[zone]]` as bodies around the robot, in the root link's frame.
 
-use std::path::Path;
-
-use congruent_description::{Diagnostic, Geometry, Robot, read_mesh};
+use congruent_description::{Diagnostic, Geometry, Robot};
 use congruent_simulation::Obstacle;
 use nalgebra::Vector3;
 
-use crate::scenario::{CylinderSettings, FilePlace, ObstacleSettings, PoseSettings};
+use crate::scenario::{CylinderSettings, FilePlace, ObstacleSettings, PoseSettings, ScenarioFolder};
 
 /// Largest size and coordinate of an obstacle or zone: beyond it, rounding is no longer small against the
 /// accuracy of distances, and far beyond it products overflow.
@@ -50,7 +48,7 @@ pub(super) const ZONE: SpaceKind = SpaceKind {
 pub(super) fn build(
     all: &[ObstacleSettings],
     places: FilePlace<'_>,
-    (kind, folder): (&SpaceKind, &Path),
+    (kind, folder): (&SpaceKind, ScenarioFolder<'_>),
     robot: &Robot,
 ) -> Result<Vec<Obstacle>, Vec<Diagnostic>> {
     let mut obstacles: Vec<Obstacle> = Vec::new();
@@ -76,7 +74,7 @@ pub(super) fn build(
 fn obstacle(
     settings: &ObstacleSettings,
     place: FilePlace<'_>,
-    (kind, folder): (&SpaceKind, &Path),
+    (kind, folder): (&SpaceKind, ScenarioFolder<'_>),
 ) -> Result<Obstacle, Diagnostic> {
     if settings.name.trim().is_empty() {
         return Err(place.key("name").mark(
@@ -96,7 +94,7 @@ fn obstacle(
         }
         (None, None, None, Some(mesh)) => {
             let scale = Vector3::from(settings.scale.unwrap_or([1.0; 3]));
-            let read = read_mesh(folder, mesh, scale);
+            let read = folder.read_mesh(mesh, scale);
             let mesh =
                 read.map_err(
                     |fault| if fault.source.is_none() { place.key("mesh").mark(fault) } else { fault },

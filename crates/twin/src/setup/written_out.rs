@@ -1,14 +1,12 @@
 //! Writes the defaults of a scenario out, so that it says by itself what was run.
 
-use std::path::Path;
-
 use congruent_description::{JointKind, Robot, RobotDescription, RobotQ};
 
 use super::clock::RunClock;
 use crate::{
     monitor::write_out_limits,
     motion::{ACCELERATION_M_S2, DEFAULT_GAIN_PER_S, default_jerk_m_s3},
-    scenario::{MotionSettings, Scenario, StartSettings},
+    scenario::{MotionSettings, Scenario, ScenarioFolder, StartSettings},
 };
 
 /// Fills in what was left out: the duration, the whole start, limits, and the robot's absolute path.
@@ -61,21 +59,17 @@ fn write_out_profile(motion: &mut MotionSettings) {
 }
 
 /// Makes the paths of other files absolute.
-pub(super) fn write_out_paths(scenario: &mut Scenario, folder: &Path) {
+pub(super) fn write_out_paths(scenario: &mut Scenario, folder: ScenarioFolder<'_>) {
     // Meshes keep their paths: those that leave the project of the folder are refused.
     if scenario.folder.is_some() || scenario.obstacle.iter().any(|obstacle| obstacle.mesh.is_some()) {
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-        scenario.folder = Some(whole.display().to_string());
+        scenario.folder = Some(folder.whole(".").display().to_string());
     }
     if let Some(torques) = &mut scenario.controller.torque_file {
-        let path = Path::new(&*torques);
-        *torques = path.canonicalize().unwrap_or_else(|_| path.to_owned()).display().to_string();
+        *torques = folder.whole(torques).display().to_string();
     }
     for motion in &mut scenario.motion {
         if let MotionSettings::Playback(playback) = motion {
-            let path = folder.join(&playback.play_csv);
-            playback.play_csv = path.canonicalize().unwrap_or(path).display().to_string();
+            playback.play_csv = folder.whole(&playback.play_csv).display().to_string();
         }
     }
 }

@@ -3,13 +3,13 @@
 
 use std::path::Path;
 
-use congruent_description::{Diagnostic, Geometry, Link, LinkIndex, Robot, known_names};
+use congruent_description::{Diagnostic, FileAccess, Geometry, Link, LinkIndex, Robot, known_names};
 use congruent_simulation::Obstacle;
 
 use super::spaces;
 use crate::{
     proximity::matches,
-    scenario::{Check, CheckKind, FilePlace, ObstacleSettings, ZoneSettings},
+    scenario::{Check, CheckKind, FilePlace, ObstacleSettings, ScenarioFolder, ZoneSettings},
 };
 
 /// Space that is forbidden to some links.
@@ -41,8 +41,10 @@ pub(super) fn build(
         }
     }
     let spaces: Vec<ObstacleSettings> = all.iter().map(ZoneSettings::space).collect();
-    let spaces = spaces::build(&spaces, places, (&spaces::ZONE, Path::new("")), robot)
-        .map_err(|found| errors.extend(found));
+    // No zone has a mesh.
+    let folder = ScenarioFolder { path: Path::new(""), access: &FileAccess::default() };
+    let spaces =
+        spaces::build(&spaces, places, (&spaces::ZONE, folder), robot).map_err(|found| errors.extend(found));
     match spaces {
         Ok(spaces) if errors.is_empty() => {
             Ok(spaces.into_iter().zip(links).map(|(space, links)| Zone { space, links }).collect())

@@ -43,7 +43,7 @@ impl ParquetTable {
         let schema = Type::group_type_builder("trajectory").with_fields(fields.map_err(failed)?);
         // Measured numbers seldom repeat: a dictionary of them is work for nothing.
         let properties = WriterProperties::builder().set_dictionary_enabled(false).build();
-        let file = File::create(path).map_err(failed)?;
+        let file = File::create_new(path).map_err(failed)?;
         let schema = Arc::new(schema.build().map_err(failed)?);
         Ok(Self {
             file: SerializedFileWriter::new(file, schema, Arc::new(properties)).map_err(failed)?,

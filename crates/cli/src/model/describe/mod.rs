@@ -15,7 +15,7 @@ use crate::{
     batch::{Batch, BatchReport},
     ci::CiArguments,
     failure::Failure,
-    input::{ChainArguments, PackageArguments},
+    input::{AccessArguments, ChainArguments},
     print::Printer,
 };
 
@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     chain: ChainArguments,
     #[command(flatten)]
-    packages: PackageArguments,
+    access: AccessArguments,
 }
 
 impl BatchReport for DescriptionSummary {
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let ci = CiArguments::default();
     let batch = Batch::begin(&arguments.robots, &ci, printer)?;
     let summary = |path: &Path| {
-        let description = arguments.chain.of(load_robot_with(path, &arguments.packages.ros())?)?;
+        let description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
         batch.warn(path, &description.warnings);
         Ok(describe(&description))
     };

@@ -8,7 +8,7 @@ use congruent_simulation::SPEED_MARGIN;
 use super::{
     joint_path::check_positions,
     spline::{JointSpline, SplineEnds},
-    table::{JointTable, SAME_PLACE},
+    table::{JointTable, MOST_BYTES, SAME_PLACE},
 };
 use crate::{
     motion::{
@@ -29,9 +29,10 @@ pub(in crate::motion) fn plan(
 ) -> Result<Motion, Diagnostic> {
     let place = planning.place.key("play_csv");
     let robot = &planning.description.robot;
-    let path = planning.folder.join(&settings.play_csv);
-    let JointTable { times_s, mut points } = JointTable::read(&path, (robot, planning.limits), planning.from)
-        .map_err(|fault| if fault.source.is_none() { place.mark(fault) } else { fault })?;
+    let source = planning.folder.read_text(&settings.play_csv, MOST_BYTES);
+    let table = source.and_then(|source| JointTable::read(&source, (robot, planning.limits), planning.from));
+    let JointTable { times_s, mut points } =
+        table.map_err(|fault| if fault.source.is_none() { place.mark(fault) } else { fault })?;
     for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
         let (stands, begins) = (planning.from[coordinate], points[0][coordinate]);
         if (stands - begins).abs() > SAME_PLACE {

@@ -1,16 +1,16 @@
 //! A table of joint positions over time, read from CSV: a header that names time and joints with their units, one instant
 //! in each row.
 
-use std::{ops::Range, path::Path};
+use std::{ops::Range, sync::Arc};
 
 use congruent_description::{
-    Diagnostic, Robot, RobotQ, SourceFile, display::quantity, known_names, read_regular_text, units::Unit,
+    Diagnostic, Robot, RobotQ, SourceFile, display::quantity, known_names, units::Unit,
 };
 
 use crate::motion::timing::MotionLimits;
 
 /// Largest table that is read.
-const MOST_BYTES: u64 = 256 << 20;
+pub(super) const MOST_BYTES: u64 = 256 << 20;
 /// How far positions of a table may be from where they should be, rad or m. Kind: digits of a table.
 pub(super) const SAME_PLACE: f64 = 1e-4;
 /// The column of times.
@@ -53,18 +53,17 @@ struct Row<'a> {
 }
 
 impl JointTable {
-    /// Reads a file; joints without a column stay where `from` has them.
+    /// Reads a table; joints without a column stay where `from` has them.
     ///
     /// # Errors
-    /// The file cannot be read, a column or a number is wrong, times do not increase, or a joint would have to move
+    /// A column or a number is wrong, times do not increase, or a joint would have to move
     /// faster than its limit from one row to the next.
     pub(super) fn read(
-        path: &Path,
+        source: &Arc<SourceFile>,
         (robot, limits): (&Robot, &MotionLimits),
         from: &RobotQ,
     ) -> Result<Self, Diagnostic> {
-        let source = read_regular_text(path, MOST_BYTES)?;
-        Self::parse(&source, (robot, limits), from).map_err(|fault| fault.in_file(&source))
+        Self::parse(source, (robot, limits), from).map_err(|fault| fault.in_file(source))
     }
 
     fn parse(

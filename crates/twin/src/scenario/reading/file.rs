@@ -7,7 +7,7 @@ use std::{
 };
 
 use congruent_description::{
-    Diagnostic, Diagnostics, SourceFile, is_standard_input, known_names, read_text, toml_text,
+    Diagnostic, Diagnostics, FileAccess, SourceFile, is_standard_input, known_names, toml_text,
 };
 use serde::Deserialize;
 use toml::{Spanned, de::DeTable};
@@ -76,7 +76,19 @@ impl ScenarioFile {
     /// # Errors
     /// Every finding, if the file is no scenario.
     pub fn read(path: &Path, overrides: &[Override]) -> Result<Self, Vec<Diagnostic>> {
-        let source = read_text(path, MOST_BYTES).map_err(|error| vec![error])?;
+        Self::read_with(path, overrides, &FileAccess::default())
+    }
+
+    /// The same, and `access` lists the file.
+    ///
+    /// # Errors
+    /// As [`ScenarioFile::read`].
+    pub fn read_with(
+        path: &Path,
+        overrides: &[Override],
+        access: &FileAccess,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let source = access.read_named_text(path, MOST_BYTES)?;
         let in_file = |findings: Vec<Diagnostic>| -> Vec<Diagnostic> {
             findings.into_iter().map(|finding| finding.in_file(&source)).collect()
         };

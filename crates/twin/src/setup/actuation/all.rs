@@ -7,7 +7,7 @@ use super::{
     controller::ControllerSetup, payloads::payloads, resistances::resistances, sensors::SensorSetup,
 };
 use crate::{
-    scenario::{FilePlace, Scenario},
+    scenario::{FilePlace, Scenario, ScenarioFolder},
     setup::payload::Payload,
 };
 
@@ -24,11 +24,12 @@ impl Actuation {
     /// Every fault of every section.
     pub(in crate::setup) fn new(
         scenario: &Scenario,
-        place: FilePlace<'_>,
+        (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
         description: &RobotDescription,
     ) -> Result<Self, Vec<Diagnostic>> {
         let (robot, step_s) = (&description.robot, scenario.simulation.step_s);
-        let controller = ControllerSetup::new(&scenario.controller, place.key("controller"), robot, step_s);
+        let written = (place.key("controller"), folder);
+        let controller = ControllerSetup::new(&scenario.controller, written, robot, step_s);
         let resistances = resistances(&scenario.joints, place.key("joints"), robot);
         let sensors = SensorSetup::new(&scenario.sensors, place.key("sensors"), robot);
         let payloads = payloads(&scenario.payload, place.key("payload"), description);

@@ -1,15 +1,13 @@
 //! `[controller]` checked against its robot: one number for each joint, periods in steps.
 
-use std::path::Path;
-
-use congruent_description::{Diagnostic, Robot, known_names, read_text};
+use congruent_description::{Diagnostic, Robot, known_names};
 use congruent_simulation::Gains;
 
 use super::{
     joint_numbers::{NumberRule, Unnamed, resolve},
     torque_table::TorqueTable,
 };
-use crate::scenario::{ControllerKind, ControllerSettings, FilePlace, JointNumbers, Range};
+use crate::scenario::{ControllerKind, ControllerSettings, FilePlace, JointNumbers, Range, ScenarioFolder};
 
 /// The controller of a run; vectors hold one entry for each movable joint.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +48,7 @@ impl ControllerSetup {
 
     pub(in crate::setup) fn new(
         settings: &ControllerSettings,
-        place: FilePlace<'_>,
+        (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
         robot: &Robot,
         step_s: f64,
     ) -> Result<Self, Vec<Diagnostic>> {
@@ -67,7 +65,7 @@ impl ControllerSetup {
         let torque = numbers(&settings.torque, "torque", (Range::Finite, Unnamed::Zero));
         let mut keep = |result: Result<_, Diagnostic>| result.map_err(|error| errors.push(error)).ok();
         let sampling = keep(sampling(settings, place, step_s).map(|sampling| (sampling, None)));
-        let torque_table = keep(torque_table(settings, place, robot).map(|table| (None, table)));
+        let torque_table = keep(torque_table(settings, (place, folder), robot).map(|table| (None, table)));
         let (Some((sampling, _)), Some((_, torque_table)), true) =
             (sampling, torque_table, errors.is_empty())
         else {
@@ -150,12 +148,11 @@ fn sampling(
 
 fn torque_table(
     settings: &ControllerSettings,
-    place: FilePlace<'_>,
+    (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
     robot: &Robot,
 ) -> Result<Option<TorqueTable>, Diagnostic> {
     let Some(path) = &settings.torque_file else { return Ok(None) };
-    let read =
-        read_text(Path::new(path), MOST_BYTES).and_then(|file| TorqueTable::read(&file, robot).map(Some));
+    let read = folder.read_text(path, MOST_BYTES).and_then(|file| TorqueTable::read(&file, robot).map(Some));
     read.map_err(|mut error| {
         error.message = format!("torque_file \"{path}\": {}", error.message);
         (error.span, error.source) = (None, None);

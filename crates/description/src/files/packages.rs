@@ -3,16 +3,22 @@
 //! One is the project folder. It is not the URDF's own, since real robots say `../meshes/x.stl`, but the
 //! nearest folder at or above the URDF that holds `package.xml`, `robot.toml` or `.git`; if none does,
 //! it is the folder above the URDF's. It is never `/` or a home folder. The others are the folders that
-//! a robot file declares under `packages`, and packages of ROS if the user asks for them. Symbolic links are resolved before a path is compared with
+//! a robot file declares under `packages`, which lie in its own project, packages of ROS if the user asks for them, and
+//! folders that the user allows. Symbolic links are resolved before a path is compared with
 //! these folders, and nothing outside of them is opened.
 
 use std::{
     collections::BTreeMap,
     io,
-    path::{Component, Path, PathBuf},
+    path::{Path, PathBuf},
 };
 
-use crate::{diagnostic::Diagnostic, ros_packages::RosPackages};
+use super::{
+    access::FileAccess,
+    project::{normalised, project_folder},
+    ros_packages::RosPackages,
+};
+use crate::diagnostic::Diagnostic;
 
 /// Names that mark the top folder of a project.
 const MARKS: [&str; 3] = ["package.xml", "robot.toml", ".git"];
@@ -25,6 +31,8 @@ pub(crate) struct Packages {
     /// Those of the robot file, and packages of ROS that were looked for, `None` if in vain.
     known: BTreeMap<String, Option<PathBuf>>,
     ros: RosPackages,
+    /// Folders that a person allows.
+    allowed: Vec<PathBuf>,
 }
 
 /// A file that a URI names.
@@ -39,13 +47,16 @@ impl Packages {
     pub(crate) fn new(
         urdf_folder: &Path,
         declared: BTreeMap<String, PathBuf>,
-        ros: RosPackages,
+        access: &FileAccess,
     ) -> io::Result<Self> {
         let urdf_folder = urdf_folder.canonicalize()?;
-        let home = std::env::var_os("HOME").and_then(|home| Path::new(&home).canonicalize().ok());
-        let project_folder = project_folder(&urdf_folder, home.as_deref());
+        let own = project_folder(&urdf_folder, &MARKS);
+        // Never wider than the project of the file that names the URDF.
+        let around = access.project().filter(|project| project.starts_with(&own));
+        let project_folder = around.map_or(own, Path::to_owned);
         let known = declared.into_iter().map(|(name, folder)| (name, Some(folder))).collect();
-        Ok(Self { urdf_folder, project_folder, known, ros })
+        let (ros, allowed) = (access.ros().clone(), access.allowed().to_vec());
+        Ok(Self { urdf_folder, project_folder, known, ros, allowed })
     }
 
     /// The regular file that `uri` names: `package://PKG/rest`, `file:///path` or a path relative
@@ -61,7 +72,7 @@ impl Packages {
                 Diagnostic::error("mesh::outside", message)
                     .one_of("meshes are outside of the project folder and were refused", uri)
                     .with_help(
-                        "mesh paths must stay inside the project; declare other folders under `packages` in robot.toml",
+                        "mesh paths must stay inside the project; allow another folder with --allow DIR",
                     )
             };
             let candidate = normalised(&candidate);
@@ -91,6 +102,7 @@ impl Packages {
         let path = normalised(path);
         std::iter::once(&self.project_folder)
             .chain(self.known.values().flatten())
+            .chain(&self.allowed)
             .any(|root| path.starts_with(root))
     }
 
@@ -176,28 +188,6 @@ fn three_slashes(uri: &str, found: &Path) -> Option<Diagnostic> {
     )
 }
 
-fn project_folder(urdf_folder: &Path, home: Option<&Path>) -> PathBuf {
-    let too_wide = |folder: &Path| folder.parent().is_none() || home == Some(folder);
-    let narrow = || urdf_folder.ancestors().take_while(|folder| !too_wide(folder));
-    let marked = |folder: &&Path| MARKS.iter().any(|mark| folder.join(mark).exists());
-    narrow().find(marked).or_else(|| narrow().nth(1)).unwrap_or(urdf_folder).to_owned()
-}
-
-/// The path without `.` and `..`, lexically.
-fn normalised(path: &Path) -> PathBuf {
-    let mut plain = PathBuf::new();
-    for component in path.components() {
-        match component {
-            Component::CurDir => {}
-            Component::ParentDir => {
-                plain.pop();
-            }
-            other => plain.push(other),
-        }
-    }
-    plain
-}
-
 #[cfg(test)]
 mod tests {
     use std::fs;
@@ -217,7 +207,7 @@ mod tests {
             fs::write(top.path().join(mark), "").unwrap();
         }
         let packages =
-            Packages::new(&top.path().join("robot/urdf"), BTreeMap::new(), RosPackages::default()).unwrap();
+            Packages::new(&top.path().join("robot/urdf"), BTreeMap::new(), &FileAccess::default()).unwrap();
         (top, packages)
     }
 
@@ -270,7 +260,7 @@ mod tests {
         let declared =
             BTreeMap::from([("far".to_owned(), top.path().join("outside").canonicalize().unwrap())]);
         let mut packages =
-            Packages::new(&top.path().join("robot/urdf"), declared, RosPackages::default()).unwrap();
+            Packages::new(&top.path().join("robot/urdf"), declared, &FileAccess::default()).unwrap();
         found(&mut packages, "package://far/c.stl", "outside/c.stl");
     }
 
@@ -283,7 +273,8 @@ mod tests {
         fs::write(top.path().join("ros/share/e.stl"), "").unwrap();
         refused(&mut packages, "package://far/d.stl", "mesh::not_found");
         let ros = RosPackages { prefixes: vec![top.path().join("ros")], ..RosPackages::default() };
-        let mut packages = Packages::new(&top.path().join("robot/urdf"), BTreeMap::new(), ros).unwrap();
+        let access = FileAccess::new(ros, &[]).unwrap();
+        let mut packages = Packages::new(&top.path().join("robot/urdf"), BTreeMap::new(), &access).unwrap();
         found(&mut packages, "package://far/d.stl", "far/d.stl");
         // The package itself and nothing else.
         refused(&mut packages, "package://far/../e.stl", "mesh::outside");
@@ -301,14 +292,5 @@ mod tests {
         found(&mut packages, "package:///robot/meshes/a.stl", "robot/meshes/a.stl");
         refused(&mut packages, "package:///../../outside/c.stl", "mesh::outside");
         refused(&mut packages, "package:///c.stl", "mesh::not_found");
-    }
-
-    #[test]
-    fn the_project_folder_is_never_the_root_or_a_home() {
-        let home = Some(Path::new("/home/someone"));
-        assert_eq!(project_folder(Path::new("/urdf"), home), Path::new("/urdf"));
-        assert_eq!(project_folder(Path::new("/home/someone"), home), Path::new("/home/someone"));
-        assert_eq!(project_folder(Path::new("/home/someone/arm"), home), Path::new("/home/someone/arm"));
-        assert_eq!(project_folder(Path::new("/home/someone/arm/urdf"), home), Path::new("/home/someone/arm"));
     }
 }

@@ -23,13 +23,21 @@ const WRITER_WAIT: Duration = Duration::from_secs(1);
 /// Entries of a folder among which a name like the missing one is looked for.
 const MOST_ENTRIES: usize = 10_000;
 
+/// The folder of a file; a bare file name is in the current one, and so is what standard input names.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() && !is_standard_input(path) => parent,
+        _ => Path::new("."),
+    }
+}
+
 /// Whether a path means standard input.
 pub fn is_standard_input(path: &Path) -> bool {
     STANDARD_INPUT.iter().any(|name| path == Path::new(name))
 }
 
 /// The bytes of a regular file of at most `most_bytes`.
-pub(crate) fn read_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
+pub(super) fn read_regular_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
     let metadata = metadata(path)?;
     if !metadata.is_file() {
         return Err(not_regular(path));
@@ -43,14 +51,14 @@ pub(crate) fn read_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagno
 }
 
 /// The bytes of what a person names: a regular file, a pipe or standard input.
-fn read_named_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
+pub(super) fn read_named_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
     if is_standard_input(path) {
         return read_at_most(standard_input(path)?.lock(), path, most_bytes);
     }
     if is_pipe(&metadata(path)?) {
         read_at_most(open_pipe(path)?, path, most_bytes)
     } else {
-        read_bytes(path, most_bytes)
+        read_regular_bytes(path, most_bytes)
     }
 }
 
@@ -136,20 +144,11 @@ pub(crate) fn not_found(path: &Path, message: String) -> Diagnostic {
 /// The path in the same folder whose name is most like this one's.
 fn similar(path: &Path) -> Option<PathBuf> {
     let name = path.file_name()?.to_str()?;
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let entries = std::fs::read_dir(folder).ok()?.take(MOST_ENTRIES).filter_map(Result::ok);
+    let entries = std::fs::read_dir(folder_of(path)).ok()?.take(MOST_ENTRIES).filter_map(Result::ok);
     let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
     // The order of a folder is that of the file system.
     names.sort();
     nearest(name, names.iter().map(String::as_str)).map(|name| path.with_file_name(name))
-}
-
-/// The text of a regular file of at most `most_bytes`, which another file names.
-///
-/// # Errors
-/// As [`read_text`].
-pub fn read_regular_text(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
-    text_of(path, &read_bytes(path, most_bytes)?)
 }
 
 /// The text of a file of at most `most_bytes`, without a byte order mark. `path` is what a person names: a
@@ -159,10 +158,11 @@ pub fn read_regular_text(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>
 /// The file cannot be read or is no UTF-8 text; the fault comes with as much of the text as is
 /// needed to show its place.
 pub fn read_text(path: &Path, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
-    text_of(path, &read_named_bytes(path, most_bytes)?)
+    decode_text(path, &read_named_bytes(path, most_bytes)?)
 }
 
-fn text_of(path: &Path, bytes: &[u8]) -> Result<Arc<SourceFile>, Diagnostic> {
+/// The text of a file with these bytes, without a byte order mark.
+pub(super) fn decode_text(path: &Path, bytes: &[u8]) -> Result<Arc<SourceFile>, Diagnostic> {
     let source = |text: &str| Arc::new(SourceFile { path: path.to_owned(), text: text.to_owned() });
     match decode(bytes) {
         Ok(text) => Ok(source(text)),
@@ -231,13 +231,13 @@ mod tests {
     #[test]
     fn kind_and_size_come_first() {
         let folder = tempfile::tempdir().unwrap();
-        let code = |path: &Path, most| read_bytes(path, most).unwrap_err().code;
+        let code = |path: &Path, most| read_regular_bytes(path, most).unwrap_err().code;
         assert_eq!(code(folder.path(), 9), "file::directory");
         assert_eq!(code(&folder.path().join("none"), 9), "file::not_found");
         let file = folder.path().join("file");
         std::fs::write(&file, [0; 10]).unwrap();
         assert_eq!(code(&file, 9), "file::too_large");
-        assert_eq!(read_bytes(&file, 10).unwrap().len(), 10);
+        assert_eq!(read_regular_bytes(&file, 10).unwrap().len(), 10);
     }
 
     #[test]
@@ -257,7 +257,7 @@ mod tests {
         };
         let (silent, pipe) = (make("silent"), make("pipe"));
         assert_eq!(read_text(&silent, 9).unwrap_err().code, "file::no_writer");
-        assert_eq!(read_bytes(&pipe, 9).unwrap_err().code, "file::not_regular");
+        assert_eq!(read_regular_bytes(&pipe, 9).unwrap_err().code, "file::not_regular");
         let to = pipe.clone();
         let writer = std::thread::spawn(move || std::fs::write(to, "written"));
         assert_eq!(read_text(&pipe, 9).unwrap().text, "written");

@@ -1,0 +1,8 @@
+//! Results on disk: each file whole or not at all, in a folder that one run at a time writes to.
+
+mod folder;
+mod lock;
+mod whole_file;
+
+pub use folder::{FolderError, OutputFolder};
+pub use whole_file::{OutputError, is_same_file, write_whole};

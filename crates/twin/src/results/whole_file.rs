@@ -1,0 +1,118 @@
+//! Files that appear whole or not at all: each is written under a temporary name and renamed.
+
+use std::{
+    fs,
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+
+/// Why a result cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {source}", .path.display())]
+pub struct OutputError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// The error of the operating system.
+    pub source: io::Error,
+}
+
+impl OutputError {
+    /// Whether the disk is full, in which case another folder does not help.
+    pub fn is_full(&self) -> bool {
+        matches!(self.source.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
+    }
+}
+
+/// Writes a file under a temporary name beside it and renames it. A link stays one, and its target is written; a pipe
+/// or a device is written as it is.
+///
+/// # Errors
+/// [`OutputError`] if it cannot be written.
+pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
+    let refused = |source| OutputError { path: path.to_owned(), source };
+    let is_replaceable = fs::metadata(path).map_or(true, |metadata| metadata.is_file() || metadata.is_dir());
+    if !is_replaceable {
+        return fs::write(path, contents).map_err(refused);
+    }
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let path = target.as_path();
+    let written = write_beside(path, contents);
+    written.map_err(refused)
+}
+
+/// Writes a new file beside `path` and renames it. The new file is no link that someone has put there before.
+fn write_beside(path: &Path, contents: &[u8]) -> io::Result<()> {
+    let name = path.file_name().ok_or(io::ErrorKind::InvalidFilename)?.to_string_lossy();
+    let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+    // A process of the same number may have been killed while it wrote.
+    let _ = fs::remove_file(&temporary);
+    let mut file = fs::File::create_new(&temporary)?;
+    let written = file.write_all(contents).and_then(|()| fs::rename(&temporary, path));
+    written.inspect_err(|_| {
+        // The remainder is of no use; the first error is the one to report.
+        let _ = fs::remove_file(&temporary);
+    })
+}
+
+/// Whether two paths lead to one file, by links of either kind.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b || is_same_inode(&a, &b),
+        _ => false,
+    }
+}
+
+#[cfg(unix)]
+fn is_same_inode(a: &Path, b: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let inode = |path: &Path| fs::metadata(path).map(|metadata| (metadata.dev(), metadata.ino())).ok();
+    inode(a).is_some_and(|a| Some(a) == inode(b))
+}
+
+#[cfg(not(unix))]
+fn is_same_inode(_: &Path, _: &Path) -> bool {
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_cannot_be_written_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("report.json");
+        fs::create_dir(&path).unwrap();
+        assert!(write_whole(&path, b"{}").is_err());
+        let left: Vec<_> =
+            fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(left, ["report.json"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_links_and_devices_devices() {
+        let folder = tempfile::tempdir().unwrap();
+        let [link, target] = ["link.xml", "target.xml"].map(|name| folder.path().join(name));
+        fs::write(&target, "before").unwrap();
+        std::os::unix::fs::symlink(&target, &link).unwrap();
+        write_whole(&link, b"after").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read_to_string(&target).unwrap(), "after");
+        let device = folder.path().join("null");
+        std::os::unix::fs::symlink("/dev/null", &device).unwrap();
+        write_whole(&device, b"nothing").unwrap();
+        assert_eq!(fs::canonicalize(&device).unwrap(), Path::new("/dev/null"));
+    }
+
+    #[test]
+    fn links_of_both_kinds_lead_to_one_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let [file, hard, other] = ["file", "hard", "other"].map(|name| folder.path().join(name));
+        fs::write(&file, "same").unwrap();
+        fs::write(&other, "same").unwrap();
+        fs::hard_link(&file, &hard).unwrap();
+        assert!(is_same_file(&file, &hard) && !is_same_file(&file, &other));
+        assert!(!is_same_file(&file, &folder.path().join("none")));
+    }
+}

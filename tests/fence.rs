@@ -1,0 +1,136 @@
+//! What a file may name: files of its project, and folders that the command line allows. And what no result replaces.
+
+use std::fs;
+
+use tempfile::TempDir;
+
+use crate::{
+    command::{Answer, congruent_alone, text},
+    corpus::workspace,
+};
+
+/// `project/robot.toml` and `project/scenarios/s.toml` beside `outside`, which has a URDF, an SRDF, a mesh and a secret.
+struct Bench(TempDir);
+
+const URDF: &str = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='continuous'>\
+                    <parent link='a'/><child link='b'/></joint></robot>";
+
+impl Bench {
+    fn new() -> Self {
+        let top = tempfile::tempdir().unwrap();
+        for folder in ["project/scenarios", "outside"] {
+            fs::create_dir_all(top.path().join(folder)).unwrap();
+        }
+        fs::create_dir(top.path().join("project/.git")).unwrap();
+        let bench = Self(top);
+        bench.write("outside/r.urdf", URDF);
+        bench.write("outside/secret", "root:x:0:0\nsecond line\n");
+        bench.write("project/r.urdf", URDF);
+        bench
+    }
+
+    fn path(&self, name: &str) -> String {
+        text(&self.0.path().join(name))
+    }
+
+    fn write(&self, name: &str, contents: &str) {
+        fs::write(self.0.path().join(name), contents).unwrap();
+    }
+
+    fn check(&self, robot_file: &str, allow: &[&str]) -> Answer {
+        self.write("project/robot.toml", robot_file);
+        let robot = self.path("project/robot.toml");
+        congruent_alone(&[&["check", robot.as_str()], allow].concat())
+    }
+}
+
+#[track_caller]
+fn refused(answer: &Answer) {
+    assert_eq!(answer.code, 2, "{}{}", answer.stdout, answer.stderr);
+    assert!(answer.stderr.contains("outside of the project folder"), "{}", answer.stderr);
+    assert!(!answer.stderr.contains("root:x"), "nothing of it is shown: {}", answer.stderr);
+}
+
+#[test]
+fn a_robot_file_names_files_of_its_project() {
+    let bench = Bench::new();
+    for line in [
+        "urdf = '../outside/r.urdf'",
+        "urdf = '/etc/passwd'",
+        "urdf = 'r.urdf'\nsrdf = '/etc/passwd'",
+        "urdf = 'r.urdf'\nsrdf = '../outside/secret'",
+        "urdf = 'r.urdf'\npackages = { root = '/' }",
+        "urdf = '../outside/is/not/there.urdf'",
+    ] {
+        if line.contains("srdf") {
+            // Kinematics can do without it, clearance cannot.
+            bench.write("project/robot.toml", line);
+            refused(&congruent_alone(&["clearance", bench.path("project").as_str()]));
+        } else {
+            refused(&bench.check(line, &[]));
+        }
+    }
+    let outside = bench.path("outside");
+    let allowed = bench.check("urdf = '../outside/r.urdf'", &["--allow", &outside]);
+    assert_ne!(allowed.code, 2, "{}", allowed.stderr);
+    assert_eq!(bench.check("urdf = 'r.urdf'", &["--allow", &bench.path("nowhere")]).code, 2);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_resolved() {
+    let bench = Bench::new();
+    let link = bench.0.path().join("project/link.urdf");
+    std::os::unix::fs::symlink(bench.0.path().join("outside/r.urdf"), link).unwrap();
+    refused(&bench.check("urdf = 'link.urdf'", &[]));
+}
+
+#[test]
+fn a_scenario_names_files_of_its_project() {
+    let bench = Bench::new();
+    let out = bench.path("out");
+    let check = |lines: &str| {
+        bench.write("project/scenarios/s.toml", &format!("schema_version = 2\nname = 's'\n{lines}"));
+        congruent_alone(&["run", &bench.path("project/scenarios/s.toml"), "--no-recording", "--out", &out])
+    };
+    refused(&check("robot = '../../outside/r.urdf'"));
+    refused(&check("robot = '/etc/passwd'"));
+    let robot = text(&workspace().join("robots/ur5e"));
+    refused(&check(&format!("robot = '{robot}'")));
+    for section in [
+        "[[motion]]\nplay_csv = '/etc/passwd'",
+        "[controller]\nkind = 'torque'\ntorque_file = '/etc/passwd'",
+        "[[obstacle]]\nname = 'o'\nmesh = '../../../../../../../etc/passwd'",
+    ] {
+        let answer = check(&format!("robot = '../r.urdf'\n{section}"));
+        assert_eq!(answer.code, 2, "{}", answer.stderr);
+        assert!(!answer.stderr.contains("root:x"), "{}", answer.stderr);
+    }
+}
+
+#[test]
+fn no_result_replaces_a_file_that_is_read() {
+    let bench = Bench::new();
+    let urdf = bench.path("project/r.urdf");
+    bench.write("project/robot.toml", "urdf = 'r.urdf'");
+    let robot = bench.path("project/robot.toml");
+    bench.write("q.json", r#"[{"q": {}}]"#);
+    let configurations = bench.path("q.json");
+    let calls: [&[&str]; 7] = [
+        &["check", &robot, "--html", &urdf],
+        &["check", &robot, "--html", &robot],
+        &["check", &robot, "--junit", &robot],
+        &["check", &robot, "--junit", &urdf],
+        &["check", &robot, "--summary", &urdf],
+        &["check", &robot, "--configurations", &configurations, "--plot", &configurations],
+        &["workspace", &robot, "--plot", &urdf],
+    ];
+    let inputs = [&urdf, &robot, &configurations];
+    let before = inputs.map(|input| fs::read(input).unwrap());
+    for call in calls {
+        let answer = congruent_alone(call);
+        assert_eq!(answer.code, 2, "{call:?}: {}", answer.stderr);
+        assert!(answer.stderr.contains("output::refused"), "{call:?}: {}", answer.stderr);
+        assert_eq!(inputs.map(|input| fs::read(input).unwrap()), before, "{call:?}");
+    }
+}
