@@ -80,7 +80,7 @@ impl<'a> ReferenceGenerator<'a> {
     ) -> Result<Self, KinematicsError> {
         let servo_controller = trajectory
             .has_servo()
-            .then(|| ServoController::new(description, &trajectory.limits.velocity))
+            .then(|| ServoController::new(description, &trajectory.limits))
             .transpose()?;
         Ok(Self::with(trajectory, description, servo_controller))
     }
