@@ -4,6 +4,7 @@ use std::{
     fmt::Write,
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
+    sync::Mutex,
     time::Instant,
 };
 
@@ -54,6 +55,8 @@ pub(crate) struct Batch<'a> {
     printer: &'a Printer,
     inputs: &'a [PathBuf],
     ci: &'a CiArguments,
+    /// What the JUnit file says of each input until the end.
+    suites: Mutex<Vec<TestSuite>>,
 }
 
 impl<'a> Batch<'a> {
@@ -69,8 +72,9 @@ impl<'a> Batch<'a> {
             let reason = Reason { kind: "unfinished".to_owned(), message };
             TestSuite::of_case(shown(input), "end", TestResult::Error(reason))
         };
-        ci.begin(|| inputs.iter().map(unfinished).collect())?;
-        Ok(Self { printer, inputs, ci })
+        let suites: Vec<TestSuite> = inputs.iter().map(unfinished).collect();
+        ci.begin(&suites)?;
+        Ok(Self { printer, inputs, ci, suites: Mutex::new(suites) })
     }
 
     /// The name of an input in front of its findings, if there are several inputs.
@@ -112,6 +116,19 @@ impl<'a> Batch<'a> {
             }
             Err(failure) => Answer { input, result: Err(failure), wall_s },
         }
+    }
+
+    /// Writes the answer to the input of this number to the JUnit file at once: a call that is killed keeps it.
+    pub(crate) fn keep<R: BatchReport>(&self, input: usize, answer: &Answer<R>) {
+        if !self.ci.has_junit() {
+            return;
+        }
+        let Ok(mut suites) = self.suites.lock() else { return };
+        if let Some(suite) = suites.get_mut(input) {
+            *suite = answer.suite();
+        }
+        // What cannot be written is told at the end.
+        let _ = self.ci.begin(&suites);
     }
 
     /// Writes the files for CI, prints all answers, and returns the worst exit code. Answers are in the order of the inputs;

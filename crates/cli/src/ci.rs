@@ -47,9 +47,9 @@ impl CiArguments {
     }
 
     /// Finds out at once whether the files can be written. Until the end the JUnit file has these suites.
-    pub(crate) fn begin(&self, unfinished: impl FnOnce() -> Vec<TestSuite>) -> Result<(), Failure> {
+    pub(crate) fn begin(&self, unfinished: &[TestSuite]) -> Result<(), Failure> {
         if let Some(path) = &self.junit {
-            write_junit(path, &unfinished())
+            write_junit(path, unfinished)
                 .map_err(|error| unwritable(&error, "choose another file with --junit"))?;
         }
         if let Some(path) = &self.summary {
@@ -59,6 +59,11 @@ impl CiArguments {
             })?;
         }
         Ok(())
+    }
+
+    /// Whether a JUnit file was asked for.
+    pub(crate) fn has_junit(&self) -> bool {
+        self.junit.is_some()
     }
 
     /// Whether any of it was asked for.

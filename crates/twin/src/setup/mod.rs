@@ -19,4 +19,5 @@ pub use declared_dynamics::DeclaredDynamics;
 pub(crate) use joint_targets::{JointTargets, moving_joint};
 pub use payload::Payload;
 pub use run_setup::RunSetup;
+pub(crate) use surroundings::LARGEST_M;
 pub use surroundings::Zone;

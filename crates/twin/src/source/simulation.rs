@@ -81,9 +81,12 @@ impl<'a> SimulationSource<'a> {
             actuator_limits: setup.scenario.joints.enforce_limits,
         };
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
+        let kind = &setup.scenario.controller.kind;
+        if let Some(link) = world.massless_link().filter(|_| kind != "kinematic") {
+            return Err(SourceError::new(SimulationError::Massless { link: link.to_owned() }));
+        }
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
         resist(&mut world, &setup.resistances).map_err(SourceError::new)?;
-        let kind = &setup.scenario.controller.kind;
         let mut faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
         let mut sensors = JointSensors::new(setup);
         measure(&mut faults, &mut sensors);

@@ -135,7 +135,7 @@ fn dry_friction_that_holds_is_any_torque_up_to_its_largest() {
     let result = result(&declared);
     passes(&result);
     assert!(result.samples > 1000, "{result:#?}");
-    assert!(result.notes.is_empty(), "{result:#?}");
+    assert!(result.notes.iter().all(|note| !note.contains("friction")), "{result:#?}");
     // At rest as well, what holds is held against what can: 60 N m hold where 1 N m is declared.
     let weak = setup(scenario(controlled("passive", 0.0, 0.0), dynamics()), &sticky(1.0));
     fails(&result_with_physics_of(&sticky(60.0), &weak), "acceleration_error", "elbow");

@@ -295,8 +295,8 @@ fn inertia(settings: &GraspSettings, mass_kg: f64, geometry: &Geometry) -> Resul
         }
     };
     let com = Vector3::from(settings.com_m.unwrap_or_default());
-    if !com.iter().all(|entry| entry.is_finite()) {
-        return refused("`com_m` is not finite", "give three lengths");
+    if !com.iter().all(|entry| entry.abs() <= spaces::LARGEST_M) {
+        return refused("`com_m` is no length of a body", "give three lengths of at most 100000 m");
     }
     let link_from_inertial =
         Isometry3::from_parts(Translation3::from(com), nalgebra::UnitQuaternion::identity());

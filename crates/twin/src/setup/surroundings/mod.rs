@@ -7,5 +7,6 @@ mod zones;
 
 pub(super) use bodies::{Surroundings, mobility};
 pub(super) use overlaps::{FirstStep, overlaps};
+pub(crate) use spaces::LARGEST_M;
 pub use zones::Zone;
 pub(super) use zones::{build as zones, paired_with_checks};
