@@ -55,6 +55,7 @@ pub enum ToolOrientation {
 
 impl ToolOrientation {
     /// Whether it is what is left out.
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
     fn is_led(&self) -> bool {
         *self == Self::Led
     }
