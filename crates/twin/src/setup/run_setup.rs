@@ -17,7 +17,7 @@ use super::{
     motion_limits, numbers, output,
     payload::{Payload, taken_too_late},
     surroundings::{FirstStep, Surroundings, Zone, mobility, overlaps, paired_with_checks, zones},
-    written_out::{write_out_defaults, write_out_paths},
+    written_out::write_out,
 };
 use crate::{
     bodies::MovingBody,
@@ -178,13 +178,8 @@ impl RunSetup {
         if found.has_error() {
             return Err(found.into_vec());
         }
-        let first = FirstStep { q: &start, obstacles: &obstacles, moving: &moving, step_s: clock.step_s };
-        let is_placed = scenario.controller.kind == "kinematic";
-        let overlaps = if is_placed { Vec::new() } else { overlaps(first, robot, place.key("obstacle")) };
-        let check_line = |index| place.key("check").item(index).line();
-        write_out_defaults(&mut scenario, &description, (&clock, &start));
-        write_out_paths(&mut scenario, folder);
-        let check_lines = (0..scenario.check.len()).map(check_line).collect();
+        write_out(&mut scenario, &description, (&clock, &start, folder));
+        let check_lines = (0..scenario.check.len()).map(|at| place.key("check").item(at).line()).collect();
         let Actuation { controller, resistances, sensors, mut payloads } = actuation;
         payloads.extend(held);
         Ok(Self {
@@ -204,9 +199,20 @@ impl RunSetup {
             resistances,
             faults,
             warnings,
-            overlaps,
+            overlaps: Vec::new(),
             check_lines,
-        })
+        }
+        .with_overlaps(place.key("obstacle")))
+    }
+
+    /// Finds the obstacles that overlap the robot at the start; playback knows no forces.
+    fn with_overlaps(mut self, places: FilePlace<'_>) -> Self {
+        if self.scenario.controller.kind != "kinematic" {
+            let Self { start, obstacles, bodies, clock, .. } = &self;
+            let first = FirstStep { q: start, obstacles, moving: bodies, step_s: clock.step_s };
+            self.overlaps = overlaps(first, &self.description.robot, places);
+        }
+        self
     }
 
     /// The same if it can be simulated: another source of joint states needs no inertias, and pushes no obstacle away.
