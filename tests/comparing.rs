@@ -39,6 +39,21 @@ fn file<'a>(comparison: &'a Value, kind: &str) -> &'a Value {
     files.iter().find(|file| file["kind"] == kind).unwrap_or_else(|| panic!("no {kind} in {comparison:#}"))
 }
 
+/// With joints that have no start, which the resolved scenario names; the lines of its checks are others.
+#[test]
+fn a_resolved_scenario_gives_what_its_scenario_gave() {
+    let bench = Bench::new();
+    let out = run(&bench, "first", &[]);
+    for scenario in ["ur5e_pick", "panda_reach"] {
+        let resolved = format!("{out}/{scenario}/scenario.resolved.toml");
+        let again = text(&bench.path().join("again"));
+        let answer = congruent(&["run", &resolved, "--out", &again]);
+        assert!(answer.code < 2, "{}{}", answer.stdout, answer.stderr);
+        let answer = compare(&format!("{out}/{scenario}"), &format!("{again}/{scenario}"), &[]);
+        assert_eq!((answer.code, &answer.json()["same"]), (0, &Value::Bool(true)), "{:#}", answer.json());
+    }
+}
+
 #[test]
 fn the_number_of_jobs_changes_nothing() {
     let bench = Bench::new();

@@ -57,6 +57,8 @@ pub(crate) struct Batch<'a> {
     ci: &'a CiArguments,
     /// The files that were read for them, which no result may replace.
     read: Mutex<Vec<PathBuf>>,
+    /// What the JUnit file says of each input until the end.
+    suites: Mutex<Vec<TestSuite>>,
 }
 
 impl<'a> Batch<'a> {
@@ -72,8 +74,9 @@ impl<'a> Batch<'a> {
             let reason = Reason { kind: "unfinished".to_owned(), message };
             TestSuite::of_case(shown(input), "end", TestResult::Error(reason))
         };
-        ci.begin(inputs, || inputs.iter().map(unfinished).collect())?;
-        Ok(Self { printer, inputs, ci, read: Mutex::new(inputs.to_vec()) })
+        let suites: Vec<TestSuite> = inputs.iter().map(unfinished).collect();
+        ci.begin(inputs, &suites)?;
+        Ok(Self { printer, inputs, ci, read: Mutex::new(inputs.to_vec()), suites: Mutex::new(suites) })
     }
 
     /// Notes files that were read.
@@ -129,6 +132,19 @@ impl<'a> Batch<'a> {
             }
             Err(failure) => Answer { input, result: Err(failure), wall_s },
         }
+    }
+
+    /// Writes the answer to the input of this number to the JUnit file at once: a call that is killed keeps it.
+    pub(crate) fn keep<R: BatchReport>(&self, input: usize, answer: &Answer<R>) {
+        if !self.ci.has_junit() {
+            return;
+        }
+        let Ok(mut suites) = self.suites.lock() else { return };
+        if let Some(suite) = suites.get_mut(input) {
+            *suite = answer.suite();
+        }
+        // What cannot be written is told at the end.
+        let _ = self.ci.begin(self.inputs, &suites);
     }
 
     /// Writes the files for CI, prints all answers, and returns the worst exit code. Answers are in the order of the inputs;

@@ -59,15 +59,11 @@ impl CiArguments {
 
     /// Finds out at once whether the files can be written, and that they replace none of `inputs`. Until the end the JUnit
     /// file has these suites.
-    pub(crate) fn begin(
-        &self,
-        inputs: &[PathBuf],
-        unfinished: impl FnOnce() -> Vec<TestSuite>,
-    ) -> Result<(), Failure> {
+    pub(crate) fn begin(&self, inputs: &[PathBuf], unfinished: &[TestSuite]) -> Result<(), Failure> {
         self.is_none_of(inputs)?;
         if let Some(path) = &self.junit {
             is_junit(path)?;
-            write_junit(path, &unfinished())
+            write_junit(path, unfinished)
                 .map_err(|error| unwritable(&error, "choose another file with --junit"))?;
         }
         if let Some(path) = &self.summary {
@@ -77,6 +73,11 @@ impl CiArguments {
             })?;
         }
         Ok(())
+    }
+
+    /// Whether a JUnit file was asked for.
+    pub(crate) fn has_junit(&self) -> bool {
+        self.junit.is_some()
     }
 
     /// Whether any of it was asked for.

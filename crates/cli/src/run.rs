@@ -222,7 +222,9 @@ fn run_all(
         loop {
             let next = waiting.lock().expect("no thread panics while it takes a scenario").next();
             let Some((index, loaded)) = next else { return answers };
-            answers.push((index, batch.go_on(loaded, |setup| run_one(&setup, &options, bars))));
+            let answer = batch.go_on(loaded, |setup| run_one(&setup, &options, bars));
+            batch.keep(index, &answer);
+            answers.push((index, answer));
         }
     };
     let mut answers: Vec<(usize, Answer<Ran>)> = std::thread::scope(|scope| {

@@ -286,6 +286,11 @@ impl World {
         self.finish_step()
     }
 
+    /// The first link that, with all that it carries, has no mass: forces cannot move it.
+    pub fn massless_link(&self) -> Option<&str> {
+        self.massless.as_deref()
+    }
+
     /// Joint-space inertia at the present configuration, dof x dof; mimic joints count as free.
     pub fn mass_matrix(&self) -> DMatrix<f64> {
         self.engine.mass_matrix()

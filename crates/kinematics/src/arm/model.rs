@@ -143,7 +143,8 @@ impl Arm {
     }
 
     /// How far the tool typically moves when a joint turns: the length that makes metres and radians
-    /// comparable for this arm. 1 if nothing turns.
+    /// comparable for this arm. If the tool is on the axes that turn, as on a spindle, how far slides move it; 1 if nothing
+    /// turns.
     pub fn metres_per_rad(&self) -> f64 {
         self.metres_per_rad
     }
@@ -227,9 +228,16 @@ impl Arm {
     fn typical_metres_per_rad(&mut self) -> f64 {
         /// Enough for a length that is only a scale.
         const CONFIGURATIONS: u32 = 16;
+        /// A length below is zero. Kind: rounding of sums of some metres.
+        const ZERO_M: f64 = 1e-12;
+        /// A tool this near to every axis that turns, as a part of its own way, moves by slides alone.
+        const ON_AXIS: f64 = 1e-3;
         let (mut sum, mut turning) = (0.0, 0.0);
+        let (mut first, mut way_m) = (None, 0.0_f64);
         for q in self.spread(CONFIGURATIONS) {
-            let (_, columns) = self.pose_and_jacobian(&q).expect("q is a configuration of this arm");
+            let (pose, columns) = self.pose_and_jacobian(&q).expect("q is a configuration of this arm");
+            let position = pose.translation;
+            way_m = way_m.max((position - *first.get_or_insert(position)).norm());
             for column in columns {
                 let rate = column.angular.norm();
                 if rate > 0.0 {
@@ -238,7 +246,13 @@ impl Arm {
                 }
             }
         }
-        if sum > 0.0 { f64::sqrt(sum / turning) } else { 1.0 }
+        // Without a joint that turns there is nothing to compare.
+        let by_turning_m = if turning > 0.0 { f64::sqrt(sum / turning) } else { 0.0 };
+        match by_turning_m.max(ON_AXIS * way_m) {
+            length_m if turning == 0.0 || length_m < ZERO_M => 1.0,
+            _ if by_turning_m < ON_AXIS * way_m => way_m,
+            _ => by_turning_m,
+        }
     }
 }
 

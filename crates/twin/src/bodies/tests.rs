@@ -117,6 +117,44 @@ fn refused(scenario: Scenario, code: &str, words: &str) {
 /// Rounding of distances of spheres, and the slack of parry; worst seen 1e-15.
 const DISTANCE_M: f64 = 1e-9;
 
+/// The ball is at the origin; a body of radius 0.1 m that overlaps it by `depth_m`, beside it.
+fn beside(depth_m: f64) -> ObstacleSettings {
+    ball("part", 0.1, [0.2 - depth_m, 0.0, 0.0])
+}
+
+/// What the physics says of a scenario before it begins.
+fn of_physics(
+    kind: &str,
+    obstacle: ObstacleSettings,
+    grasp: Vec<GraspSettings>,
+) -> Result<(), Vec<Diagnostic>> {
+    let (_folder, description) = lift();
+    let setup = RunSetup::new(scenario(kind, vec![obstacle], grasp), description).unwrap();
+    setup.for_simulation().map(|_| ())
+}
+
+#[test]
+fn what_overlaps_a_link_at_the_start_is_refused_if_the_physics_acts_on_it() {
+    let found = of_physics("pd", beside(0.02), Vec::new()).unwrap_err();
+    assert_eq!(found[0].code, "scenario::obstacle_overlap");
+    for words in ["obstacle \"part\"", "link \"ball\"", "20 mm deep"] {
+        assert!(found[0].message.contains(words), "{found:#?}");
+    }
+    // Carried from the first step on, not later: then it would be pushed away before.
+    let from = |from_s| vec![GraspSettings { from_s, ..grasp(None) }];
+    assert!(of_physics("pd", beside(0.02), from(0.0)).is_ok());
+    let later = of_physics("pd", beside(0.02), from(0.5)).unwrap_err();
+    assert!(later[0].help.as_ref().unwrap().contains("from_s = 0.0"), "{later:#?}");
+    // Touching, in playback, and a link that is fixed to the root.
+    assert!(of_physics("pd", beside(0.0), Vec::new()).is_ok());
+    assert!(of_physics("pd", beside(0.9e-3), Vec::new()).is_ok());
+    assert!(of_physics("kinematic", beside(0.02), Vec::new()).is_ok());
+    assert!(of_physics("pd", ball("part", 0.1, [3.0, 0.0, 0.0]), Vec::new()).is_ok());
+    // On a path, where it begins.
+    let path = along("part", 0.1, &[(0.0, [0.15, 0.0, 0.0]), (1.0, [5.0, 0.0, 0.0])]);
+    assert_eq!(of_physics("pd", path, Vec::new()).unwrap_err().len(), 1);
+}
+
 #[test]
 fn distances_to_an_obstacle_on_a_path_are_those_of_spheres() {
     let drone = along("drone", 0.2, &[(0.5, [-1.0, 0.4, 0.5]), (2.5, [1.0, 0.4, 0.5])]);

@@ -1,4 +1,4 @@
-//! Two reports, value beside value. Whatever a report has or will have is compared, but for the name of its file.
+//! Two reports, value beside value. Whatever a report has or will have is compared, but for what tells of its files.
 
 use std::path::Path;
 
@@ -6,12 +6,14 @@ use serde_json::{Map, Value as Json};
 
 use super::{
     file_comparison::{ComparedFile, FileComparison},
-    series::{SeriesComparison, is_compared},
+    series::{SAME_TIME_S, SeriesComparison, is_compared},
 };
 use crate::trajectory_file::Value;
 
-/// Keys that say where a run was, not what it found.
-const LEFT_OUT: [&str; 1] = ["scenario_file"];
+/// Keys that say where a run was and how its files were written, not what it found.
+const LEFT_OUT: [&str; 3] = ["scenario_file", "overrides", "warnings"];
+/// The key of the line of a check or of a finding.
+const LINE: &str = "line";
 /// The key of the trajectory's hash.
 const HASH: &str = "trajectory_sha256";
 
@@ -51,7 +53,11 @@ pub fn compare_reports(a: &Path, b: &Path, tolerance: f64) -> Result<FileCompari
         let Some(other) = find(&leaves_b, &leaf.keys).filter(|_| is_compared) else { continue };
         compared += 1;
         let mut series = SeriesComparison::new(&leaf.keys, joint(&leaf.keys), tolerance);
-        series.observe(leaf.time_s, &value(leaf.value), &value(leaves_b[other].value));
+        let other = &leaves_b[other];
+        // Moments of other times are two moments: the difference has none.
+        let is_same = |(a, b): (f64, f64)| (a - b).abs() <= SAME_TIME_S;
+        let time_s = leaf.time_s.filter(|&a| other.time_s.is_some_and(|b| is_same((a, b))));
+        series.observe(time_s, &value(leaf.value), &value(other.value));
         differences.extend(series.finish());
     }
     let statements = statements(&a, &b, tolerance);
@@ -73,7 +79,7 @@ fn gather<'a>(value: &'a Json, keys: String, time_s: Option<f64>, leaves: &mut V
     match value {
         Json::Object(entries) if !entries.is_empty() => {
             let time_s = entries.get("time_s").and_then(Json::as_f64).or(time_s);
-            for (key, value) in entries {
+            for (key, value) in entries.iter().filter(|(key, _)| *key != LINE) {
                 gather(value, format!("{keys}.{key}"), time_s, leaves);
             }
         }

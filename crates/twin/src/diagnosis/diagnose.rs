@@ -12,7 +12,8 @@ use super::{
     payload,
     residual::{Held, OffWindow, Residual, first_contact, residuals},
     store::SampleStore,
-    stuck, tool, transport,
+    stuck, tool,
+    transport::{self, Dropped},
 };
 use crate::{
     bodies::MovingBodies,
@@ -104,10 +105,15 @@ impl Search<'_> {
         let (mut found, mut encoders) = late(&self.observed, &self.open);
         // Readings that arrive late repeat when the robot has stood, not when it stands.
         self.observed.late = found.as_ref().map(|late| (late.window, late.steps));
-        if let Some((fit, is_held)) = transport::dropped(&self.observed, &self.open) {
+        if let Some(Dropped { fit, is_held, would_show }) = transport::dropped(&self.observed, &self.open) {
             self.found.push(fit);
+            // A reading that got lost unseen is as late as one of a latency.
+            self.observed.is_used =
+                is_held.iter().zip(&would_show).map(|(is_held, shows)| *shows && !is_held).collect();
+            found = transport::late(&self.observed, &self.open);
             self.observed.is_used = is_held.into_iter().map(|is_held| !is_held).collect();
-            (found, encoders) = late(&self.observed, &self.open);
+            encoders = encoder::faults(&self.observed, &self.open);
+            found = found.filter(|late| late.gain > encoders.gain + DISTINCT);
             self.observed.late = found.as_ref().map(|late| (late.window, late.steps));
         }
         match found {

@@ -11,9 +11,17 @@ use crate::{
     scenario::FaultKind,
 };
 
-/// Readings that repeat the one before to the last bit in every joint although that would not happen by chance; and which
-/// samples they are.
-pub(super) fn dropped(observed: &Observed<'_>, joints: &[usize]) -> Option<(Fit, Vec<bool>)> {
+/// Readings that got lost.
+pub(super) struct Dropped {
+    pub(super) fit: Fit,
+    /// The samples of which the reading got lost.
+    pub(super) is_held: Vec<bool>,
+    /// The samples that would show it: of the others a lost reading looks like one of the present.
+    pub(super) would_show: Vec<bool>,
+}
+
+/// Readings that repeat the one before to the last bit in every joint although that would not happen by chance.
+pub(super) fn dropped(observed: &Observed<'_>, joints: &[usize]) -> Option<Dropped> {
     /// Chance of a repetition below which it is one of a reading that got lost.
     const CHANCE: f64 = 1e-6;
     let tells = |sample: usize| {
@@ -47,7 +55,8 @@ pub(super) fn dropped(observed: &Observed<'_>, joints: &[usize]) -> Option<(Fit,
     let remaining = if others > 0.0 { (others / of_repeats).min(1.0) } else { 0.0 };
     let value = FaultQuantity::share(lost / all);
     let is_held = (0..observed.samples()).map(|sample| tells[sample] && repeats(sample)).collect();
-    Some((fit(observed, FaultKind::DroppedSamples, (value, window, joints), remaining), is_held))
+    let fit = fit(observed, FaultKind::DroppedSamples, (value, window, joints), remaining);
+    Some(Dropped { fit, is_held, would_show: tells })
 }
 
 /// A bound of the chance that a reading repeats the one before.

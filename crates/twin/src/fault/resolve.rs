@@ -14,9 +14,13 @@ use crate::{
         AddedFrictionFault, FaultKind, FaultSettings, FaultTime, FilePlace, PoseSettings, ShiftedToolFault,
         WrongPayloadFault,
     },
-    setup::{RunClock, moving_joint},
+    setup::{LARGEST_M, RunClock, moving_joint},
 };
 
+/// What is less means nothing, in SI: checks of agreement allow 1 nm and 1 nrad.
+const LEAST: f64 = 1e-9;
+/// Most friction, N m, N, and of each rad/s or m/s. Kind: numerics; it holds any arm still.
+const MOST_FRICTION: f64 = 1e9;
 /// Largest share of the effort that an actuator may exert.
 const LARGEST_SHARE: f64 = 10.0;
 /// Heaviest unknown payload, times the mass of the robot. Kind: physics; what is heavier is no mistake that a run can follow: the
@@ -126,7 +130,7 @@ impl Resolver<'_> {
             FaultSettings::ScaledTorque(fault) => {
                 let joint = self.joint(&fault.joint)?;
                 let is_sound =
-                    |share: f64| share > 0.0 && share <= LARGEST_SHARE && (share - 1.0).abs() > 0.0;
+                    |share: f64| (LEAST..=LARGEST_SHARE).contains(&share) && (share - 1.0).abs() >= LEAST;
                 let range = "a share above 0 and at most 10 that is not 1 (`lost_torque` is 0)";
                 self.within("share", fault.share, is_sound, range)?;
                 FaultAction::ScaledTorque { joint, share: fault.share }
@@ -137,7 +141,7 @@ impl Resolver<'_> {
             FaultSettings::SwappedJoints(fault) => self.swapped(&fault.joints)?,
             FaultSettings::Latency(fault) => FaultAction::Latency { steps: self.whole_steps(fault.time_s)? },
             FaultSettings::DroppedSamples(fault) => {
-                let is_sound = |share| share > 0.0 && share < 1.0;
+                let is_sound = |share| (LEAST..1.0).contains(&share);
                 self.within("share", fault.share, is_sound, "a share above 0 and below 1")?;
                 FaultAction::DroppedSamples { share: fault.share }
             }
@@ -199,13 +203,16 @@ impl Resolver<'_> {
             let error = Diagnostic::error("scenario::joint_unit", message).with_help(help);
             return Err(self.place.key(key).mark(error));
         }
-        let is_sound = |value: f64| value.is_finite() && value.abs() > 0.0;
-        self.within(key, value, is_sound, "a finite number that is not 0")?;
-        Ok(match index {
+        let in_si = match index {
             1 => Unit::Angle.convert(value),
             3 => Unit::Length.convert(value),
             _ => value,
-        })
+        };
+        let unit = if index >= 2 { "m" } else { "rad" };
+        let range =
+            format!("a value between {} and {LARGEST_M} {unit}, of either sign", quantity(LEAST, unit));
+        self.within(key, value, |_| (LEAST..=LARGEST_M).contains(&in_si.abs()), &range)?;
+        Ok(in_si)
     }
 
     fn within(
@@ -235,11 +242,11 @@ impl Resolver<'_> {
         }
         for (key, value) in fitting {
             let value = value.unwrap_or(0.0);
-            let is_sound = |value: f64| value.is_finite() && value >= 0.0;
-            self.within(key, value, is_sound, "a finite number, 0 or above")?;
+            let is_sound = |value: f64| (0.0..=MOST_FRICTION).contains(&value);
+            self.within(key, value, is_sound, "a number between 0 and 1e9")?;
         }
         let [dry, viscous] = fitting.map(|(_, value)| value.unwrap_or(0.0));
-        if dry + viscous <= 0.0 {
+        if dry + viscous < LEAST {
             let error = Diagnostic::error("scenario::fault_value", "no friction is added").with_help(help);
             return Err(self.place.mark(error));
         }
@@ -248,8 +255,8 @@ impl Resolver<'_> {
 
     fn payload(&self, fault: &WrongPayloadFault) -> Result<FaultAction, Diagnostic> {
         let RobotDescription { tip, tip_from_tcp, robot, .. } = self.description;
-        let is_sound = |mass_kg: f64| mass_kg.is_finite() && mass_kg > 0.0;
-        self.within("mass_kg", fault.mass_kg, is_sound, "a finite number above 0")?;
+        let is_sound = |mass_kg: f64| mass_kg.is_finite() && mass_kg >= LEAST;
+        self.within("mass_kg", fault.mass_kg, is_sound, "a finite number of at least 1e-9")?;
         let masses = robot.links().iter().filter_map(|link| link.inertia.as_ref());
         let robot_kg: f64 = masses.map(|inertia| inertia.mass_kg).sum();
         if fault.mass_kg > HEAVIEST_PART * robot_kg {
@@ -264,7 +271,8 @@ impl Resolver<'_> {
         }
         let com_in_tcp = fault.com_m.unwrap_or_default();
         for value in com_in_tcp {
-            self.within("com_m", value, f64::is_finite, "three finite numbers")?;
+            let range = format!("three lengths of at most {LARGEST_M} m");
+            self.within("com_m", value, |value| value.abs() <= LARGEST_M, &range)?;
         }
         if robot.body(*tip) == robot.root() {
             let error = Diagnostic::error("scenario::fault_no_effect", "the tool does not move");
@@ -284,10 +292,17 @@ impl Resolver<'_> {
         let ShiftedToolFault { xyz_m, xyz_mm, rpy_deg, rpy_rad, .. } = *fault;
         let pose = PoseSettings { xyz_m, xyz_mm, rpy_rad, rpy_deg, ..PoseSettings::default() };
         let tip_from_shifted = pose.isometry(self.place)?;
-        if tip_from_shifted.translation.vector.norm() + tip_from_shifted.rotation.angle() <= 0.0 {
+        let shift_m = tip_from_shifted.translation.vector.norm();
+        if shift_m + tip_from_shifted.rotation.angle() < LEAST {
             let error = Diagnostic::error("scenario::fault_value", "the tool is not shifted");
-            let help = "give `xyz_m` or `xyz_mm`, `rpy_deg` or `rpy_rad`, not all of them 0";
+            let help =
+                "give `xyz_m` or `xyz_mm`, `rpy_deg` or `rpy_rad`, not all of them 0; a whole turn is none";
             return Err(self.place.mark(error.with_help(help)));
+        }
+        if shift_m > LARGEST_M {
+            let message =
+                format!("the tool is shifted by {}, more than {LARGEST_M} m", quantity(shift_m, "m"));
+            return Err(self.place.mark(Diagnostic::error("scenario::fault_value", message)));
         }
         let (robot, tip) = (&self.description.robot, self.description.tip);
         let links = robot.link_indices().filter(|&link| hangs_below(robot, link, tip));

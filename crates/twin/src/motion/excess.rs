@@ -78,8 +78,12 @@ pub(super) fn worst_excess(planned: &PlannedMove, limits: &MotionLimits) -> Opti
     let mut worst: Option<Excess> = None;
     for instant in 0..=instants {
         #[expect(clippy::cast_precision_loss, reason = "far below 2^52")]
-        let share = (instant as f64 / instants as f64).clamp(INSIDE, 1.0 - INSIDE);
-        rates.look(planned, share * duration_s, has_jerk_limit.then_some(duration_s * JERK_OVER));
+        let share = instant as f64 / instants as f64;
+        rates.look(
+            planned,
+            share.clamp(INSIDE, 1.0 - INSIDE) * duration_s,
+            has_jerk_limit.then_some(duration_s * JERK_OVER),
+        );
         let all = [
             (Rate::Velocity, &rates.velocity, &limits.velocity),
             (Rate::Acceleration, &rates.acceleration, &limits.declared_acceleration),

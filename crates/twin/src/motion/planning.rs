@@ -34,13 +34,35 @@ impl Planning<'_> {
     /// along a path that is.
     pub(super) fn within_limits(
         &mut self,
-        mut planned: PlannedMove,
+        planned: PlannedMove,
         where_: impl Fn(f64) -> String,
     ) -> Result<PlannedMove, Diagnostic> {
         let Some(excess) = worst_excess(&planned, self.limits) else { return Ok(planned) };
+        self.over_limit(planned, &excess, &where_(excess.time_s))
+    }
+
+    /// The same of a table of few digits, which may exceed a limit by this factor; `where_` is of a joint, and a time.
+    pub(super) fn table_within_limits(
+        &mut self,
+        planned: PlannedMove,
+        times: f64,
+        where_: impl Fn(usize, f64) -> String,
+    ) -> Result<PlannedMove, Diagnostic> {
+        let excess = worst_excess(&planned, self.limits).filter(|excess| excess.value > times * excess.limit);
+        let Some(excess) = excess else { return Ok(planned) };
+        self.over_limit(planned, &excess, &where_(excess.coordinate, excess.time_s))
+    }
+
+    /// What the scenario says of a move that breaks a limit.
+    fn over_limit(
+        &mut self,
+        mut planned: PlannedMove,
+        excess: &Excess,
+        where_: &str,
+    ) -> Result<PlannedMove, Diagnostic> {
         let duration_s = planned.pace.duration_s();
         let least_s = rounded_up(duration_s * excess.slower);
-        let message = self.in_words(&excess, &where_(excess.time_s));
+        let message = self.in_words(excess, where_);
         let [least, given] = [quantity_in_full(least_s, "s"), quantity(duration_s, "s")];
         match self.limits.over_limit {
             OverLimit::Refuse => {
@@ -58,19 +80,14 @@ impl Planning<'_> {
                 planned.pace = planned.pace.slowed(least_s / duration_s);
                 Ok(planned)
             }
-        }
-    }
-}
-
-impl Planning<'_> {
-    /// Warns of a move that is taken as it is.
-    pub(super) fn warn_beyond_limits(&mut self, planned: &PlannedMove, times: f64, place: FilePlace<'_>) {
-        let excess = worst_excess(planned, self.limits);
-        if let Some(excess) = excess.filter(|excess| excess.value > times * excess.limit) {
-            let warning = Diagnostic::warning("scenario::over_limit", self.in_words(&excess, ""));
-            let slower = quantity_in_full(rounded_up(planned.pace.duration_s() * excess.slower), "s");
-            let help = format!("the table is played as it is; over {slower} in all it would keep this limit");
-            self.warnings.push(place.mark(warning.with_help(help)));
+            OverLimit::Warn => {
+                let help = format!(
+                    "the motion goes on as it is; over {least} instead of {given} it would keep this limit"
+                );
+                let warning = Diagnostic::warning("scenario::over_limit", message).with_help(help);
+                self.warnings.push(self.place.mark(warning));
+                Ok(planned)
+            }
         }
     }
 

@@ -21,13 +21,19 @@ pub enum MotionError {
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
     /// A motion after a servo cannot be planned from where the servo has brought the arm.
-    #[error("motion {motion}, after a servo_tcp, cannot be planned from where the arm is: {}{}", .finding.message, help(.finding))]
+    #[error("motion {motion}{}, after a servo_tcp, cannot be planned from where the arm is: {}{}", at_line(*.line), .finding.message, help(.finding))]
     Planning {
         /// Its number in the scenario, from 1.
         motion: usize,
+        /// Its line in the scenario file.
+        line: Option<usize>,
         /// What is wrong.
         finding: Box<Diagnostic>,
     },
+}
+
+fn at_line(line: Option<usize>) -> String {
+    line.map_or_else(String::new, |line| format!(" (line {line} of the scenario)"))
 }
 
 fn help(finding: &Diagnostic) -> String {
@@ -80,7 +86,7 @@ impl<'a> ReferenceGenerator<'a> {
     ) -> Result<Self, KinematicsError> {
         let servo_controller = trajectory
             .has_servo()
-            .then(|| ServoController::new(description, &trajectory.limits.velocity))
+            .then(|| ServoController::new(description, &trajectory.limits))
             .transpose()?;
         Ok(Self::with(trajectory, description, servo_controller))
     }
@@ -208,6 +214,7 @@ impl<'a> ReferenceGenerator<'a> {
         };
         let refused = |mut found: Vec<Diagnostic>| MotionError::Planning {
             motion: index + 1,
+            line: self.trajectory.lines.get(index).copied().flatten(),
             finding: Box::new(found.swap_remove(0)),
         };
         let mut planned = plan(std::slice::from_ref(settings), 0, &mut planning).map_err(refused)?;

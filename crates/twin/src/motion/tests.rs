@@ -39,6 +39,7 @@ fn trajectory() -> Trajectory {
         start: [1.0].into(),
         motions: vec![motion(1.0, 3.0, 2.0), motion(3.0, -1.0, 1.0)],
         starts_s: vec![0.0, 2.0],
+        lines: Vec::new(),
         limits: no_limits(),
     }
 }
@@ -71,8 +72,13 @@ fn one_motion_after_another() {
 
 #[test]
 fn without_motions_it_holds_the_start() {
-    let still =
-        Trajectory { start: [1.0].into(), motions: Vec::new(), starts_s: Vec::new(), limits: no_limits() };
+    let still = Trajectory {
+        start: [1.0].into(),
+        motions: Vec::new(),
+        starts_s: Vec::new(),
+        lines: Vec::new(),
+        limits: no_limits(),
+    };
     at(&still, 7.0, 1.0, 0.0);
     assert_eq!((still.duration_s(), &still.end()[..]), (0.0, [1.0].as_slice()));
 }

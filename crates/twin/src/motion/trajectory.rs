@@ -29,6 +29,8 @@ pub struct Trajectory {
     pub(super) motions: Vec<Motion>,
     /// Start time of each motion.
     pub(super) starts_s: Vec<f64>,
+    /// Line of each motion in the scenario file.
+    pub(super) lines: Vec<Option<usize>>,
     /// What moves keep that are planned in the run.
     pub(super) limits: MotionLimits,
 }
@@ -45,8 +47,13 @@ impl Trajectory {
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self, Vec<Diagnostic>> {
         let MotionInput { motions, places, limits, folder } = input;
-        let mut trajectory =
-            Self { start: start.clone(), motions: Vec::new(), starts_s: Vec::new(), limits: limits.clone() };
+        let mut trajectory = Self {
+            start: start.clone(),
+            motions: Vec::new(),
+            starts_s: Vec::new(),
+            lines: (0..motions.len()).map(|index| places.item(index).line()).collect(),
+            limits: limits.clone(),
+        };
         while trajectory.motions.len() < motions.len() {
             let index = trajectory.motions.len();
             let (settings, place) = (&motions[index], places.item(index));

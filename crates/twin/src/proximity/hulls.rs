@@ -84,7 +84,7 @@ impl Hulls {
 
     /// The same if it is less than `most_m`, which is returned otherwise: shapes that balls around them show to be
     /// farther apart are not measured.
-    pub(super) fn distance_below_m(
+    pub(crate) fn distance_below_m(
         &self,
         other: &Self,
         self_from_other: &Isometry3<f64>,

@@ -1,6 +1,6 @@
 //! One measured quantity as people read it: the value, its limit and the margin between them.
 
-use congruent_description::display::quantity;
+use congruent_description::display::{quantity, quantity_in_full};
 
 use crate::{
     monitor::{ANGLE_BEYOND_LIMIT, SHIFT_BEYOND_LIMIT},
@@ -71,7 +71,7 @@ pub fn sentence_at(measure: &Measure, moment: &Moment) -> String {
             overlap(*value, measure)
         );
     }
-    let (what, shown) = (quantity_words(measure.quantity), quantity(*value, measure.unit));
+    let (what, shown) = (quantity_words(measure.quantity), beside_limit(*value, measure));
     format!("{what} {shown} at {subject} ({time}), {}: {}", limit_words(measure), margin(*value, measure))
 }
 
@@ -105,7 +105,25 @@ pub fn limit_words(measure: &Measure) -> String {
     if measure.quantity == "distance" && measure.limit < 0.0 {
         return format!("overlap at most {}", quantity(-measure.limit, measure.unit));
     }
-    format!("{} {}", measure.bound.words(), quantity(measure.limit, measure.unit))
+    format!("{} {}", measure.bound.words(), share_in_full(measure.limit, measure.unit))
+}
+
+/// A value; one without unit that is near its limit has five decimals, which tell them apart.
+fn beside_limit(value: f64, Measure { limit, unit, .. }: &Measure) -> String {
+    let is_near = (value - limit).abs() < 1e-2 * limit.abs();
+    if unit.is_empty() && is_near {
+        return share_in_full((value * 1e5).round() / 1e5, unit);
+    }
+    quantity(value, unit)
+}
+
+/// A value; one without unit, of which three digits would lose more than rounding, in full: 1.001.
+fn share_in_full(value: f64, unit: &str) -> String {
+    /// As a part of the value. Kind: rounding of products.
+    const LOST: f64 = 1e-9;
+    let shown = quantity(value, unit);
+    let is_lossy = |shown: f64| (shown - value).abs() > LOST * value.abs();
+    if unit.is_empty() && shown.parse().is_ok_and(is_lossy) { quantity_in_full(value, unit) } else { shown }
 }
 
 /// How far a value is from its limit.

@@ -1,7 +1,9 @@
 //! A report as a test suite: one case for each check, judged against what the scenario expects.
 
+use congruent_description::display::quantity;
+
 use super::{
-    run_report::RunReport,
+    run_report::{RunClockReport, RunReport},
     sentence::lines,
     suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite},
 };
@@ -17,7 +19,10 @@ impl RunReport {
         let checks = self.checks.iter().enumerate();
         let mut cases: Vec<TestCase> = checks.map(|(index, check)| case(index, check, self)).collect();
         if self.verdict == Verdict::NothingChecked || self.error.is_some() {
-            let message = self.error.clone().unwrap_or_else(|| "nothing was checked".to_owned());
+            let message = match &self.error {
+                Some(error) => format!("{}: {error}", broken(self)),
+                None => "nothing was checked".to_owned(),
+            };
             let reason = Reason { kind: "run".to_owned(), message };
             let result = TestResult::Error(reason);
             cases.push(TestCase { name: "run".to_owned(), result, output: String::new(), place: None });
@@ -29,6 +34,12 @@ impl RunReport {
             clock: Clock::Simulated,
         }
     }
+}
+
+/// When a broken run has ended.
+fn broken(report: &RunReport) -> String {
+    let RunClockReport { steps, duration_s, .. } = report.simulation;
+    format!("the run broke at {} after {steps} steps", quantity(duration_s, "s"))
 }
 
 fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
@@ -47,7 +58,10 @@ fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
         Status::Pass if report.verdict == Verdict::AsExpected => TestResult::Passed,
         Status::Pass => TestResult::Failed(reason(format!("expected to fail, but passed: {output}"))),
         Status::Skipped => TestResult::Skipped(output.clone()),
-        Status::Error => TestResult::Error(reason(output.clone())),
+        Status::Error => TestResult::Error(reason(match &report.error {
+            Some(error) => format!("{}: {error}; until then: {output}", broken(report)),
+            None => output.clone(),
+        })),
         Status::Fail => TestResult::Failed(reason(output.clone())),
     };
     let place = CasePlace::of(report.scenario_file.as_deref(), check.line);

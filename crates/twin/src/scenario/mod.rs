@@ -33,6 +33,7 @@ pub use joints::StartSettings;
 pub use motions::{
     ArcMotion, ArcSettings, Between, JointMotion, JointPathMotion, LimitSettings, LineMotion, MotionSettings,
     OverLimit, PlaybackMotion, Profile, Progress, ServoMethod, ServoMotion, TcpMotion, TcpPathMotion,
+    ToolOrientation,
 };
 pub(crate) use number::Range;
 pub use output::{OutputSettings, TrajectoryFormat};

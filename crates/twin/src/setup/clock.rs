@@ -1,6 +1,6 @@
 //! The clock and gravity of a run.
 
-use congruent_description::Diagnostic;
+use congruent_description::{Diagnostic, display::quantity};
 use nalgebra::Vector3;
 
 use crate::scenario::{FilePlace, SimulationSettings};
@@ -75,10 +75,17 @@ impl RunClock {
         }
         let steps = duration_s / step_s;
         // A run without a duration does not end before its motions.
-        let steps = match settings.duration_s {
+        let whole = match settings.duration_s {
             Some(_) => steps.round(),
             None => (steps - ROUNDING).ceil(),
         };
+        if settings.duration_s.is_some() && (steps - whole).abs() > ROUNDING {
+            let message = format!("duration_s = {duration_s:?} is no whole number of steps of {step_s:?} s");
+            let taken = format!("the run takes {whole} steps, {}", quantity(whole * step_s, "s"));
+            let warning = Diagnostic::warning("scenario::duration_rounded", message);
+            warnings.push(place.key("duration_s").mark(warning.with_help(taken)));
+        }
+        let steps = whole;
         if steps > MOST_STEPS {
             let message = format!("{duration_s:?} s in steps of {step_s:?} s are {steps:e} steps");
             let error = Diagnostic::error("scenario::steps", message);

@@ -1,7 +1,6 @@
 //! A scenario checked against its robot: nothing later validates again.
 
 pub(crate) mod actuation;
-mod bodies;
 mod clock;
 mod declared_dynamics;
 mod joint_targets;
@@ -10,9 +9,8 @@ mod numbers;
 mod output;
 mod payload;
 mod run_setup;
-mod spaces;
+mod surroundings;
 mod written_out;
-mod zones;
 
 pub(crate) use actuation::{ActuatorLimits, Sampling};
 pub use actuation::{ControllerSetup, SensorSetup, TorqueTable};
@@ -21,4 +19,5 @@ pub use declared_dynamics::DeclaredDynamics;
 pub(crate) use joint_targets::{JointTargets, moving_joint};
 pub use payload::Payload;
 pub use run_setup::RunSetup;
-pub use zones::Zone;
+pub(crate) use surroundings::LARGEST_M;
+pub use surroundings::Zone;

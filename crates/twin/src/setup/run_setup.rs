@@ -11,14 +11,13 @@ use congruent_simulation::Obstacle;
 
 use super::{
     actuation::{Actuation, ActuatorLimits, ControllerSetup, SensorSetup},
-    bodies::{Surroundings, mobility},
     clock::RunClock,
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
     motion_limits, numbers, output,
     payload::{Payload, taken_too_late},
-    written_out::{write_out_defaults, write_out_paths},
-    zones::{self, Zone},
+    surroundings::{FirstStep, Surroundings, Zone, mobility, overlaps, paired_with_checks, zones},
+    written_out::write_out,
 };
 use crate::{
     bodies::MovingBody,
@@ -71,6 +70,8 @@ pub struct RunSetup {
     pub sensors: SensorSetup,
     /// What is suspicious in the scenario; the robot's own warnings are in its description.
     pub warnings: Vec<Diagnostic>,
+    /// Obstacles that the physics would throw away from the robot.
+    overlaps: Vec<Diagnostic>,
     check_lines: Vec<Option<usize>>,
 }
 
@@ -122,6 +123,7 @@ impl RunSetup {
         warnings.extend(in_file(std::mem::take(&mut setup.warnings)));
         setup.warnings = warnings.into_vec();
         setup.inputs = access.files();
+        setup.overlaps = in_file(std::mem::take(&mut setup.overlaps)).collect();
         setup.path = Some(path.to_owned());
         setup.overrides = overrides.iter().map(ToString::to_string).collect();
         Ok(setup)
@@ -168,7 +170,7 @@ impl RunSetup {
         let Surroundings { obstacles, moving, payloads: held } =
             Surroundings::new(&scenario, (place, folder), planned, &mut found);
         let mobility = mobility(&moving, scenario.obstacle.len());
-        let zones = keep_all(&mut found, zones::build(&scenario.zone, place.key("zone"), robot));
+        let zones = keep_all(&mut found, zones(&scenario.zone, place.key("zone"), robot));
         examine_checks(&scenario, place, (&description, &mobility), &mut found);
         let faults = clock.as_ref().and_then(|clock| {
             let written = (scenario.fault.as_slice(), place.key("fault"));
@@ -182,10 +184,8 @@ impl RunSetup {
         if found.has_error() {
             return Err(found.into_vec());
         }
-        let check_line = |index| place.key("check").item(index).line();
-        write_out_defaults(&mut scenario, &description, (&clock, &start));
-        write_out_paths(&mut scenario, folder);
-        let check_lines = (0..scenario.check.len()).map(check_line).collect();
+        write_out(&mut scenario, &description, (&clock, &start, folder));
+        let check_lines = (0..scenario.check.len()).map(|at| place.key("check").item(at).line()).collect();
         let Actuation { controller, resistances, sensors, mut payloads } = actuation;
         payloads.extend(held);
         Ok(Self {
@@ -206,17 +206,36 @@ impl RunSetup {
             resistances,
             faults,
             warnings,
+            overlaps: Vec::new(),
             check_lines,
-        })
+        }
+        .with_overlaps(place.key("obstacle")))
     }
 
-    /// The same if its robot can be simulated: another source of joint states needs no inertias.
+    /// Finds the obstacles that overlap the robot at the start; playback knows no forces.
+    fn with_overlaps(mut self, places: FilePlace<'_>) -> Self {
+        if self.scenario.controller.kind != "kinematic" {
+            let Self { start, obstacles, bodies, clock, .. } = &self;
+            let first = FirstStep { q: start, obstacles, moving: bodies, step_s: clock.step_s };
+            self.overlaps = overlaps(first, &self.description.robot, places);
+        }
+        self
+    }
+
+    /// The same if it can be simulated: another source of joint states needs no inertias, and pushes no obstacle away.
     ///
     /// # Errors
-    /// What is missing.
+    /// What is missing, or overlaps.
     pub fn for_simulation(self) -> Result<Self, Vec<Diagnostic>> {
-        self.description.for_use(Use::Physics)?;
+        self.examine_for_simulation()?;
         Ok(self)
+    }
+
+    /// What [`RunSetup::for_simulation`] refuses.
+    pub(crate) fn examine_for_simulation(&self) -> Result<(), Vec<Diagnostic>> {
+        let mut found = self.overlaps.clone();
+        found.extend(self.description.for_use(Use::Physics).err().into_iter().flatten());
+        if found.is_empty() { Ok(()) } else { Err(found) }
     }
 
     /// The checks, each before its first sample.
@@ -261,7 +280,7 @@ fn examine_checks(
     (description, mobility): (&RobotDescription, &[ObstacleMobility]),
     found: &mut Diagnostics,
 ) {
-    found.keep(zones::paired_with_checks(&scenario.zone, &scenario.check, place));
+    found.keep(paired_with_checks(&scenario.zone, &scenario.check, place));
     for (index, check) in scenario.check.iter().enumerate() {
         let around = (description, scenario.obstacle.as_slice(), mobility);
         found.keep(RunningCheck::examine(check, place.key("check").item(index), around));

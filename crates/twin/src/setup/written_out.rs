@@ -9,12 +9,13 @@ use crate::{
     scenario::{MotionSettings, Scenario, ScenarioFolder, StartSettings},
 };
 
-/// Fills in what was left out: the duration, the whole start, limits, and the robot's absolute path.
-pub(super) fn write_out_defaults(
+/// Fills in what was left out: the duration, the whole start, limits, and the absolute paths of the robot and of files.
+pub(super) fn write_out(
     scenario: &mut Scenario,
     description: &RobotDescription,
-    (clock, start): (&RunClock, &RobotQ),
+    (clock, start, folder): (&RunClock, &RobotQ, ScenarioFolder<'_>),
 ) {
+    write_out_paths(scenario, folder);
     let path = &description.path;
     let whole = path.canonicalize().or_else(|_| std::path::absolute(path));
     scenario.robot = whole.unwrap_or_else(|_| path.clone()).display().to_string();
@@ -59,7 +60,7 @@ fn write_out_profile(motion: &mut MotionSettings) {
 }
 
 /// Makes the paths of other files absolute.
-pub(super) fn write_out_paths(scenario: &mut Scenario, folder: ScenarioFolder<'_>) {
+fn write_out_paths(scenario: &mut Scenario, folder: ScenarioFolder<'_>) {
     // Meshes keep their paths: those that leave the project of the folder are refused.
     if scenario.folder.is_some() || scenario.obstacle.iter().any(|obstacle| obstacle.mesh.is_some()) {
         scenario.folder = Some(folder.whole(".").display().to_string());

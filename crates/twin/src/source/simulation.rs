@@ -1,6 +1,6 @@
 //! The physics as a source of joint states: world, controller, and the setpoints that the motions give.
 
-use congruent_description::{Diagnostic, Use};
+use congruent_description::Diagnostic;
 use congruent_dynamics::JointResistance;
 use congruent_simulation::{Setpoint, SimulationError, Touches, World, WorldSettings, WorldSnapshot};
 use nalgebra::Isometry3;
@@ -70,7 +70,7 @@ impl<'a> SimulationSource<'a> {
     pub fn new(setup: &'a RunSetup) -> Result<Self, SourceError> {
         let description = &setup.description;
         let refused = |mut found: Vec<Diagnostic>| SourceError::new(found.swap_remove(0));
-        description.for_use(Use::Physics).map_err(refused)?;
+        setup.examine_for_simulation().map_err(refused)?;
         let robot = &description.robot;
         let settings = WorldSettings {
             step_s: setup.clock.step_s,
@@ -81,9 +81,12 @@ impl<'a> SimulationSource<'a> {
             actuator_limits: setup.scenario.joints.enforce_limits,
         };
         let mut world = World::new(robot, &settings).map_err(SourceError::new)?;
+        let kind = &setup.scenario.controller.kind;
+        if let Some(link) = world.massless_link().filter(|_| kind != "kinematic") {
+            return Err(SourceError::new(SimulationError::Massless { link: link.to_owned() }));
+        }
         world.set_state(&setup.start, &vec![0.0; robot.dof()]).map_err(SourceError::new)?;
         resist(&mut world, &setup.resistances).map_err(SourceError::new)?;
-        let kind = &setup.scenario.controller.kind;
         let mut faults = InjectedFaults::new(setup, &mut world).map_err(SourceError::new)?;
         let mut sensors = JointSensors::new(setup);
         measure(&mut faults, &mut sensors);

@@ -14,9 +14,9 @@ use congruent_twin::{
     scenario::{
         AddedFrictionFault, AgreementCheck, Check, ControllerSettings, DroppedSamplesFault,
         EncoderDriftFault, EncoderOffsetFault, FaultKind, FaultSettings, GoalCheck, JointFault, JointMotion,
-        LatencyFault, MotionSettings, ObstacleSettings, OnViolation, PathPoseSettings, PayloadSettings,
-        PoseSettings, Profile, ScaledTorqueFault, Scenario, SensorSettings, ShiftedToolFault, StartSettings,
-        SwappedJointsFault, WrongPayloadFault,
+        LatencyFault, LimitSettings, MotionSettings, ObstacleSettings, OnViolation, OverLimit,
+        PathPoseSettings, PayloadSettings, PoseSettings, Profile, ScaledTorqueFault, Scenario,
+        SensorSettings, ShiftedToolFault, StartSettings, SwappedJointsFault, WrongPayloadFault,
     },
 };
 use rand_chacha::{
@@ -184,6 +184,8 @@ fn scenario(fault: Option<FaultSettings>, description: &RobotDescription, draw: 
             ..ControllerSettings::default()
         },
         motion: motions,
+        // Of a slow arm, moves take longer.
+        limits: LimitSettings { over_limit: OverLimit::Slow, ..LimitSettings::default() },
         fault: fault.into_iter().collect(),
         check: vec![
             Check::Agreement(AgreementCheck::default()),

@@ -11,7 +11,7 @@ impl IkSolver {
     ///
     /// Nearest is the least sum of squares of the changes, metres taken as radians by
     /// [`crate::Arm::metres_per_rad`]. An arm with more joints than the task needs has endless
-    /// solutions, of which this is a near one.
+    /// solutions, along which it is moved towards `start` as long as that brings it nearer.
     ///
     /// # Errors
     /// [`KinematicsError::JointCount`] when `start` is no configuration of the arm.
@@ -35,8 +35,42 @@ impl IkSolver {
             }
             self.arm().draw(&mut random, &mut from);
         }
+        self.pull_towards(start, (target, options), &mut nearest)?;
         let from = if nearest.0.is_finite() { &nearest.1 } else { start };
         // Already there, or else the best that can be said about the target.
         self.solve(target, from, options, || true)
+    }
+
+    /// Moves a solution part of the way to `start` and solves from there, as long as that gives a nearer one: steps of the
+    /// least change lead back across the solutions, not along them.
+    fn pull_towards(
+        &mut self,
+        start: &ArmQ,
+        (target, options): (&IkTarget, &IkOptions),
+        nearest: &mut (f64, ArmQ),
+    ) -> Result<(), KinematicsError> {
+        /// Of the way at first, and halved where that leads to no nearer solution.
+        const PART: f64 = 0.5;
+        const LEAST_PART: f64 = 1e-3;
+        /// Part of the distance that counts as nearer.
+        const NEARER: f64 = 1e-6;
+        const MOST_ROUNDS: usize = 64;
+        let (mut part, mut from) = (PART, start.clone());
+        for _ in 0..MOST_ROUNDS {
+            if part < LEAST_PART || !nearest.0.is_finite() {
+                break;
+            }
+            for ((from, start), found) in from.iter_mut().zip(start).zip(&nearest.1) {
+                *from = found + part * (start - found);
+            }
+            let converged = self.solve(target, &from, options, || true)?.converged;
+            let distance = self.turn_towards(start);
+            if converged && distance < nearest.0 * (1.0 - NEARER) {
+                *nearest = (distance, self.solution().clone());
+            } else {
+                part /= 2.0;
+            }
+        }
+        Ok(())
     }
 }

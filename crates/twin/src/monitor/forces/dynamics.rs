@@ -30,6 +30,8 @@ const LEAST_ACCELERATION: f64 = 1.0;
 /// A joint with dry friction that is slower is at rest: its friction is then whatever holds it, rad/s and m/s. Kind:
 /// physics; friction that holds creeps by 4e-7 rad/s.
 pub(super) const AT_REST: f64 = 1e-4;
+/// The same as a share of the fastest joint, which the solver shakes the others with. Kind: solver stop.
+const CREEP_OF_FASTEST: f64 = 1e-3;
 
 pub(crate) struct DynamicsMonitor<'a> {
     dynamics: DeclaredDynamics<'a>,
@@ -90,21 +92,23 @@ impl<'a> DynamicsMonitor<'a> {
         tree.mass_matrix_into(q, buffer, &mut self.mass_matrix).ok()
     }
 
-    /// The relative difference at one joint, with what follows it; `None` if dry friction holds one of them.
-    fn relative(&self, joint: usize, sample: &Sample<'_>) -> Option<f64> {
+    /// The relative difference at one joint, with what follows it. Friction that holds is any torque up to its largest: what
+    /// it can explain is no difference.
+    fn relative(&self, joint: usize, sample: &Sample<'_>, at_rest: f64) -> f64 {
         let (truth, dof) = (sample.joints.truth, self.qdd.len());
         let (mut difference, mut acting, mut alone) = (0.0, 0.0, 0.0);
+        let mut held = Held::default();
         for row in (0..dof).filter(|&row| self.drivers[row].0 == joint) {
-            if sticks(self.frictions[row], self.before.qd[row], truth.qd[row]) {
-                return None;
+            let (friction, ratio) = (self.frictions[row], self.drivers[row].1);
+            if sticks(friction, (self.before.qd[row], truth.qd[row]), at_rest) {
+                held.add(friction, ratio, truth.qd[row]);
             }
-            let ratio = self.drivers[row].1;
             let torque: f64 = (0..dof).map(|other| self.mass_matrix[(row, other)] * self.qdd[other]).sum();
             difference += ratio * torque;
             acting += ratio.abs() * truth.effort[row].abs().max(self.bias[row].abs());
             alone += ratio * ratio * self.mass_matrix[(row, row)];
         }
-        Some(difference.abs() / (acting + alone * LEAST_ACCELERATION))
+        held.unexplained(difference) / (acting + alone * LEAST_ACCELERATION)
     }
 
     fn compare(&mut self, sample: &Sample<'_>) {
@@ -117,21 +121,40 @@ impl<'a> DynamicsMonitor<'a> {
         for ((difference, after), before) in self.qdd.iter_mut().zip(truth.qd).zip(&self.before.qd) {
             *difference = (after - before) / step_s - *difference;
         }
-        let mut is_sticking = false;
+        let speeds = truth.qd.iter().chain(&self.before.qd);
+        let at_rest = speeds.map(|qd| qd.abs() * CREEP_OF_FASTEST).fold(AT_REST, f64::max);
         for joint in (0..self.qdd.len()).filter(|&joint| self.drivers[joint].0 == joint) {
-            match self.relative(joint, sample) {
-                Some(relative) => self.torque.observe(relative, joint, sample),
-                None => is_sticking = true,
-            }
+            self.torque.observe(self.relative(joint, sample, at_rest), joint, sample);
         }
         self.compared += 1;
-        self.left_out.sticking += u64::from(is_sticking);
     }
 }
 
 /// Whether a joint with dry friction is at rest in the step, or turns round in it.
-fn sticks(friction: f64, before: f64, after: f64) -> bool {
-    friction > 0.0 && (before * after <= 0.0 || before.abs().min(after.abs()) < AT_REST)
+fn sticks(friction: f64, (before, after): (f64, f64), at_rest: f64) -> bool {
+    friction > 0.0 && (before * after <= 0.0 || before.abs().min(after.abs()) < at_rest)
+}
+
+/// The dry friction of a joint and its followers at rest.
+#[derive(Debug, Clone, Copy, Default)]
+struct Held {
+    /// What the analysis has taken for it: all of it, against the velocity.
+    assumed: f64,
+    /// What it can be in either direction.
+    largest: f64,
+}
+
+impl Held {
+    fn add(&mut self, friction: f64, ratio: f64, qd: f64) {
+        let direction = if qd == 0.0 { 0.0 } else { qd.signum() };
+        self.assumed += ratio * friction * direction;
+        self.largest += ratio.abs() * friction;
+    }
+
+    /// What no friction explains of a torque that the twin has more than the analysis.
+    fn unexplained(self, difference: f64) -> f64 {
+        ((difference - self.assumed).abs() - self.largest).max(0.0)
+    }
 }
 
 impl Monitor for DynamicsMonitor<'_> {

@@ -7,8 +7,6 @@ pub(super) struct LeftOut {
     pub(super) constrained: u64,
     /// A source without forces.
     pub(super) unknown: u64,
-    /// A joint that dry friction holds: its value alone is left out.
-    pub(super) sticking: u64,
     /// Equations that have no solution.
     pub(super) refused: u64,
 }
@@ -29,12 +27,6 @@ impl LeftOut {
             .collect();
         if sum > compared && compared > 0 {
             notes.push(format!("most samples are left out: the check says little, with {compared} samples"));
-        }
-        if self.sticking > 0 {
-            notes.push(format!(
-                "in {} samples dry friction holds a joint, whose value is left out",
-                self.sticking
-            ));
         }
         notes
     }

@@ -29,7 +29,7 @@ pub(in crate::motion) fn plan(
     let spline = JointSpline::new(&knots, &points, SplineEnds::Rest);
     let is_given = settings.duration_s.is_some() || !settings.at_s.is_empty();
     let duration_s = if is_given { total_s } else { least_s(&spline, planning) };
-    check_positions(&spline, duration_s, planning)?;
+    check_positions(&spline, duration_s, planning, |_, _| String::new())?;
     let pace = Pace::Shape { profile: Profile::Linear, duration_s };
     let to = points[points.len() - 1].clone();
     let planned = PlannedMove { way: Way::Spline(Arc::new(spline)), to, pace, begins_s: 0.0 };
@@ -153,11 +153,13 @@ fn least_s(spline: &JointSpline, planning: &Planning<'_>) -> f64 {
     (0..limits.jerk.len()).map(jerk_s).fold(least_s, f64::max)
 }
 
-/// Refuses a spline that leaves the range of a joint between points that are inside.
+/// Refuses a spline that leaves the range of a joint between points that are inside; `where_` says for a joint and a time
+/// which points.
 pub(super) fn check_positions(
     spline: &JointSpline,
     duration_s: f64,
     planning: &Planning<'_>,
+    where_: impl Fn(usize, f64) -> String,
 ) -> Result<(), Diagnostic> {
     let robot = &planning.description.robot;
     let joints: Vec<_> = robot.movable_joints().iter().map(|&joint| robot.joint(joint)).collect();
@@ -187,9 +189,10 @@ pub(super) fn check_positions(
     let (name, unit) = (&joints[joint].name, joints[joint].kind.unit());
     let (lower, upper) = joints[joint].position_range().unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
     let [q, lower, upper] = [q, lower, upper].map(|value| quantity(value, unit));
-    let time = quantity(share * duration_s, "s");
-    let message =
-        format!("joint \"{name}\" would leave its range of {lower} to {upper} between points: {q} at {time}");
+    let (time, where_) = (quantity(share * duration_s, "s"), where_(joint, share * duration_s));
+    let message = format!(
+        "joint \"{name}\" would leave its range of {lower} to {upper} between points: {q} at {time}{where_}"
+    );
     let error = Diagnostic::error("scenario::path_limit", message);
     Err(planning.place.mark(error.with_help("add a point where the path swings out, or give other times")))
 }

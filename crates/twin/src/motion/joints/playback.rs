@@ -31,7 +31,7 @@ pub(in crate::motion) fn plan(
     let robot = &planning.description.robot;
     let source = planning.folder.read_text(&settings.play_csv, MOST_BYTES);
     let table = source.and_then(|source| JointTable::read(&source, (robot, planning.limits), planning.from));
-    let JointTable { times_s, mut points } =
+    let JointTable { times_s, mut points, places } =
         table.map_err(|fault| if fault.source.is_none() { place.mark(fault) } else { fault })?;
     for (coordinate, &joint) in robot.movable_joints().iter().enumerate() {
         let (stands, begins) = (planning.from[coordinate], points[0][coordinate]);
@@ -55,13 +55,14 @@ pub(in crate::motion) fn plan(
         Between::Linear => SplineEnds::Straight,
     };
     let spline = Arc::new(JointSpline::new(&shares, &points, ends));
-    check_positions(&spline, duration_s, planning)?;
+    let where_ =
+        |joint: usize, time_s: f64| places.between(joint, times_s.partition_point(|&row_s| row_s <= time_s));
+    check_positions(&spline, duration_s, planning, where_)?;
     let pace = Pace::Shape { profile: Profile::Linear, duration_s };
     let to = points.swap_remove(points.len() - 1);
-    // Rows are held against the limits as they are read, a spline swings out between them: a file is played as it is.
+    // Rows are held against the limits as they are read, a spline swings out between them.
     let planned = PlannedMove { way: Way::Spline(spline), to, pace, begins_s: 0.0 };
-    if settings.between == Between::Spline {
-        planning.warn_beyond_limits(&planned, DIGITS, place);
-    }
+    let planned = planning.table_within_limits(planned, DIGITS, where_)?;
+    let duration_s = planned.pace.duration_s();
     Ok(Motion { duration_s, course: Course::Planned(planned) })
 }

@@ -7,7 +7,7 @@ use congruent_description::{
     Diagnostic, Robot, RobotQ, SourceFile, display::quantity, known_names, units::Unit,
 };
 
-use crate::motion::timing::MotionLimits;
+use crate::{motion::timing::MotionLimits, scenario::OverLimit};
 
 /// Largest table that is read.
 pub(super) const MOST_BYTES: u64 = 256 << 20;
@@ -36,6 +36,34 @@ pub struct JointTable {
     pub times_s: Vec<f64>,
     /// Positions at these times.
     pub points: Vec<RobotQ>,
+    /// Where they stand in the file.
+    pub places: TablePlaces,
+}
+
+/// Lines and columns of a table, for messages.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TablePlaces {
+    /// The line of each instant, from 1.
+    lines: Vec<usize>,
+    /// The name of the column of each coordinate; that of its master if it follows another joint.
+    columns: Vec<Option<String>>,
+}
+
+impl TablePlaces {
+    /// In words, after a time: the column of a joint, and the lines before and after an instant.
+    pub(super) fn between(&self, joint: usize, next: usize) -> String {
+        let column = self.column(joint);
+        let next = next.clamp(1, self.lines.len().max(2) - 1);
+        match self.lines.get(next - 1..=next) {
+            Some([before, after]) => format!(" (between lines {before} and {after}{column})"),
+            _ => String::new(),
+        }
+    }
+
+    fn column(&self, joint: usize) -> String {
+        let name = self.columns.get(joint).and_then(Option::as_ref);
+        name.map_or_else(String::new, |name| format!(", column \"{name}\""))
+    }
 }
 
 /// A column that is used, and how its values become SI.
@@ -76,7 +104,14 @@ impl JointTable {
         let time = header.cells.iter().position(|&name| name == TIME);
         let time = time.ok_or_else(|| fault("the table has no column time_s", header.span.clone()))?;
         let columns = columns(&header, robot)?;
-        let mut table = Self { times_s: Vec::new(), points: Vec::new() };
+        let names = |coordinate: usize| {
+            let master = robot.joint(robot.movable_joints()[coordinate]).mimic.map(|mimic| mimic.master);
+            let coordinate = master.and_then(|master| robot.coordinate(master)).unwrap_or(coordinate);
+            let column = columns.iter().find(|column| column.coordinate == coordinate)?;
+            Some(header.cells[column.cell].to_owned())
+        };
+        let places = TablePlaces { lines: Vec::new(), columns: (0..robot.dof()).map(names).collect() };
+        let mut table = Self { times_s: Vec::new(), points: Vec::new(), places };
         for row in rows {
             if row.cells.len() != header.cells.len() {
                 let (found, expected) = (row.cells.len(), header.cells.len());
@@ -90,10 +125,11 @@ impl JointTable {
                 q[column.coordinate] = column.handy.map_or(value, |unit| unit.convert(value));
             }
             robot.apply_mimic(&mut q);
-            row.check_range(&q, robot)?;
+            row.check_range(&q, robot, &table.places)?;
             table.follow(&row, (time_s, &q), (robot, limits))?;
             table.times_s.push(time_s);
             table.points.push(q);
+            table.places.lines.push(row.number);
         }
         if table.points.len() < 2 {
             return Err(fault("the table has less than two rows of positions", header.span));
@@ -117,6 +153,10 @@ impl JointTable {
             let message = format!("line {}: time {time_s} s is not after {before_s} s", row.number);
             return Err(fault(&message, row.span.clone()));
         }
+        // What the scenario lets go on, or makes slower, is held against the limits as a whole.
+        if limits.over_limit != OverLimit::Refuse {
+            return Ok(());
+        }
         let speed = |joint: usize| (q[joint] - before[joint]).abs() / (time_s - before_s);
         // A table has few digits: half a unit of the fourth is no jump.
         let jumps = |joint: &usize| speed(*joint) > limits.velocity[*joint] * 1.0005;
@@ -128,25 +168,31 @@ impl JointTable {
         let [speed, limit] =
             [speed(joint), limits.velocity[joint]].map(|value| quantity(value, &format!("{unit}/s")));
         let message = format!(
-            "line {}: joint \"{}\" jumps by {way} in {interval}: {speed}, its limit is {limit}",
-            row.number, described.name
+            "line {}{}: joint \"{}\" jumps by {way} in {interval}: {speed}, its limit is {limit}",
+            row.number,
+            self.places.column(joint),
+            described.name
         );
-        Err(Diagnostic::error("scenario::playback_jump", message).at(row.span.clone()))
+        let error = Diagnostic::error("scenario::playback_jump", message).at(row.span.clone());
+        Err(error
+            .with_help("give the row more time, or write over_limit = \"slow\" or \"warn\" under [limits]"))
     }
 }
 
 impl Row<'_> {
     /// Refuses positions outside the range of a joint.
-    fn check_range(&self, q: &RobotQ, robot: &Robot) -> Result<(), Diagnostic> {
-        for (&joint, &position) in robot.movable_joints().iter().zip(q) {
+    fn check_range(&self, q: &RobotQ, robot: &Robot, places: &TablePlaces) -> Result<(), Diagnostic> {
+        for (coordinate, (&joint, &position)) in robot.movable_joints().iter().zip(q).enumerate() {
             let joint = robot.joint(joint);
             let Some((lower, upper)) = joint.position_range() else { continue };
             if position < lower - SAME_PLACE || position > upper + SAME_PLACE {
                 let unit = joint.kind.unit();
                 let [position, lower, upper] = [position, lower, upper].map(|value| quantity(value, unit));
                 let message = format!(
-                    "line {}: joint \"{}\" is at {position}, outside its range of {lower} to {upper}",
-                    self.number, joint.name
+                    "line {}{}: joint \"{}\" is at {position}, outside its range of {lower} to {upper}",
+                    self.number,
+                    places.column(coordinate),
+                    joint.name
                 );
                 return Err(Diagnostic::error("scenario::playback_range", message).at(self.span.clone()));
             }

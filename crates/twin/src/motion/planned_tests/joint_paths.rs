@@ -122,13 +122,19 @@ fn tables_that_cannot_be_played_are_refused_with_their_line() {
 
 /// From row to row the joint goes at 156 deg/s, in between the spline is faster than the limit of 180 deg/s.
 #[test]
-fn a_spline_that_is_faster_than_the_limits_between_its_rows_is_warned_of() {
+fn a_spline_that_is_faster_than_the_limits_between_its_rows_is_refused_slowed_or_warned_of() {
     let text = "time_s,elbow_joint_deg\n0,90\n0.25,91\n0.5,130\n0.75,91\n1,90\n";
     let (_folder, motion) = playback(text, Between::Spline);
-    let setup = planned(motion);
+    refused(motion.clone(), "scenario::over_limit", &["between lines 3 and 4", "column \"elbow_joint_deg\""]);
+    let over = |over_limit| LimitSettings { over_limit, ..LimitSettings::default() };
+    let slowed = setup(motion.clone(), over(OverLimit::Slow)).unwrap();
+    let found = instants(&slowed);
+    let largest = found.iter().fold(0.0_f64, |largest, now| largest.max(now.qd[2].abs())).to_degrees();
+    assert!(largest > 178.0 && largest < 180.2 && slowed.clock.duration_s() > 1.03, "{largest}");
+    let setup = setup(motion, over(OverLimit::Warn)).unwrap();
     let warning = setup.warnings.iter().find(|warning| warning.code == "scenario::over_limit").unwrap();
     let said = warning.message.strip_prefix("joint \"elbow_joint\" would move at ").unwrap();
-    assert!(said.ends_with(" s, its limit is 180 deg/s"), "{said}");
+    assert!(said.ends_with(", its limit is 180 deg/s"), "{said}");
     // The setpoints of the run are as fast, but for three digits and the instants that are looked at.
     let found = instants(&setup);
     let largest = found.iter().fold(0.0_f64, |largest, now| largest.max(now.qd[2].abs())).to_degrees();
@@ -153,6 +159,28 @@ fn a_servo_keeps_declared_velocities() {
     let speeds = instants(&setup).into_iter().flat_map(|now| now.qd);
     let largest = speeds.fold(0.0_f64, |largest, qd| largest.max(qd.abs())).to_degrees();
     assert!((largest - 20.0).abs() < 1e-6, "{largest}");
+}
+
+/// So it does with declared accelerations, from rest on; only at its end does it stand at once.
+#[test]
+fn a_servo_keeps_declared_accelerations() {
+    let servo = ServoMotion {
+        servo_tcp: pose((start() + Vector3::new(0.1, 0.2, 0.1)).into()),
+        method: ServoMethod::default(),
+        gain_per_s: Some(20.0),
+        duration_s: 1.0,
+    };
+    let acceleration_deg_s2 = BTreeMap::from([("*".to_owned(), 300.0)]);
+    let limits = LimitSettings { acceleration_deg_s2, ..LimitSettings::default() };
+    let found = instants(&setup(vec![MotionSettings::Servo(servo)], limits).unwrap());
+    let mut largest = 0.0_f64;
+    for pair in found.windows(2).filter(|pair| pair[1].time_s < 0.9995) {
+        let step_s = pair[1].time_s - pair[0].time_s;
+        let changes =
+            pair[1].qd.iter().zip(&pair[0].qd).map(|(after, before)| (after - before).abs() / step_s);
+        largest = changes.fold(largest, f64::max);
+    }
+    assert!(largest.to_degrees() > 290.0 && largest.to_degrees() < 300.0 + 1e-3, "{}", largest.to_degrees());
 }
 
 #[test]

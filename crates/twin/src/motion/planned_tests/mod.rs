@@ -1,5 +1,6 @@
 //! Planned motions of real robots, evaluated as a run evaluates them: paths, speeds and limits by independent means.
 
+mod few_joints;
 mod joint_paths;
 mod refusals;
 

@@ -5,7 +5,7 @@ use congruent_description::{ArmQ, RobotDescription, RobotQ, display::length_and_
 use congruent_kinematics::{
     Arm, IkMethod, IkOptions, IkSolver, IkTarget, KinematicsError, Pose, PoseError, TargetPart,
 };
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 
 use super::geometry::TcpPath;
 use crate::motion::joints::{JointSpline, SplineEnds, SplineValues};
@@ -31,7 +31,13 @@ const BRANCH: f64 = 0.2;
 #[derive(Debug)]
 pub(super) enum Stop {
     /// The tool cannot be brought there within the joint limits.
-    OutOfReach { at_m: f64, left: String, limits_held: Vec<String> },
+    OutOfReach {
+        at_m: f64,
+        left: String,
+        limits_held: Vec<String>,
+        /// By how much the orientation is off if the position alone is led there, rad, and about which axis of the world.
+        off: Option<(f64, Vector3<f64>)>,
+    },
     /// The joints would have to jump.
     Singular { at_m: f64, joint: String },
     /// The model refuses.
@@ -49,8 +55,10 @@ pub(super) fn along(
     path: &TcpPath,
     description: &RobotDescription,
     (base_from_world, from): (&Isometry3<f64>, &RobotQ),
+    part: TargetPart,
 ) -> Result<JointSpline, Stop> {
     let mut follower = Follower {
+        part,
         solver: IkSolver::new(Arm::of(description)?),
         arm: Arm::of(description)?,
         description,
@@ -75,13 +83,33 @@ struct Follower<'a> {
     description: &'a RobotDescription,
     path: &'a TcpPath,
     base_from_world: Isometry3<f64>,
+    part: TargetPart,
 }
 
 impl Follower<'_> {
     fn target(&self, share: f64) -> IkTarget {
         let world_from_tcp = self.path.at(share * self.path.length_m());
         let base_from_tcp = Pose::from(self.base_from_world * world_from_tcp);
-        IkTarget { base_from_tcp, part: TargetPart::Pose }
+        IkTarget { base_from_tcp, part: self.part }
+    }
+
+    /// What the orientation lacks at a share of the path if the arm can bring the position there.
+    fn orientation_off(
+        &mut self,
+        share: f64,
+        (before, options): (&ArmQ, &IkOptions),
+    ) -> Result<Option<(f64, Vector3<f64>)>, KinematicsError> {
+        let target = IkTarget { part: TargetPart::Position, ..self.target(share) };
+        let found = self.solver.solve(&target, before, options, || true)?;
+        if self.part == TargetPart::Position || found.residual_position_m > PATH_M {
+            return Ok(None);
+        }
+        let q = found.q.clone();
+        let reached =
+            self.base_from_world.rotation.inverse() * self.arm.base_from_tcp(&q)?.to_isometry().rotation;
+        let wanted = self.path.at(share * self.path.length_m()).rotation;
+        let off = reached.rotation_to(&wanted);
+        Ok(off.axis().map(|axis| (off.angle(), axis.into_inner())))
     }
 
     fn name(&self, arm_joint: usize) -> String {
@@ -139,12 +167,14 @@ impl Follower<'_> {
             let target = self.target(share);
             let found = self.solver.solve(&target, &before, &options, || true)?;
             if !found.converged
-                && (found.residual_position_m > PATH_M || found.residual_orientation_rad > PATH_RAD)
+                && (found.residual_position_m > PATH_M
+                    || (self.part == TargetPart::Pose && found.residual_orientation_rad > PATH_RAD))
             {
                 let left = length_and_angle(found.residual_position_m, found.residual_orientation_rad);
                 let held = found.limits_held.to_vec();
                 let limits_held = held.into_iter().map(|joint| self.name(joint)).collect();
-                return Err(Stop::OutOfReach { at_m, left, limits_held });
+                let off = self.orientation_off(share, (&before, &options))?;
+                return Err(Stop::OutOfReach { at_m, left, limits_held, off });
             }
             let now = found.q.clone();
             let jump = now.iter().zip(&before).position(|(now, before)| (now - before).abs() > BRANCH);
@@ -174,7 +204,11 @@ impl Follower<'_> {
             let arm_q = self.arm.from_robot(&q);
             let found = self.arm.base_from_tcp(&arm_q)?;
             let error = PoseError::to_isometry(&self.target(share).base_from_tcp, &found.to_isometry());
-            let times = (error.position_m / PATH_M).max(error.orientation_rad / PATH_RAD);
+            let turned = match self.part {
+                TargetPart::Pose => error.orientation_rad / PATH_RAD,
+                TargetPart::Position => 0.0,
+            };
+            let times = (error.position_m / PATH_M).max(turned);
             if times > furthest.map_or(1.0, |(worst, ..)| worst) {
                 let speed = |joint: &usize| first[self.arm.joints()[*joint].coordinate].abs();
                 let fastest = (0..self.arm.joints().len()).max_by(|a, b| speed(a).total_cmp(&speed(b)));

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use congruent_description::{
     Diagnostic, RobotQ,
-    display::{length, quantity},
+    display::{angle, length, number, quantity},
 };
-use congruent_kinematics::{Arm, Pose, UrdfTree};
-use nalgebra::Isometry3;
+use congruent_kinematics::{Arm, Pose, TargetPart, UrdfTree};
+use nalgebra::{Isometry3, Vector3};
 
 use super::{
     drive::{Drive, blend_rates, drive, rates},
@@ -22,7 +22,9 @@ use crate::{
         planning::Planning,
         timing::{Pace, RateLimits, SpeedProfile, Stretch},
     },
-    scenario::{ArcMotion, FilePlace, LineMotion, MotionSettings, PoseSettings, TcpPathMotion},
+    scenario::{
+        ArcMotion, FilePlace, LineMotion, MotionSettings, PoseSettings, TcpPathMotion, ToolOrientation,
+    },
 };
 
 /// A tool that has no further to go, m and rad, is there.
@@ -71,12 +73,13 @@ pub(in crate::motion) fn plan(
     let world_from_base = world_from_base(planning)?;
     let legs = legs(motions, (places, first), (planning, &world_from_base))?;
     check(&legs)?;
+    let part = part(motions, planning.place)?;
     planning.warnings.extend(legs.iter().filter_map(Leg::slower_on_arc));
     let pace = pace(&legs);
     let ends: Vec<usize> = legs.iter().map(|leg| leg.motion).collect();
     let places_of_legs: Vec<FilePlace<'_>> = legs.iter().map(|leg| leg.place).collect();
     let path = TcpPath::new(legs.into_iter().map(|leg| (leg.segment, leg.blend_m)).collect());
-    let spline = along(&path, planning.description, (&world_from_base.inverse(), planning.from));
+    let spline = along(&path, planning.description, (&world_from_base.inverse(), planning.from), part);
     let spline = Arc::new(spline.map_err(|stop| refused(stop, &path, &places_of_legs))?);
     let whole = PlannedMove {
         to: end_of(&spline, 1.0, planning.from.len()),
@@ -95,6 +98,33 @@ pub(in crate::motion) fn plan(
     })?;
     planning.place = places;
     Ok(split(&whole, &spline, (&path, &ends)))
+}
+
+/// Whether the orientation is led as well; motions that blend into each other agree, and a free one is not given.
+fn part(motions: &[MotionSettings], place: FilePlace<'_>) -> Result<TargetPart, Diagnostic> {
+    let of = |motion: &MotionSettings| match motion {
+        MotionSettings::Line(line) => (line.orientation, line.line_tcp.has_rotation()),
+        MotionSettings::Arc(arc) => (arc.orientation, arc.arc_tcp.to.has_rotation()),
+        MotionSettings::TcpPath(path) => {
+            (path.orientation, path.path_tcp.iter().any(PoseSettings::has_rotation))
+        }
+        _ => (ToolOrientation::Led, false),
+    };
+    let refused = |message: &str, help: &str| {
+        Err(place.mark(Diagnostic::error("scenario::orientation", message).with_help(help)))
+    };
+    let free = motions.iter().map(of).filter(|(orientation, _)| *orientation == ToolOrientation::Free);
+    match free.clone().count() {
+        0 => Ok(TargetPart::Pose),
+        _ if free.clone().any(|(_, has_rotation)| has_rotation) => {
+            refused("the target has a rotation, but `orientation = \"free\"`", "leave one of them out")
+        }
+        count if count < motions.len() => refused(
+            "a motion whose orientation is free blends into one whose orientation is led",
+            "give `orientation = \"free\"` to all of them, or leave `blend_m` out between them",
+        ),
+        _ => Ok(TargetPart::Position),
+    }
 }
 
 /// The motions of one path, each from where the one before ends.
@@ -322,6 +352,16 @@ impl Leg<'_> {
     }
 }
 
+/// What the arm can do there instead.
+fn position_alone(angle_rad: f64, axis: &Vector3<f64>) -> String {
+    let [x, y, z] = [axis.x, axis.y, axis.z].map(|entry| number((entry * 1e3).round() / 1e3));
+    format!(
+        "the arm reaches the position, with its orientation {} off about [{x}, {y}, {z}]: `orientation = \"free\"` leads \
+         the position alone",
+        angle(angle_rad)
+    )
+}
+
 /// Why there are no joint positions along the path, at the line or arc on which it ends.
 fn refused(stop: Stop, path: &TcpPath, places: &[FilePlace<'_>]) -> Diagnostic {
     let at = |at_m: f64| {
@@ -331,12 +371,16 @@ fn refused(stop: Stop, path: &TcpPath, places: &[FilePlace<'_>]) -> Diagnostic {
     };
     let place = |at_m: f64| places[path.segment_at(at_m)];
     match stop {
-        Stop::OutOfReach { at_m, left, limits_held } => {
+        Stop::OutOfReach { at_m, left, limits_held, off } => {
             let message = format!("the tool cannot go on {}: {left} are left at best", at(at_m));
             let help = if limits_held.is_empty() {
                 "the rest of the path is out of reach, or needs another configuration of the arm".to_owned()
             } else {
                 format!("{} at the limit: start in another configuration", limits_held.join(", "))
+            };
+            let help = match off {
+                Some((angle_rad, axis)) => format!("{help}; {}", position_alone(angle_rad, &axis)),
+                None => help,
             };
             place(at_m).mark(Diagnostic::error("scenario::path_reach", message).with_help(help))
         }

@@ -17,6 +17,7 @@ use crate::{
     motion::{
         course::{Course, Motion, TcpServo},
         planning::Planning,
+        timing::MotionLimits,
     },
     scenario::{ServoMethod, ServoMotion},
 };
@@ -54,7 +55,7 @@ pub(in crate::motion) fn plan(settings: &ServoMotion, planning: &Planning<'_>) -
 #[derive(Debug, Clone)]
 pub(in crate::motion) struct ServoController<'a> {
     robot: &'a Robot,
-    velocity: &'a [f64],
+    limits: &'a MotionLimits,
     solver: IkSolver,
     measured: ArmQ,
     commanded: ArmQ,
@@ -70,16 +71,16 @@ pub(in crate::motion) struct StepInterval {
 }
 
 impl<'a> ServoController<'a> {
-    /// `velocity` has the largest speed of each movable joint, infinity for none.
+    /// Speeds and declared accelerations keep the limits.
     pub(in crate::motion) fn new(
         description: &'a RobotDescription,
-        velocity: &'a [f64],
+        limits: &'a MotionLimits,
     ) -> Result<Self, KinematicsError> {
         let arm = Arm::of(description)?;
         let joints = arm.joints().len();
         Ok(Self {
             robot: &description.robot,
-            velocity,
+            limits,
             solver: IkSolver::new(arm),
             measured: ArmQ::zeros(joints),
             commanded: ArmQ::zeros(joints),
@@ -89,7 +90,8 @@ impl<'a> ServoController<'a> {
     }
 
     /// Moves the setpoint `q` by one step towards the target, within the position limits of the joints; if a
-    /// velocity limit is exceeded, all joints are scaled down alike. `qd` is the mean over the step.
+    /// velocity limit is exceeded, all joints are scaled down alike; so is the change of their speeds if it exceeds a declared
+    /// acceleration. `qd` is the mean over the step; before, over the one before.
     pub(in crate::motion) fn advance(
         &mut self,
         servo: &TcpServo,
@@ -107,14 +109,26 @@ impl<'a> ServoController<'a> {
         // The solution of de/dt = -gain e over this time: no overshoot, whatever the gain.
         let share = -(-servo.gain_per_s * moved_s).exp_m1();
         let joints = self.solver.arm().joints();
+        let MotionLimits { velocity, declared_acceleration, .. } = self.limits;
+        // An error that falls as exp(-gain t) slows down by gain times the speed.
         let times_too_fast = |(joint, change): (&ArmJoint, &f64)| {
-            share * change.abs() / (self.velocity[joint.coordinate] * moved_s)
+            let at = joint.coordinate;
+            share * change.abs() / (velocity[at].min(declared_acceleration[at] / servo.gain_per_s) * moved_s)
         };
         let slower = joints.iter().zip(&self.change).map(times_too_fast).fold(1.0, f64::max);
+        for change in &mut self.change {
+            *change = share * *change / slower;
+        }
+        let times_too_sudden = |(joint, change): (&ArmJoint, &f64)| {
+            let at = joint.coordinate;
+            (change - qd[at] * moved_s).abs() / (declared_acceleration[at] * moved_s * moved_s)
+        };
+        let later = joints.iter().zip(&self.change).map(times_too_sudden).fold(1.0, f64::max);
         self.before.copy_from_slice(q);
         for (joint, change) in joints.iter().zip(&self.change) {
-            let reference = &mut q[joint.coordinate];
-            *reference = (*reference + share * change / slower).clamp(joint.lower, joint.upper);
+            let (reference, keeps_on) = (&mut q[joint.coordinate], qd[joint.coordinate] * moved_s);
+            let change = if later > 1.0 { keeps_on + (change - keeps_on) / later } else { *change };
+            *reference = (*reference + change).clamp(joint.lower, joint.upper);
         }
         self.robot.apply_mimic(q);
         for ((qd, q), before) in qd.iter_mut().zip(q.iter()).zip(&self.before) {

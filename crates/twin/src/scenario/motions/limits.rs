@@ -17,7 +17,7 @@ type ByJoint = BTreeMap<String, f64>;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitSettings {
-    /// What happens to a move that breaks a limit: `refuse` or `slow`.
+    /// What happens to a move that breaks a limit: `refuse`, `slow` or `warn`.
     #[serde(default, deserialize_with = "variant")]
     pub over_limit: OverLimit,
     /// Velocities by joint, in degrees per second.
@@ -67,4 +67,6 @@ pub enum OverLimit {
     Refuse,
     /// The move takes as long as the limit needs, with a warning.
     Slow,
+    /// The move is made as it is, with a warning: to see what a controller makes of it.
+    Warn,
 }

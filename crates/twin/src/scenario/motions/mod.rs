@@ -12,5 +12,6 @@ pub use kinds::{JointMotion, MotionSettings, ServoMethod, ServoMotion, TcpMotion
 pub use limits::{LimitSettings, OverLimit};
 pub use paths::{
     ArcMotion, ArcSettings, Between, JointPathMotion, LineMotion, PlaybackMotion, TcpPathMotion,
+    ToolOrientation,
 };
 pub use profile::{Profile, Progress};

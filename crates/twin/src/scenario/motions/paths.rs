@@ -37,6 +37,28 @@ pub struct LineMotion {
     /// Distance from its end within which it turns into the next line or arc, without a stop.
     #[serde(default, deserialize_with = "non_negative")]
     pub blend_m: f64,
+    /// What becomes of the orientation; arms of few joints can lead the position alone.
+    #[serde(default, deserialize_with = "variant", skip_serializing_if = "ToolOrientation::is_led")]
+    pub orientation: ToolOrientation,
+}
+
+/// What becomes of the tool's orientation along a line, an arc or a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ToolOrientation {
+    /// It turns evenly from that at the start to that at the end, or is kept if the end has none.
+    #[default]
+    Led,
+    /// It is whatever the arm gives: the position alone is led. The end has no rotation.
+    Free,
+}
+
+impl ToolOrientation {
+    /// Whether it is what is left out.
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
+    fn is_led(&self) -> bool {
+        *self == Self::Led
+    }
 }
 
 /// The end of an arc, and a point on the way.
@@ -73,6 +95,9 @@ pub struct ArcMotion {
     /// Distance from its end within which it turns into the next line or arc, without a stop.
     #[serde(default, deserialize_with = "non_negative")]
     pub blend_m: f64,
+    /// What becomes of the orientation; arms of few joints can lead the position alone.
+    #[serde(default, deserialize_with = "variant", skip_serializing_if = "ToolOrientation::is_led")]
+    pub orientation: ToolOrientation,
 }
 
 /// The TCP goes along straight lines from point to point.
@@ -93,6 +118,9 @@ pub struct TcpPathMotion {
     /// Distance from each point between within which a line turns into the next; without one it stops there.
     #[serde(default, deserialize_with = "non_negative")]
     pub blend_m: f64,
+    /// What becomes of the orientation; arms of few joints can lead the position alone.
+    #[serde(default, deserialize_with = "variant", skip_serializing_if = "ToolOrientation::is_led")]
+    pub orientation: ToolOrientation,
 }
 
 /// The joints go through many points with continuous acceleration (a cubic spline) and rest at the end; joints that a

@@ -6,7 +6,10 @@ use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 
 use crate::{
     scenario::{FilePlace, PayloadInertia, PayloadSettings},
-    setup::payload::{HEAVIEST_KG, Payload, too_heavy},
+    setup::{
+        LARGEST_M,
+        payload::{HEAVIEST_KG, Payload, too_heavy},
+    },
 };
 
 /// The payloads of a run, in the order of the scenario.
@@ -94,10 +97,10 @@ fn centre_of_mass(settings: &PayloadSettings) -> Result<Vector3<f64>, String> {
         (None, Some(com_mm)) => com_mm.map(|value| Unit::Length.convert(value)),
         (com_m, None) => com_m.unwrap_or_default(),
     };
-    if com_m.iter().all(|value| value.is_finite()) {
+    if com_m.iter().all(|value| value.abs() <= LARGEST_M) {
         Ok(com_m.into())
     } else {
-        Err("the centre of mass is not finite".to_owned())
+        Err(format!("the centre of mass is further than {LARGEST_M} m"))
     }
 }
 

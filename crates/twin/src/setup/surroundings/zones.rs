@@ -27,7 +27,7 @@ pub struct Zone {
 /// `links` holds names of links, in which `*` stands for any characters. A name with `*` means the
 /// links that can move and have a collision shape: links that are fixed to the root are
 /// left out. A link that is named in full counts in any case.
-pub(super) fn build(
+pub(in crate::setup) fn build(
     all: &[ZoneSettings],
     places: FilePlace<'_>,
     robot: &Robot,
@@ -54,7 +54,7 @@ pub(super) fn build(
 }
 
 /// A scenario has zones if and only if it has the check `zone`: either alone would have no effect.
-pub(super) fn paired_with_checks(
+pub(in crate::setup) fn paired_with_checks(
     zones: &[ZoneSettings],
     checks: &[Check],
     place: FilePlace<'_>,

@@ -8,7 +8,7 @@ use crate::scenario::{CylinderSettings, FilePlace, ObstacleSettings, PoseSetting
 
 /// Largest size and coordinate of an obstacle or zone: beyond it, rounding is no longer small against the
 /// accuracy of distances, and far beyond it products overflow.
-pub(super) const LARGEST_M: f64 = 1e5;
+pub(crate) const LARGEST_M: f64 = 1e5;
 
 /// What a section describes: its word in messages, and the codes of its faults.
 pub(super) struct SpaceKind {

@@ -7,30 +7,28 @@ use congruent_kinematics::UrdfTree;
 use congruent_simulation::{CarriedBody, Obstacle};
 use nalgebra::{Isometry3, Matrix3, Translation3, Vector3};
 
-use super::{
-    payload::{HEAVIEST_KG, Payload, too_heavy},
-    spaces,
-};
+use super::spaces;
 use crate::{
     bodies::{BodyCourse, Grasp, MovingBody, PathPose},
     motion::Trajectory,
     proximity::ObstacleMobility,
     scenario::{FilePlace, GraspSettings, ObstacleSettings, PoseSettings, Scenario, ScenarioFolder},
+    setup::payload::{HEAVIEST_KG, Payload, too_heavy},
 };
 
 /// The bodies around the robot.
-pub(super) struct Surroundings {
+pub(in crate::setup) struct Surroundings {
     /// `None` if one of them is wrong.
-    pub(super) obstacles: Option<Vec<Obstacle>>,
+    pub(in crate::setup) obstacles: Option<Vec<Obstacle>>,
     /// Those of them that move.
-    pub(super) moving: Vec<MovingBody>,
+    pub(in crate::setup) moving: Vec<MovingBody>,
     /// What those that are carried weigh.
-    pub(super) payloads: Vec<Payload>,
+    pub(in crate::setup) payloads: Vec<Payload>,
 }
 
 impl Surroundings {
     /// Builds all; their faults are kept in `found`.
-    pub(super) fn new(
+    pub(in crate::setup) fn new(
         scenario: &Scenario,
         (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
         (description, trajectory): (&RobotDescription, Option<&Trajectory>),
@@ -55,7 +53,7 @@ impl Surroundings {
 }
 
 /// How each of so many obstacles moves.
-pub(super) fn mobility(bodies: &[MovingBody], obstacles: usize) -> Vec<ObstacleMobility> {
+pub(in crate::setup) fn mobility(bodies: &[MovingBody], obstacles: usize) -> Vec<ObstacleMobility> {
     let mut mobility = vec![ObstacleMobility::Still; obstacles];
     for body in bodies {
         mobility[body.obstacle] = match &body.course {
@@ -295,8 +293,8 @@ fn inertia(settings: &GraspSettings, mass_kg: f64, geometry: &Geometry) -> Resul
         }
     };
     let com = Vector3::from(settings.com_m.unwrap_or_default());
-    if !com.iter().all(|entry| entry.is_finite()) {
-        return refused("`com_m` is not finite", "give three lengths");
+    if !com.iter().all(|entry| entry.abs() <= spaces::LARGEST_M) {
+        return refused("`com_m` is no length of a body", "give three lengths of at most 100000 m");
     }
     let link_from_inertial =
         Isometry3::from_parts(Translation3::from(com), nalgebra::UnitQuaternion::identity());
