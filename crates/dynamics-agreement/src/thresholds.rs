@@ -120,7 +120,7 @@ pub(crate) const MAX_VARIABLES: usize = 9;
 /// some 36 products. Kind: speed and memory.
 pub(crate) const MAX_COEFFICIENTS: usize = 2_500_000;
 /// Control values of the products for each joint before a bracket is reported as it stands. Kind: speed; some 0.1 s.
-pub(crate) const MAX_MOTION_VALUES: usize = 20_000_000;
+pub(crate) const MAX_MOTION_VALUES: usize = 8_000_000;
 /// A bracket is closed within this share. No unit; kind: choice.
 pub(crate) const CLOSED: f64 = 0.005;
 /// A bracket of a motion is closed within this share. No unit; kind: choice, ten times that of gravity alone.

@@ -54,6 +54,7 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
         let others: Vec<&DynamicsExplanation> = report
             .indistinguishable
             .iter()
+            .filter(|other| !other.contradicted)
             .filter(|other| !report.explanations.iter().any(|first| has_parts_of(first, other)))
             .collect();
         for other in others.iter().take(SHOWN) {
@@ -102,6 +103,9 @@ fn explained(text: &mut String, explanation: &DynamicsExplanation) {
     }
     if let Some(law) = &explanation.body_law {
         let _ = writeln!(text, "      no body is so: {law}");
+    }
+    if let Some(otherwise) = &explanation.otherwise {
+        let _ = writeln!(text, "      or the other file is wrong: {otherwise}");
     }
     if explanation.changes.is_empty() {
         if let Some(advice) = explanation.suggestion.as_ref().filter(|_| explanation.cause.is_of_one_file()) {

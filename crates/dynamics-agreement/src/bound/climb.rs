@@ -87,9 +87,10 @@ pub(super) fn largest_from(function: &Trigonometric, mut q: Vec<f64>) -> f64 {
 
 /// Positions of one joint that are tried before the best is refined. Kind: choice; waves of second degree have four
 /// slopes a turn.
-const POSITIONS: u32 = 48;
-/// Halvings of the interval around the best one. Kind: choice, to 1e-9 of the range.
-const HALVINGS: usize = 28;
+const POSITIONS: u32 = 24;
+/// Halvings of the interval around the best one. Kind: choice, to 3e-6 of the range: a maximum is flat, and its value
+/// good to the square of that.
+const HALVINGS: usize = 14;
 /// A round that gains less than this share is the last. No unit; kind: solver stop.
 const LEAST_GAIN_SAMPLED: f64 = 1e-6;
 

@@ -35,7 +35,6 @@ pub(super) struct Upper {
 /// The motion of the largest torque at some positions.
 #[derive(Debug, Clone)]
 pub(super) struct LargestMotion {
-    pub(super) value: f64,
     /// Parts of their limits.
     pub(super) speeds: Vec<f64>,
     /// -1 or 1 each.
@@ -48,7 +47,7 @@ impl Measure {
         match self {
             Self::Length => values.iter().map(|value| value * value).sum::<f64>().sqrt(),
             Self::Sum => values.iter().map(|value| value.abs()).sum(),
-            Self::Motion(motion) => motion.largest(values).value,
+            Self::Motion(motion) => motion.largest_torque(values),
         }
     }
 
@@ -83,18 +82,21 @@ impl Motion {
         (gravity, accelerations, Form { coefficients, speeds: self.speeds })
     }
 
+    /// The largest torque.
+    fn largest_torque(&self, values: &[f64]) -> f64 {
+        let (gravity, accelerations, form) = self.parts(values);
+        let pushed: f64 = accelerations.iter().map(|value| value.abs()).sum();
+        let [up, down] = form.largest();
+        (gravity + up.0).max(down.0 - gravity) + pushed + self.resistance
+    }
+
     /// The motion with the largest torque.
     pub(super) fn largest(&self, values: &[f64]) -> LargestMotion {
         let (gravity, accelerations, form) = self.parts(values);
-        let pushed: f64 = accelerations.iter().map(|value| value.abs()).sum();
-        let [up, down] = [1.0, -1.0].map(|sign| {
-            let (products, speeds) = form.largest(sign);
-            (sign, sign * gravity + products, speeds)
-        });
-        let (sign, torque, speeds) = if up.1 >= down.1 { up } else { down };
+        let [up, down] = form.largest();
+        let (sign, speeds) = if gravity + up.0 >= down.0 - gravity { (1.0, up.1) } else { (-1.0, down.1) };
         LargestMotion {
-            value: torque + pushed + self.resistance,
-            speeds,
+            speeds: speeds[..self.speeds].to_vec(),
             accelerations: accelerations.iter().map(|value| sign * value.signum()).collect(),
         }
     }

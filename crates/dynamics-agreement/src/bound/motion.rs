@@ -38,19 +38,36 @@ pub(crate) fn certify(candidate: &Side, reference: &Side, seed: u64) -> Result<C
     let mut by_joint: Vec<(usize, [Option<TorqueBracket>; 3])> = Vec::new();
     for dependence in Dependence::all(&motions.rows, &gravity_torques)? {
         let function = if dependence.is_tractable { Some(motions.function(&dependence)?) } else { None };
-        for (at, &joint) in dependence.joints.iter().enumerate() {
+        let of_joint = |at: usize| {
+            let joint = dependence.joints[at];
             let name = candidate.frames.joint_name(joint);
             let of_gravity = gravity.by_joint.iter().find(|bracket| bracket.joint == name);
             let one =
                 OneJoint { motions: &motions, dependence: &dependence, function: function.as_ref(), at };
-            by_joint.push((joint, one.brackets(of_gravity)?));
-        }
+            Ok((joint, one.brackets(of_gravity)?))
+        };
+        by_joint.extend(side_by_side(dependence.joints.len(), of_joint)?);
     }
     by_joint.sort_by_key(|(joint, _)| *joint);
     let [inertia, velocity, together] = [0, 1, 2].map(|part| {
         TorqueCertificate::of(by_joint.iter().filter_map(|(_, parts)| parts[part].clone()).collect())
     });
     Ok(Certified { gravity, inertia, velocity, together, covered: motions.rows.covered })
+}
+
+/// What each of some joints has, in their order, each in a thread of its own: seconds of a long arm.
+fn side_by_side<T: Send, E: Send>(
+    count: usize,
+    of_one: impl Fn(usize) -> Result<T, E> + Sync,
+) -> Result<Vec<T>, E> {
+    std::thread::scope(|scope| {
+        let of_one = &of_one;
+        let running: Vec<_> = (0..count).map(|at| scope.spawn(move || of_one(at))).collect();
+        running
+            .into_iter()
+            .map(|one| one.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    })
 }
 
 struct Motions<'a> {
@@ -342,9 +359,9 @@ fn largest_seen(one: &Trigonometric) -> f64 {
 }
 
 /// Control values of one acceleration or product of speeds. Kind: speed; some 5 ms.
-const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 20;
+const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 8;
 /// Where fewer boxes can be divided the sum of amplitudes is the better bound. Kind: choice.
-const FEWEST_BOXES: usize = 10;
+const FEWEST_BOXES: usize = 20;
 /// Random motions for a torque of too many joints. Kind: choice.
 const SAMPLES: usize = 2_000;
 /// A speed at which damping is nothing beside dry friction, as a part of the limit. No unit; kind: choice.

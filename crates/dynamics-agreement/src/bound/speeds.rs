@@ -36,6 +36,9 @@ pub(super) struct FormRange {
 /// Speeds that one form fits; more are not divided.
 pub(super) const MAX_SPEEDS: usize = 10;
 
+/// As many as there are, then zeros.
+pub(super) type Speeds = [f64; MAX_SPEEDS];
+
 impl Form<'_> {
     /// Of `x_j x_k`; twice that of `x_k x_j` in the matrix, but for squares.
     fn coefficient(&self, j: usize, k: usize) -> f64 {
@@ -119,15 +122,26 @@ impl Form<'_> {
         [up + products, down + products]
     }
 
-    /// The largest value of `sign` times the form that climbing from the best corner finds, with its speeds.
-    pub(super) fn largest(&self, sign: f64) -> (f64, Vec<f64>) {
-        let (mut best, mut x) = (0.0, vec![0.0; self.speeds]);
+    /// The largest and the least value that climbing from the best corners finds, each with its speeds; the least one
+    /// with the other sign.
+    pub(super) fn largest(&self) -> [(f64, Speeds); 2] {
+        let mut best = [(0.0, [0.0; MAX_SPEEDS]); 2];
         self.each_corner(&[(-1.0, 1.0); MAX_SPEEDS][..self.speeds], |value, corner| {
-            if sign * value > best {
-                best = sign * value;
-                x.copy_from_slice(corner);
+            let [up, down] = &mut best;
+            if value > up.0 {
+                up.0 = value;
+                up.1[..corner.len()].copy_from_slice(corner);
+            } else if -value > down.0 {
+                down.0 = -value;
+                down.1[..corner.len()].copy_from_slice(corner);
             }
         });
+        let [up, down] = best;
+        [self.climbed(1.0, up), self.climbed(-1.0, down)]
+    }
+
+    /// Climbs with `sign` times the form, one speed at a time, each exactly.
+    fn climbed(&self, sign: f64, (mut best, mut x): (f64, Speeds)) -> (f64, Speeds) {
         for _ in 0..ROUNDS {
             let before = best;
             for j in 0..self.speeds {
@@ -191,8 +205,7 @@ mod tests {
     #[test]
     fn the_largest_value_is_found() {
         let form = Form { coefficients: &COEFFICIENTS, speeds: 3 };
-        for sign in [1.0, -1.0] {
-            let (best, x) = form.largest(sign);
+        for (sign, (best, x)) in [1.0, -1.0].into_iter().zip(form.largest()) {
             assert!((sign * form.at(&x) - best).abs() < 1e-15);
             for index in 0..9261_usize {
                 let x = [index % 21, index / 21 % 21, index / 441]

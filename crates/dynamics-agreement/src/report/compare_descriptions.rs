@@ -91,6 +91,7 @@ pub fn compare(
         reference: Some(reference.side),
         faulty: FaultySide::Candidate,
         precision: Precision::EXACT,
+        pairs: false,
     };
     let files = Files { found: candidate.places, expected: reference.places };
     let expected = Expected { states: &states, torques: &expected };
@@ -98,11 +99,15 @@ pub fn compare(
     // A slip without a free number is taken at its word.
     if told.explanations.first().map_or(!told.same, |first| first.contradicted || first.numbers > 0.0) {
         let by_link = link_by_link(&setting, files, (reference.side, &seen_as_candidate), &states)?;
-        if is_simpler(&by_link, &told.explanations) {
+        if by_link.is_empty() {
+            told = Told::new(&Setting { pairs: true, ..setting }, files, &torque, expected)?;
+        } else if is_simpler(&by_link, &told.explanations) {
             told.explanations = by_link;
             told.indistinguishable.clear();
         }
     }
+    // What names a parameter that both files have alike is no explanation.
+    told.explanations.retain(|explanation| !explanation.contradicted);
     let mut differences = hidden::differences(candidate.side, reference.side);
     files.place(&mut differences);
     let mut hidden_differences = if told.same {

@@ -45,6 +45,7 @@ pub fn compare_with_source(
         reference: None,
         faulty: FaultySide::Reference,
         precision: Precision::ENGINE,
+        pairs: true,
     };
     let expected = Expected { states: &states, torques: &torques };
     let files = Files { found: candidate.places, expected: None };

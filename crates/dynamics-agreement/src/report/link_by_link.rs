@@ -2,9 +2,11 @@
 
 use congruent_dynamics::DynamicsError;
 
-use super::{content::DynamicsExplanation, places::Files, told::Told, unmatched::Unmatched};
+use super::{
+    content::DynamicsExplanation, explained::Teller, places::Files, told::Told, unmatched::Unmatched,
+};
 use crate::{
-    diagnosis::{Expected, Setting},
+    diagnosis::{Expected, Setting, part_by_part},
     side::Side,
     thresholds::PRICE_OF_PART,
     torque::{
@@ -24,15 +26,17 @@ pub(super) fn link_by_link(
     let side = setting.candidate;
     let mut whole = Side { gravity_m_s2: seen_as_candidate.gravity_m_s2, ..side.clone() };
     whole.resistances.clone_from(&seen_as_candidate.resistances);
-    let mut corrected = vec![Side { gravity_m_s2: whole.gravity_m_s2, ..side.clone() }];
-    corrected.push(Side { resistances: whole.resistances.clone(), ..side.clone() });
+    let mut corrected = vec![
+        (Side { gravity_m_s2: whole.gravity_m_s2, ..side.clone() }, None),
+        (Side { resistances: whole.resistances.clone(), ..side.clone() }, None),
+    ];
     for (link, place) in side.frames.links.iter().enumerate() {
         let Some(other) = reference.frames.find_link(&place.name) else { continue };
         if reference.inertials[other] != side.inertials[link] {
             whole.inertials[link] = reference.inertials[other];
             let mut one = side.clone();
             one.inertials[link] = reference.inertials[other];
-            corrected.push(one);
+            corrected.push((one, Some(link)));
         }
     }
     let unmatched = Unmatched::new(side, reference);
@@ -41,15 +45,27 @@ pub(super) fn link_by_link(
         return Ok(Vec::new());
     }
     let mut explanations = unmatched.explanations(files);
-    for one in &corrected {
+    for (one, link) in &corrected {
         let expected = torques(one, states)?;
         let torque = Compressed::new(side, states, &expected)?;
-        let setting = Setting { reference: Some(one), ..*setting };
+        let setting = Setting { reference: Some(one), pairs: false, ..*setting };
         let told = Told::new(&setting, files, &torque, Expected { states, torques: &expected })?;
-        if told.explanations.is_empty() && !told.same {
-            return Ok(Vec::new());
+        if told.same {
+            continue;
         }
-        explanations.extend(told.explanations);
+        let by_parts = match link.and_then(|link| Some((link, one.inertials[link].as_ref()?))) {
+            Some(of_link) => part_by_part(&setting, of_link, states)?,
+            None => None,
+        };
+        let by_parts =
+            by_parts.map(|exact| Teller::new(&setting, files, &torque).explanation(&exact.alone()));
+        let best = told
+            .explanations
+            .into_iter()
+            .chain(by_parts)
+            .min_by(|a, b| a.contradicted.cmp(&b.contradicted).then(a.numbers.total_cmp(&b.numbers)));
+        let Some(best) = best else { return Ok(Vec::new()) };
+        explanations.push(best);
     }
     Ok(explanations)
 }
@@ -60,10 +76,7 @@ pub(super) fn is_simpler(by_link: &[DynamicsExplanation], by_torque: &[DynamicsE
     let Some(first) = by_torque.first() else { return true };
     let parts = f64::from(u32::try_from(by_link.len().saturating_sub(1)).unwrap_or(u32::MAX));
     let price = by_link.iter().map(|explanation| explanation.numbers).sum::<f64>() + parts * PRICE_OF_PART;
-    // Of one link both say the same, unless the other file does not have it.
-    let says_the_same =
-        matches!(by_link, [only] if only.place == first.place && !only.cause.is_of_one_file());
-    !by_link.is_empty() && !says_the_same && (first.contradicted || price < first.numbers)
+    !by_link.is_empty() && (first.contradicted || price < first.numbers)
 }
 
 /// Whether two sides have the same torques.

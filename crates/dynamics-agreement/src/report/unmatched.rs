@@ -107,5 +107,6 @@ fn explanation(
         file: files.found.map(|file| file.source().path.display().to_string()),
         suggestion: None,
         changes: Vec::new(),
+        otherwise: None,
     }
 }

@@ -139,7 +139,7 @@ impl Side {
                 parameters.link_from_axes = frame_from_link.rotation * parameters.link_from_axes;
             }
         }
-        moved.frames = Arc::new(frames.with_other_frame("link", own));
+        moved.frames = Arc::new(frames.with_other_frame(frames::LINK_FRAME, own));
         moved
     }
 
