@@ -299,9 +299,11 @@ fn inputs_that_cannot_be_compared_are_refused() {
     let mut endless = ur5e.clone();
     parameters(&mut endless, "forearm_link").mass_kg = f64::NAN;
     let error = compare(&unnamed(&endless), &unnamed(&ur5e), 1).expect_err("no number");
-    assert_eq!(error, CompareError::NotFinite);
+    let CompareError::NotFinite { what, value } = error else { panic!("{error}") };
+    assert_eq!((what.as_str(), value.is_nan()), ("link \"forearm_link\": mass", true));
     parameters(&mut endless, "forearm_link").mass_kg = 1e300;
-    assert_eq!(compare(&unnamed(&ur5e), &unnamed(&endless), 1), Err(CompareError::NotFinite));
+    let error = compare(&unnamed(&ur5e), &unnamed(&endless), 1).expect_err("overflows");
+    assert!(error.to_string().contains("forearm_link\": mass = 1e300"), "{error}");
 }
 
 #[test]

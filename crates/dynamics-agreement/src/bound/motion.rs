@@ -7,13 +7,15 @@ use congruent_kinematics::Uniform;
 
 use super::{
     bracket::{AttainedAt, CoveredMotion, TorqueBracket, TorqueCertificate},
-    branch::{Stop, UpperBound, upper_bound},
-    climb::{self, Course},
     dependence::{Dependence, Part},
+    function::{
+        branch::{Stop, UpperBound, upper_bound},
+        climb::{self, Course},
+        measure::{LargestMotion, Measure, Motion},
+        trigonometric::{Trigonometric, Variable, along},
+    },
     gravity::GravityTorques,
-    measure::{LargestMotion, Measure, Motion},
     rows::Rows,
-    trigonometric::{Trigonometric, Variable, along},
 };
 use crate::{
     side::Side,
@@ -137,8 +139,10 @@ impl Motions<'_> {
             ways.coupling.group(joint).iter().map(|(of, ratio)| ratio.abs() * entries(*of)).sum();
         let covered = &self.rows.covered;
         let armature = self.rows.resistances[joint].armature.abs() * covered[joint].acceleration;
-        let accelerations: f64 = covered.iter().map(|covered| covered.acceleration).sum();
-        let speeds: f64 = covered.iter().map(|covered| covered.speed).sum();
+        // Other joints move no body that moves with this one.
+        let moving = ways.through(joint);
+        let accelerations: f64 = moving.iter().map(|&joint| covered[joint].acceleration).sum();
+        let speeds: f64 = moving.iter().map(|&joint| covered[joint].speed).sum();
         match part {
             Part::Inertia => entries * accelerations + armature,
             // A body turns no faster than all joints together, and no velocity product is larger than twice its square.
@@ -359,9 +363,9 @@ fn largest_seen(one: &Trigonometric) -> f64 {
 }
 
 /// Control values of one acceleration or product of speeds. Kind: speed; some 5 ms.
-const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 8;
+const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 12;
 /// Where fewer boxes can be divided the sum of amplitudes is the better bound. Kind: choice.
-const FEWEST_BOXES: usize = 20;
+const FEWEST_BOXES: usize = 10;
 /// Random motions for a torque of too many joints. Kind: choice.
 const SAMPLES: usize = 2_000;
 /// A speed at which damping is nothing beside dry friction, as a part of the limit. No unit; kind: choice.

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, Vector3};
 
 use super::{
     bracket::{AttainedAt, CoveredMotion, covered_motions},
-    speeds::{entries, row},
+    function::speeds::{entries, row},
     ways::Ways,
 };
 use crate::{side::Side, thresholds::SAME_VALUE};
@@ -82,7 +82,7 @@ impl<'a> Rows<'a> {
         Memory { buffer, matrix, tau: [vec![0.0; n], vec![0.0; n]], qd: vec![0.0; n] }
     }
 
-    /// For each of some joints what [`Motion`](super::measure::Motion) is of, at some positions: gravity, and the
+    /// For each of some joints what [`Motion`](super::function::measure::Motion) is of, at some positions: gravity, and the
     /// accelerations and products of speeds of the joints that move.
     pub(super) fn values(
         &self,

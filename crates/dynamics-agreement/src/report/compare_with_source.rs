@@ -1,7 +1,7 @@
 //! A description against a source of accelerations that was built from it, such as a physics engine.
 
 use super::{
-    compare_descriptions::{CompareError, has_usable_numbers},
+    compare_descriptions::{CompareError, check_numbers},
     content::{DynamicsPremise, DynamicsReport, Sides},
     places::Files,
     told::{NamedSide, Told},
@@ -32,9 +32,7 @@ pub fn compare_with_source(
     if candidate.side.frames.dof() == 0 {
         return Err(CompareError::NoJoint);
     }
-    if !has_usable_numbers(candidate.side) {
-        return Err(CompareError::NotFinite);
-    }
+    check_numbers(candidate.side)?;
     let states = random_states(&candidate.side.frames, probing.seed, STATES);
     let (states, torques) = probed(candidate.side, source, states, probing.step_s)
         .map_err(|message| CompareError::Source { message })?;

@@ -226,8 +226,16 @@ impl DynamicsReport {
 
     /// What no torque shows, in words with the numbers that are meant.
     pub fn hidden_sentences(&self) -> Vec<String> {
+        let why = |parameter: &ParameterDifference| match parameter.below_resolution {
+            Some(share) => format!(
+                "it changes joint torques by {} of them, which is below the {} that is told from rounding",
+                number(share),
+                number(Precision::EXACT.same)
+            ),
+            None => "no joint torque shows it".to_owned(),
+        };
         let hidden = self.hidden_differences.iter();
-        hidden.map(|parameter| format!("{}; no joint torque shows it", parameter.sentence())).collect()
+        hidden.map(|parameter| format!("{}; {}", parameter.sentence(), why(parameter))).collect()
     }
 
     /// How much of the inertial numbers torques tell.

@@ -1,6 +1,7 @@
 //! One side of the comparison: what a description says of inertias, joints and gravity.
 
 pub(crate) mod frames;
+mod in_other_frames;
 pub(crate) mod inertial;
 mod joint_terms;
 
