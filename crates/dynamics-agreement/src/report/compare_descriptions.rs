@@ -105,7 +105,8 @@ pub fn compare(
     let mut told = Told::new(&setting, files, &torque, expected)?;
     // A slip without a free number is taken at its word.
     if told.explanations.first().map_or(!told.same, |first| first.contradicted || first.numbers > 0.0) {
-        let by_link = link_by_link(&setting, files, (reference.side, &seen_as_candidate), &states)?;
+        let by_link =
+            link_by_link(&setting, files, (reference.side, &seen_as_candidate), (&torque, &states))?;
         if by_link.is_empty() {
             told = Told::new(&Setting { pairs: true, ..setting }, files, &torque, expected)?;
         } else if is_simpler(&by_link, &told.explanations) {
