@@ -131,12 +131,18 @@ impl Motions<'_> {
     /// A bound that needs no search: every lever stretched out.
     fn crude(&self, part: Part, joint: usize) -> f64 {
         let ways = &self.rows.ways;
+        // A body turns no faster than all joints together, and no velocity product is larger than twice its square.
+        let of_products = |of: usize| if ways.frames.joints[of].is_angular { 2.0 } else { 1.0 };
         let entries = |of: usize| -> f64 {
+            let turns = ways.frames.joints[of].is_angular;
+            let most = if turns { &self.rows.largest_entries } else { &self.rows.largest_forces };
             let bodies = (0..ways.differs.len()).filter(|&body| ways.differs[body] && ways.carries(of, body));
-            bodies.map(|body| self.rows.largest_entries[body]).sum()
+            bodies.map(|body| most[body]).sum()
         };
-        let entries: f64 =
-            ways.coupling.group(joint).iter().map(|(of, ratio)| ratio.abs() * entries(*of)).sum();
+        let group = ways.coupling.group(joint).iter();
+        let sum = |factor: &dyn Fn(usize) -> f64| -> f64 {
+            group.clone().map(|(of, ratio)| ratio.abs() * factor(*of) * entries(*of)).sum()
+        };
         let covered = &self.rows.covered;
         let armature = self.rows.resistances[joint].armature.abs() * covered[joint].acceleration;
         // Other joints move no body that moves with this one.
@@ -144,9 +150,8 @@ impl Motions<'_> {
         let accelerations: f64 = moving.iter().map(|&joint| covered[joint].acceleration).sum();
         let speeds: f64 = moving.iter().map(|&joint| covered[joint].speed).sum();
         match part {
-            Part::Inertia => entries * accelerations + armature,
-            // A body turns no faster than all joints together, and no velocity product is larger than twice its square.
-            Part::Velocity => 2.0 * entries * speeds * speeds,
+            Part::Inertia => sum(&|_| 1.0) * accelerations + armature,
+            Part::Velocity => sum(&of_products) * speeds * speeds,
             Part::Together => f64::INFINITY,
         }
     }
