@@ -34,8 +34,7 @@ impl Precision {
     /// Two descriptions. Some thousand products leave 1e-15 of the torque, and a slip of 1e9 that much of its own.
     pub(crate) const EXACT: Self = Self { of_difference: 1e-8, of_torque: 1e-13, same: 1e-10 };
 
-    /// Accelerations of a physics engine, extrapolated to a step of zero; worst seen 7.5e-10 of the torques (xArm7 with
-    /// gripper), 1e-10 of the acceleration.
+    /// Accelerations of a physics engine, extrapolated to a step of zero; worst seen 7.5e-10 of the torques (`xarm7_gripper`), 1e-10 of the acceleration.
     pub(crate) const ENGINE: Self = Self { of_difference: 1e-5, of_torque: 1e-9, same: 1e-8 };
 
     /// The largest norm that counts as nothing left.

@@ -76,10 +76,9 @@ pub(super) fn compared(
 /// What it costs to take one of the two for wrong; the smaller first.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Cost {
-    is_unexplained: bool,
-    is_no_body: bool,
-    /// As a URDF cannot say gravity.
-    file_cannot_say_it: bool,
+    /// Whether it is unexplained, whether it leaves no body, and whether the file cannot say it, as a URDF cannot say
+    /// gravity.
+    against_it: [bool; 3],
     /// Free numbers, in halves.
     numbers: u32,
     is_implausible: bool,
@@ -95,9 +94,7 @@ fn cost(report: &DynamicsReport, reach_m: f64) -> Cost {
         reason = "a few free numbers, in halves"
     )]
     Cost {
-        is_unexplained: explanations.is_empty(),
-        is_no_body: any(|of| !of.is_a_body),
-        file_cannot_say_it: any(|of| of.changes.is_empty()),
+        against_it: [explanations.is_empty(), any(|of| !of.is_a_body), any(|of| of.changes.is_empty())],
         numbers: (2.0 * numbers).round() as u32,
         is_implausible: explanations.iter().any(|of| has_plausible_com(of, reach_m)),
     }

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::parameters::{ParameterDifference, of_link};
 use crate::{
     side::{Inertial, Side},
-    thresholds::{Precision, SEEN},
+    thresholds::SEEN,
     torque::compressed::Compressed,
 };
 
@@ -14,19 +14,19 @@ pub(crate) fn differences(candidate: &Side, reference: &Side) -> Vec<ParameterDi
     differing(candidate, reference).into_iter().map(|(_, difference)| difference).collect()
 }
 
-/// Those whose difference alone changes no torque; and if the torques are the same those that change so little that it
-/// is taken for rounding, with how much that is.
+/// Those whose difference alone changes no torque, and those that change no more than a share of all torques, with how
+/// much that is.
 pub(crate) fn without_effect(
     candidate: &Side,
     reference: &Side,
     torque: &Compressed,
-    same: bool,
+    most: f64,
 ) -> Vec<ParameterDifference> {
     let hidden =
         differing(candidate, reference).into_iter().filter_map(|(pair, difference)| {
             match seen_share(torque, &pair, &difference.parameter) {
                 None => Some(difference),
-                Some(share) if same || share <= Precision::EXACT.of_torque => {
+                Some(share) if share <= most => {
                     Some(ParameterDifference { below_resolution: Some(share), ..difference })
                 }
                 Some(_) => None,

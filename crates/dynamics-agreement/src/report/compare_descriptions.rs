@@ -118,7 +118,9 @@ pub fn compare(
     told.explanations.retain(|explanation| !explanation.contradicted);
     let mut differences = hidden::differences(candidate.side, reference.side);
     files.place(&mut differences);
-    let mut hidden_differences = hidden::without_effect(candidate.side, reference.side, &torque, told.same);
+    // Where all torques are the same, every difference is one that they do not tell.
+    let not_told = if told.same { f64::INFINITY } else { Precision::EXACT.of_torque };
+    let mut hidden_differences = hidden::without_effect(candidate.side, reference.side, &torque, not_told);
     files.place(&mut hidden_differences);
     let mut limits = limits::differences(candidate.side, reference.side, &joints);
     files.place_limits(&mut limits);

@@ -74,7 +74,7 @@ fn one_by_one(side: &Side, reference: &Side, seen_as_candidate: &Side) -> (Side,
 /// What is to say of one link, of the joints or of gravity.
 enum Alone {
     Same,
-    Explained(Grouped),
+    Explained(Box<Grouped>),
     Unexplained,
 }
 
@@ -100,7 +100,7 @@ fn alone(
         let (a, b) = (of(a), of(b));
         a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
     });
-    Ok(best.map_or(Alone::Unexplained, Alone::Explained))
+    Ok(best.map_or(Alone::Unexplained, |best| Alone::Explained(Box::new(best))))
 }
 
 /// Whether an account link by link is simpler than the first explanation by torques: it costs less, or the other names

@@ -162,10 +162,11 @@ impl DynamicsReport {
         for explanation in &mut self.explanations {
             let there = other.explanations.iter().find(|there| there.place == explanation.place);
             explanation.otherwise = there.map(|there| {
-                let places = there.file.iter().zip(there.line).map(|(file, line)| format!("{file}:{line}: "));
+                let mut places =
+                    there.file.iter().zip(there.line).map(|(file, line)| format!("{file}:{line}: "));
                 let values: Vec<String> =
                     there.parameters.iter().take(3).map(ParameterDifference::sentence).collect();
-                format!("{}{} ({})", places.collect::<String>(), there.sentence(), values.join("; "))
+                format!("{}{} ({})", places.next().unwrap_or_default(), there.sentence(), values.join("; "))
             });
         }
     }
