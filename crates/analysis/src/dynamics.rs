@@ -74,6 +74,17 @@ pub struct DynamicsReport {
     pub warnings: Vec<Finding>,
 }
 
+impl DynamicsReport {
+    /// Whether no torque, entry of a mass matrix or acceleration overflows.
+    pub fn is_finite(&self) -> bool {
+        let mut values = self.results.iter().flat_map(|of| {
+            let vectors = [&of.gravity_n_m, &of.bias_n_m, &of.inverse_dynamics_n_m, &of.forward_dynamics];
+            vectors.into_iter().chain(&of.mass_matrix).flatten()
+        });
+        values.all(|value| value.is_finite())
+    }
+}
+
 /// The robot that is asked: with the payload, and without damping and friction unless they are wanted.
 ///
 /// # Errors

@@ -1,8 +1,10 @@
 //! Questions about a robot that need the physics beside the analytical sources.
 
+use std::ops::Range;
+
 use congruent_analysis::dynamics::{DynamicsOptions, DynamicsReport, DynamicsSource, dynamics, robot_of};
 use congruent_analysis::forward::{ForwardError, ForwardReport, Source, forward_by_table};
-use congruent_description::{Diagnostic, JointState, RobotDescription, RobotQ, Use};
+use congruent_description::{Diagnostic, JointState, Robot, RobotDescription, RobotQ, Use};
 use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_kinematics::{LinkPoses, ScrewTree, UrdfTree};
 use congruent_twin::source::{SimulatedDynamics, SimulatedPoses};
@@ -59,5 +61,60 @@ pub fn joint_dynamics(
             Box::new(SimulatedDynamics::new(&robot).map_err(|error| refused(&error))?)
         }
     };
-    dynamics((description, &robot), options, (source, &mut *by), states).map_err(|error| refused(&error))
+    let report = dynamics((description, &robot), options, (source, &mut *by), states);
+    match report {
+        Ok(report) if report.is_finite() => Ok(report),
+        // A number that overflows may look like a joint without inertia.
+        Ok(_) => Err(vec![beyond_numbers((description, &robot), states)]),
+        Err(error) => Err(match largest_value((description, &robot), states) {
+            (_, value, _) if value > LARGEST_VALUE => vec![beyond_numbers((description, &robot), states)],
+            _ => refused(&error),
+        }),
+    }
+}
+
+/// Squares of larger values times lengths and speeds overflow. Kind: range of numbers.
+const LARGEST_VALUE: f64 = 1e100;
+
+/// That torques cannot be computed, with the largest value there is.
+fn beyond_numbers(robot: (&RobotDescription, &Robot), states: &[JointState]) -> Diagnostic {
+    let (what, value, span) = largest_value(robot, states);
+    let message =
+        format!("{what} = {value:e} is beyond what torques can be computed with: they are not finite");
+    let found = Diagnostic::error("dynamics::overflow", message);
+    match (span, robot.0.places.urdf.as_ref()) {
+        (Some(span), Some(places)) => found.at(span).in_file(places.source()),
+        _ => found,
+    }
+}
+
+/// The largest value of masses, inertias, friction and states, what it is and where the URDF says it.
+fn largest_value(
+    (description, robot): (&RobotDescription, &Robot),
+    states: &[JointState],
+) -> (String, f64, Option<Range<usize>>) {
+    let places = description.places.urdf.as_ref();
+    let mut all: Vec<(String, f64, Option<Range<usize>>)> = Vec::new();
+    for link in robot.links() {
+        let Some(inertia) = &link.inertia else { continue };
+        let place = |part: &str| places.and_then(|places| places.inertial_part(&link.name, part));
+        let com = inertia.link_from_inertial.translation.vector.amax();
+        let of = |what: &str| format!("link \"{}\": {what}", link.name);
+        all.push((of("mass"), inertia.mass_kg, place("mass")));
+        all.push((of("centre of mass"), com, place("origin")));
+        all.push((of("inertia"), inertia.tensor_kg_m2.amax(), place("inertia")));
+    }
+    for joint in robot.joints() {
+        let place = || places.and_then(|places| places.joint_dynamics(&joint.name));
+        all.push((format!("joint \"{}\": damping", joint.name), joint.damping, place()));
+        all.push((format!("joint \"{}\": friction", joint.name), joint.friction, place()));
+    }
+    for (at, state) in states.iter().enumerate() {
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let [v, a, tau] = [&state.qd, &state.qdd, &state.tau].map(|values| largest(values));
+        let named = [("\"v\"", v), ("\"a\"", a), ("\"tau\"", tau)];
+        all.extend(named.map(|(what, value)| (format!("state {}: {what}", at + 1), value, None)));
+    }
+    let largest = all.into_iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    largest.unwrap_or_else(|| ("no value".to_owned(), 0.0, None))
 }

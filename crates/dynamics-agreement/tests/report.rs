@@ -8,7 +8,7 @@ use congruent_dynamics_agreement::{
     CompareError, DynamicsCause, DynamicsExplanation, DynamicsReport, DynamicsVerdict, Inertial, NamedSide,
     Side, certify, compare,
 };
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Rotation3};
 
 fn load(name: &str) -> RobotDescription {
     let path = corpus::workspace().join("robots").join(name);
@@ -183,6 +183,91 @@ fn a_parameter_that_is_no_bodys_is_still_explained() {
     assert!(report.explanations[0].is_a_body);
 }
 
+/// The rotation that the other description has is known: it needs no free number.
+#[test]
+fn a_rotation_of_an_inertial_frame_that_is_left_out_is_named() {
+    let turned = |link: &str| {
+        let mut reference = Side::new(&load("ur5e").robot);
+        let turn = Rotation3::from_euler_angles(0.3, -0.7, 1.1).into_inner();
+        let inertial = parameters(&mut reference, link);
+        inertial.tensor_kg_m2 = Matrix3::new(0.3, 0.01, 0.02, 0.01, 0.25, -0.03, 0.02, -0.03, 0.2);
+        inertial.link_from_axes = turn;
+        let mut candidate = reference.clone();
+        parameters(&mut candidate, link).link_from_axes = Matrix3::identity();
+        (candidate, reference)
+    };
+    for link in ["shoulder_link", "upper_arm_link", "forearm_link", "wrist_1_link", "wrist_3_link"] {
+        let (candidate, reference) = turned(link);
+        let report = compare(&unnamed(&candidate), &unnamed(&reference), 1).expect("one chain");
+        assert_eq!(causes(&report.explanations), [(DynamicsCause::RpyMissing, link)]);
+        assert!(!report.explanations[0].contradicted);
+        let report = compare(&unnamed(&reference), &unnamed(&candidate), 1).expect("one chain");
+        assert_eq!(causes(&report.explanations), [(DynamicsCause::Rpy, link)]);
+    }
+}
+
+#[test]
+fn two_faults_of_one_link_are_named_without_a_third() {
+    let report = changed("ur5e", |side| {
+        let wrong = parameters(side, "forearm_link");
+        wrong.mass_kg *= 1000.0;
+        wrong.com_m = -wrong.com_m;
+    });
+    let [explanation] = &report.explanations[..] else { panic!("{:?}", report.explanations) };
+    assert_eq!(
+        explanation.parts.iter().map(|part| part.cause).collect::<Vec<_>>(),
+        [DynamicsCause::MassUnit, DynamicsCause::ComSign]
+    );
+    assert_eq!(explanation.place, ["forearm_link"]);
+    assert!(explanation.parameters.iter().all(|of| !of.parameter.starts_with('i')), "{explanation:?}");
+}
+
+#[test]
+fn a_difference_below_the_resolution_is_said_to_be_so() {
+    let report = changed("ur5e", |side| parameters(side, "upper_arm_link").tensor_kg_m2 *= 1.0 + 2e-9);
+    let sentences = report.hidden_sentences();
+    assert_eq!(report.verdict, DynamicsVerdict::SameTorques, "{}", report.difference_relative);
+    assert!(sentences.iter().any(|sentence| sentence.contains("below the 1.0e-10")), "{sentences:?}");
+    let shares = report.hidden_differences.iter().filter_map(|of| of.below_resolution);
+    assert!(shares.clone().count() > 0 && shares.clone().all(|share| share < 1e-10), "{sentences:?}");
+}
+
+/// The same arm with the frame of its second link turned and shifted along the joint's axis.
+#[test]
+fn inertias_are_seen_from_other_link_frames() {
+    let text = |second: &str, axis: &str, fixed: &str, inertial: &str| {
+        format!(
+            r#"<robot name="arm"><link name="base"/>
+            <link name="first"><inertial><mass value="4"/>
+              <inertia ixx="0.02" iyy="0.03" izz="0.012" ixy="0" ixz="0.001" iyz="0"/></inertial></link>
+            <link name="second"><inertial>{inertial}<mass value="3"/>
+              <inertia ixx="0.02" iyy="0.03" izz="0.025" ixy="0.001" ixz="0" iyz="0"/></inertial></link>
+            <link name="fixed"><inertial><origin xyz="0.05 0.02 0.03"/><mass value="0.8"/>
+              <inertia ixx="0.003" iyy="0.002" izz="0.002" ixy="0.0001" ixz="0" iyz="0"/></inertial></link>
+            <joint name="j1" type="continuous"><parent link="base"/><child link="first"/><axis xyz="0 0 1"/></joint>
+            <joint name="j2" type="continuous"><parent link="first"/><child link="second"/>
+              <origin {second}/><axis xyz="{axis}"/></joint>
+            <joint name="f" type="fixed"><parent link="second"/><child link="fixed"/><origin {fixed}/></joint>
+            </robot>"#
+        )
+    };
+    let side = |text: &str| Side::new(&parse_urdf(text).unwrap_or_else(|findings| panic!("{findings:#?}")));
+    let here =
+        side(&text(r#"xyz="0 0 0.2""#, "0 1 0", r#"xyz="0.3 0 0.1""#, r#"<origin xyz="0.2 0.01 0"/>"#));
+    // Turned by a quarter about x: what was y is z there, and its origin is 0.1 m further along the axis.
+    let there = side(&text(
+        r#"xyz="0 0.1 0.2" rpy="-1.5707963267948966 0 0""#,
+        "0 0 1",
+        r#"xyz="0.3 -0.1 -0.1" rpy="1.5707963267948966 0 0""#,
+        r#"<origin xyz="0.2 0 -0.09" rpy="1.5707963267948966 0 0"/>"#,
+    ));
+    let seen = there.in_frames_of(&here).expect("the same joints");
+    let report = compare(&unnamed(&here), &unnamed(&seen), 1).expect("one chain");
+    assert!(report.has_same_torques() && report.difference_relative < 1e-14, "{report:?}");
+    let report = compare(&unnamed(&here), &unnamed(&there), 1).expect("joints of the same names");
+    assert!(!report.has_same_torques(), "as they are written they differ");
+}
+
 fn unnamed(side: &Side) -> NamedSide<'_> {
     NamedSide { name: "", side, places: None }
 }
@@ -299,9 +384,11 @@ fn inputs_that_cannot_be_compared_are_refused() {
     let mut endless = ur5e.clone();
     parameters(&mut endless, "forearm_link").mass_kg = f64::NAN;
     let error = compare(&unnamed(&endless), &unnamed(&ur5e), 1).expect_err("no number");
-    assert_eq!(error, CompareError::NotFinite);
+    let CompareError::NotFinite { what, value } = error else { panic!("{error}") };
+    assert_eq!((what.as_str(), value.is_nan()), ("link \"forearm_link\": mass", true));
     parameters(&mut endless, "forearm_link").mass_kg = 1e300;
-    assert_eq!(compare(&unnamed(&ur5e), &unnamed(&endless), 1), Err(CompareError::NotFinite));
+    let error = compare(&unnamed(&ur5e), &unnamed(&endless), 1).expect_err("overflows");
+    assert!(error.to_string().contains("forearm_link\": mass = 1e300"), "{error}");
 }
 
 #[test]

@@ -27,6 +27,14 @@ pub(super) fn dynamics(text: &mut String, check: &RobotCheck, robot: &Robot) {
         let verb = if and_poses.is_empty() { "is" } else { "are" };
         let _ = writeln!(text, "  disagree  {and_poses}dynamics {verb} not compared: {why}");
     }
+    if let Some(links) = against.map(|of| &of.links_in_other_frames).filter(|links| !links.is_empty()) {
+        let _ = writeln!(
+            text,
+            "  the frames of {} lie elsewhere in their links than in the other description, but the joints move \
+             them alike: dynamics is compared in the frames of this one",
+            links.join(", ")
+        );
+    }
     check.all_dynamics().for_each(|report| compared(text, report, robot));
     let declared = check.declared_dynamics.as_ref().map(|declared| &declared.not_declared);
     if let Some(left_out) = declared.filter(|left_out| !left_out.is_empty()) {
@@ -49,11 +57,18 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
     for explanation in &report.explanations {
         explained(text, explanation);
     }
+    if report.explanations.is_empty() && !report.has_same_torques() {
+        for difference in report.differences.iter().take(SHOWN) {
+            let file = Some(report.sides.candidate.as_str());
+            let _ = writeln!(text, "      {}", placed(difference.sentence(), difference, file));
+        }
+    }
     let mut lines: Vec<String> = limits(&report.limits);
     if !report.has_same_torques() {
         let others: Vec<&DynamicsExplanation> = report
             .indistinguishable
             .iter()
+            .filter(|other| !other.contradicted)
             .filter(|other| !report.explanations.iter().any(|first| has_parts_of(first, other)))
             .collect();
         for other in others.iter().take(SHOWN) {
@@ -103,10 +118,13 @@ fn explained(text: &mut String, explanation: &DynamicsExplanation) {
     if let Some(law) = &explanation.body_law {
         let _ = writeln!(text, "      no body is so: {law}");
     }
+    if let Some(otherwise) = &explanation.otherwise {
+        let _ = writeln!(text, "      or the other file is wrong: {otherwise}");
+    }
+    if let Some(advice) = explanation.suggestion.as_ref().filter(|_| explanation.cause.is_of_one_file()) {
+        let _ = writeln!(text, "      {advice}");
+    }
     if explanation.changes.is_empty() {
-        if let Some(advice) = explanation.suggestion.as_ref().filter(|_| explanation.cause.is_of_one_file()) {
-            let _ = writeln!(text, "      {advice}");
-        }
         return;
     }
     let _ = writeln!(text, "      to write in {}:", explanation.file.as_deref().unwrap_or("the file"));

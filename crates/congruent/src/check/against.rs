@@ -6,11 +6,11 @@ use congruent_agreement::{
 };
 use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ, display::length_and_angle};
 use congruent_dynamics_agreement::{DynamicsReport, NamedSide};
-use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, UrdfTree};
+use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::sides::{two_descriptions, unreadable_inertial, urdf_places, urdf_side};
+use super::sides::{two_descriptions, unreadable_value, urdf_places, urdf_side};
 
 /// The other description of a robot.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
@@ -21,6 +21,10 @@ pub struct OtherDescription {
     pub robot: String,
     /// Why the two dynamics are not compared, with the first joint that differs; `null` if they are.
     pub dynamics_not_compared: Option<String>,
+    /// Links that both files move alike, though their frames lie elsewhere in them: dynamics is compared in the frames of
+    /// this description.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub links_in_other_frames: Vec<String>,
 }
 
 /// Adds the comparison of geometry to the report, and compares dynamics if the two are the same chain.
@@ -33,20 +37,39 @@ pub(super) fn compared(
         file: other.path.display().to_string(),
         robot: other.robot.name().to_owned(),
         dynamics_not_compared: other_joint(&description.robot, &other.robot),
+        links_in_other_frames: Vec::new(),
     };
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
     }
     geometry.add_other(description, &mut PosesOfOther::new(&description.robot, &other.robot), options)?;
-    against.dynamics_not_compared = misplaced_joint(description, geometry);
+    let misplaced = misplaced_joint(description, geometry);
+    let in_other_frames = match &misplaced {
+        Some(_) => moved_alike((description, other), options.seed)?,
+        None => Vec::new(),
+    };
+    if misplaced.is_some() && in_other_frames.is_empty() {
+        against.dynamics_not_compared = misplaced;
+        return Ok((against, None));
+    }
+    against.dynamics_not_compared = [description, other].into_iter().find_map(unreadable_value);
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
     }
-    against.dynamics_not_compared = [description, other].into_iter().find_map(unreadable_inertial);
-    if against.dynamics_not_compared.is_some() {
-        return Ok((against, None));
+    let [found, mut expected] = [description, other].map(urdf_side);
+    if !in_other_frames.is_empty() {
+        // Equal as they are written, in frames that differ: it is the geometry that is wrong, which is said already.
+        let is_written_alike =
+            expected.inertials == found.inertials && expected.resistances == found.resistances;
+        match expected.in_frames_of(&found).filter(|_| !is_written_alike) {
+            Some(in_frames) => expected = in_frames,
+            None => {
+                against.dynamics_not_compared = misplaced;
+                return Ok((against, None));
+            }
+        }
     }
-    let [found, expected] = [description, other].map(urdf_side);
+    against.links_in_other_frames = in_other_frames;
     let [name, other_name] = [description, other].map(|of| of.urdf_path.display().to_string());
     let candidate = NamedSide { name: &name, side: &found, places: urdf_places(description) };
     let reference = NamedSide { name: &other_name, side: &expected, places: urdf_places(other) };
@@ -58,6 +81,42 @@ pub(super) fn compared(
         }
     }
 }
+
+/// Links whose frames lie elsewhere in the other description, if all links move alike otherwise: then each differs from
+/// the one of its name by the same transform at all positions. Empty if one does not.
+fn moved_alike(
+    (description, other): (&RobotDescription, &RobotDescription),
+    seed: u64,
+) -> Result<Vec<String>, CheckError> {
+    let (robot, tolerance) = (&description.robot, &description.tolerance);
+    let (own, mut of_other) = (UrdfTree::new(robot), PosesOfOther::new(robot, &other.robot));
+    let mut poses = [robot, robot].map(|robot| vec![Pose::identity(); robot.links().len()]);
+    let mut at = |q: &RobotQ| -> Result<Vec<Pose>, LinkPosesError> {
+        let [here, there] = &mut poses;
+        own.root_from_links_into(q, here)?;
+        of_other.root_from_links_into(q, there)?;
+        Ok(here.iter().zip(there.iter()).map(|(here, there)| there.inverse() * *here).collect())
+    };
+    let moving: Vec<usize> =
+        robot.movable_joints().iter().map(|&joint| robot.joint(joint).child.get()).collect();
+    let at_zero = at(&RobotQ::zeros(robot.dof()))?;
+    let mut random = Uniform::seeded(seed);
+    for _ in 0..POSITIONS {
+        let q = robot.movable_joints().iter().map(|&joint| random.between(range(robot.joint(joint))));
+        let there_from_here = at(&q.collect())?;
+        let is_other =
+            |link: &usize| !PoseError::between(&at_zero[*link], &there_from_here[*link]).is_within(tolerance);
+        if moving.iter().any(is_other) {
+            return Ok(Vec::new());
+        }
+    }
+    let elsewhere =
+        |link: &&usize| !PoseError::between(&Pose::identity(), &at_zero[**link]).is_within(tolerance);
+    Ok(moving.iter().filter(elsewhere).map(|&link| robot.links()[link].name.clone()).collect())
+}
+
+/// Positions at which links are found to move alike. Kind: choice.
+const POSITIONS: usize = 50;
 
 /// The first moving joint that one of the two does not have, or that moves in another way.
 fn other_joint(robot: &Robot, other: &Robot) -> Option<String> {

@@ -8,7 +8,7 @@ use congruent_description::{DeclaredDynamics, Diagnostic, Finding, InertialFrame
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_kinematics::LinkPoses;
 
-use super::{against, declared, physics, robot_check::RobotCheck, sides::unreadable_inertial};
+use super::{against, declared, physics, robot_check::RobotCheck, sides::unreadable_value};
 use crate::with_physics::simulated_poses;
 
 /// Compares table, URDF chain, screws and the physics twin of a robot, first their poses and then their dynamics. A robot
@@ -54,7 +54,7 @@ fn checked(
     };
     let mut declared_dynamics = None;
     if let Some(declared) = &description.dynamics {
-        let readable = unreadable_inertial(description).map_or(Ok(()), Err);
+        let readable = unreadable_value(description).map_or(Ok(()), Err);
         match readable.and_then(|()| comparable(declared, &geometry)).and_then(|()| {
             declared::compared(description, declared, options.seed).map_err(|error| error.to_string())
         }) {

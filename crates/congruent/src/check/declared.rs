@@ -8,7 +8,8 @@ use congruent_description::{
 };
 use congruent_dynamics::JointResistance;
 use congruent_dynamics_agreement::{
-    CompareError, DynamicsExplanation, DynamicsReport, Inertial, NamedSide, ParameterPlaces, Side,
+    CompareError, DynamicsCause, DynamicsExplanation, DynamicsReport, Inertial, NamedSide,
+    ParameterDifference, ParameterPlaces, Side,
 };
 use congruent_kinematics::Pose;
 use nalgebra::{Matrix3, Vector3};
@@ -59,29 +60,57 @@ pub(super) fn compared(
             places: places.as_ref().map(|places| places as &dyn ParameterPlaces),
             ..by_file
         };
-        let other = two_descriptions(&by_file, &NamedSide { side: &urdf, ..by_urdf }, seed)?;
-        if cost(&other) < cost(&report) {
-            report = other;
+        let mut other = two_descriptions(&by_file, &NamedSide { side: &urdf, ..by_urdf }, seed)?;
+        let [of_urdf, of_file] = [&report, &other].map(|report| cost(report, urdf.frames().reach_m()));
+        if of_file < of_urdf {
+            std::mem::swap(&mut report, &mut other);
+        }
+        if of_file.numbers == of_urdf.numbers {
+            report.add_otherwise(&other);
         }
     }
     let source = declared.source.clone();
     Ok((DeclaredSource { source, not_declared: not_declared(declared, &description.robot) }, report))
 }
 
-/// Free numbers of the explanations, and before that whether there are any, whether they leave bodies, and whether the
-/// file can say them, as a URDF cannot say gravity.
-fn cost(report: &DynamicsReport) -> (bool, bool, bool, u32) {
+/// What it costs to take one of the two for wrong; the smaller first.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Cost {
+    /// Whether it is unexplained, whether it leaves no body, and whether the file cannot say it, as a URDF cannot say
+    /// gravity.
+    against_it: [bool; 3],
+    /// Free numbers, in halves.
+    numbers: u32,
+    is_implausible: bool,
+}
+
+fn cost(report: &DynamicsReport, reach_m: f64) -> Cost {
     let explanations = &report.explanations;
     let numbers: f64 = explanations.iter().map(|explanation| explanation.numbers).sum();
+    let any = |is_so: fn(&DynamicsExplanation) -> bool| explanations.iter().any(is_so);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a few free numbers, in halves"
     )]
-    let halves = (2.0 * numbers).round() as u32;
-    let any = |is_so: fn(&DynamicsExplanation) -> bool| explanations.iter().any(is_so);
-    let (is_no_body, is_not_said) = (any(|of| !of.is_a_body), any(|of| of.changes.is_empty()));
-    (explanations.is_empty(), is_no_body, is_not_said, halves)
+    Cost {
+        against_it: [explanations.is_empty(), any(|of| !of.is_a_body), any(|of| of.changes.is_empty())],
+        numbers: (2.0 * numbers).round() as u32,
+        is_implausible: explanations.iter().any(|of| has_plausible_com(of, reach_m)),
+    }
+}
+
+/// Whether a unit is said to be wrong of a centre of mass that lies within the robot as it is written, while the other
+/// one does not, or is so near to the joint that it is likely the one that was divided.
+fn has_plausible_com(explanation: &DynamicsExplanation, reach_m: f64) -> bool {
+    let farthest = |value: fn(&ParameterDifference) -> Option<f64>| {
+        let values = explanation.parameters.iter().filter(|of| of.parameter.starts_with("com_"));
+        values.filter_map(value).fold(0.0_f64, |farthest, value| farthest.max(value.abs()))
+    };
+    let (found, expected) = (farthest(|of| of.found), farthest(|of| of.expected));
+    explanation.cause == DynamicsCause::ComUnit
+        && found <= reach_m
+        && (found > expected || expected > reach_m)
 }
 
 /// What is left out of the entries.

@@ -1,6 +1,6 @@
 //! What is compared: the URDF of a description, and where its links and the frames of its table are.
 
-use std::sync::Arc;
+use std::{ops::Range, sync::Arc};
 
 use congruent_description::{Diagnostic, RobotDescription, RobotQ, line_column};
 use congruent_dynamics_agreement::{
@@ -33,9 +33,35 @@ pub(super) fn urdf_side(description: &RobotDescription) -> Side {
     Side::with_frames(robot, Arc::new(frames)).with_accelerations(&description.accelerations)
 }
 
+/// The first value of masses, inertias, damping or friction that cannot be read, such as `nan`: without it there is
+/// nothing to compare. With its file, line and value.
+pub(super) fn unreadable_value(description: &RobotDescription) -> Option<String> {
+    unreadable_inertial(description).or_else(|| unreadable_joint_term(description))
+}
+
+/// The first `<dynamics>` of a joint with a value that is no number; it was read as 0.
+fn unreadable_joint_term(description: &RobotDescription) -> Option<String> {
+    let places = description.places.urdf.as_ref()?;
+    let text = &places.source().text;
+    let element = |start: usize| start..start + text[start..].find('>').unwrap_or(0);
+    let joints = description.robot.joints().iter().filter_map(|joint| places.joint_dynamics(&joint.name));
+    let elements: Vec<Range<usize>> = joints.map(|tag| element(tag.start)).collect();
+    let of_dynamics = |found: &&Diagnostic| {
+        let at = found.span.as_ref().map(|span| span.start);
+        let is_there = at.is_some_and(|at| elements.iter().any(|element| element.contains(&at)));
+        found.code == NO_NUMBER && found.stops.is_some() && is_there
+    };
+    let found = description.warnings.iter().find(of_dynamics)?;
+    let (line, _) = line_column(text, found.span.as_ref()?.start);
+    Some(format!("{}:{line}: {}", description.urdf_path.display(), found.message))
+}
+
+/// The code of a value that is no finite number.
+const NO_NUMBER: &str = "urdf::number";
+
 /// The first link whose `<inertial>` cannot be read, such as a mass that is no number: without it there is nothing to
 /// compare. With its file, line and value.
-pub(super) fn unreadable_inertial(description: &RobotDescription) -> Option<String> {
+fn unreadable_inertial(description: &RobotDescription) -> Option<String> {
     let places = description.places.urdf.as_ref()?;
     let links = description.robot.links().iter().filter(|link| link.inertia.is_none());
     let link = links.map(|link| &link.name).find(|name| places.has_inertial(name))?;

@@ -54,6 +54,13 @@ impl UrdfPlaces {
         edits
     }
 
+    /// The edits after which the robot has these elements as well; none if the file is no robot.
+    pub fn add_elements(&self, elements: &str) -> Vec<TextEdit> {
+        let text = &self.source().text;
+        let Some(end) = text.rfind("</robot") else { return Vec::new() };
+        vec![TextEdit { span: end..end, text: format!("  {elements}\n") }]
+    }
+
     /// The edits after which a joint has these values of damping and friction; none if there is no such joint.
     pub fn set_joint_dynamics(&self, joint: &str, damping: f64, friction: f64) -> Vec<TextEdit> {
         let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };

@@ -2,7 +2,7 @@
 
 use std::{ops::Range, sync::Arc};
 
-use super::node::{element, last, place, tag};
+use super::node::{element, elements, last, place, tag};
 use crate::{
     diagnostic::{SourceFile, line_column},
     xml,
@@ -62,6 +62,19 @@ impl UrdfPlaces {
         })
     }
 
+    /// A link and the joint that carries it, as the file writes them; `None` if there is no such link.
+    pub fn link_with_its_joint(&self, link: &str) -> Option<String> {
+        let text = &self.source.text;
+        let document = xml::parse(text).ok()?;
+        let root = document.root_element();
+        let carries = |joint: &roxmltree::Node<'_, '_>| {
+            element(*joint, "child").and_then(|child| child.attribute("link")) == Some(link)
+        };
+        let joint = elements(root, "joint").find(carries);
+        let nodes = std::iter::once(last(root, "link", link)?).chain(joint);
+        Some(nodes.map(|node| text[node.range()].to_owned()).collect::<Vec<_>>().join("\n  "))
+    }
+
     /// Place of the `<limit>` of a joint, or of the joint if it has none.
     pub fn joint_limit(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;
@@ -87,6 +100,19 @@ mod tests {
         let places = UrdfPlaces::new(Arc::new(source));
         assert_eq!(places.joint_rpy("a"), Some(("1.5708 0 0".to_owned(), 4)));
         assert_eq!([places.joint_rpy("b"), places.joint_rpy("c")], [None, None]);
+    }
+
+    #[test]
+    fn a_link_is_shown_with_its_joint() {
+        let text = "<robot name='two'><link name='a'/><link name='b'>\n</link>\n\
+            <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint></robot>";
+        let source = SourceFile { path: "two.urdf".into(), text: text.to_owned() };
+        let places = UrdfPlaces::new(Arc::new(source));
+        let with_joint = "<link name='b'>\n</link>\n  \
+            <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>";
+        assert_eq!(places.link_with_its_joint("b").as_deref(), Some(with_joint));
+        assert_eq!(places.link_with_its_joint("a").as_deref(), Some("<link name='a'/>"));
+        assert_eq!(places.link_with_its_joint("j"), None);
     }
 
     #[test]

@@ -6,10 +6,12 @@ use std::ops::Range;
 use congruent_dynamics::DynamicsError;
 
 use super::{
+    function::{
+        measure::Motion,
+        speeds::{MAX_SPEEDS, entries},
+    },
     gravity::GravityTorques,
-    measure::Motion,
     rows::Rows,
-    speeds::{MAX_SPEEDS, entries},
 };
 use crate::thresholds::MAX_COEFFICIENTS;
 

@@ -7,10 +7,12 @@ use nalgebra::Vector3;
 
 use super::{
     bracket::{AttainedAt, TorqueBracket, TorqueCertificate},
-    branch::{Stop, upper_bound},
-    climb,
-    measure::Measure,
-    trigonometric::{Trigonometric, Variable},
+    function::{
+        branch::{Stop, upper_bound},
+        climb,
+        measure::Measure,
+        trigonometric::{Trigonometric, Variable},
+    },
     ways::Ways,
 };
 use crate::{

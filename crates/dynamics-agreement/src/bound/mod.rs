@@ -2,16 +2,12 @@
 //! by velocity products, and by all of them together.
 
 mod bracket;
-mod branch;
-mod climb;
 mod coupling;
 mod dependence;
+mod function;
 mod gravity;
-mod measure;
 mod motion;
 mod rows;
-mod speeds;
-mod trigonometric;
 mod ways;
 
 pub use bracket::{CoveredMotion, TorqueBracket, TorqueCertificate};

@@ -7,13 +7,15 @@ use congruent_kinematics::Uniform;
 
 use super::{
     bracket::{AttainedAt, CoveredMotion, TorqueBracket, TorqueCertificate},
-    branch::{Stop, UpperBound, upper_bound},
-    climb::{self, Course},
     dependence::{Dependence, Part},
+    function::{
+        branch::{Stop, UpperBound, upper_bound},
+        climb::{self, Course},
+        measure::{LargestMotion, Measure, Motion},
+        trigonometric::{Trigonometric, Variable, along},
+    },
     gravity::GravityTorques,
-    measure::{LargestMotion, Measure, Motion},
     rows::Rows,
-    trigonometric::{Trigonometric, Variable, along},
 };
 use crate::{
     side::Side,
@@ -38,19 +40,36 @@ pub(crate) fn certify(candidate: &Side, reference: &Side, seed: u64) -> Result<C
     let mut by_joint: Vec<(usize, [Option<TorqueBracket>; 3])> = Vec::new();
     for dependence in Dependence::all(&motions.rows, &gravity_torques)? {
         let function = if dependence.is_tractable { Some(motions.function(&dependence)?) } else { None };
-        for (at, &joint) in dependence.joints.iter().enumerate() {
+        let of_joint = |at: usize| {
+            let joint = dependence.joints[at];
             let name = candidate.frames.joint_name(joint);
             let of_gravity = gravity.by_joint.iter().find(|bracket| bracket.joint == name);
             let one =
                 OneJoint { motions: &motions, dependence: &dependence, function: function.as_ref(), at };
-            by_joint.push((joint, one.brackets(of_gravity)?));
-        }
+            Ok((joint, one.brackets(of_gravity)?))
+        };
+        by_joint.extend(side_by_side(dependence.joints.len(), of_joint)?);
     }
     by_joint.sort_by_key(|(joint, _)| *joint);
     let [inertia, velocity, together] = [0, 1, 2].map(|part| {
         TorqueCertificate::of(by_joint.iter().filter_map(|(_, parts)| parts[part].clone()).collect())
     });
     Ok(Certified { gravity, inertia, velocity, together, covered: motions.rows.covered })
+}
+
+/// What each of some joints has, in their order, each in a thread of its own: seconds of a long arm.
+fn side_by_side<T: Send, E: Send>(
+    count: usize,
+    of_one: impl Fn(usize) -> Result<T, E> + Sync,
+) -> Result<Vec<T>, E> {
+    std::thread::scope(|scope| {
+        let of_one = &of_one;
+        let running: Vec<_> = (0..count).map(|at| scope.spawn(move || of_one(at))).collect();
+        running
+            .into_iter()
+            .map(|one| one.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    })
 }
 
 struct Motions<'a> {
@@ -112,20 +131,27 @@ impl Motions<'_> {
     /// A bound that needs no search: every lever stretched out.
     fn crude(&self, part: Part, joint: usize) -> f64 {
         let ways = &self.rows.ways;
+        // A body turns no faster than all joints together, and no velocity product is larger than twice its square.
+        let of_products = |of: usize| if ways.frames.joints[of].is_angular { 2.0 } else { 1.0 };
         let entries = |of: usize| -> f64 {
+            let turns = ways.frames.joints[of].is_angular;
+            let most = if turns { &self.rows.largest_entries } else { &self.rows.largest_forces };
             let bodies = (0..ways.differs.len()).filter(|&body| ways.differs[body] && ways.carries(of, body));
-            bodies.map(|body| self.rows.largest_entries[body]).sum()
+            bodies.map(|body| most[body]).sum()
         };
-        let entries: f64 =
-            ways.coupling.group(joint).iter().map(|(of, ratio)| ratio.abs() * entries(*of)).sum();
+        let group = ways.coupling.group(joint).iter();
+        let sum = |factor: &dyn Fn(usize) -> f64| -> f64 {
+            group.clone().map(|(of, ratio)| ratio.abs() * factor(*of) * entries(*of)).sum()
+        };
         let covered = &self.rows.covered;
         let armature = self.rows.resistances[joint].armature.abs() * covered[joint].acceleration;
-        let accelerations: f64 = covered.iter().map(|covered| covered.acceleration).sum();
-        let speeds: f64 = covered.iter().map(|covered| covered.speed).sum();
+        // Other joints move no body that moves with this one.
+        let moving = ways.through(joint);
+        let accelerations: f64 = moving.iter().map(|&joint| covered[joint].acceleration).sum();
+        let speeds: f64 = moving.iter().map(|&joint| covered[joint].speed).sum();
         match part {
-            Part::Inertia => entries * accelerations + armature,
-            // A body turns no faster than all joints together, and no velocity product is larger than twice its square.
-            Part::Velocity => 2.0 * entries * speeds * speeds,
+            Part::Inertia => sum(&|_| 1.0) * accelerations + armature,
+            Part::Velocity => sum(&of_products) * speeds * speeds,
             Part::Together => f64::INFINITY,
         }
     }
@@ -342,7 +368,7 @@ fn largest_seen(one: &Trigonometric) -> f64 {
 }
 
 /// Control values of one acceleration or product of speeds. Kind: speed; some 5 ms.
-const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 20;
+const VALUES_OF_ONE: usize = MAX_MOTION_VALUES / 12;
 /// Where fewer boxes can be divided the sum of amplitudes is the better bound. Kind: choice.
 const FEWEST_BOXES: usize = 10;
 /// Random motions for a torque of too many joints. Kind: choice.

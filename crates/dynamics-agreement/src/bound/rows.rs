@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, Vector3};
 
 use super::{
     bracket::{AttainedAt, CoveredMotion, covered_motions},
-    speeds::{entries, row},
+    function::speeds::{entries, row},
     ways::Ways,
 };
 use crate::{side::Side, thresholds::SAME_VALUE};
@@ -25,6 +25,8 @@ pub(super) struct Rows<'a> {
     difference: BodyTree,
     /// A bound of what each body adds to any entry of the mass matrix.
     pub(super) largest_entries: Vec<f64>,
+    /// The same to entries of a sliding joint; and to its force by speeds, for a unit of the square of their sum.
+    pub(super) largest_forces: Vec<f64>,
     /// Damping, friction, armature at the driven joints: candidate's less the reference's.
     pub(super) resistances: Vec<JointResistance>,
 }
@@ -44,6 +46,9 @@ impl<'a> Rows<'a> {
             let moment = body.first_moment_kg_m.norm();
             body.tensor_kg_m2.norm() + 2.0 * moment * reach_m + body.mass_kg.abs() * reach_m * reach_m
         };
+        // A point turns on arms no longer than the reach, and the body about it by half the square of all speeds.
+        let force =
+            |body: &SpatialInertia| body.mass_kg.abs() * reach_m + 1.5 * body.first_moment_kg_m.norm();
         let (found, expected) = (candidate.bodies(), reference.bodies());
         let differences: Vec<SpatialInertia> =
             found.iter().zip(&expected).map(|(a, b)| super::gravity::difference(a, b)).collect();
@@ -71,6 +76,7 @@ impl<'a> Rows<'a> {
                 .with_inertias_in_links(&differences)?
                 .with_resistances(armatures.collect())?,
             largest_entries: differences.iter().map(size).collect(),
+            largest_forces: differences.iter().map(force).collect(),
             resistances: at_driven(&ways, &resistances),
             ways,
         })
@@ -82,7 +88,7 @@ impl<'a> Rows<'a> {
         Memory { buffer, matrix, tau: [vec![0.0; n], vec![0.0; n]], qd: vec![0.0; n] }
     }
 
-    /// For each of some joints what [`Motion`](super::measure::Motion) is of, at some positions: gravity, and the
+    /// For each of some joints what [`Motion`](super::function::measure::Motion) is of, at some positions: gravity, and the
     /// accelerations and products of speeds of the joints that move.
     pub(super) fn values(
         &self,

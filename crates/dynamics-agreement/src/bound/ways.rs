@@ -1,6 +1,6 @@
 //! Which joints a difference of torque depends on: those on the way to bodies that differ.
 
-use super::{coupling::Coupling, trigonometric::Variable};
+use super::{coupling::Coupling, function::trigonometric::Variable};
 use crate::side::Frames;
 
 /// The bodies that differ.

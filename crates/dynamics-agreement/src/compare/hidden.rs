@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::parameters::{ParameterDifference, of_link};
 use crate::{
     side::{Inertial, Side},
-    thresholds::{Precision, SEEN},
+    thresholds::SEEN,
     torque::compressed::Compressed,
 };
 
@@ -14,15 +14,25 @@ pub(crate) fn differences(candidate: &Side, reference: &Side) -> Vec<ParameterDi
     differing(candidate, reference).into_iter().map(|(_, difference)| difference).collect()
 }
 
-/// Those whose difference alone changes no torque.
+/// Those whose difference alone changes no torque, and those that change no more than a share of all torques, with how
+/// much that is.
 pub(crate) fn without_effect(
     candidate: &Side,
     reference: &Side,
     torque: &Compressed,
+    most: f64,
 ) -> Vec<ParameterDifference> {
-    let mut all = differing(candidate, reference);
-    all.retain(|(pair, difference)| !is_seen(torque, pair, &difference.parameter));
-    all.into_iter().map(|(_, difference)| difference).collect()
+    let hidden =
+        differing(candidate, reference).into_iter().filter_map(|(pair, difference)| {
+            match seen_share(torque, &pair, &difference.parameter) {
+                None => Some(difference),
+                Some(share) if share <= most => {
+                    Some(ParameterDifference { below_resolution: Some(share), ..difference })
+                }
+                Some(_) => None,
+            }
+        });
+    hidden.collect()
 }
 
 /// A link on both sides.
@@ -43,10 +53,10 @@ fn differing(candidate: &Side, reference: &Side) -> Vec<(LinkPair, ParameterDiff
     all
 }
 
-/// Whether the difference of one parameter, alone, changes a torque.
-fn is_seen(torque: &Compressed, pair: &LinkPair, parameter: &str) -> bool {
-    let Some(block) = torque.link(pair.link) else { return false };
-    let (Some(found), Some(expected)) = (pair.found, pair.expected) else { return true };
+/// The share of all torques that the difference of one parameter, alone, changes; `None` if no torque shows it.
+fn seen_share(torque: &Compressed, pair: &LinkPair, parameter: &str) -> Option<f64> {
+    let block = torque.link(pair.link)?;
+    let [found, expected] = [pair.found, pair.expected].map(|of| of.unwrap_or_else(Inertial::nothing));
     let mut changed = found;
     let (tensor, other) = (found.tensor_in_link(), expected.tensor_in_link());
     match parameter {
@@ -63,7 +73,8 @@ fn is_seen(torque: &Compressed, pair: &LinkPair, parameter: &str) -> bool {
     }
     let change = changed.ten_numbers() - found.ten_numbers();
     let effect = (block * change).norm();
-    effect > (Precision::EXACT.of_torque * torque.torques).max(SEEN * torque.scale * change.norm())
+    let is_seen = effect > SEEN * torque.scale * change.norm();
+    is_seen.then(|| effect / torque.torques)
 }
 
 fn with_entry(mut tensor: Matrix3<f64>, other: &Matrix3<f64>, (row, column): (usize, usize)) -> Matrix3<f64> {

@@ -26,6 +26,10 @@ pub struct ParameterDifference {
     pub line: Option<usize>,
     /// Where the reference's file says it.
     pub expected_line: Option<usize>,
+    /// The share of all torques that the difference alone changes, where that is too little to tell two descriptions
+    /// apart by; `null` if no joint torque shows it, or if it is shown.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub below_resolution: Option<f64>,
 }
 
 const PARAMETER_UNITS: [(&str, &str); 10] = [
@@ -84,6 +88,7 @@ pub(crate) fn of_link(
         unit: unit.to_owned(),
         line: None,
         expected_line: None,
+        below_resolution: None,
     })
     .collect()
 }
@@ -107,6 +112,7 @@ pub(crate) fn of_joints(
                     unit: term.unit(joint).to_owned(),
                     line: None,
                     expected_line: None,
+                    below_resolution: None,
                 });
             }
         }
@@ -128,6 +134,7 @@ pub(crate) fn of_gravity(found: &Vector3<f64>, expected: &Vector3<f64>) -> Vec<P
             unit: "m/s^2".to_owned(),
             line: None,
             expected_line: None,
+            below_resolution: None,
         })
         .collect()
 }

@@ -39,6 +39,10 @@ causes! {
     ComSign = "com_sign", "the centre of mass has a wrong sign";
     ComAxesSwapped = "com_axes_swapped", "coordinates of the centre of mass are exchanged";
     Mirrored = "mirrored", "the inertia is that of the mirrored part";
+    RpyMissing = "rpy_missing", "the rotation of the inertial frame is left out";
+    RpyInverted = "rpy_inverted", "the rotation of the inertial frame is inverted";
+    RpyTwice = "rpy_twice", "the rotation of the inertial frame is applied twice";
+    Rpy = "rpy", "the rotation of the inertial frame is off";
     ComFrame = "com_frame", "the centre of mass is given in another frame";
     ComAxes = "com_axes", "the centre of mass is given in the axes of another frame";
     InertialFrame = "inertial_frame", "centre of mass and inertia are given in another frame";
@@ -51,9 +55,6 @@ causes! {
     ProductsSwapped = "products_swapped", "two products of inertia are exchanged";
     InertiaOrder = "inertia_order", "the six numbers of the inertia are in another order";
     InertiaAxes = "inertia_axes", "the inertia is given in the axes of another frame";
-    RpyMissing = "rpy_missing", "the rotation of the inertial frame is left out";
-    RpyInverted = "rpy_inverted", "the rotation of the inertial frame is inverted";
-    RpyTwice = "rpy_twice", "the rotation of the inertial frame is applied twice";
     CountedTwice = "counted_twice", "the inertia of one link is contained in that of another as well";
     InertialsSwapped = "inertials_swapped", "the inertias of two links are exchanged";
     InertialLeftOut = "inertial_left_out", "the inertia of a link is left out";

@@ -23,6 +23,8 @@ pub(crate) struct Setting<'a> {
     pub(crate) reference: Option<&'a Side>,
     pub(crate) faulty: FaultySide,
     pub(crate) precision: Precision,
+    /// Whether faults at two places at once are looked for.
+    pub(crate) pairs: bool,
 }
 
 /// What explains a difference.
@@ -44,6 +46,13 @@ pub(crate) struct Grouped {
     pub(crate) also: Vec<Exact>,
     /// Why it cannot be told from the first.
     pub(crate) reason: Option<EquivalenceReason>,
+}
+
+impl Exact {
+    /// As an explanation without others.
+    pub(crate) fn alone(self) -> Grouped {
+        Grouped { named: self, also: Vec::new(), reason: None }
+    }
 }
 
 /// Most explanations that are kept. Kind: choice; more of them say no more.
@@ -109,7 +118,7 @@ fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed {
     let is_possible = |exact: &Exact| !exact.is_impossible(setting.candidate, setting.reference);
     let singles = catalogue.singles(&target).into_iter().map(|fit| exactly(vec![fit]));
     let mut found: Vec<Exact> = singles.filter(is_possible).collect();
-    if found.iter().all(|exact| exact.free_numbers() > PAIRS_ABOVE) {
+    if setting.pairs && found.iter().all(|exact| exact.free_numbers() > PAIRS_ABOVE) {
         let pairs = catalogue.pairs(&target).into_iter().map(|pair| exactly(pair.into()));
         found.extend(pairs.filter(is_possible));
     }

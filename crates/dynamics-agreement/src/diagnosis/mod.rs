@@ -10,6 +10,7 @@ mod diagnose;
 mod fit;
 mod free;
 mod hypothesis;
+mod part_by_part;
 mod rank;
 mod reason;
 mod search;
@@ -20,6 +21,7 @@ pub(crate) use diagnose::{Expected, Grouped, Setting, diagnose_in_stages};
 pub(crate) use fit::Corrected;
 pub use hypothesis::FaultySide;
 pub(crate) use hypothesis::{Hypothesis, Place};
+pub(crate) use part_by_part::part_by_part;
 pub(crate) use rank::Exact;
 pub use reason::EquivalenceReason;
 

@@ -175,7 +175,7 @@ struct Counts {
 
 fn diagnosed((candidate, faulty): (&Side, FaultySide), states: &[State], expected: &[Vec<f64>]) -> Diagnosed {
     let torque = Compressed::new(candidate, states, expected).expect("the robot's own states");
-    let setting = Setting { candidate, reference: None, faulty, precision: Precision::EXACT };
+    let setting = Setting { candidate, reference: None, faulty, precision: Precision::EXACT, pairs: true };
     let expected = Expected { states, torques: expected };
     diagnose_in_stages(&setting, &torque, expected).expect("the robot's own states")
 }

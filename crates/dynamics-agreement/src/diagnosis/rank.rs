@@ -24,7 +24,7 @@ pub(crate) struct Exact {
 }
 
 impl Exact {
-    pub(super) fn new(parts: Vec<Fit>, side: &Side, reference: Option<&Side>) -> Self {
+    pub(crate) fn new(parts: Vec<Fit>, side: &Side, reference: Option<&Side>) -> Self {
         let mut corrected = Corrected::default();
         for part in &parts {
             // A later part corrects what the earlier ones leave.

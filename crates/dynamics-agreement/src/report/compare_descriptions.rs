@@ -13,7 +13,7 @@ use crate::{
     bound,
     compare::{hidden, invariants::invariants, limits},
     diagnosis::{Expected, FaultySide, Setting},
-    side::{Inertial, Side},
+    side::{Inertial, JointTerm, Side},
     thresholds::{Precision, STATES},
     torque::{
         compressed::{Compressed, torques},
@@ -35,8 +35,15 @@ pub enum CompareError {
     #[error("no joint moves: there is no joint torque to compare")]
     NoJoint,
     /// A parameter is no number, or so large that torques overflow.
-    #[error("a value is not finite, or too large to compute torques with")]
-    NotFinite,
+    #[error(
+        "{what} = {value:e} is not finite, or beyond what torques can be computed with ({LARGEST_NUMBER:e})"
+    )]
+    NotFinite {
+        /// Which one, of which link or joint.
+        what: String,
+        /// Its value, SI units.
+        value: f64,
+    },
     /// The source of accelerations failed.
     #[error("the source of accelerations: {message}")]
     Source {
@@ -91,25 +98,29 @@ pub fn compare(
         reference: Some(reference.side),
         faulty: FaultySide::Candidate,
         precision: Precision::EXACT,
+        pairs: false,
     };
     let files = Files { found: candidate.places, expected: reference.places };
     let expected = Expected { states: &states, torques: &expected };
     let mut told = Told::new(&setting, files, &torque, expected)?;
     // A slip without a free number is taken at its word.
     if told.explanations.first().map_or(!told.same, |first| first.contradicted || first.numbers > 0.0) {
-        let by_link = link_by_link(&setting, files, (reference.side, &seen_as_candidate), &states)?;
-        if is_simpler(&by_link, &told.explanations) {
+        let by_link =
+            link_by_link(&setting, files, (reference.side, &seen_as_candidate), (&torque, &states))?;
+        if by_link.is_empty() {
+            told = Told::new(&Setting { pairs: true, ..setting }, files, &torque, expected)?;
+        } else if is_simpler(&by_link, &told.explanations) {
             told.explanations = by_link;
             told.indistinguishable.clear();
         }
     }
+    // What names a parameter that both files have alike is no explanation.
+    told.explanations.retain(|explanation| !explanation.contradicted);
     let mut differences = hidden::differences(candidate.side, reference.side);
     files.place(&mut differences);
-    let mut hidden_differences = if told.same {
-        differences.clone()
-    } else {
-        hidden::without_effect(candidate.side, reference.side, &torque)
-    };
+    // Where all torques are the same, every difference is one that they do not tell.
+    let not_told = if told.same { f64::INFINITY } else { Precision::EXACT.of_torque };
+    let mut hidden_differences = hidden::without_effect(candidate.side, reference.side, &torque, not_told);
     files.place(&mut hidden_differences);
     let mut limits = limits::differences(candidate.side, reference.side, &joints);
     files.place_limits(&mut limits);
@@ -170,8 +181,8 @@ fn comparable(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareE
     if joints.is_empty() {
         return Err(CompareError::NoJoint);
     }
-    let usable = [candidate, reference].into_iter().all(has_usable_numbers);
-    if usable { Ok(joints) } else { Err(CompareError::NotFinite) }
+    [candidate, reference].into_iter().try_for_each(check_numbers)?;
+    Ok(joints)
 }
 
 fn matched(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareError> {
@@ -186,10 +197,29 @@ fn matched(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareErro
 /// Larger parameters overflow in squares of torques. Kind: range of numbers.
 const LARGEST_NUMBER: f64 = 1e60;
 
-pub(super) fn has_usable_numbers(side: &Side) -> bool {
-    let terms = side.resistances.iter().flat_map(|of| [of.damping, of.friction, of.armature]);
-    let numbers = side.inertials.iter().flatten().flat_map(|inertial| inertial.about_origin().parameters());
-    terms.chain(numbers).chain(side.gravity_m_s2.iter().copied()).all(|number| number.abs() < LARGEST_NUMBER)
+/// Refuses the first parameter that torques cannot be computed with.
+pub(super) fn check_numbers(side: &Side) -> Result<(), CompareError> {
+    let joints = side.resistances.iter().enumerate().flat_map(|(joint, of)| {
+        let name = side.frames.joint_name(joint);
+        JointTerm::ALL.map(|term| (format!("joint \"{name}\": {}", term.name()), term.of(of)))
+    });
+    let links = side.inertials.iter().enumerate().filter_map(|(link, of)| Some((link, of.as_ref()?)));
+    let inertials = links.flat_map(|(link, of)| {
+        let name = side.frames.link_name(link);
+        let all = [
+            ("mass", of.mass_kg),
+            ("centre of mass", of.com_m.amax()),
+            ("inertia", of.tensor_kg_m2.amax()),
+            ("mass times the square of its distance", of.shift().amax()),
+        ];
+        all.map(|(what, value)| (format!("link \"{name}\": {what}"), value))
+    });
+    let gravity = std::iter::once(("gravity".to_owned(), side.gravity_m_s2.amax()));
+    let mut all = joints.chain(inertials).chain(gravity);
+    match all.find(|(_, value)| value.is_nan() || value.abs() >= LARGEST_NUMBER) {
+        Some((what, value)) => Err(CompareError::NotFinite { what, value }),
+        None => Ok(()),
+    }
 }
 
 /// The parameters of a reference in a candidate's geometry: one inertial for each body, at the link that its joint carries.

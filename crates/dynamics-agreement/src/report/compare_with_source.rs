@@ -1,7 +1,7 @@
 //! A description against a source of accelerations that was built from it, such as a physics engine.
 
 use super::{
-    compare_descriptions::{CompareError, has_usable_numbers},
+    compare_descriptions::{CompareError, check_numbers},
     content::{DynamicsPremise, DynamicsReport, Sides},
     places::Files,
     told::{NamedSide, Told},
@@ -32,9 +32,7 @@ pub fn compare_with_source(
     if candidate.side.frames.dof() == 0 {
         return Err(CompareError::NoJoint);
     }
-    if !has_usable_numbers(candidate.side) {
-        return Err(CompareError::NotFinite);
-    }
+    check_numbers(candidate.side)?;
     let states = random_states(&candidate.side.frames, probing.seed, STATES);
     let (states, torques) = probed(candidate.side, source, states, probing.step_s)
         .map_err(|message| CompareError::Source { message })?;
@@ -45,6 +43,7 @@ pub fn compare_with_source(
         reference: None,
         faulty: FaultySide::Reference,
         precision: Precision::ENGINE,
+        pairs: true,
     };
     let expected = Expected { states: &states, torques: &torques };
     let files = Files { found: candidate.places, expected: None };

@@ -145,6 +145,8 @@ pub struct DynamicsExplanation {
     pub suggestion: Option<String>,
     /// The lines of the file that change, with what they become; empty if the file is right or cannot say it.
     pub changes: Vec<ChangedLines>,
+    /// What is wrong if it is the other of two files, with its line; `null` if that explains less.
+    pub otherwise: Option<String>,
 }
 
 /// A cause with its place.

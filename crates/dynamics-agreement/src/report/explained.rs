@@ -9,8 +9,8 @@ use super::{
 use crate::{
     compare::parameters,
     diagnosis::{
-        Corrected, DynamicsCause, Exact, FaultySide, Grouped, Hypothesis, Place, rounded_damping_unit,
-        rounded_unit,
+        Corrected, DynamicsCause, Exact, FaultySide, Grouped, Hypothesis, Place, Setting,
+        rounded_damping_unit, rounded_unit,
     },
     side::{BodyLaw, Inertial, JointTerm, Side},
     torque::compressed::Compressed,
@@ -31,6 +31,21 @@ pub(super) struct Teller<'a> {
     pub(super) exact: f64,
 }
 
+impl<'a> Teller<'a> {
+    pub(super) fn new(setting: &Setting<'a>, files: Files<'a>, torque: &'a Compressed) -> Self {
+        let difference = torque.difference.norm().hypot(torque.outside);
+        Self {
+            candidate: setting.candidate,
+            reference: setting.reference,
+            faulty: setting.faulty,
+            files,
+            torque,
+            difference,
+            exact: setting.precision.exact(difference, torque.torques),
+        }
+    }
+}
+
 impl Teller<'_> {
     pub(super) fn explanation(&self, grouped: &Grouped) -> DynamicsExplanation {
         let exact = &grouped.named;
@@ -48,6 +63,7 @@ impl Teller<'_> {
             file: file.map(|file| file.source().path.display().to_string()),
             line: file.and_then(|_| parameters.iter().find_map(|parameter| parameter.line)),
             changes: self.changes(&corrected),
+            otherwise: None,
             parameters,
             numbers: exact.price,
             left_relative: exact.left() / self.difference,
@@ -83,8 +99,10 @@ impl Teller<'_> {
         }
         let causes: Vec<&str> = parts.iter().map(|part| part.cause.name()).collect();
         let mut place: Vec<String> = Vec::new();
-        for part in &parts {
-            place.extend(part.place.iter().cloned());
+        for link in parts.iter().flat_map(|part| &part.place) {
+            if !place.contains(link) {
+                place.push(link.clone());
+            }
         }
         PlacedCause { cause: DynamicsCause::Several, detail: causes.join(" + "), place }
     }

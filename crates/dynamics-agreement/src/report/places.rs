@@ -31,6 +31,16 @@ pub trait ParameterPlaces: Debug {
     /// The edits after which gravity is this; empty if the file cannot say it.
     fn set_gravity(&self, gravity_m_s2: &Vector3<f64>) -> Vec<TextEdit>;
 
+    /// The text of a link with the joint that carries it, for another file; `None` if the file does not have them.
+    fn link_text(&self, _link: &str) -> Option<String> {
+        None
+    }
+
+    /// The edits after which the file has a link of another file; empty if it cannot have it.
+    fn add_link(&self, _text: &str) -> Vec<TextEdit> {
+        Vec::new()
+    }
+
     /// The edits after which a limit of a joint, such as `effort`, is this; empty if the file cannot say it.
     fn set_limit(&self, _joint: &str, _parameter: &str, _value: f64) -> Vec<TextEdit> {
         Vec::new()
@@ -121,6 +131,14 @@ impl ParameterPlaces for UrdfPlaces {
 
     fn set_gravity(&self, _: &Vector3<f64>) -> Vec<TextEdit> {
         Vec::new()
+    }
+
+    fn link_text(&self, link: &str) -> Option<String> {
+        self.link_with_its_joint(link)
+    }
+
+    fn add_link(&self, text: &str) -> Vec<TextEdit> {
+        self.add_elements(text)
     }
 
     fn set_limit(&self, joint: &str, parameter: &str, value: f64) -> Vec<TextEdit> {

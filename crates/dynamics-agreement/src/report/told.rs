@@ -49,16 +49,7 @@ impl Told {
         expected: Expected<'_>,
     ) -> Result<Self, DynamicsError> {
         let diagnosed = diagnose_in_stages(setting, torque, expected)?;
-        let difference = torque.difference.norm().hypot(torque.outside);
-        let teller = Teller {
-            candidate: setting.candidate,
-            reference: setting.reference,
-            faulty: setting.faulty,
-            torque,
-            exact: setting.precision.exact(difference, torque.torques),
-            files,
-            difference,
-        };
+        let teller = Teller::new(setting, files, torque);
         let mut explained = diagnosed.explanations.iter().map(|grouped| teller.explanation(grouped));
         let explanations = explained.by_ref().take(1).collect();
         let name = |&link: &usize| setting.candidate.frames.link_name(link).to_owned();

@@ -1,5 +1,7 @@
 //! Links that only one of two descriptions has, such as a camera on a bracket: their mass is in one of the two alone.
 
+use congruent_description::line_column;
+
 use super::{content::DynamicsExplanation, places::Files};
 use crate::{
     compare::parameters,
@@ -75,8 +77,20 @@ impl<'a> Unmatched<'a> {
             let name = self.reference.frames.link_name(link);
             let found = self.reference.inertials[link].as_ref();
             let explanation = explanation((DynamicsCause::LinkMissing, name), [None, found], files);
-            let suggestion = format!("add link {name} with its fixed joint, as the other description has it");
-            DynamicsExplanation { suggestion: Some(suggestion), ..explanation }
+            let there = files.expected.map_or_else(String::new, |file| {
+                let line = file.parameter(name, "mass").map(|at| line_column(&file.source().text, at.start).0);
+                let line = line.map_or_else(String::new, |line| format!(":{line}"));
+                format!(", {}{line}", file.source().path.display())
+            });
+            let suggestion = format!(
+                "add link {name} with its fixed joint, as the other description has it{there}, or its mass to the \
+                 link that carries it"
+            );
+            let text = files.expected.and_then(|file| file.link_text(name));
+            let edits = files.found.zip(text).map(|(file, text)| file.lines(&file.add_link(&text)));
+            let changes = edits.unwrap_or_default();
+            let line = changes.first().map(|lines| lines.from_line);
+            DynamicsExplanation { suggestion: Some(suggestion), line, changes, ..explanation }
         });
         added.chain(missing).collect()
     }
@@ -107,5 +121,6 @@ fn explanation(
         file: files.found.map(|file| file.source().path.display().to_string()),
         suggestion: None,
         changes: Vec::new(),
+        otherwise: None,
     }
 }

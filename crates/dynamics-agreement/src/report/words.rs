@@ -60,6 +60,11 @@ impl DynamicsCause {
     fn with_detail(self, detail: &str) -> String {
         match (self, detail) {
             (_, "") => self.text().to_owned(),
+            (Self::ComUnit, "m") => {
+                "the centre of mass is a thousandth of what it should be: it looks like metres under com_mm, or like \
+                 metres divided by 1000"
+                    .to_owned()
+            }
             (Self::InertiaAboutOrigin, _) => {
                 "the step from the link's origin to the centre of mass is taken off an \
                                               inertia that is about the centre of mass already"
@@ -152,6 +157,20 @@ impl Invariants {
 }
 
 impl DynamicsReport {
+    /// Says of each explanation what is wrong if it is the other of the two files.
+    pub fn add_otherwise(&mut self, other: &Self) {
+        for explanation in &mut self.explanations {
+            let there = other.explanations.iter().find(|there| there.place == explanation.place);
+            explanation.otherwise = there.map(|there| {
+                let mut places =
+                    there.file.iter().zip(there.line).map(|(file, line)| format!("{file}:{line}: "));
+                let values: Vec<String> =
+                    there.parameters.iter().take(3).map(ParameterDifference::sentence).collect();
+                format!("{}{} ({})", places.next().unwrap_or_default(), there.sentence(), values.join("; "))
+            });
+        }
+    }
+
     /// Everything that a person reads of it, the result first.
     pub fn sentences(&self) -> Vec<String> {
         let mut sentences = vec![self.headline()];
@@ -208,8 +227,16 @@ impl DynamicsReport {
 
     /// What no torque shows, in words with the numbers that are meant.
     pub fn hidden_sentences(&self) -> Vec<String> {
+        let why = |parameter: &ParameterDifference| match parameter.below_resolution {
+            Some(share) => format!(
+                "it changes joint torques by {} of them, which is below the {} that is told from rounding",
+                number(share),
+                number(Precision::EXACT.same)
+            ),
+            None => "no joint torque shows it".to_owned(),
+        };
         let hidden = self.hidden_differences.iter();
-        hidden.map(|parameter| format!("{}; no joint torque shows it", parameter.sentence())).collect()
+        hidden.map(|parameter| format!("{}; {}", parameter.sentence(), why(parameter))).collect()
     }
 
     /// How much of the inertial numbers torques tell.

@@ -54,10 +54,19 @@ pub(crate) struct OtherFrame {
     pub(crate) link_from_frame: Vec<Option<Pose>>,
 }
 
+/// The name of a link's own frame among the others, where its parameters are those of another frame.
+pub(super) const LINK_FRAME: &str = "link";
+
 impl OtherFrame {
     fn new(name: &str, link_from_frame: Vec<Option<Pose>>) -> Self {
         let names_at_links = vec![None; link_from_frame.len()];
         Self { name: name.to_owned(), names_at_links, link_from_frame }
+    }
+
+    /// Whether it is the link's own frame, so that the link's parameters are those of another one.
+    pub(crate) fn is_links_own_at(&self, link: usize) -> bool {
+        let turns = |own: &Pose| own.rotation != nalgebra::Matrix3::identity();
+        self.name == LINK_FRAME && self.link_from_frame[link].as_ref().is_some_and(turns)
     }
 }
 
@@ -148,6 +157,11 @@ impl Frames {
         let link = self.find_link(link)?;
         let mut numbered = self.others.iter().filter(|other| other.names_at_links[link].is_some());
         numbered.find_map(|other| other.link_from_frame[link])
+    }
+
+    /// How far the links are from the root at most, arm and strokes stretched out.
+    pub fn reach_m(&self) -> f64 {
+        self.reach_m
     }
 
     /// Number of moving joints.

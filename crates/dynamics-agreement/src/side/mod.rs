@@ -1,6 +1,7 @@
 //! One side of the comparison: what a description says of inertias, joints and gravity.
 
 pub(crate) mod frames;
+mod in_other_frames;
 pub(crate) mod inertial;
 mod joint_terms;
 
@@ -139,7 +140,7 @@ impl Side {
                 parameters.link_from_axes = frame_from_link.rotation * parameters.link_from_axes;
             }
         }
-        moved.frames = Arc::new(frames.with_other_frame("link", own));
+        moved.frames = Arc::new(frames.with_other_frame(frames::LINK_FRAME, own));
         moved
     }
 

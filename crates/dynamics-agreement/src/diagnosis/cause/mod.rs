@@ -50,6 +50,9 @@ pub(super) fn of_link(
     }
     if faulty == FaultySide::Candidate {
         hypotheses.extend(missing::of_link(side, reference, link));
+        hypotheses.extend(
+            reference.and_then(|reference| other_frames::rotation_of_reference(side, reference, link)),
+        );
     }
     hypotheses.extend(free_numbers::of_link(side, faulty, link));
     hypotheses

@@ -5,8 +5,11 @@ use nalgebra::Matrix3;
 
 use super::slip::Slip;
 use crate::{
-    diagnosis::{cause_names::DynamicsCause, hypothesis::FaultySide},
-    side::{Frames, Inertial},
+    diagnosis::{
+        cause_names::DynamicsCause,
+        hypothesis::{Change, FaultySide, Hypothesis, Place},
+    },
+    side::{Frames, Inertial, Side},
     thresholds::ZERO_VALUE,
 };
 
@@ -69,11 +72,27 @@ impl Wrong {
     }
 }
 
+/// The rotation of a link's inertial frame that the other description has: left out in the file, or another one. `None`
+/// if the parameters are in a frame that is not the link's: then it is no rotation of an `<origin>`.
+pub(super) fn rotation_of_reference(side: &Side, reference: &Side, link: usize) -> Option<Hypothesis> {
+    let there = reference.frames.find_link(side.frames.link_name(link))?;
+    let (written, there) = (side.inertials[link].as_ref()?, reference.inertials[there].as_ref()?);
+    let is_of_entry = side.frames.others.iter().any(|other| other.is_links_own_at(link));
+    if is_of_entry || (written.link_from_axes - there.link_from_axes).amax() <= ZERO_VALUE {
+        return None;
+    }
+    let cause = if has_rotation(written) { DynamicsCause::Rpy } else { DynamicsCause::RpyMissing };
+    let turned = Inertial { link_from_axes: there.link_from_axes, ..*written };
+    Some(Hypothesis::new(cause, "", Place::Links(vec![link]), Change::Links(vec![(link, turned)])))
+}
+
+fn has_rotation(parameters: &Inertial) -> bool {
+    (parameters.link_from_axes - Matrix3::identity()).amax() > ZERO_VALUE
+}
+
 fn rotations<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
     let turned =
         |parameters: &Inertial, link_from_axes: Matrix3<f64>| Inertial { link_from_axes, ..*parameters };
-    let has_rotation =
-        |parameters: &Inertial| (parameters.link_from_axes - Matrix3::identity()).amax() > ZERO_VALUE;
     let mut slips = vec![
         Slip::at_link(DynamicsCause::RpyInverted, "", move |_, parameters| {
             has_rotation(parameters).then(|| turned(parameters, parameters.link_from_axes.transpose()))
@@ -87,7 +106,7 @@ fn rotations<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
             has_rotation(parameters).then(|| turned(parameters, changed))
         }),
     ];
-    // A rotation that is missing in the file cannot be put back without numbers.
+    // A rotation that is missing in the file cannot be put back without numbers, or those of the other description.
     if faulty == FaultySide::Reference {
         slips.push(Slip::at_link(DynamicsCause::RpyMissing, "", move |_, parameters| {
             has_rotation(parameters).then(|| turned(parameters, Matrix3::identity()))

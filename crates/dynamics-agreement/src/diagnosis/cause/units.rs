@@ -52,6 +52,12 @@ pub(super) fn slips<'a>(faulty: FaultySide) -> Vec<Slip<'a>> {
             ..*parameters
         }));
     }
+    // Metres under a key of millimetres are divided once too often.
+    let factor = faulty.factor(1e-3);
+    slips.push(Slip::new(DynamicsCause::ComUnit, "m", move |parameters| Inertial {
+        com_m: parameters.com_m * factor,
+        ..*parameters
+    }));
     for (unit, count) in INERTIAS {
         let factor = faulty.factor(count);
         slips.push(Slip::new(DynamicsCause::InertiaUnit, unit, move |parameters| Inertial {

@@ -18,7 +18,7 @@ const MOST_DOUBLINGS: u32 = 16;
 const LEAST_GAIN: f64 = 1e-14;
 
 /// The largest absolute value that was found, with its positions, one for each variable.
-pub(super) fn largest(function: &Trigonometric, seed: u64) -> (f64, Vec<f64>) {
+pub(in crate::bound) fn largest(function: &Trigonometric, seed: u64) -> (f64, Vec<f64>) {
     let mut random = Uniform::seeded(seed);
     let value = |q: &[f64]| function.at(q)[0].abs();
     let mut starts: Vec<(f64, Vec<f64>)> = (0..SAMPLES)
@@ -35,16 +35,16 @@ pub(super) fn largest(function: &Trigonometric, seed: u64) -> (f64, Vec<f64>) {
 }
 
 /// A function of several values of which only its course along one variable is asked.
-pub(super) struct Course<'a, F> {
-    pub(super) variables: &'a [Variable],
-    pub(super) measure: Measure,
+pub(in crate::bound) struct Course<'a, F> {
+    pub(in crate::bound) variables: &'a [Variable],
+    pub(in crate::bound) measure: Measure,
     /// The coefficients along one variable with the others at these positions: the values, for each feature of it.
-    pub(super) of_one: F,
+    pub(in crate::bound) of_one: F,
 }
 
 /// The same for the measure of a function of several values, or of second degree: the best of many positions of each
 /// joint, refined.
-pub(super) fn largest_sampled<F: FnMut(usize, &[f64]) -> Vec<f64>>(
+pub(in crate::bound) fn largest_sampled<F: FnMut(usize, &[f64]) -> Vec<f64>>(
     mut course: Course<'_, F>,
     seed: u64,
 ) -> (f64, Vec<f64>) {
@@ -70,7 +70,7 @@ pub(super) fn largest_sampled<F: FnMut(usize, &[f64]) -> Vec<f64>>(
 }
 
 /// The largest measure that climbing from one position finds.
-pub(super) fn largest_from(function: &Trigonometric, mut q: Vec<f64>) -> f64 {
+pub(in crate::bound) fn largest_from(function: &Trigonometric, mut q: Vec<f64>) -> f64 {
     let mut best = 0.0;
     for _ in 0..ROUNDS {
         let before = best;
@@ -87,9 +87,10 @@ pub(super) fn largest_from(function: &Trigonometric, mut q: Vec<f64>) -> f64 {
 
 /// Positions of one joint that are tried before the best is refined. Kind: choice; waves of second degree have four
 /// slopes a turn.
-const POSITIONS: u32 = 48;
-/// Halvings of the interval around the best one. Kind: choice, to 1e-9 of the range.
-const HALVINGS: usize = 28;
+const POSITIONS: u32 = 24;
+/// Halvings of the interval around the best one. Kind: choice, to 3e-6 of the range: a maximum is flat, and its value
+/// good to the square of that.
+const HALVINGS: usize = 14;
 /// A round that gains less than this share is the last. No unit; kind: solver stop.
 const LEAST_GAIN_SAMPLED: f64 = 1e-6;
 

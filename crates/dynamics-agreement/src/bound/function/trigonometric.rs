@@ -8,32 +8,32 @@ use crate::thresholds::NO_COEFFICIENT;
 
 /// A joint that the function depends on, with its range.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Variable {
-    pub(super) joint: usize,
+pub(in crate::bound) struct Variable {
+    pub(in crate::bound) joint: usize,
     /// 1, or 2 for squares as well.
-    pub(super) degree: usize,
-    pub(super) turns: bool,
-    pub(super) lower: f64,
-    pub(super) upper: f64,
+    pub(in crate::bound) degree: usize,
+    pub(in crate::bound) turns: bool,
+    pub(in crate::bound) lower: f64,
+    pub(in crate::bound) upper: f64,
 }
 
 impl Variable {
     /// Of a turning joint; a range beyond one turn is one turn.
-    pub(super) fn turning(joint: usize, (lower, upper): (f64, f64)) -> Self {
+    pub(in crate::bound) fn turning(joint: usize, (lower, upper): (f64, f64)) -> Self {
         Self { joint, degree: 1, turns: true, lower, upper: upper.min(lower + TAU) }
     }
 
-    pub(super) fn sliding(joint: usize, (lower, upper): (f64, f64)) -> Self {
+    pub(in crate::bound) fn sliding(joint: usize, (lower, upper): (f64, f64)) -> Self {
         Self { joint, degree: 1, turns: false, lower, upper }
     }
 
     /// How many coefficients it multiplies the others by.
-    pub(super) fn size(&self) -> usize {
+    pub(in crate::bound) fn size(&self) -> usize {
         if self.turns { 1 + 2 * self.degree } else { 1 + self.degree }
     }
 
     /// Positions that determine the coefficients.
-    pub(super) fn samples(&self) -> Vec<f64> {
+    pub(in crate::bound) fn samples(&self) -> Vec<f64> {
         let size = small(self.size());
         let share = |at: u32| f64::from(at) / if self.turns { size } else { size - 1.0 };
         let shares = (0..).map(share).take(self.size());
@@ -45,7 +45,7 @@ impl Variable {
     }
 
     /// What its coefficients multiply at a position; of a sliding joint scaled to its range.
-    pub(super) fn features(&self, q: f64) -> Vec<f64> {
+    pub(in crate::bound) fn features(&self, q: f64) -> Vec<f64> {
         if !self.turns {
             let x = self.scaled(q);
             return (0..self.size()).map(|power| x.powi(i32::try_from(power).unwrap_or(0))).collect();
@@ -60,7 +60,7 @@ impl Variable {
     }
 
     /// Rows that give the coefficients by the values at the samples.
-    pub(super) fn coefficient_rows(&self) -> Vec<Vec<f64>> {
+    pub(in crate::bound) fn coefficient_rows(&self) -> Vec<Vec<f64>> {
         if self.turns {
             let scale = |row: usize| if row == 0 { 1.0 } else { 2.0 } / small(self.size());
             let features: Vec<Vec<f64>> = self.samples().iter().map(|q| self.features(*q)).collect();
@@ -85,20 +85,20 @@ fn small(number: usize) -> f64 {
 
 /// A function of several joints with several values.
 #[derive(Debug, Clone)]
-pub(super) struct Trigonometric {
-    pub(super) variables: Vec<Variable>,
+pub(in crate::bound) struct Trigonometric {
+    pub(in crate::bound) variables: Vec<Variable>,
     /// How many values it has.
-    pub(super) values: usize,
-    pub(super) measure: Measure,
+    pub(in crate::bound) values: usize,
+    pub(in crate::bound) measure: Measure,
     /// By the coefficient of the first variable, then the second, ..., then the value.
-    pub(super) coefficients: Vec<f64>,
+    pub(in crate::bound) coefficients: Vec<f64>,
     /// The most that left out coefficients can add to the norm.
-    pub(super) slack: f64,
+    pub(in crate::bound) slack: f64,
 }
 
 impl Trigonometric {
     /// Finds the coefficients from values at positions of all variables; joints without effect are left out.
-    pub(super) fn sampled(
+    pub(in crate::bound) fn sampled(
         variables: Vec<Variable>,
         (values, measure): (usize, Measure),
         mut function: impl FnMut(&[f64]) -> Vec<f64>,
@@ -125,7 +125,7 @@ impl Trigonometric {
     }
 
     /// The function of some of the values alone, which stand side by side.
-    pub(super) fn selected(&self, values: std::ops::Range<usize>, measure: Measure) -> Self {
+    pub(in crate::bound) fn selected(&self, values: std::ops::Range<usize>, measure: Measure) -> Self {
         let of_all = self.coefficients.chunks_exact(self.values);
         let coefficients = of_all.flat_map(|all| all[values.clone()].iter().copied()).collect();
         let (variables, values) = (self.variables.clone(), values.len());
@@ -134,7 +134,7 @@ impl Trigonometric {
         function
     }
 
-    pub(super) fn sizes(&self) -> Vec<usize> {
+    pub(in crate::bound) fn sizes(&self) -> Vec<usize> {
         self.variables.iter().map(Variable::size).collect()
     }
 
@@ -157,13 +157,13 @@ impl Trigonometric {
     }
 
     /// How many control values a whole range has, at most.
-    pub(super) fn control_values(&self) -> usize {
+    pub(in crate::bound) fn control_values(&self) -> usize {
         let points = |variable: &Variable| if variable.turns { 9 } else { variable.size() };
         self.variables.iter().map(points).fold(self.values, usize::saturating_mul)
     }
 
     /// The sum of the amplitudes of all waves, each value for itself: no search, but far above for many joints.
-    pub(super) fn sum_of_amplitudes(&self) -> f64 {
+    pub(in crate::bound) fn sum_of_amplitudes(&self) -> f64 {
         let harmonic =
             |variable: &Variable, entry: usize| if variable.turns { entry.div_ceil(2) } else { entry };
         let count = |variable: &Variable| harmonic(variable, variable.size() - 1) + 1;
@@ -182,7 +182,7 @@ impl Trigonometric {
     }
 
     /// The function of one variable with the others at these positions: its coefficients, one row a value.
-    pub(super) fn of_one(&self, at: usize, q: &[f64]) -> Vec<f64> {
+    pub(in crate::bound) fn of_one(&self, at: usize, q: &[f64]) -> Vec<f64> {
         let mut sizes = self.sizes();
         let mut coefficients = self.coefficients.clone();
         for (other, variable) in self.variables.iter().enumerate() {
@@ -195,7 +195,7 @@ impl Trigonometric {
     }
 
     /// The values at these positions.
-    pub(super) fn at(&self, q: &[f64]) -> Vec<f64> {
+    pub(in crate::bound) fn at(&self, q: &[f64]) -> Vec<f64> {
         let mut sizes = self.sizes();
         let mut coefficients = self.coefficients.clone();
         for (at, variable) in self.variables.iter().enumerate() {
@@ -206,7 +206,7 @@ impl Trigonometric {
 }
 
 /// Multiplies an array along one of its dimensions by a matrix, given by its rows; the dimension gets their number.
-pub(super) fn along(
+pub(in crate::bound) fn along(
     array: &[f64],
     (sizes, values): (&mut [usize], usize),
     at: usize,
@@ -218,7 +218,7 @@ pub(super) fn along(
 }
 
 /// The same into memory that is used again.
-pub(super) fn along_into(
+pub(in crate::bound) fn along_into(
     array: &[f64],
     (sizes, values): (&mut [usize], usize),
     (at, rows): (usize, &[Vec<f64>]),

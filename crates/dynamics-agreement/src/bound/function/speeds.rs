@@ -4,37 +4,40 @@
 //! over the interval is larger by at most the coefficient times the square of half its width.
 
 /// An interval of speeds, each as a part of its limit.
-pub(super) type Interval = (f64, f64);
+pub(in crate::bound) type Interval = (f64, f64);
 
 /// The number of entries of a symmetric matrix.
-pub(super) fn entries(speeds: usize) -> usize {
+pub(in crate::bound) fn entries(speeds: usize) -> usize {
     speeds * (speeds + 1) / 2
 }
 
 /// Where the row of a speed would begin if it had all entries: that of column `k >= j` is so many further.
-pub(super) fn row(speeds: usize, j: usize) -> usize {
+pub(in crate::bound) fn row(speeds: usize, j: usize) -> usize {
     j * speeds - j * (j + 1) / 2
 }
 
 /// A symmetric form `sum a_jk x_j x_k` over `j <= k`, by rows.
 #[derive(Clone, Copy)]
-pub(super) struct Form<'a> {
-    pub(super) coefficients: &'a [f64],
-    pub(super) speeds: usize,
+pub(in crate::bound) struct Form<'a> {
+    pub(in crate::bound) coefficients: &'a [f64],
+    pub(in crate::bound) speeds: usize,
 }
 
 /// Bounds of a form over a box, or of a convex combination of such forms.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct FormRange {
-    pub(super) least: f64,
-    pub(super) most: f64,
+pub(in crate::bound) struct FormRange {
+    pub(in crate::bound) least: f64,
+    pub(in crate::bound) most: f64,
     /// What negative and positive squares may add to these.
-    pub(super) below: f64,
-    pub(super) above: f64,
+    pub(in crate::bound) below: f64,
+    pub(in crate::bound) above: f64,
 }
 
 /// Speeds that one form fits; more are not divided.
-pub(super) const MAX_SPEEDS: usize = 10;
+pub(in crate::bound) const MAX_SPEEDS: usize = 10;
+
+/// As many as there are, then zeros.
+pub(in crate::bound) type Speeds = [f64; MAX_SPEEDS];
 
 impl Form<'_> {
     /// Of `x_j x_k`; twice that of `x_k x_j` in the matrix, but for squares.
@@ -44,12 +47,12 @@ impl Form<'_> {
     }
 
     /// Coefficient of a square.
-    pub(super) fn square(&self, j: usize) -> f64 {
+    pub(in crate::bound) fn square(&self, j: usize) -> f64 {
         self.coefficient(j, j)
     }
 
     /// The value at these speeds.
-    pub(super) fn at(&self, x: &[f64]) -> f64 {
+    pub(in crate::bound) fn at(&self, x: &[f64]) -> f64 {
         let row = |j: usize| (j..self.speeds).map(|k| self.coefficient(j, k) * x[k]).sum::<f64>() * x[j];
         (0..self.speeds).map(row).sum()
     }
@@ -91,7 +94,7 @@ impl Form<'_> {
     }
 
     /// The form over a box: its corners, and what squares may add.
-    pub(super) fn range(&self, intervals: &[Interval]) -> FormRange {
+    pub(in crate::bound) fn range(&self, intervals: &[Interval]) -> FormRange {
         let mut range = FormRange { least: f64::INFINITY, most: f64::NEG_INFINITY, below: 0.0, above: 0.0 };
         self.each_corner(intervals, |value, _| {
             range.least = range.least.min(value);
@@ -106,7 +109,7 @@ impl Form<'_> {
     }
 
     /// The most and minus the least of the form over a box of parts of the limits, or more: every product for itself.
-    pub(super) fn rough_range(&self, intervals: &[Interval]) -> [f64; 2] {
+    pub(in crate::bound) fn rough_range(&self, intervals: &[Interval]) -> [f64; 2] {
         let mut products = 0.0;
         let (mut up, mut down) = (0.0, 0.0);
         for (j, interval) in intervals.iter().enumerate() {
@@ -119,15 +122,26 @@ impl Form<'_> {
         [up + products, down + products]
     }
 
-    /// The largest value of `sign` times the form that climbing from the best corner finds, with its speeds.
-    pub(super) fn largest(&self, sign: f64) -> (f64, Vec<f64>) {
-        let (mut best, mut x) = (0.0, vec![0.0; self.speeds]);
+    /// The largest and the least value that climbing from the best corners finds, each with its speeds; the least one
+    /// with the other sign.
+    pub(in crate::bound) fn largest(&self) -> [(f64, Speeds); 2] {
+        let mut best = [(0.0, [0.0; MAX_SPEEDS]); 2];
         self.each_corner(&[(-1.0, 1.0); MAX_SPEEDS][..self.speeds], |value, corner| {
-            if sign * value > best {
-                best = sign * value;
-                x.copy_from_slice(corner);
+            let [up, down] = &mut best;
+            if value > up.0 {
+                up.0 = value;
+                up.1[..corner.len()].copy_from_slice(corner);
+            } else if -value > down.0 {
+                down.0 = -value;
+                down.1[..corner.len()].copy_from_slice(corner);
             }
         });
+        let [up, down] = best;
+        [self.climbed(1.0, up), self.climbed(-1.0, down)]
+    }
+
+    /// Climbs with `sign` times the form, one speed at a time, each exactly.
+    fn climbed(&self, sign: f64, (mut best, mut x): (f64, Speeds)) -> (f64, Speeds) {
         for _ in 0..ROUNDS {
             let before = best;
             for j in 0..self.speeds {
@@ -156,7 +170,7 @@ fn is_symmetric((lower, upper): &Interval) -> bool {
 }
 
 /// What the chord of a square over an interval is larger by, at most.
-pub(super) fn gap((lower, upper): &Interval) -> f64 {
+pub(in crate::bound) fn gap((lower, upper): &Interval) -> f64 {
     let half = (upper - lower) / 2.0;
     half * half
 }
@@ -191,8 +205,7 @@ mod tests {
     #[test]
     fn the_largest_value_is_found() {
         let form = Form { coefficients: &COEFFICIENTS, speeds: 3 };
-        for sign in [1.0, -1.0] {
-            let (best, x) = form.largest(sign);
+        for (sign, (best, x)) in [1.0, -1.0].into_iter().zip(form.largest()) {
             assert!((sign * form.at(&x) - best).abs() < 1e-15);
             for index in 0..9261_usize {
                 let x = [index % 21, index / 21 % 21, index / 441]

@@ -4,7 +4,7 @@ use super::speeds::{Form, FormRange, Interval, gap};
 
 /// A convex function of several values.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Measure {
+pub(in crate::bound) enum Measure {
     /// The length of the vector.
     Length,
     /// The sum of absolute values.
@@ -16,44 +16,43 @@ pub(super) enum Measure {
 /// The values are the torque of gravity, those of each joint's largest acceleration, and the coefficients of the
 /// products of speeds, which are parts of their limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Motion {
-    pub(super) gravity: bool,
-    pub(super) accelerations: usize,
-    pub(super) speeds: usize,
+pub(in crate::bound) struct Motion {
+    pub(in crate::bound) gravity: bool,
+    pub(in crate::bound) accelerations: usize,
+    pub(in crate::bound) speeds: usize,
     /// The largest torque of damping and dry friction.
-    pub(super) resistance: f64,
+    pub(in crate::bound) resistance: f64,
 }
 
 /// An upper bound over a box of speeds.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Upper {
-    pub(super) value: f64,
+pub(in crate::bound) struct Upper {
+    pub(in crate::bound) value: f64,
     /// The speed whose square the bound is loose by, and how much.
-    pub(super) loose: Option<(usize, f64)>,
+    pub(in crate::bound) loose: Option<(usize, f64)>,
 }
 
 /// The motion of the largest torque at some positions.
 #[derive(Debug, Clone)]
-pub(super) struct LargestMotion {
-    pub(super) value: f64,
+pub(in crate::bound) struct LargestMotion {
     /// Parts of their limits.
-    pub(super) speeds: Vec<f64>,
+    pub(in crate::bound) speeds: Vec<f64>,
     /// -1 or 1 each.
-    pub(super) accelerations: Vec<f64>,
+    pub(in crate::bound) accelerations: Vec<f64>,
 }
 
 impl Measure {
     /// Of one vector of values.
-    pub(super) fn of(self, values: &[f64]) -> f64 {
+    pub(in crate::bound) fn of(self, values: &[f64]) -> f64 {
         match self {
             Self::Length => values.iter().map(|value| value * value).sum::<f64>().sqrt(),
             Self::Sum => values.iter().map(|value| value.abs()).sum(),
-            Self::Motion(motion) => motion.largest(values).value,
+            Self::Motion(motion) => motion.largest_torque(values),
         }
     }
 
     /// From above, over a box of speeds.
-    pub(super) fn above(self, values: &[f64], speeds: &[Interval]) -> Upper {
+    pub(in crate::bound) fn above(self, values: &[f64], speeds: &[Interval]) -> Upper {
         match self {
             Self::Motion(motion) => motion.above(values, speeds),
             _ => Upper { value: self.of(values), loose: None },
@@ -61,7 +60,7 @@ impl Measure {
     }
 
     /// The same or more, with little work.
-    pub(super) fn roughly_above(self, values: &[f64], speeds: &[Interval]) -> f64 {
+    pub(in crate::bound) fn roughly_above(self, values: &[f64], speeds: &[Interval]) -> f64 {
         match self {
             Self::Motion(motion) => motion.roughly_above(values, speeds),
             _ => self.of(values),
@@ -69,7 +68,7 @@ impl Measure {
     }
 
     /// How many speeds may be divided.
-    pub(super) fn speeds(self) -> usize {
+    pub(in crate::bound) fn speeds(self) -> usize {
         if let Self::Motion(motion) = self { motion.speeds } else { 0 }
     }
 }
@@ -83,18 +82,21 @@ impl Motion {
         (gravity, accelerations, Form { coefficients, speeds: self.speeds })
     }
 
-    /// The motion with the largest torque.
-    pub(super) fn largest(&self, values: &[f64]) -> LargestMotion {
+    /// The largest torque.
+    fn largest_torque(&self, values: &[f64]) -> f64 {
         let (gravity, accelerations, form) = self.parts(values);
         let pushed: f64 = accelerations.iter().map(|value| value.abs()).sum();
-        let [up, down] = [1.0, -1.0].map(|sign| {
-            let (products, speeds) = form.largest(sign);
-            (sign, sign * gravity + products, speeds)
-        });
-        let (sign, torque, speeds) = if up.1 >= down.1 { up } else { down };
+        let [up, down] = form.largest();
+        (gravity + up.0).max(down.0 - gravity) + pushed + self.resistance
+    }
+
+    /// The motion with the largest torque.
+    pub(in crate::bound) fn largest(&self, values: &[f64]) -> LargestMotion {
+        let (gravity, accelerations, form) = self.parts(values);
+        let [up, down] = form.largest();
+        let (sign, speeds) = if gravity + up.0 >= down.0 - gravity { (1.0, up.1) } else { (-1.0, down.1) };
         LargestMotion {
-            value: torque + pushed + self.resistance,
-            speeds,
+            speeds: speeds[..self.speeds].to_vec(),
             accelerations: accelerations.iter().map(|value| sign * value.signum()).collect(),
         }
     }

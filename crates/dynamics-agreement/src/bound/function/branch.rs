@@ -21,20 +21,20 @@ const ROUNDING: f64 = 1e-13;
 
 /// When a search ends.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stop {
+pub(in crate::bound) struct Stop {
     /// The bound need not be lower than this.
-    pub(super) below: f64,
+    pub(in crate::bound) below: f64,
     /// Boxes that may be divided.
-    pub(super) boxes: usize,
+    pub(in crate::bound) boxes: usize,
     /// Control values that may be computed.
-    pub(super) control_values: usize,
+    pub(in crate::bound) control_values: usize,
 }
 
 /// An upper bound and what it cost.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct UpperBound {
-    pub(super) value: f64,
-    pub(super) boxes: usize,
+pub(in crate::bound) struct UpperBound {
+    pub(in crate::bound) value: f64,
+    pub(in crate::bound) boxes: usize,
 }
 
 struct Region {
@@ -75,7 +75,7 @@ impl Ord for Region {
 }
 
 /// The largest norm over the whole range, from above.
-pub(super) fn upper_bound(function: &Trigonometric, stop: Stop) -> UpperBound {
+pub(in crate::bound) fn upper_bound(function: &Trigonometric, stop: Stop) -> UpperBound {
     let ranges: Vec<(f64, f64)> =
         function.variables.iter().map(|variable| (variable.lower, variable.upper)).collect();
     let speeds = vec![(-1.0, 1.0); function.measure.speeds()];
