@@ -61,13 +61,11 @@ pub(super) fn compared(
         // Equal as they are written, in frames that differ: it is the geometry that is wrong, which is said already.
         let is_written_alike =
             expected.inertials == found.inertials && expected.resistances == found.resistances;
-        match expected.in_frames_of(&found).filter(|_| !is_written_alike) {
-            Some(in_frames) => expected = in_frames,
-            None => {
-                against.dynamics_not_compared = misplaced;
-                return Ok((against, None));
-            }
-        }
+        let Some(in_frames) = expected.in_frames_of(&found).filter(|_| !is_written_alike) else {
+            against.dynamics_not_compared = misplaced;
+            return Ok((against, None));
+        };
+        expected = in_frames;
     }
     against.links_in_other_frames = in_other_frames;
     let [name, other_name] = [description, other].map(|of| of.urdf_path.display().to_string());

@@ -172,7 +172,7 @@ impl FileAccess {
     }
 
     fn note(&self, name: &dyn Display, path: &Path, bytes: &[u8]) {
-        let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        let sha256 = format!("{:x}", Sha256::digest(bytes));
         self.add(&[InputFile { file: name.to_string(), sha256, path: path.to_owned() }]);
     }
 }

@@ -153,12 +153,8 @@ impl RunSetup {
         found.keep(check_head(&scenario, place));
         let written = keep_all(&mut found, start(&scenario.start, place.key("start"), robot));
         let start = inside_limits(written, robot, &mut warnings);
-        let limits = motion_limits::build(&scenario.limits, place.key("limits"), &description);
-        let trajectory = keep_all(&mut found, limits).and_then(|limits| {
-            let places = place.key("motion");
-            let input = MotionInput { motions: &scenario.motion, places, limits: &limits, folder };
-            keep_all(&mut found, Trajectory::new(input, &description, &start, &mut warnings))
-        });
+        let trajectory = trajectory(&scenario, (place, folder), (&description, &start), &mut warnings);
+        let trajectory = keep_all(&mut found, trajectory);
         // Motions that cannot be planned are no fault of the clock.
         let motions_s = trajectory.as_ref().map_or_else(|| written_s(&scenario), Trajectory::duration_s);
         let clock = place.key("simulation");
@@ -266,6 +262,19 @@ impl RunSetup {
     pub(crate) fn actuator_limits(&self) -> Vec<ActuatorLimits> {
         ActuatorLimits::of(&self.description.robot, &self.scenario.joints)
     }
+}
+
+/// The motions, planned one after another.
+fn trajectory(
+    scenario: &Scenario,
+    (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
+    (description, start): (&RobotDescription, &RobotQ),
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Trajectory, Vec<Diagnostic>> {
+    let limits = motion_limits::build(&scenario.limits, place.key("limits"), description)?;
+    let places = place.key("motion");
+    let input = MotionInput { motions: &scenario.motion, places, limits: &limits, folder };
+    Trajectory::new(input, description, start, warnings)
 }
 
 /// The time of the motions as far as the scenario says it; a second for each that does not.
