@@ -4,9 +4,11 @@
 use regex_lite::Regex;
 
 /// What machines may disagree on, and what is compared in its place.
-const ROUNDING: [(&str, &str); 6] = [
-    (r"\b\d(\.\d+)?e-[123]\d\b", "<rounding>"),
+const ROUNDING: [(&str, &str); 8] = [
+    (r"\b\d(\.\d+)?e-[123]\d\b|\b0\.0+e0\b", "<rounding>"),
     (r"(<rounding> (?:m|rad) +at )\S+", "$1<place>"),
+    (r"\([\d.]+ s\)", "(<time>)"), // of an extreme that lasts
+    (r"\b\d+\.\d{12,}(?:e-?\d+)?", "<digits>"),
     (r"\b(?:[0-9a-f]{64}|[0-9a-f]{16})\b", "<hash>"),
     (r"\b\d+ bytes", "<size> bytes"),
     (r"-(0(?:\.0+)?)([^.\d]|$)", "$1$2"),

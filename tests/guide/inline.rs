@@ -56,3 +56,19 @@ fn commands_in_the_text_exist() {
     }
     assert!(found > 20, "{found} commands were found");
 }
+
+#[test]
+fn files_in_toml_are_toml() {
+    let mut found = 0;
+    for page in pages() {
+        for block in page.text.split("```toml").skip(1) {
+            let (_, text) = block.split_once('\n').unwrap();
+            let text = text.split("```").next().unwrap_or_default();
+            if let Err(error) = text.parse::<toml::Table>() {
+                panic!("{}: {error}\n{text}", page.name);
+            }
+            found += 1;
+        }
+    }
+    assert!(found > 10, "{found} blocks were found");
+}

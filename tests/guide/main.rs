@@ -2,10 +2,12 @@
 //! prints what is shown. `GUIDE=update cargo test --release -p congruent-cli --test guide` writes what is printed into the
 //! pages instead, in the lines that are shown; the change is then read in the diff.
 
+#![cfg(unix)] // the commands are lines of a shell
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
 
 mod alignment;
 mod causes;
+mod figures;
 mod inline;
 mod page;
 mod sandbox;
@@ -39,6 +41,7 @@ fn play(page: &Page) -> Result<String, String> {
             }
         }
     }
+    faults.extend(figures::compare(&sandbox, is_update()));
     if faults.is_empty() || is_update() { Ok(changed) } else { Err(faults.join("\n\n")) }
 }
 

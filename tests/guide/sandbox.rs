@@ -1,6 +1,11 @@
 //! A folder with a copy of what the guide's commands read, in which they run as in the root of the project.
 
-use std::{env, fs, os::unix::fs::symlink, path::Path, process};
+use std::{
+    env, fs,
+    os::unix::fs::symlink,
+    path::{Path, PathBuf},
+    process,
+};
 
 use tempfile::TempDir;
 
@@ -54,6 +59,13 @@ impl Sandbox {
         let path = self.folder.path().join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, text).unwrap();
+    }
+
+    /// The files in the folder itself with this extension.
+    pub(crate) fn files(&self, extension: &str) -> Vec<PathBuf> {
+        let entries = fs::read_dir(self.folder.path()).unwrap().flatten();
+        let paths = entries.map(|entry| entry.path());
+        paths.filter(|path| path.extension().is_some_and(|found| found == extension)).collect()
     }
 
     pub(crate) fn run(&self, command: &str) -> Answer {

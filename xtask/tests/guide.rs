@@ -124,6 +124,32 @@ fn every_link_leads_somewhere() {
     assert!(count > 50, "{count} links were found");
 }
 
+/// Lines without indentation; what the formatter puts between them does not count.
+fn code_lines(text: &str) -> Vec<&str> {
+    text.lines().map(str::trim).filter(|line| !line.is_empty()).collect()
+}
+
+#[test]
+fn programs_are_those_of_the_tests() {
+    let tests = read(&root().join("crates/congruent/tests/guide.rs"));
+    let tests = code_lines(&tests);
+    let mut count = 0;
+    for page in all_pages() {
+        let text = read(&root().join(&page));
+        for block in text.split("```rust\n").skip(1) {
+            let program = code_lines(block.split("```").next().unwrap_or_default());
+            let is_there = tests.windows(program.len()).any(|lines| lines == program);
+            assert!(
+                is_there,
+                "{page}: crates/congruent/tests/guide.rs does not have\n{}",
+                program.join("\n")
+            );
+            count += 1;
+        }
+    }
+    assert!(count >= 4, "{count} programs were found");
+}
+
 #[test]
 fn pictures_are_used() {
     let linked: BTreeSet<PathBuf> = all_pages()
