@@ -76,9 +76,10 @@ pub(crate) fn updated(shown: &[String], printed: &str) -> String {
     let mut text = String::new();
     let mut next = 0;
     for line in shown.iter().filter(|line| !is_gap(line) && !line.trim().is_empty()) {
-        let likeness = |at: &usize| (1000.0 * alike(line, printed[*at])) as u32;
+        let by_likeness =
+            |one: &usize, two: &usize| alike(line, printed[*one]).total_cmp(&alike(line, printed[*two]));
         // Of equals the first.
-        let Some(best) = (next..printed.len()).rev().max_by_key(likeness) else { break };
+        let Some(best) = (next..printed.len()).rev().max_by(by_likeness) else { break };
         if alike(line, printed[best]) < LIKE {
             continue;
         }

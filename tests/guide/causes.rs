@@ -22,9 +22,10 @@ fn named(value: &Value, found: &mut BTreeSet<String>) {
     match value {
         Value::Object(entries) => {
             for (key, value) in entries {
-                match value.as_str() {
-                    Some(cause) if key == "cause" => drop(found.insert(cause.to_owned())),
-                    _ => named(value, found),
+                if let Some(cause) = value.as_str().filter(|_| key == "cause") {
+                    found.insert(cause.to_owned());
+                } else {
+                    named(value, found);
                 }
             }
         }

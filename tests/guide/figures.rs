@@ -1,24 +1,22 @@
 //! Plots that a page's commands write under the name of a picture of the guide: the picture is that plot.
 
-use std::{fs, path::Path};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use regex_lite::Regex;
 
 use crate::{page::root, sandbox::Sandbox};
 
-/// What differs; an update takes the plot as the picture.
-pub(crate) fn compare(sandbox: &Sandbox, is_update: bool) -> Vec<String> {
-    let mut faults = Vec::new();
-    for plot in sandbox.files("svg") {
-        let name = plot.file_name().unwrap();
-        let picture = root().join("docs/images").join(name);
-        if is_update {
-            fs::copy(&plot, &picture).unwrap();
-        } else if !picture.is_file() || labels(&plot) != labels(&picture) {
-            faults.push(format!("{} is not what the command draws", picture.display()));
-        }
-    }
-    faults
+/// Plots that differ from their pictures, each with the place of its picture.
+pub(crate) fn differing(sandbox: &Sandbox) -> Vec<(PathBuf, PathBuf)> {
+    let plots = sandbox.files("svg").into_iter();
+    let pairs = plots.map(|plot| {
+        let picture = root().join("docs/images").join(plot.file_name().unwrap());
+        (plot, picture)
+    });
+    pairs.filter(|(plot, picture)| !picture.is_file() || labels(plot) != labels(picture)).collect()
 }
 
 /// The texts of a plot. Its points are rounded where machines may disagree, titles and ticks are not.

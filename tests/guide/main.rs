@@ -14,7 +14,7 @@ mod sandbox;
 
 use std::{fs, thread};
 
-use page::Page;
+use page::{Block, Command, Page};
 use sandbox::Sandbox;
 
 /// Runs every block of a page; what differs, or the page as it should be.
@@ -23,26 +23,40 @@ fn play(page: &Page) -> Result<String, String> {
     let (mut faults, mut changed) = (Vec::new(), page.text.clone());
     for block in &page.blocks {
         match block {
-            page::Block::File { path, text } => sandbox.write(path, text),
-            page::Block::Commands { line, exit, commands } => {
-                for (at, command) in commands.iter().enumerate() {
-                    let expected = if at + 1 == commands.len() { *exit } else { 0 };
-                    let answer = sandbox.run(&command.text);
-                    let place = format!("{}:{}: $ {}", page.name, line, command.text);
-                    if answer.code != expected {
-                        faults.push(format!("{place}\nexit code {}: {}", answer.code, answer.printed));
-                    } else if let Err(fault) = alignment::compare(&command.shown, &answer.printed) {
-                        let old = [command.written.as_str(), &command.shown.concat()].concat();
-                        let new = alignment::updated(&command.shown, &answer.printed);
-                        changed = changed.replacen(&old, &(command.written.clone() + &new), 1);
-                        faults.push(format!("{place}\n{fault}"));
-                    }
+            Block::File { path, text } => sandbox.write(path, text),
+            Block::Commands { line, exit, commands } => {
+                let last = commands.len().saturating_sub(1);
+                let played = commands.iter().enumerate().filter_map(|(at, command)| {
+                    let exit = if at == last { *exit } else { 0 };
+                    let (fault, update) = differs(command, exit, &sandbox)?;
+                    Some((format!("{}:{line}: $ {}{fault}", page.name, command.text), update))
+                });
+                for (fault, [old, new]) in played {
+                    changed = changed.replacen(&old, &new, 1);
+                    faults.push(fault);
                 }
             }
         }
     }
-    faults.extend(figures::compare(&sandbox, is_update()));
+    for (plot, picture) in figures::differing(&sandbox) {
+        if is_update() {
+            fs::copy(&plot, &picture).unwrap();
+        }
+        faults.push(format!("{} is not what the command draws", picture.display()));
+    }
     if faults.is_empty() || is_update() { Ok(changed) } else { Err(faults.join("\n\n")) }
+}
+
+/// Runs a command: what is other than its page shows, with the text of the page as it is and as it should be.
+fn differs(command: &Command, exit: i32, sandbox: &Sandbox) -> Option<(String, [String; 2])> {
+    let answer = sandbox.run(&command.text);
+    let old = [command.written.as_str(), &command.shown.concat()].concat();
+    if answer.code != exit {
+        return Some((format!("exit code {}: {}", answer.code, answer.printed), [old.clone(), old]));
+    }
+    let fault = alignment::compare(&command.shown, &answer.printed).err()?;
+    let new = command.written.clone() + &alignment::updated(&command.shown, &answer.printed);
+    Some((fault, [old, new]))
 }
 
 fn is_update() -> bool {

@@ -112,7 +112,7 @@ fn a_source_of_torques() {
 
         let robot = load_robot("docs/examples/arm".as_ref()).expect("a robot without faults").robot;
         let file = Side::new(&robot);
-        /// All names of the explanations that have the same effect on every torque.
+        // All names of the explanations that have the same effect on every torque.
         let named = |change: fn(&mut Inertial), resistance: f64| -> Vec<DynamicsCause> {
             let mut imported = file.clone();
             let link = imported.frames().find_link("forearm").expect("a link");
