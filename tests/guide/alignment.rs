@@ -71,7 +71,7 @@ fn ends_with(shown: &[&String], printed: &[String]) -> bool {
 pub(crate) fn updated(shown: &[String], printed: &str) -> String {
     let printed: Vec<&str> = lines(printed);
     if !shown.iter().any(|line| is_gap(line)) {
-        return printed.iter().map(|line| format!("{}\n", line.trim_end())).collect();
+        return printed.iter().flat_map(|line| [line.trim_end(), "\n"]).collect();
     }
     let mut text = String::new();
     let mut next = 0;

@@ -17,6 +17,15 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
+fn is_page(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "md")
+}
+
+/// A path from the root.
+fn name_of(path: &Path) -> String {
+    path.strip_prefix(root()).expect("below the root").to_str().expect("names are UTF-8").to_owned()
+}
+
 /// The pages below a folder, as paths from the root.
 fn pages_below(folder: &str) -> BTreeSet<String> {
     let mut pages = BTreeSet::new();
@@ -26,9 +35,8 @@ fn pages_below(folder: &str) -> BTreeSet<String> {
             let path = entry.path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "md") {
-                let name = path.strip_prefix(root()).expect("below the root");
-                pages.insert(name.to_str().expect("names are UTF-8").to_owned());
+            } else if is_page(&path) {
+                pages.insert(name_of(&path));
             }
         }
     }
@@ -73,12 +81,9 @@ fn anchor(heading: &str) -> String {
 
 /// Pages whose links are checked: those of the guide and those in the root.
 fn all_pages() -> BTreeSet<String> {
-    let mut pages = pages_below("docs");
-    for entry in fs::read_dir(root()).expect("the root").flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        pages.extend(name.ends_with(".md").then_some(name));
-    }
-    pages
+    let entries = fs::read_dir(root()).expect("the root").flatten();
+    let in_root = entries.map(|entry| entry.path()).filter(|path| is_page(path));
+    in_root.map(|path| name_of(&path)).chain(pages_below("docs")).collect()
 }
 
 #[test]
