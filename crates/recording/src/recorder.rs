@@ -16,18 +16,23 @@ use re_log_types::{StoreId, StoreKind};
 
 use crate::{
     blueprint::layout::ViewerLayout,
-    outcome::{summary, timeline},
+    outcome::{joint_limits, limit_lines::LimitLines, summary, timeline},
     rrd::{identity, times::SampleTime, writer::RrdWriter},
     scene::{
         camera::{BoundingBox, Camera, ThinnedPath},
-        shapes, styles,
-        visual::VisualBody,
+        frames,
+        shapes::{self, SceneBody},
+        styles,
     },
     series::{
         checks::CheckSeries,
         clearance::ClearanceSeries,
+        colors::ColorSeries,
         disagreement::{AgreementLimits, DisagreementSeries},
+        extents::Extents,
+        pairs::PairSeries,
         samples::SampleBatch,
+        zones::ZoneSeries,
     },
 };
 
@@ -42,13 +47,20 @@ pub struct RerunRecorder {
     names: Names,
     description: RobotDescription,
     obstacles: Vec<Obstacle>,
-    bodies: Vec<VisualBody>,
+    zones: Vec<String>,
+    bodies: Vec<SceneBody>,
+    /// Which of the bodies violate a limit at the present sample.
+    are_violating: Vec<bool>,
     tip_from_tcp: Isometry3<f64>,
     stride: u64,
     batch: SampleBatch,
     disagreement: DisagreementSeries,
+    pairs: PairSeries,
+    colors: ColorSeries,
     clearance: ClearanceSeries,
+    zone_distances: ZoneSeries,
     checks: CheckSeries,
+    extents: Extents,
     robot_box: BoundingBox,
     tool_path: ThinnedPath,
 }
@@ -80,9 +92,11 @@ impl RerunRecorder {
             orientation_rad: tolerance.orientation_rad,
         });
         let mut writer = RrdWriter::create(path, identity::store(setup, StoreKind::Recording))?;
-        let bodies = shapes::bodies(&description.robot, 0.0);
+        let bodies = shapes::bodies(setup);
         shapes::write(&mut writer, setup, &bodies)?;
+        frames::write(&mut writer, description)?;
         DisagreementSeries::write_static(&mut writer)?;
+        PairSeries::write_static(&mut writer)?;
         styles::write(&mut writer, &description.robot, names, sources)?;
         writer.flush()?;
         Ok(Self {
@@ -91,13 +105,19 @@ impl RerunRecorder {
             names: names.clone(),
             description: description.clone(),
             obstacles: setup.obstacles.clone(),
+            zones: setup.zones.iter().map(|zone| zone.space.name.clone()).collect(),
+            are_violating: vec![false; bodies.len()],
+            colors: ColorSeries::new(bodies.len()),
             bodies,
             tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
             stride: stride(setup.clock.step_s),
             batch: SampleBatch::new(names, moving_names(setup)),
             disagreement: DisagreementSeries::new(names.links.len(), limits),
+            pairs: PairSeries::new(&setup.scenario.check),
             clearance: ClearanceSeries::default(),
+            zone_distances: ZoneSeries::new(setup.zones.len()),
             checks: CheckSeries::default(),
+            extents: Extents::new(names.joints.len(), names.links.len()),
             robot_box: BoundingBox::empty(),
             tool_path: ThinnedPath::new(),
         })
@@ -105,8 +125,11 @@ impl RerunRecorder {
 
     fn write_batch(&mut self) -> Result<(), RecordingError> {
         self.batch.write(&mut self.writer, &self.names)?;
-        self.disagreement.write(&mut self.writer, &self.names.links, &self.bodies)?;
+        self.disagreement.write(&mut self.writer, &self.names.links)?;
+        self.pairs.write(&mut self.writer, &self.names)?;
+        self.colors.write(&mut self.writer, &self.bodies)?;
         self.clearance.write(&mut self.writer, &self.names.pairs)?;
+        self.zone_distances.write(&mut self.writer, self.zones.iter())?;
         self.checks.write(&mut self.writer)?;
         self.writer.flush()
     }
@@ -114,8 +137,8 @@ impl RerunRecorder {
 
 impl Recorder for RerunRecorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
-        self.checks.observe(sample.values);
-        let is_due = sample.step.is_multiple_of(self.stride) || sample.is_last;
+        let is_new_violation = self.checks.observe(sample.values);
+        let is_due = is_new_violation || sample.step.is_multiple_of(self.stride) || sample.is_last;
         if !is_due && !self.disagreement.would_change(sample.errors) {
             return Ok(());
         }
@@ -134,9 +157,14 @@ impl Recorder for RerunRecorder {
         self.robot_box.include(&tool_in_world);
         self.tool_path.push(tool_in_world);
         self.batch.push(time, sample, [&by_twin, &by_model]);
-        self.disagreement.push(time, sample);
+        self.extents.include(sample);
+        self.are_violating.fill(false);
+        self.disagreement.push(time, sample, &mut self.are_violating);
+        self.pairs.push(time, sample, &mut self.are_violating);
+        self.colors.push(time, &self.are_violating);
         self.checks.push(time);
         self.clearance.push(time, sample.clearance, sample.twin.len());
+        self.zone_distances.push(time, sample.zones, sample.twin.len());
         Ok(())
     }
 }
@@ -144,6 +172,9 @@ impl Recorder for RerunRecorder {
 impl Recording for RerunRecorder {
     fn finish(mut self: Box<Self>, report: &RunReport) -> Result<(), RecordingError> {
         self.write_batch()?;
+        let lines = LimitLines::until(timeline::time(report, report.simulation.duration_s));
+        lines.write_checks(&mut self.writer, report)?;
+        joint_limits::write(&mut self.writer, &lines, (&self.description, &self.names))?;
         timeline::write(&mut self.writer, report)?;
         summary::write(&mut self.writer, report)?;
         let layout = ViewerLayout {
@@ -153,6 +184,9 @@ impl Recording for RerunRecorder {
             has_obstacles: !self.obstacles.is_empty(),
             camera: Camera::framing(self.robot_box, &self.obstacles, self.tool_path.points()),
             clearance_m: self.clearance.range_m,
+            zones_m: self.zone_distances.range_m,
+            extents: &self.extents,
+            ends_in_violation: self.colors.is_any_violating() || self.checks.is_any_outside(),
         };
         self.writer.open_store(self.layout_store)?;
         layout.write(&mut self.writer)?;

@@ -69,7 +69,7 @@ impl BoundingBox {
 }
 
 /// Half edges of a box that is centred at the shape's origin and contains the shape.
-fn half_size(geometry: &Geometry) -> Vector3<f64> {
+pub(super) fn half_size(geometry: &Geometry) -> Vector3<f64> {
     match geometry {
         Geometry::Box { size_m } => size_m / 2.0,
         Geometry::Cylinder { radius_m, length_m } => Vector3::new(*radius_m, *radius_m, length_m / 2.0),

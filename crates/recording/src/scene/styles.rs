@@ -10,6 +10,8 @@ use crate::rrd::{paths, writer::RrdWriter};
 
 /// Width of a line on the screen.
 const WIDTH_UI_POINTS: f32 = 1.5;
+/// Width of a line that may be hidden behind another.
+const WIDE_UI_POINTS: f32 = 3.0;
 
 /// Writes names and colours of all lines. If a table gives the poses of some links, the links whose poses
 /// come from the URDF alone are hidden at first: model and URDF are identical there.
@@ -22,22 +24,29 @@ pub(crate) fn write(
     let has_table = sources.iter().any(|source| *source != PoseSource::Urdf);
     for (index, (link, source)) in names.links.iter().zip(sources).enumerate() {
         let is_shown = !has_table || *source != PoseSource::Urdf;
-        let style = line(link, palette::link(index)).with_visible_series([is_shown]);
+        let style = line(link, palette::link(index), WIDTH_UI_POINTS).with_visible_series([is_shown]);
         writer.log_static(&paths::position_error(link), &style)?;
         writer.log_static(&paths::orientation_error(link), &style)?;
     }
     for (name, &joint) in names.joints.iter().zip(robot.movable_joints()) {
         // A joint has the colour of its child link.
-        let color = palette::link(robot.joint(joint).child.get());
-        writer.log_static(&paths::joint_position(name), &line(name, color))?;
+        let index = robot.joint(joint).child.get();
+        for quantity in ["position", "velocity", "effort", "deviation"] {
+            let style = line(name, palette::link(index), WIDTH_UI_POINTS);
+            writer.log_static(&paths::joint_value(quantity, name), &style)?;
+        }
+        for (quantity, word) in [("reference_position", "commanded"), ("measured_position", "measured")] {
+            let style = line(&format!("{name}, {word}"), palette::dim(index), WIDE_UI_POINTS);
+            writer.log_static(&paths::joint_value(quantity, name), &style)?;
+        }
     }
     for (quantity, index) in [("position", 0), ("orientation", 1)] {
-        let style = line(quantity, palette::link(index));
+        let style = line(quantity, palette::link(index), WIDTH_UI_POINTS);
         writer.log_static(&paths::worst_of_links(quantity), &style)?;
     }
     Ok(())
 }
 
-fn line(name: &str, color: Color) -> SeriesLines {
-    SeriesLines::new().with_names([name]).with_colors([color]).with_widths([WIDTH_UI_POINTS])
+fn line(name: &str, color: Color, width: f32) -> SeriesLines {
+    SeriesLines::new().with_names([name]).with_colors([color]).with_widths([width])
 }

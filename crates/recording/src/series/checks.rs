@@ -2,6 +2,7 @@
 
 use congruent_twin::{
     recorder::RecordingError,
+    scenario::CheckKind,
     verdict::{CheckValue, InstantValue},
 };
 use re_sdk_types::archetypes::SeriesLines;
@@ -25,6 +26,10 @@ struct Line {
     /// Kind of the check with its number, and the quantity with its unit.
     path: [String; 2],
     has_name: bool,
+    /// Whether a value was outside the limit.
+    is_violated: bool,
+    /// Whether the last value was.
+    is_outside: bool,
 }
 
 /// All quantities of all checks.
@@ -33,10 +38,19 @@ pub(crate) struct CheckSeries {
     lines: Vec<Line>,
 }
 
+/// The two parts of a path that tell a quantity of a check, by its number from 0: kind with number, quantity with unit.
+pub(crate) fn path_parts(check: usize, kind: CheckKind, (quantity, unit): (&str, &str)) -> [String; 2] {
+    let unit = unit.replace([' ', '/'], "_");
+    let quantity = if unit.is_empty() { quantity.to_owned() } else { format!("{quantity}_{unit}") };
+    [format!("{}_{}", check + 1, kind.word()), quantity]
+}
+
 impl CheckSeries {
-    /// Takes the values of a sample, recorded or not.
-    pub(crate) fn observe(&mut self, values: &[CheckValue]) {
+    /// Takes the values of a sample, recorded or not; returns whether one is the first of its kind outside its limit.
+    pub(crate) fn observe(&mut self, values: &[CheckValue]) -> bool {
+        let mut is_new_violation = false;
         for value in values {
+            let is_outside = !value.of.bound.holds(value.of.value, value.of.limit);
             let is_same = |line: &&mut Line| {
                 let of = &line.of;
                 (line.check, of.quantity, of.unit) == (value.check, value.of.quantity, value.of.unit)
@@ -47,10 +61,22 @@ impl CheckSeries {
                         line.of.value = value.of.value;
                     }
                     line.is_new = true;
+                    is_new_violation |= is_outside && !line.is_violated;
+                    line.is_violated |= is_outside;
+                    line.is_outside = is_outside;
                 }
-                None => self.lines.push(Line::new(value)),
+                None => {
+                    is_new_violation |= is_outside;
+                    self.lines.push(Line { is_violated: is_outside, is_outside, ..Line::new(value) });
+                }
             }
         }
+        is_new_violation
+    }
+
+    /// Whether a quantity that is measured at every sample is outside its limit at the last one.
+    pub(crate) fn is_any_outside(&self) -> bool {
+        self.lines.iter().any(|line| line.is_outside && line.path[1] != "distance_m")
     }
 
     /// Adds a row of the worst values.
@@ -70,18 +96,16 @@ impl CheckSeries {
 
 impl Line {
     fn new(value: &CheckValue) -> Self {
-        let InstantValue { quantity, unit, .. } = value.of;
-        let check = format!("{}_{}", value.check + 1, value.kind.word());
-        let unit = unit.replace([' ', '/'], "_");
-        let quantity = if unit.is_empty() { quantity.to_owned() } else { format!("{quantity}_{unit}") };
         Self {
             check: value.check,
             of: value.of,
             is_new: true,
             times: SampleTimes::default(),
             values: Vec::new(),
-            path: [check, quantity],
+            path: path_parts(value.check, value.kind, (value.of.quantity, value.of.unit)),
             has_name: false,
+            is_violated: false,
+            is_outside: false,
         }
     }
 

@@ -1,0 +1,106 @@
+//! Frames on demand: of every link by the twin, of the DH table by the model, and of the tool. They follow the recorded
+//! poses, so that they cost nothing over time; the layout hides them at first.
+
+use congruent_description::{RobotDescription, RobotQ};
+use congruent_kinematics::{DhChain, Pose, UrdfTree};
+use congruent_twin::recorder::RecordingError;
+use nalgebra::{Isometry3, Vector3};
+use re_log_types::EntityPath;
+use re_sdk_types::{
+    archetypes::{Arrows3D, CoordinateFrame, Points3D},
+    components::Radius,
+};
+
+use super::palette;
+use crate::rrd::{
+    convert::vector,
+    paths,
+    writer::{RrdWriter, failed},
+};
+
+/// Length of the axes of a frame.
+const AXIS_M: f64 = 0.1;
+/// Length of the axis of a joint, which is z of a frame of the table.
+const JOINT_AXIS_M: f64 = 0.25;
+/// Thickness of an axis on the screen.
+const AXIS_UI_POINTS: f32 = 2.0;
+
+/// A frame that is fixed to a recorded pose.
+struct AttachedFrame<'a> {
+    kind: &'a str,
+    name: &'a str,
+    /// The entity whose pose it follows.
+    to: EntityPath,
+    to_from_frame: Isometry3<f64>,
+    z_m: f64,
+}
+
+/// Writes all frames.
+pub(crate) fn write(writer: &mut RrdWriter, description: &RobotDescription) -> Result<(), RecordingError> {
+    for link in description.robot.links() {
+        let to = paths::twin(&link.name);
+        let (name, to_from_frame) = (link.name.as_str(), Isometry3::identity());
+        AttachedFrame { kind: "link", name, to, to_from_frame, z_m: AXIS_M }.write(writer)?;
+    }
+    let tip = paths::twin(&description.robot.link(description.tip).name);
+    let to_from_frame = description.tip_from_tcp.unwrap_or_else(Isometry3::identity);
+    AttachedFrame { kind: "tool", name: "tcp", to: tip, to_from_frame, z_m: AXIS_M }.write(writer)?;
+    for (number, (link, link_from_dh)) in dh_frames(description)?.into_iter().enumerate() {
+        let (name, to) = (format!("dh{number}"), paths::model(link));
+        let frame = AttachedFrame {
+            kind: "dh",
+            name: &name,
+            to,
+            to_from_frame: link_from_dh.to_isometry(),
+            z_m: JOINT_AXIS_M,
+        };
+        frame.write(writer)?;
+    }
+    Ok(())
+}
+
+/// For each frame of the table the link that it is fixed to in the model, and its pose there.
+fn dh_frames(description: &RobotDescription) -> Result<Vec<(&str, Pose)>, RecordingError> {
+    let (robot, Some(table)) = (&description.robot, &description.dh) else { return Ok(Vec::new()) };
+    let at_zero = RobotQ::zeros(robot.dof());
+    let chain = DhChain::new(table, robot);
+    let mut base_from_dh = vec![Pose::identity(); chain.joint_count() + 1];
+    chain.dh_frames_into(&at_zero, &mut base_from_dh).map_err(failed)?;
+    let mut root_from_links = vec![Pose::identity(); robot.links().len()];
+    UrdfTree::new(robot).root_from_links_into(&at_zero, &mut root_from_links).map_err(failed)?;
+    let root_from_base = root_from_links[description.base.get()];
+    let moved = table.rows.iter().map(|row| robot.joint(row.joint).child);
+    let links = std::iter::once(description.base).chain(moved);
+    // What a row moves has one constant transform, which is fitted at zero as well.
+    let fixed = links.zip(&base_from_dh).map(|(link, base_from_dh)| {
+        let link_from_root = root_from_links[link.get()].inverse();
+        (robot.link(link).name.as_str(), link_from_root * (root_from_base * *base_from_dh))
+    });
+    let mut frames: Vec<_> = fixed.collect();
+    if let Some(last) = frames.last_mut() {
+        // The tip is declared in the last frame.
+        let tip_from_dhn = Pose::from(table.dhn_from_tip).inverse();
+        *last = (robot.link(description.tip).name.as_str(), tip_from_dhn);
+    }
+    Ok(frames)
+}
+
+impl AttachedFrame<'_> {
+    fn write(&self, writer: &mut RrdWriter) -> Result<(), RecordingError> {
+        let origin = vector(&self.to_from_frame.translation.vector);
+        let axes = [Vector3::x() * AXIS_M, Vector3::y() * AXIS_M, Vector3::z() * self.z_m];
+        let arrows = Arrows3D::from_vectors(axes.map(|axis| vector(&(self.to_from_frame * axis))))
+            .with_origins([origin; 3])
+            .with_colors(palette::AXES)
+            .with_radii([Radius::new_ui_points(AXIS_UI_POINTS)]);
+        let name = Points3D::new([origin])
+            .with_radii([Radius::new_ui_points(0.0)])
+            .with_colors([palette::NEUTRAL])
+            .with_labels([self.name])
+            .with_show_labels(true);
+        let path = paths::frame(self.kind, self.name);
+        writer.log_static(&path, &CoordinateFrame::new(format!("tf#{}", self.to)))?;
+        writer.log_static(&path, &arrows)?;
+        writer.log_static(&path, &name)
+    }
+}
