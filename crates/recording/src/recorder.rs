@@ -10,6 +10,7 @@ use congruent_twin::{
     monitor::Names,
     recorder::{Recorder, RecordingError},
     report::RunReport,
+    verdict::CheckValue,
 };
 use nalgebra::{Isometry3, Point3};
 use re_log_types::{StoreId, StoreKind};
@@ -25,7 +26,7 @@ use crate::{
         styles,
     },
     series::{
-        checks::CheckSeries,
+        checks::{CheckSeries, violating_link},
         clearance::ClearanceSeries,
         colors::ColorSeries,
         disagreement::{AgreementLimits, DisagreementSeries},
@@ -47,8 +48,11 @@ pub struct RerunRecorder {
     names: Names,
     description: RobotDescription,
     obstacles: Vec<Obstacle>,
-    zones: Vec<String>,
+    moving: Vec<String>,
+    zones: Vec<Obstacle>,
     bodies: Vec<SceneBody>,
+    /// For each link the link that it is fixed to and that a joint moves.
+    body_of_link: Vec<usize>,
     /// Which of the bodies violate a limit at the present sample.
     are_violating: Vec<bool>,
     tip_from_tcp: Isometry3<f64>,
@@ -61,6 +65,8 @@ pub struct RerunRecorder {
     zone_distances: ZoneSeries,
     checks: CheckSeries,
     extents: Extents,
+    /// Boxes around the shapes of the links, in their own frames.
+    link_boxes: Vec<BoundingBox>,
     robot_box: BoundingBox,
     tool_path: ThinnedPath,
 }
@@ -86,7 +92,7 @@ impl RerunRecorder {
         sources: &[PoseSource],
     ) -> Result<Self, RecordingError> {
         let description = &setup.description;
-        let tolerance = description.tolerance;
+        let (robot, tolerance) = (&description.robot, description.tolerance);
         let limits = AgreementLimits::of(&setup.scenario.check).unwrap_or(AgreementLimits {
             position_m: tolerance.position_m,
             orientation_rad: tolerance.orientation_rad,
@@ -105,7 +111,9 @@ impl RerunRecorder {
             names: names.clone(),
             description: description.clone(),
             obstacles: setup.obstacles.clone(),
-            zones: setup.zones.iter().map(|zone| zone.space.name.clone()).collect(),
+            moving: moving_names(setup),
+            zones: setup.zones.iter().map(|zone| zone.space.clone()).collect(),
+            body_of_link: robot.link_indices().map(|link| robot.body(link).get()).collect(),
             are_violating: vec![false; bodies.len()],
             colors: ColorSeries::new(bodies.len()),
             bodies,
@@ -118,9 +126,23 @@ impl RerunRecorder {
             zone_distances: ZoneSeries::new(setup.zones.len()),
             checks: CheckSeries::default(),
             extents: Extents::new(names.joints.len(), names.links.len()),
+            link_boxes: robot.links().iter().map(shapes::link_box).collect(),
             robot_box: BoundingBox::empty(),
             tool_path: ThinnedPath::new(),
         })
+    }
+
+    /// Marks the links that checks of joints and links have found outside their limits, with what is fixed to them.
+    fn mark_links(&mut self, values: &[CheckValue]) {
+        let robot = &self.description.robot;
+        for link in values.iter().filter_map(|value| violating_link(value, robot)) {
+            let body = self.body_of_link[link];
+            for (marked, _) in
+                self.are_violating.iter_mut().zip(&self.body_of_link).filter(|(_, of)| **of == body)
+            {
+                *marked = true;
+            }
+        }
     }
 
     fn write_batch(&mut self) -> Result<(), RecordingError> {
@@ -129,7 +151,7 @@ impl RerunRecorder {
         self.pairs.write(&mut self.writer, &self.names)?;
         self.colors.write(&mut self.writer, &self.bodies)?;
         self.clearance.write(&mut self.writer, &self.names.pairs)?;
-        self.zone_distances.write(&mut self.writer, self.zones.iter())?;
+        self.zone_distances.write(&mut self.writer, self.zones.iter().map(|zone| &zone.name))?;
         self.checks.write(&mut self.writer)?;
         self.writer.flush()
     }
@@ -137,8 +159,8 @@ impl RerunRecorder {
 
 impl Recorder for RerunRecorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
-        let is_new_violation = self.checks.observe(sample.values);
-        let is_due = is_new_violation || sample.step.is_multiple_of(self.stride) || sample.is_last;
+        self.checks.observe(sample.values);
+        let is_due = sample.is_first_violation || sample.step.is_multiple_of(self.stride) || sample.is_last;
         if !is_due && !self.disagreement.would_change(sample.errors) {
             return Ok(());
         }
@@ -150,8 +172,8 @@ impl Recorder for RerunRecorder {
         let by_twin = sample.twin[tip] * self.tip_from_tcp;
         let by_model = sample.model[tip].to_isometry() * self.tip_from_tcp;
         let tool_in_world = Point3::from(by_twin.translation.vector);
-        for (twin, model) in sample.twin.iter().zip(sample.model) {
-            self.robot_box.include(&Point3::from(twin.translation.vector));
+        for ((twin, model), own) in sample.twin.iter().zip(sample.model).zip(&self.link_boxes) {
+            self.robot_box.include_box(own, twin);
             self.robot_box.include(&Point3::from(model.translation));
         }
         self.robot_box.include(&tool_in_world);
@@ -161,6 +183,7 @@ impl Recorder for RerunRecorder {
         self.are_violating.fill(false);
         self.disagreement.push(time, sample, &mut self.are_violating);
         self.pairs.push(time, sample, &mut self.are_violating);
+        self.mark_links(sample.values);
         self.colors.push(time, &self.are_violating);
         self.checks.push(time);
         self.clearance.push(time, sample.clearance, sample.twin.len());
@@ -172,9 +195,17 @@ impl Recorder for RerunRecorder {
 impl Recording for RerunRecorder {
     fn finish(mut self: Box<Self>, report: &RunReport) -> Result<(), RecordingError> {
         self.write_batch()?;
+        shapes::write_names(&mut self.writer, (&self.obstacles, &self.moving), &self.zones, self.robot_box)?;
         let lines = LimitLines::until(timeline::time(report, report.simulation.duration_s));
         lines.write_checks(&mut self.writer, report)?;
-        joint_limits::write(&mut self.writer, &lines, (&self.description, &self.names))?;
+        let robot = &self.description.robot;
+        let near_limits = joint_limits::near_limits(robot, &self.extents.joints);
+        joint_limits::write(&mut self.writer, &lines, (robot, &self.names), &near_limits)?;
+        for (number, name) in self.names.joints.iter().enumerate() {
+            if self.extents.joints[number].is_misread {
+                styles::write_measured(&mut self.writer, robot, (number, name))?;
+            }
+        }
         timeline::write(&mut self.writer, report)?;
         summary::write(&mut self.writer, report)?;
         let layout = ViewerLayout {
@@ -185,7 +216,10 @@ impl Recording for RerunRecorder {
             camera: Camera::framing(self.robot_box, &self.obstacles, self.tool_path.points()),
             clearance_m: self.clearance.range_m,
             zones_m: self.zone_distances.range_m,
+            distance_curves: &self.clearance.curves(&self.names.pairs),
             extents: &self.extents,
+            near_limits: &near_limits,
+            recorded: &self.checks.recorded(),
             ends_in_violation: self.colors.is_any_violating() || self.checks.is_any_outside(),
         };
         self.writer.open_store(self.layout_store)?;

@@ -9,7 +9,7 @@ use super::{
     tree::{LayoutNode, View},
 };
 use crate::{
-    outcome::joint_limits::limit_of,
+    outcome::joint_limits::NearLimit,
     rrd::paths,
     series::extents::{JointExtents, width},
 };
@@ -17,20 +17,18 @@ use crate::{
 /// From so many joints on, those that stand still are left out.
 const MANY: usize = 12;
 /// The most joints of one plot.
-const MAX_GROUP: usize = 8;
+const MAX_GROUP: usize = 7;
 /// A joint that goes no further stands still, rad or m.
 const STANDS_STILL: f64 = 1e-3;
 /// Differences below this are rounding, in SI units.
 const ROUNDING: f64 = 1e-9;
-/// A limit is in the picture if the values reach this part of it: a far one would press the curves flat.
-const NEAR_LIMIT: f64 = 0.3;
-
 /// The joints of a run with what they did.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct JointPlots<'a> {
     pub(super) robot: &'a Robot,
     pub(super) names: &'a Names,
     pub(super) extents: &'a [JointExtents],
+    pub(super) limits: &'a [NearLimit],
     pub(super) frame: PlotFrame,
 }
 
@@ -82,13 +80,12 @@ impl JointPlots<'_> {
 
     fn plot(&self, quantity: JointQuantity, group: &[usize], is_one_of_many: bool) -> LayoutNode {
         let unit = if group.iter().any(|&joint| self.is_length(joint)) { "m" } else { "rad" };
-        let names = || group.iter().map(|&joint| self.names.joints[joint].as_str());
         let title = match (quantity, unit) {
-            (Position, _) => format!("Joint positions [{unit}], wide: commanded"),
-            (Deviation, _) => format!("Deviations from the command [{unit}]"),
-            (Velocity, _) => format!("Joint velocities [{unit}/s]"),
-            (Effort, "m") => "Joint forces [N]".to_owned(),
-            (Effort, _) => "Joint torques [N m]".to_owned(),
+            (Position, _) => format!("Positions and commands (thin) [{unit}]"),
+            (Deviation, _) => format!("Deviations from commands [{unit}]"),
+            (Velocity, _) => format!("Velocities [{unit}/s]"),
+            (Effort, "m") => "Forces [N]".to_owned(),
+            (Effort, _) => "Torques [N m]".to_owned(),
         };
         let title = match (group, is_one_of_many) {
             ([only], true) => format!("{title}: {}", self.names.joints[*only]),
@@ -97,46 +94,37 @@ impl JointPlots<'_> {
             }
             _ => title,
         };
-        let mut entities: Vec<_> = names().map(|name| paths::joint_value(word(quantity), name)).collect();
-        let extent = |joint: usize| extent_of(quantity, &self.extents[joint]);
-        let mut range = group.iter().map(|&joint| extent(joint)).reduce(union);
+        let entities = |word: &str, joints: &mut dyn Iterator<Item = usize>| {
+            joints.map(|joint| paths::joint_value(word, &self.names.joints[joint])).collect::<Vec<_>>()
+        };
+        let mut shown = entities(word(quantity), &mut group.iter().copied());
+        // Positions go where they go; other values are held against 0 and against their limits.
+        let mut range = (-ROUNDING, ROUNDING);
         if quantity == Position {
-            let has_command = |&&joint: &&usize| {
-                width(self.extents[joint].deviation) >= 0.0 && self.extents[joint].deviation.0.is_finite()
-            };
-            let commanded = group.iter().filter(has_command);
-            entities.extend(
-                commanded.map(|&joint| paths::joint_value("reference_position", &self.names.joints[joint])),
-            );
-            let misread = group.iter().filter(|&&joint| self.extents[joint].is_misread);
-            entities.extend(
-                misread.map(|&joint| paths::joint_value("measured_position", &self.names.joints[joint])),
-            );
+            let is_commanded = |joint: &usize| self.extents[*joint].deviation.0.is_finite();
+            shown.extend(entities("reference_position", &mut group.iter().copied().filter(is_commanded)));
+            let is_misread = |joint: &usize| self.extents[*joint].is_misread;
+            shown.extend(entities("measured_position", &mut group.iter().copied().filter(is_misread)));
         }
-        for (joint, side, limit) in self.limits(quantity, group) {
-            range = range.map(|range| union(range, (limit, limit)));
-            entities.push(paths::joint_limit(word(quantity), &self.names.joints[joint], side));
+        for &joint in group {
+            range = union(range, extent_of(quantity, &self.extents[joint]));
         }
-        let view = View::new("TimeSeries", title, paths::path(&["joint"])).only(entities);
-        self.frame.plot(
-            view,
-            range.map(|range| union(range, (-ROUNDING, ROUNDING))).filter(|_| quantity != Position),
-        )
+        for limit in self.limits(quantity, group) {
+            range = union(range, (limit.value, limit.value));
+            shown.push(paths::joint_limit(limit.quantity, &self.names.joints[limit.joint], limit.side));
+        }
+        let view = View::new("TimeSeries", title, paths::path(&["joint"])).only(shown);
+        self.frame.plot(view, (quantity != Position).then_some(range))
     }
 
     /// The limits that are in the picture, each value once.
-    fn limits(&self, quantity: JointQuantity, group: &[usize]) -> Vec<(usize, &'static str, f64)> {
-        let mut limits: Vec<(usize, &'static str, f64)> = Vec::new();
-        for &joint in group {
-            let index = self.robot.movable_joints()[joint];
-            let Some(limit) = limit_of(self.robot.joint(index), word(quantity)) else { continue };
-            let (low, high) = extent_of(quantity, &self.extents[joint]);
-            for (side, limit, reached) in [("upper", limit, high), ("lower", -limit, -low)] {
-                let is_near = reached >= NEAR_LIMIT * limit.abs() && reached > 0.0;
-                #[expect(clippy::float_cmp, reason = "one value of a file")]
-                if is_near && !limits.iter().any(|&(.., known)| known == limit) {
-                    limits.push((joint, side, limit));
-                }
+    fn limits(&self, quantity: JointQuantity, group: &[usize]) -> Vec<NearLimit> {
+        let mut limits: Vec<NearLimit> = Vec::new();
+        for limit in self.limits.iter().filter(|limit| limit.quantity == word(quantity)) {
+            #[expect(clippy::float_cmp, reason = "one value of a file")]
+            let is_known = limits.iter().any(|known| known.value == limit.value);
+            if group.contains(&limit.joint) && !is_known {
+                limits.push(*limit);
             }
         }
         limits

@@ -31,7 +31,10 @@ use super::{
     tree::{BlueprintWriter, LayoutNode, View},
 };
 use crate::{
-    outcome::measures::{first_violation_s, of_kind},
+    outcome::{
+        joint_limits::NearLimit,
+        measures::{first_violation_s, of_kind},
+    },
     rrd::{
         convert::vector,
         paths,
@@ -52,6 +55,14 @@ const TRAIL_S: f64 = 2.0;
 const WINDOW_PIXELS: f32 = 840.0;
 const LANE_PIXELS: f32 = 40.0;
 const LANES_HEAD_PIXELS: f32 = 66.0;
+/// Heights of the plots of errors and of the summary.
+const AGREEMENT_PIXELS: f32 = 158.0;
+const SUMMARY_PIXELS: f32 = 235.0;
+/// Heights of a line of a legend, and of a plot without one.
+const LEGEND_LINE_PIXELS: f32 = 23.0;
+const PLOT_PIXELS: f32 = 62.0;
+/// The fewest and the most curves of distances for which there is room.
+const CURVES: (usize, usize) = (4, 7);
 /// The fewest and the most lanes that are in the picture.
 const LANES: (usize, usize) = (3, 9);
 /// The most links with a curve of their own.
@@ -76,8 +87,14 @@ pub(crate) struct ViewerLayout<'a> {
     pub(crate) clearance_m: Option<(f64, f64)>,
     /// The same of the distances from the zones.
     pub(crate) zones_m: Option<(f64, f64)>,
+    /// Names of the curves of distances.
+    pub(crate) distance_curves: &'a [String],
     /// What joints and links did.
     pub(crate) extents: &'a Extents,
+    /// Limits of joints that their values came near to.
+    pub(crate) near_limits: &'a [NearLimit],
+    /// The quantities of checks that are recorded, by the parts of their paths.
+    pub(crate) recorded: &'a [[String; 2]],
     /// Whether a limit is violated at the end of the run.
     pub(crate) ends_in_violation: bool,
 }
@@ -124,26 +141,32 @@ impl ViewerLayout<'_> {
     fn root(&self) -> LayoutNode {
         let lanes = self.lanes_pixels();
         let left = LayoutNode::Rows(vec![(WINDOW_PIXELS - lanes, self.scene()), (lanes, statuses())]);
-        let mut right = vec![(2.2, self.agreement())];
+        let mut right = vec![(AGREEMENT_PIXELS, self.agreement())];
         if let Some(distances) = self.distances() {
-            right.push((2.0, distances));
+            right.push((self.distances_pixels(), distances));
         }
         if let Some(joints) = self.joints() {
-            right.push((2.4, joints));
+            let others: f32 = right.iter().map(|(pixels, _)| pixels).sum();
+            right.push((WINDOW_PIXELS - SUMMARY_PIXELS - others, joints));
         }
         let summary = View::new("TextDocument", "Summary", paths::summary());
-        right.push((2.8, LayoutNode::Columns(vec![(1.0, summary.into()), (1.0, events())])));
+        right.push((SUMMARY_PIXELS, LayoutNode::Columns(vec![(1.0, summary.into()), (1.0, events())])));
         LayoutNode::Columns(vec![(1.0, left), (1.0, LayoutNode::Rows(right))])
+    }
+
+    /// Height of the plot of distances: its legend is in the picture.
+    fn distances_pixels(&self) -> f32 {
+        let (fewest, most) = CURVES;
+        let curves = u8::try_from(self.distance_curves.len().clamp(fewest, most)).unwrap_or(u8::MAX);
+        PLOT_PIXELS + LEGEND_LINE_PIXELS * f32::from(curves)
     }
 
     /// The axes of all plots.
     fn frame(&self) -> PlotFrame {
         let names = self.names.joints.iter().map(String::as_str);
-        let curves = self.shown_links().map(|link| self.names.links[link].as_str());
-        PlotFrame::new(
-            self.report.simulation.duration_s,
-            names.chain(curves).chain(["orientation tolerance"]),
-        )
+        let links = self.shown_links().map(|link| self.names.links[link].as_str());
+        let names = names.chain(links).chain(self.distance_curves.iter().map(String::as_str));
+        PlotFrame::new(self.report.simulation.duration_s, names.chain(["orientation tolerance"]))
     }
 
     fn scene(&self) -> LayoutNode {
@@ -222,7 +245,8 @@ impl ViewerLayout<'_> {
     /// Plots of distances, a violated one in front; `None` if there is nothing to be near to.
     fn distances(&self) -> Option<LayoutNode> {
         let frame = self.frame();
-        let is_checked = of_kind(self.report, "clearance").next().is_some();
+        let is_checked =
+            ["clearance", "contact"].iter().any(|kind| of_kind(self.report, kind).next().is_some());
         let clearance = self.clearance_m.filter(|_| is_checked || self.has_obstacles).map(|(low, high)| {
             let limit = of_kind(self.report, "clearance").map(|measure| measure.limit).fold(0.0, f64::max);
             let view = View::new("TimeSeries", "Clearance [m]", paths::path(&["clearance"]));
@@ -247,6 +271,7 @@ impl ViewerLayout<'_> {
             robot: &self.description.robot,
             names: self.names,
             extents: &self.extents.joints,
+            limits: self.near_limits,
             frame: self.frame(),
         };
         let mut tabs = self.failed_plots();
@@ -256,7 +281,7 @@ impl ViewerLayout<'_> {
 
     /// What checks without a plot of their own have measured outside a limit, the first violation first.
     fn failed_plots(&self) -> Vec<LayoutNode> {
-        let own = [CheckKind::Agreement, CheckKind::Clearance, CheckKind::Zone];
+        let own = [CheckKind::Agreement, CheckKind::Clearance, CheckKind::Contact, CheckKind::Zone];
         let checks = self.report.checks.iter().enumerate().filter(|(_, check)| !own.contains(&check.check));
         let violated = checks.flat_map(|(number, check)| {
             check.measures.iter().filter_map(move |measure| {
@@ -268,13 +293,17 @@ impl ViewerLayout<'_> {
         violated.dedup_by_key(|&mut (_, number, _, measure)| (number, measure.quantity));
         let frame = self.frame();
         let plot = |(_, number, kind, measure): (f64, usize, CheckKind, &Measure)| {
-            let [check, quantity] = path_parts(number, kind, (measure.quantity, measure.unit));
+            let parts = path_parts(number, kind, (measure.quantity, measure.unit));
+            if !self.recorded.contains(&parts) {
+                return None;
+            }
+            let [check, quantity] = parts;
             let unit = if measure.unit.is_empty() { "1" } else { measure.unit };
             let title = format!("{kind}: {} [{unit}]", quantity_words(measure.quantity));
             let entities = [paths::check(&check, &quantity), paths::check_limit(&check, &quantity)];
-            frame.plot(View::new("TimeSeries", title, paths::path(&[])).only(entities), None)
+            Some(frame.plot(View::new("TimeSeries", title, paths::path(&[])).only(entities), None))
         };
-        violated.into_iter().map(plot).collect()
+        violated.into_iter().filter_map(plot).collect()
     }
 }
 

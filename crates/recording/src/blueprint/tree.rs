@@ -168,8 +168,8 @@ impl<'a> BlueprintWriter<'a> {
             self.row(&path / EntityPathPart::new(*name), property.clone())?;
         }
         for entity in &view.hidden {
-            let overrides = &path / EntityPathPart::new("ViewContents") / EntityPathPart::new("overrides");
-            self.log(overrides.join(entity), &EntityBehavior::new().with_visible(false))?;
+            let at = ViewContents::blueprint_base_visualizer_path_for_entity(id, entity);
+            self.log(at, &EntityBehavior::new().with_visible(false))?;
         }
         if let Some((entity, duration_s)) = &view.trail {
             let at = ViewContents::blueprint_base_visualizer_path_for_entity(id, entity);

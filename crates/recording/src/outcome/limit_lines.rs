@@ -7,15 +7,19 @@ use congruent_twin::{
     verdict::{CheckResult, Measure},
 };
 use re_log_types::EntityPath;
-use re_sdk_types::{
-    archetypes::{Scalars, SeriesLines},
-    components::Color,
-};
+use re_sdk_types::{archetypes::SeriesLines, components::Color};
 
 use crate::{
-    rrd::{paths, times::SampleTime, writer::RrdWriter},
+    rrd::{
+        paths,
+        times::{SampleTime, SampleTimes},
+        writer::RrdWriter,
+    },
     scene::palette,
-    series::{checks::path_parts, scalars::log10},
+    series::{
+        checks::path_parts,
+        scalars::{log10, write_scalars},
+    },
 };
 
 /// Width of a line at a limit on the screen.
@@ -42,13 +46,12 @@ impl LimitLines {
     ) -> Result<(), RecordingError> {
         let style = SeriesLines::new().with_names([name]).with_colors([color]).with_widths([WIDTH_UI_POINTS]);
         writer.log_static(path, &style)?;
-        for time in self.ends {
-            writer.log_at(path, time.point(), &Scalars::new([value]))?;
-        }
-        Ok(())
+        let mut times = SampleTimes::default();
+        self.ends.into_iter().for_each(|time| times.push(time));
+        write_scalars(writer, path, &times.columns(), [value; 2].into_iter())
     }
 
-    /// Writes the limits of all checks.
+    /// Writes the limits of all checks with a plot: of agreement and distances always, of others if they are violated.
     pub(crate) fn write_checks(
         &self,
         writer: &mut RrdWriter,
@@ -81,6 +84,7 @@ impl LimitLines {
             }
             (CheckKind::Clearance, _) => (paths::clearance("limit"), "limit", palette::LIMIT),
             (CheckKind::Zone, _) => (paths::zone_limit(), "limit", palette::LIMIT),
+            _ if measure.first_violation.is_none() => return Ok(()),
             _ => {
                 let [check, quantity] = path_parts(number, check.check, (quantity, unit));
                 (paths::check_limit(&check, &quantity), "limit", palette::LIMIT)

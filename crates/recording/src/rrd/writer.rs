@@ -89,6 +89,16 @@ impl RrdWriter {
         self.row(path, TimePoint::default(), components.as_serialized_batches())
     }
 
+    /// Logs the components of several archetypes, which hold at all times, in one row.
+    pub(crate) fn log_static_together(
+        &mut self,
+        path: &EntityPath,
+        archetypes: &[&dyn AsComponents],
+    ) -> Result<(), RecordingError> {
+        let parts = archetypes.iter().flat_map(|archetype| archetype.as_serialized_batches()).collect();
+        self.row(path, TimePoint::default(), parts)
+    }
+
     /// Logs components that hold from one time on.
     pub(crate) fn log_at(
         &mut self,

@@ -99,8 +99,7 @@ impl AttachedFrame<'_> {
             .with_labels([self.name])
             .with_show_labels(true);
         let path = paths::frame(self.kind, self.name);
-        writer.log_static(&path, &CoordinateFrame::new(format!("tf#{}", self.to)))?;
-        writer.log_static(&path, &arrows)?;
-        writer.log_static(&path, &name)
+        let attached = CoordinateFrame::new(format!("tf#{}", self.to));
+        writer.log_static_together(&path, &[&attached, &arrows, &name])
     }
 }

@@ -22,10 +22,12 @@ const LINKS: [[u8; 3]; 12] = [
 pub(crate) const LIMIT: Color = rgb([0xff, 0x5c, 0x5c]);
 /// What violates a limit: red, which nothing else is.
 pub(crate) const OUTSIDE: Color = rgb([0xff, 0x2d, 0x2d]);
-/// An obstacle that a link is too close to.
-pub(crate) const OUTSIDE_OBSTACLE: Color = rgba([0xff, 0x2d, 0x2d], 0xd8);
+/// An obstacle that a link is too close to: darker, since it is large and the link must stand out before it.
+pub(crate) const OUTSIDE_OBSTACLE: Color = rgba([0xa8, 0x24, 0x24], 0xd8);
 /// A zone that a link is in.
-pub(crate) const OUTSIDE_ZONE: Color = rgba([0xff, 0x2d, 0x2d], 0x58);
+pub(crate) const OUTSIDE_ZONE: Color = rgba([0xff, 0x2d, 0x2d], 0x40);
+/// A line to something that is near without a violation.
+pub(crate) const QUIET: Color = rgb([0x8c, 0xa0, 0xb8]);
 /// A link whose description gives no colour: one colour for all of them.
 pub(crate) const UNPAINTED: Color = rgb([0xa4, 0xae, 0xbc]);
 /// The tolerances of position and orientation, each in a pale shade of its error's colour.
@@ -59,7 +61,12 @@ pub(crate) fn link(index: usize) -> Color {
     rgb(LINKS[index % LINKS.len()])
 }
 
-/// The same colour, half as bright: a commanded value beside the true one.
+/// The same colour, half way to white: a commanded value beside the true one.
+pub(crate) fn pale(index: usize) -> Color {
+    rgb(LINKS[index % LINKS.len()].map(|channel| channel / 2 + 0x80))
+}
+
+/// The same colour, half as bright: a measured value beside the true one.
 pub(crate) fn dim(index: usize) -> Color {
     rgb(LINKS[index % LINKS.len()].map(|channel| channel / 2 + 0x18))
 }

@@ -1,9 +1,9 @@
 //! The shapes of links, obstacles and zones with their names, and the style of the tool's trail.
 
-use congruent_description::{Link, Robot, Shape};
+use congruent_description::{Geometry, Link, Robot, Shape};
 use congruent_simulation::Obstacle;
 use congruent_twin::{RunSetup, recorder::RecordingError};
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Point3};
 use re_log_types::{EntityPath, TimePoint};
 use re_sdk_types::{
     archetypes::{LineStrips3D, Points3D, ViewCoordinates},
@@ -11,7 +11,7 @@ use re_sdk_types::{
 };
 
 use super::{
-    camera::half_size,
+    camera::BoundingBox,
     palette,
     visual::{Coloring, VisualBody},
 };
@@ -88,12 +88,6 @@ pub(crate) fn write(
     for (link, model) in robot.links().iter().zip(link_visuals(robot, MODEL_INSET_M)) {
         write_body(writer, &model, &paths::model(&link.name), Some(Coloring::Uniform(palette::MODEL)))?;
     }
-    for (index, obstacle) in setup.obstacles.iter().enumerate() {
-        write_name(writer, &placed(setup, index), &paths::obstacle(&obstacle.name))?;
-    }
-    for zone in &setup.zones {
-        write_name(writer, &zone.space, &paths::zone(&zone.space.name))?;
-    }
     let trail = LineStrips3D::update_fields()
         .with_colors([palette::TRAIL])
         .with_radii([Radius::new_ui_points(TRAIL_UI_POINTS)]);
@@ -110,17 +104,56 @@ fn space_visual(space: &Obstacle, color: Color) -> VisualBody {
     VisualBody::new(&[shape], color, 0.0)
 }
 
-/// Writes the name of an obstacle or of a zone into the picture, on its top.
-fn write_name(writer: &mut RrdWriter, space: &Obstacle, path: &EntityPath) -> Result<(), RecordingError> {
-    let half = half_size(&space.geometry);
-    let turned = space.world_from_obstacle.rotation.to_rotation_matrix().matrix().abs() * half;
-    let top_in_world = space.world_from_obstacle.translation.vector + Vector3::z() * turned.z;
-    let name = Points3D::new([vector(&top_in_world)])
+/// Writes the names of obstacles and zones into the picture, each on top of the part that is in view.
+pub(crate) fn write_names(
+    writer: &mut RrdWriter,
+    (obstacles, moving): (&[Obstacle], &[String]),
+    zones: &[Obstacle],
+    robot: BoundingBox,
+) -> Result<(), RecordingError> {
+    let framed = robot.with_obstacles(obstacles);
+    for obstacle in obstacles {
+        let path = paths::obstacle(&obstacle.name);
+        let top = if moving.contains(&obstacle.name) {
+            Point3::origin() // of its own frame, which moves
+        } else {
+            framed.top_of(obstacle)
+        };
+        write_name(writer, &path, (&obstacle.name, top))?;
+    }
+    for zone in zones {
+        write_name(writer, &paths::zone(&zone.name), (&zone.name, framed.top_of(zone)))?;
+    }
+    Ok(())
+}
+
+fn write_name(
+    writer: &mut RrdWriter,
+    path: &EntityPath,
+    (name, at): (&str, Point3<f64>),
+) -> Result<(), RecordingError> {
+    let label = Points3D::new([vector(&at.coords)])
         .with_radii([Radius::new_ui_points(0.0)])
         .with_colors([palette::NEUTRAL])
-        .with_labels([space.name.as_str()])
+        .with_labels([name])
         .with_show_labels(true);
-    writer.log_static(&paths::name_of(path), &name)
+    writer.log_static(&paths::name_of(path), &label)
+}
+
+/// The box around the shapes of a link, in its own frame; its origin if it has none.
+pub(crate) fn link_box(link: &Link) -> BoundingBox {
+    let shapes = if link.visuals.is_empty() { &link.collisions } else { &link.visuals };
+    let mut all = BoundingBox::empty();
+    all.include(&Point3::origin());
+    for shape in shapes {
+        match &shape.geometry {
+            Geometry::Mesh(mesh) => {
+                mesh.vertices_m.iter().for_each(|vertex| all.include(&(shape.link_from_shape * vertex)));
+            }
+            geometry => all.include_box(&BoundingBox::of(geometry), &shape.link_from_shape),
+        }
+    }
+    all
 }
 
 /// Writes shapes and colours in one row for each path.

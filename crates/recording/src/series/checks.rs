@@ -1,18 +1,26 @@
 //! What the checks measure over time: for each quantity the worst value since the recorded time before, beside its limit.
 
+use congruent_description::Robot;
 use congruent_twin::{
     recorder::RecordingError,
+    report::quantity_words,
     scenario::CheckKind,
     verdict::{CheckValue, InstantValue},
 };
 use re_sdk_types::archetypes::SeriesLines;
 
 use super::scalars::write_scalars;
-use crate::rrd::{
-    paths,
-    times::{SampleTime, SampleTimes},
-    writer::RrdWriter,
+use crate::{
+    rrd::{
+        paths,
+        times::{SampleTime, SampleTimes},
+        writer::RrdWriter,
+    },
+    scene::palette,
 };
+
+/// Width of a line on the screen.
+const WIDTH_UI_POINTS: f32 = 1.5;
 
 /// One quantity of one check.
 #[derive(Debug)]
@@ -26,9 +34,7 @@ struct Line {
     /// Kind of the check with its number, and the quantity with its unit.
     path: [String; 2],
     has_name: bool,
-    /// Whether a value was outside the limit.
-    is_violated: bool,
-    /// Whether the last value was.
+    /// Whether the last value was outside the limit.
     is_outside: bool,
 }
 
@@ -36,6 +42,24 @@ struct Line {
 #[derive(Debug, Default)]
 pub(crate) struct CheckSeries {
     lines: Vec<Line>,
+}
+
+/// The link that a value outside its limit is about: that of a joint, or a link itself.
+pub(crate) fn violating_link(value: &CheckValue, robot: &Robot) -> Option<usize> {
+    let InstantValue { quantity, bound, limit, value: measured, subject, .. } = value.of;
+    if bound.holds(measured, limit) {
+        return None;
+    }
+    match value.kind {
+        CheckKind::Twist => Some(subject),
+        CheckKind::Tracking if quantity.contains("tcp") => Some(subject),
+        CheckKind::Dynamics | CheckKind::Limits | CheckKind::Tracking => {
+            // Beyond the last joint there is the sum of all.
+            let &joint = robot.movable_joints().get(subject)?;
+            Some(robot.joint(joint).child.get())
+        }
+        _ => None,
+    }
 }
 
 /// The two parts of a path that tell a quantity of a check, by its number from 0: kind with number, quantity with unit.
@@ -46,9 +70,8 @@ pub(crate) fn path_parts(check: usize, kind: CheckKind, (quantity, unit): (&str,
 }
 
 impl CheckSeries {
-    /// Takes the values of a sample, recorded or not; returns whether one is the first of its kind outside its limit.
-    pub(crate) fn observe(&mut self, values: &[CheckValue]) -> bool {
-        let mut is_new_violation = false;
+    /// Takes the values of a sample, recorded or not.
+    pub(crate) fn observe(&mut self, values: &[CheckValue]) {
         for value in values {
             let is_outside = !value.of.bound.holds(value.of.value, value.of.limit);
             let is_same = |line: &&mut Line| {
@@ -61,22 +84,16 @@ impl CheckSeries {
                         line.of.value = value.of.value;
                     }
                     line.is_new = true;
-                    is_new_violation |= is_outside && !line.is_violated;
-                    line.is_violated |= is_outside;
                     line.is_outside = is_outside;
                 }
-                None => {
-                    is_new_violation |= is_outside;
-                    self.lines.push(Line { is_violated: is_outside, is_outside, ..Line::new(value) });
-                }
+                None => self.lines.push(Line { is_outside, ..Line::new(value) }),
             }
         }
-        is_new_violation
     }
 
-    /// Whether a quantity that is measured at every sample is outside its limit at the last one.
+    /// Whether a quantity is outside its limit at the last sample that has it.
     pub(crate) fn is_any_outside(&self) -> bool {
-        self.lines.iter().any(|line| line.is_outside && line.path[1] != "distance_m")
+        self.lines.iter().any(|line| line.is_outside)
     }
 
     /// Adds a row of the worst values.
@@ -86,6 +103,11 @@ impl CheckSeries {
             line.values.push(line.of.value);
             line.is_new = false;
         }
+    }
+
+    /// The parts of the paths of all quantities so far.
+    pub(crate) fn recorded(&self) -> Vec<[String; 2]> {
+        self.lines.iter().map(|line| line.path.clone()).collect()
     }
 
     /// Writes all rows and removes them.
@@ -104,7 +126,6 @@ impl Line {
             values: Vec::new(),
             path: path_parts(value.check, value.kind, (value.of.quantity, value.of.unit)),
             has_name: false,
-            is_violated: false,
             is_outside: false,
         }
     }
@@ -117,9 +138,9 @@ impl Line {
         let [check, quantity] = &self.path;
         let path = paths::check(check, quantity);
         if !self.has_name {
-            let InstantValue { bound, limit, unit, .. } = self.of;
-            let name = format!("{quantity}, {} {limit} {unit}", bound.words());
-            writer.log_static(&path, &SeriesLines::new().with_names([name.trim_end()]))?;
+            let name = quantity_words(self.of.quantity);
+            let style = SeriesLines::new().with_names([name]).with_colors([palette::link(0)]);
+            writer.log_static(&path, &style.with_widths([WIDTH_UI_POINTS]))?;
             self.has_name = true;
         }
         write_scalars(writer, &path, &self.times.columns(), self.values.iter().copied())?;

@@ -49,6 +49,12 @@ impl ClearanceSeries {
         }
     }
 
+    /// Names of all curves, with that of the limit.
+    pub(crate) fn curves(&self, pairs: &[String]) -> Vec<String> {
+        let of_all = ["limit", "minimum"].map(str::to_owned).into_iter();
+        of_all.chain(self.pairs.keys().map(|&pair| pairs[pair].clone())).collect()
+    }
+
     /// Writes all rows and removes them.
     pub(crate) fn write(&mut self, writer: &mut RrdWriter, pairs: &[String]) -> Result<(), RecordingError> {
         self.minimum.write(writer, &paths::clearance("minimum"), ("minimum", palette::NEUTRAL, 2.5))?;

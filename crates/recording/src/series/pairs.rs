@@ -1,5 +1,5 @@
 //! Pairs of bodies that are too close: both turn red, and a line between their nearest points has the distance for a
-//! label. A quiet line leads to an obstacle or a zone that is near without a violation.
+//! label. A quiet line leads to a zone that is near without a violation.
 
 use congruent_description::display::length;
 use congruent_twin::{
@@ -27,8 +27,8 @@ use crate::{
 };
 
 /// The most lines of one instant; all violating pairs turn red.
-const MAX_LINES: usize = 6;
-/// Below this distance, an obstacle or a zone gets a line without a violation.
+const MAX_LINES: usize = 4;
+/// Below this distance, a zone has a line without a violation, and an obstacle a curve of its own.
 pub(super) const NEAR_M: f64 = 0.1;
 /// Thickness of a line on the screen.
 const LINE_UI_POINTS: f32 = 2.5;
@@ -107,7 +107,7 @@ impl PairSeries {
         };
         Self {
             rules: checks.iter().filter_map(rule).collect(),
-            found: Vec::with_capacity(MAX_LINES),
+            found: Vec::with_capacity(MAX_ROWS),
             times: SampleTimes::with_capacity(MAX_ROWS),
             counts: Vec::with_capacity(MAX_ROWS),
             pairs: Vec::with_capacity(MAX_ROWS),
@@ -152,7 +152,7 @@ impl PairSeries {
         self.had_lines = count > 0;
     }
 
-    /// Finds the pairs that violate a check, and an obstacle that is near.
+    /// Finds the pairs that violate a check.
     fn find_bodies(&mut self, sample: &mut Sample<'_>) {
         let found = &mut self.found;
         for DistanceRule { names, limit, looks_at } in &mut self.rules {
@@ -188,11 +188,6 @@ impl PairSeries {
                 });
             }
         }
-        let links = sample.twin.len();
-        if let Some(near) = sample.clearance.nearest_of(NEAR_M, |_, pair| pair.b >= links) {
-            let (pair, distance_m) = (near.pair, near.distance_m);
-            add(found, FoundPair { kind: PairKind::Bodies, pair, distance_m, is_violating: false });
-        }
     }
 
     /// Finds the links in zones, and a zone that is near.
@@ -219,10 +214,9 @@ impl PairSeries {
     /// Writes what does not change.
     pub(crate) fn write_static(writer: &mut RrdWriter) -> Result<(), RecordingError> {
         let lines = LineStrips3D::update_fields().with_radii([Radius::new_ui_points(LINE_UI_POINTS)]);
-        writer.log_static(&paths::nearest(), &lines)?;
         let labels =
             Points3D::update_fields().with_radii([Radius::new_ui_points(0.0)]).with_show_labels(true);
-        writer.log_static(&paths::nearest(), &labels)
+        writer.log_static_together(&paths::nearest(), &[&lines, &labels])
     }
 
     /// Writes all rows and removes them.
@@ -246,7 +240,7 @@ impl PairSeries {
             .with_colors(self.pairs.iter().map(color));
         let labels = Points3D::update_fields()
             .with_positions(self.pairs.iter().map(|drawn| middle(drawn.points)))
-            .with_colors(self.pairs.iter().map(color))
+            .with_colors(self.pairs.iter().map(|_| palette::NEUTRAL))
             .with_labels(self.pairs.iter().map(|drawn| label(drawn, names)));
         let lines = lines.columns(counts()).map_err(failed)?;
         Ok(lines.chain(labels.columns(counts()).map_err(failed)?))
@@ -272,7 +266,8 @@ fn subjects(clearance: &Clearance, pair: usize) -> [usize; 2] {
 }
 
 fn color(drawn: &DrawnPair) -> Color {
-    if drawn.is_violating { palette::OUTSIDE } else { palette::NEUTRAL }
+    // The bodies are red then; a red line between them would not be seen.
+    if drawn.is_violating { palette::NEUTRAL } else { palette::QUIET }
 }
 
 fn middle([a, b]: [[f32; 3]; 2]) -> [f32; 3] {
