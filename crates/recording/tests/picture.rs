@@ -223,14 +223,17 @@ fn a_joint_that_sags_turns_red_and_its_plots_explain_it() {
     let tracking = place("tracking: path error of angle [rad]").unwrap();
     let positions = place("Positions and commands (thin) [rad]").unwrap();
     assert!(tracking < positions, "{views:?}");
-    assert!(place("Deviations from commands [rad]").is_some() && place("Torques [N m]").is_some(), "{views:?}");
+    assert!(
+        place("Deviations from commands [rad]").is_some() && place("Torques [N m]").is_some(),
+        "{views:?}"
+    );
     let shown = run.contents("Positions and commands (thin) [rad]");
     for path in ["+ /joint/position/elbow_joint", "+ /joint/reference_position/elbow_joint"] {
         assert!(shown.contains(&path.to_owned()), "{path}: {shown:?}");
     }
     let (_, series) = scalars(&run.file).unwrap();
-    let [true_q, commanded, deviation] =
-        ["position", "reference_position", "deviation"].map(|of| &series[&format!("/joint/{of}/elbow_joint")]);
+    let [true_q, commanded, deviation] = ["position", "reference_position", "deviation"]
+        .map(|of| &series[&format!("/joint/{of}/elbow_joint")]);
     for ((q, commanded), deviation) in true_q.iter().zip(commanded).zip(deviation) {
         assert_eq!((q.1 - commanded.1).to_bits(), deviation.1.to_bits());
     }
@@ -269,7 +272,8 @@ fn tolerances_have_colours_of_their_own_and_frames_are_hidden() {
     colors.sort_unstable();
     colors.dedup();
     assert_eq!(colors.len(), 4);
-    for (frame, label) in [("dh/dh0", "dh0"), ("dh/dh6", "dh6"), ("tool/tcp", "tcp"), ("link/tool0", "tool0")] {
+    for (frame, label) in [("dh/dh0", "dh0"), ("dh/dh6", "dh6"), ("tool/tcp", "tcp"), ("link/tool0", "tool0")]
+    {
         assert_eq!(run.texts(&format!("/world/frame/{frame}"), "Points3D:labels"), [label]);
     }
     let hidden = run.cells.iter().find(|cell| cell.is_layout && cell.component == "EntityBehavior:visible");
@@ -286,7 +290,8 @@ fn tolerances_have_colours_of_their_own_and_frames_are_hidden() {
 #[test]
 fn of_many_joints_those_that_move_are_plotted() {
     let folder = tempfile::tempdir().unwrap();
-    let body = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
+    let body =
+        "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
     let mut urdf = format!("<robot name='long'><link name='l0'>{body}</link>");
     for joint in 1..=14 {
         urdf += &format!(

@@ -113,7 +113,7 @@ impl JointPlots<'_> {
             range = union(range, (limit.value, limit.value));
             shown.push(paths::joint_limit(limit.quantity, &self.names.joints[limit.joint], limit.side));
         }
-        let view = View::new("TimeSeries", title, paths::path(&["joint"])).only(shown);
+        let view = View::new("TimeSeries", title, paths::path(&[])).only(shown);
         self.frame.plot(view, (quantity != Position).then_some(range))
     }
 

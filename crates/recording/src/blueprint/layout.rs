@@ -1,6 +1,7 @@
 //! The layout of the viewer: the three-dimensional view on the left with the statuses of the checks below it;
 //! on the right the plots, and the summary and the events below them.
 
+use congruent_agreement::compare::PoseSource;
 use congruent_description::RobotDescription;
 use congruent_kinematics::PoseError;
 use congruent_twin::{
@@ -55,13 +56,12 @@ const TRAIL_S: f64 = 2.0;
 const WINDOW_PIXELS: f32 = 840.0;
 const LANE_PIXELS: f32 = 40.0;
 const LANES_HEAD_PIXELS: f32 = 66.0;
-/// Heights of the plots of errors and of the summary.
-const AGREEMENT_PIXELS: f32 = 158.0;
+/// Height of the summary.
 const SUMMARY_PIXELS: f32 = 235.0;
 /// Heights of a line of a legend, and of a plot without one.
 const LEGEND_LINE_PIXELS: f32 = 23.0;
-const PLOT_PIXELS: f32 = 62.0;
-/// The fewest and the most curves of distances for which there is room.
+const PLOT_PIXELS: f32 = 80.0;
+/// The fewest and the most curves for which there is room.
 const CURVES: (usize, usize) = (4, 7);
 /// The fewest and the most lanes that are in the picture.
 const LANES: (usize, usize) = (3, 9);
@@ -141,7 +141,7 @@ impl ViewerLayout<'_> {
     fn root(&self) -> LayoutNode {
         let lanes = self.lanes_pixels();
         let left = LayoutNode::Rows(vec![(WINDOW_PIXELS - lanes, self.scene()), (lanes, statuses())]);
-        let mut right = vec![(AGREEMENT_PIXELS, self.agreement())];
+        let mut right = vec![(self.agreement_pixels(), self.agreement())];
         if let Some(distances) = self.distances() {
             right.push((self.distances_pixels(), distances));
         }
@@ -154,11 +154,15 @@ impl ViewerLayout<'_> {
         LayoutNode::Columns(vec![(1.0, left), (1.0, LayoutNode::Rows(right))])
     }
 
-    /// Height of the plot of distances: its legend is in the picture.
+    /// Height of the plot of errors: with a curve for each link if they are outside their tolerance.
+    fn agreement_pixels(&self) -> f32 {
+        let is_violated = of_kind(self.report, "agreement").any(|measure| measure.first_violation.is_some());
+        plot_pixels(if is_violated { self.shown_links().count() + 1 } else { 0 })
+    }
+
+    /// Height of the plot of distances.
     fn distances_pixels(&self) -> f32 {
-        let (fewest, most) = CURVES;
-        let curves = u8::try_from(self.distance_curves.len().clamp(fewest, most)).unwrap_or(u8::MAX);
-        PLOT_PIXELS + LEGEND_LINE_PIXELS * f32::from(curves)
+        plot_pixels(self.distance_curves.len())
     }
 
     /// The axes of all plots.
@@ -228,14 +232,18 @@ impl ViewerLayout<'_> {
         LayoutNode::Tabs(tabs)
     }
 
-    /// The links with the largest errors, in the robot's order.
+    /// The links with the largest errors, in the robot's order; those that only the URDF has if there is no table.
     fn shown_links(&self) -> impl Iterator<Item = usize> {
         let limits = self.description.tolerance;
         let ratio = |error: &PoseError| {
             (error.position_m / limits.position_m).max(error.orientation_rad / limits.orientation_rad)
         };
         let errors = &self.extents.links;
-        let mut links: Vec<usize> = (0..errors.len()).collect();
+        let is_of_table = |link: &usize| self.report.links[*link].source != PoseSource::Urdf;
+        let mut links: Vec<usize> = (0..errors.len()).filter(is_of_table).collect();
+        if links.is_empty() {
+            links = (0..errors.len()).collect();
+        }
         links.sort_by(|&a, &b| ratio(&errors[b]).total_cmp(&ratio(&errors[a])));
         links.truncate(MAX_LINKS);
         links.sort_unstable();
@@ -305,6 +313,13 @@ impl ViewerLayout<'_> {
         };
         violated.into_iter().filter_map(plot).collect()
     }
+}
+
+/// Height of a plot of so many curves: its legend is in the picture.
+fn plot_pixels(curves: usize) -> f32 {
+    let (fewest, most) = CURVES;
+    let curves = u8::try_from(curves.clamp(fewest, most)).unwrap_or(u8::MAX);
+    PLOT_PIXELS + LEGEND_LINE_PIXELS * f32::from(curves)
 }
 
 fn has_failed(check: &CheckResult) -> bool {

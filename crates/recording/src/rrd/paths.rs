@@ -115,7 +115,7 @@ pub(crate) fn zone_limit() -> EntityPath {
 
 /// The `upper` or the `lower` limit of a quantity of a joint.
 pub(crate) fn joint_limit(quantity: &str, joint: &str, side: &str) -> EntityPath {
-    path(&["joint", "limit", quantity, joint, side])
+    path(&["joint_limit", quantity, joint, side])
 }
 
 /// The limit of a quantity of a check.

@@ -18,7 +18,7 @@ const AZIMUTHS_RAD: [f64; 8] = [-0.95, 0.95, -0.45, 0.45, -1.6, 1.6, -2.3, 2.3];
 /// Elevation of the camera.
 const ELEVATION_RAD: f64 = 0.42;
 /// The fraction of the box that must be in the picture: arms are slim, and leave its corners free.
-const BOX_FRACTION: f64 = 0.85;
+const BOX_FRACTION: f64 = 0.78;
 /// The most points kept of the tool's path.
 const MAX_POINTS: usize = 64;
 

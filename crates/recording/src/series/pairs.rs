@@ -30,6 +30,8 @@ use crate::{
 const MAX_LINES: usize = 4;
 /// Below this distance, a zone has a line without a violation, and an obstacle a curve of its own.
 pub(super) const NEAR_M: f64 = 0.1;
+/// Distance between two labels.
+const LABEL_M: f32 = 0.07;
 /// Thickness of a line on the screen.
 const LINE_UI_POINTS: f32 = 2.5;
 
@@ -66,6 +68,7 @@ struct DrawnPair {
     /// Negative for an overlap.
     distance_m: f64,
     points: [[f32; 3]; 2],
+    label: [f32; 3],
     is_violating: bool,
 }
 
@@ -141,7 +144,8 @@ impl PairSeries {
             let clearance = if kind == PairKind::Bodies { &*sample.clearance } else { &*sample.zones };
             if let Some(points) = clearance.nearest_points(pair) {
                 let points = points.map(|point| vector(&point.coords));
-                self.pairs.push(DrawnPair { kind, pair, distance_m, points, is_violating });
+                let label = free_place(middle(points), &self.pairs[first..]);
+                self.pairs.push(DrawnPair { kind, pair, distance_m, points, label, is_violating });
             }
         }
         let count = u32::try_from(self.pairs.len() - first).unwrap_or(u32::MAX);
@@ -239,7 +243,7 @@ impl PairSeries {
             .with_strips(self.pairs.iter().map(|drawn| drawn.points))
             .with_colors(self.pairs.iter().map(color));
         let labels = Points3D::update_fields()
-            .with_positions(self.pairs.iter().map(|drawn| middle(drawn.points)))
+            .with_positions(self.pairs.iter().map(|drawn| drawn.label))
             .with_colors(self.pairs.iter().map(|_| palette::NEUTRAL))
             .with_labels(self.pairs.iter().map(|drawn| label(drawn, names)));
         let lines = lines.columns(counts()).map_err(failed)?;
@@ -272,6 +276,22 @@ fn color(drawn: &DrawnPair) -> Color {
 
 fn middle([a, b]: [[f32; 3]; 2]) -> [f32; 3] {
     [0, 1, 2].map(|axis| f32::midpoint(a[axis], b[axis]))
+}
+
+/// A place for a label at this point, or above those of other pairs there.
+fn free_place(at: [f32; 3], others: &[DrawnPair]) -> [f32; 3] {
+    let is_taken = |place: [f32; 3]| {
+        let is_near =
+            |other: &DrawnPair| (0..3).all(|axis| (other.label[axis] - place[axis]).abs() < LABEL_M);
+        others.iter().any(is_near)
+    };
+    let mut place = at;
+    for _ in others {
+        if is_taken(place) {
+            place[2] += LABEL_M;
+        }
+    }
+    place
 }
 
 /// The two with their distance as reports have it.
