@@ -81,7 +81,7 @@ impl RerunRecorder {
     /// Creates the file and writes the data that do not change: shapes, names, colours.
     ///
     /// `sources` are the model's sources of poses, in the robot's order of links. If a table gives the poses of some
-    /// links, the plots hide the links whose poses come from the URDF alone at first.
+    /// links, the plots leave out the links whose poses come from the URDF alone.
     ///
     /// # Errors
     /// [`RecordingError`] if the file cannot be written.

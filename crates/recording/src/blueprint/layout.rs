@@ -232,7 +232,7 @@ impl ViewerLayout<'_> {
         LayoutNode::Tabs(tabs)
     }
 
-    /// The links with the largest errors, in the robot's order; those that only the URDF has if there is no table.
+    /// The links with the largest errors, in the robot's order: of those that the table moves, if there is one.
     fn shown_links(&self) -> impl Iterator<Item = usize> {
         let limits = self.description.tolerance;
         let ratio = |error: &PoseError| {

@@ -14,8 +14,8 @@ const WIDTH_UI_POINTS: f32 = 1.5;
 const WIDE_UI_POINTS: f32 = 3.0;
 const THIN_UI_POINTS: f32 = 1.0;
 
-/// Writes names and colours of all lines. If a table gives the poses of some links, the links whose poses
-/// come from the URDF alone are hidden at first: model and URDF are identical there.
+/// Writes names and colours of all lines. If a table gives the poses of some links, those of links whose poses
+/// come from the URDF alone are not in the plots: model and URDF are identical there.
 pub(crate) fn write(
     writer: &mut RrdWriter,
     robot: &Robot,
@@ -23,9 +23,9 @@ pub(crate) fn write(
     sources: &[PoseSource],
 ) -> Result<(), RecordingError> {
     let has_table = sources.iter().any(|source| *source != PoseSource::Urdf);
-    for (index, (link, source)) in names.links.iter().zip(sources).enumerate() {
-        let is_shown = !has_table || *source != PoseSource::Urdf;
-        let style = line(link, palette::link(index), WIDTH_UI_POINTS).with_visible_series([is_shown]);
+    let links = names.links.iter().zip(sources).enumerate();
+    for (index, (link, _)) in links.filter(|(_, (_, source))| !has_table || **source != PoseSource::Urdf) {
+        let style = line(link, palette::link(index), WIDTH_UI_POINTS);
         writer.log_static(&paths::position_error(link), &style)?;
         writer.log_static(&paths::orientation_error(link), &style)?;
     }
