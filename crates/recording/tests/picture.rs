@@ -77,10 +77,16 @@ impl Recorded {
         self.rows(path, component).into_iter().flat_map(|(_, values)| strings(values)).collect()
     }
 
-    /// When an entity becomes red, and when it ceases to be.
+    /// The colours of a body with their times.
     #[track_caller]
-    fn colors(&self, path: &str, component: &str) -> Vec<(f64, u32)> {
-        let rows = self.rows(path, component).into_iter();
+    fn colors(&self, body: &str) -> Vec<(f64, u32)> {
+        let kinds = ["Mesh3D:albedo_factor", "Cylinders3D:colors", "Boxes3D:colors"];
+        let is_color = |cell: &&Cell| {
+            let is_own = cell.path == body || cell.path == format!("{body}/mesh_0");
+            is_own && kinds.contains(&cell.component.as_str())
+        };
+        let Some(first) = self.cells.iter().find(is_color) else { panic!("{body} has no colour") };
+        let rows = self.rows(&first.path, &first.component).into_iter();
         let color = |values: &ArrayRef| values.as_primitive::<UInt32Type>().value(0);
         rows.map(|(time_ns, values)| (seconds(time_ns.unwrap()), color(values))).collect()
     }
@@ -145,12 +151,12 @@ fn first_violation_s(report: &RunReport, kind: &str) -> f64 {
 fn a_pair_that_is_too_close_turns_red_at_the_first_violation() {
     let run = Recorded::of_scenario("ur5e_into_table", &[]);
     let first_s = first_violation_s(&run.report, "clearance");
-    let link = run.colors("/world/twin/wrist_3_link/mesh_0", "Mesh3D:albedo_factor");
+    let link = run.colors("/world/twin/wrist_3_link");
     assert!(link.len() == 2 && link[0].1 != RED && link[1].1 == RED, "{link:x?}");
     assert!((link[1].0 - first_s).abs() < 1e-9, "{link:x?}, {first_s}");
-    let table = run.colors("/world/obstacle/table", "Boxes3D:colors");
+    let table = run.colors("/world/obstacle/table");
     assert!((table[1].0 - first_s).abs() < 1e-9 && table[0].1 != table[1].1, "{table:x?}");
-    let shoulder = run.colors("/world/twin/shoulder_link/mesh_0", "Mesh3D:albedo_factor");
+    let shoulder = run.colors("/world/twin/shoulder_link");
     assert_eq!(shoulder.len(), 1, "it never comes close: {shoulder:x?}");
 }
 
@@ -195,9 +201,9 @@ fn a_line_between_the_nearest_points_has_their_distance_for_a_label() {
 fn a_zone_has_a_name_and_a_distance_and_turns_red_with_the_link_in_it() {
     let run = Recorded::of_scenario("ur5e_into_zone", &[]);
     let first_s = first_violation_s(&run.report, "zone");
-    let zone = run.colors("/world/zone/operator", "Boxes3D:colors");
+    let zone = run.colors("/world/zone/operator");
     assert!(zone.len() == 2 && (zone[1].0 - first_s).abs() < 1e-9, "{zone:x?}");
-    let link = run.colors("/world/twin/wrist_2_link/mesh_0", "Mesh3D:albedo_factor");
+    let link = run.colors("/world/twin/wrist_2_link");
     assert!((link[1].0 - first_s).abs() < 1e-9 && link[1].1 == RED, "{link:x?}");
     assert_eq!(run.texts("/world/zone/operator/name", "Points3D:labels"), ["operator"]);
     let (_, series) = scalars(&run.file).unwrap();
@@ -214,7 +220,7 @@ fn a_zone_has_a_name_and_a_distance_and_turns_red_with_the_link_in_it() {
 fn a_joint_that_sags_turns_red_and_its_plots_explain_it() {
     let run = Recorded::of_scenario("ur5e_soft_servos", &[]);
     let first_s = first_violation_s(&run.report, "tracking");
-    let red = |link: &str| run.colors(&format!("/world/twin/{link}/mesh_0"), "Mesh3D:albedo_factor");
+    let red = |link: &str| run.colors(&format!("/world/twin/{link}"));
     let any_at_first = ["upper_arm_link", "forearm_link"]
         .iter()
         .any(|link| red(link).iter().any(|&(at, color)| color == RED && (at - first_s).abs() < 1e-9));
