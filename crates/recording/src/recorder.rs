@@ -57,6 +57,8 @@ pub struct RerunRecorder {
     are_violating: Vec<bool>,
     tip_from_tcp: Isometry3<f64>,
     stride: u64,
+    /// Number of checks that had been violated at the sample before.
+    violated_checks: usize,
     batch: SampleBatch,
     disagreement: DisagreementSeries,
     pairs: PairSeries,
@@ -119,6 +121,7 @@ impl RerunRecorder {
             bodies,
             tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
             stride: stride(setup.clock.step_s),
+            violated_checks: 0,
             batch: SampleBatch::new(names, moving_names(setup)),
             disagreement: DisagreementSeries::new(names.links.len(), limits),
             pairs: PairSeries::new(&setup.scenario.check),
@@ -160,7 +163,9 @@ impl RerunRecorder {
 impl Recorder for RerunRecorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
         self.checks.observe(sample.values);
-        let is_due = sample.is_first_violation || sample.step.is_multiple_of(self.stride) || sample.is_last;
+        let is_violation = sample.violated_checks > self.violated_checks;
+        self.violated_checks = sample.violated_checks;
+        let is_due = is_violation || sample.step.is_multiple_of(self.stride) || sample.is_last;
         if !is_due && !self.disagreement.would_change(sample.errors) {
             return Ok(());
         }

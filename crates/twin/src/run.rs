@@ -199,11 +199,8 @@ impl<'a> Run<'a> {
         let mut sample = self.sample();
         sample.is_last = is_last;
         let time_s = sample.time_s;
-        let mut is_first_violation = false;
         for check in checks.iter_mut() {
-            let had_failed = check.monitor.has_failed();
             check.monitor.observe(&mut sample);
-            is_first_violation |= !had_failed && check.monitor.has_failed();
         }
         self.values.clear();
         for (check, running) in checks.iter().enumerate() {
@@ -214,7 +211,8 @@ impl<'a> Run<'a> {
             self.hash.update(q.to_le_bytes());
         }
         let (mut sample, store) = self.sample_and_store();
-        (sample.is_last, sample.is_first_violation) = (ends, is_first_violation);
+        sample.is_last = ends;
+        sample.violated_checks = checks.iter().filter(|check| check.monitor.has_failed()).count();
         store.take(&sample);
         recorder.record(&mut sample)?;
         Ok(ends)
@@ -242,7 +240,7 @@ impl<'a> Run<'a> {
             motions_s: self.setup.trajectory.duration_s() + longer_s(self.source.as_ref()),
             is_last: false,
             is_stopping: self.stopping.is_some(),
-            is_first_violation: false,
+            violated_checks: 0,
             joints: self.source.joints(),
             forces: self.source.step_forces(),
             model: self.model.latest(),

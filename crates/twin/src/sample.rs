@@ -27,8 +27,8 @@ pub struct Sample<'a> {
     pub is_last: bool,
     /// Whether a check stops the run: from its violation on the setpoint leaves the motions and comes to rest.
     pub is_stopping: bool,
-    /// Whether a check is violated for the first time at this instant; for monitors never.
-    pub is_first_violation: bool,
+    /// Number of checks that have been violated by now; none for the checks themselves.
+    pub violated_checks: usize,
     /// The joints: true states, measured states and setpoints.
     pub joints: JointSample<'a>,
     /// What acted in the step that led here.

@@ -29,6 +29,9 @@ pub(crate) fn failed(error: impl Display) -> RecordingError {
     RecordingError { message: error.to_string() }
 }
 
+/// Bytes that are gathered before they are passed on: most messages are one or two kB.
+const BUFFER_BYTES: usize = 1 << 18;
+
 /// An open file of messages. Rows go to the store that was opened last.
 pub(crate) struct RrdWriter {
     file: BufWriter<File>,
@@ -45,7 +48,7 @@ impl RrdWriter {
         let file = File::create(path)
             .map_err(|error| failed(format_args!("cannot write {}: {error}", path.display())))?;
         let mut writer = Self {
-            file: BufWriter::new(file),
+            file: BufWriter::with_capacity(BUFFER_BYTES, file),
             written: 0,
             frame: Vec::new(),
             store: store.clone(),

@@ -40,6 +40,9 @@ struct Hull {
     radius_m: f64,
 }
 
+/// Why a query never fails.
+const ANSWERS: &str = "parry answers for every pair of boxes, balls, cylinders and hulls";
+
 /// No distance is off by more than that. See `DISTANCE_SLACK_M` in `clearance.rs`.
 const SOLVER_STOP_M: f64 = 1e-7;
 
@@ -110,16 +113,16 @@ impl Hulls {
     /// The points of two hulls between which their distance is, in the frame of the first; if they overlap, the points
     /// between which the depth is. `None` if there is nothing to touch, or they touch without depth.
     pub fn nearest_points(&self, other: &Self, self_from_other: &Isometry3<f64>) -> Option<[Point3<f64>; 2]> {
-        let mut nearest: Option<(f64, [Point3<f64>; 2])> = None;
+        let mut nearest: Option<NearestPoints> = None;
         for a in &self.shapes {
             for b in &other.shapes {
                 let self_from_b = pose(self_from_other) * b.link_from_local;
-                let found = nearest_points(a, &a.link_from_local.inv_mul(&self_from_b), b)
-                    .expect("parry answers for every pair of boxes, balls, cylinders and hulls");
-                nearest = found.into_iter().chain(nearest).min_by(|(a, _), (b, _)| a.total_cmp(b));
+                let found = nearest_points(a, &a.link_from_local.inv_mul(&self_from_b), b);
+                nearest =
+                    found.into_iter().chain(nearest).min_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
             }
         }
-        nearest.map(|(_, points)| points)
+        nearest.map(|nearest| nearest.points)
     }
 
     fn smallest(
@@ -142,8 +145,7 @@ impl Hulls {
                 if a_from_b.translation.length() - a.radius_m - b.radius_m > smallest + SOLVER_STOP_M {
                     continue;
                 }
-                let apart = distance(&a_from_b, &*a.form, &*b.form)
-                    .expect("parry answers for every pair of boxes, balls, cylinders and hulls");
+                let apart = distance(&a_from_b, &*a.form, &*b.form).expect(ANSWERS);
                 smallest = smallest.min(apart);
             }
         }
@@ -151,12 +153,15 @@ impl Hulls {
     }
 }
 
-/// The distance of two shapes, negative if they overlap, and the points between which it is, in the first link's frame.
-fn nearest_points(
-    a: &Hull,
-    a_from_b: &Pose,
-    b: &Hull,
-) -> Result<Option<(f64, [Point3<f64>; 2])>, Unsupported> {
+/// The points of two shapes between which their distance is, in the first link's frame.
+struct NearestPoints {
+    /// Negative if they overlap.
+    distance_m: f64,
+    points: [Point3<f64>; 2],
+}
+
+/// Where two shapes are nearest; `None` if they touch without depth.
+fn nearest_points(a: &Hull, a_from_b: &Pose, b: &Hull) -> Option<NearestPoints> {
     let in_link = |on_a: Vector, on_b: Vector| {
         [on_a, on_b].map(|point| {
             let point = a.link_from_local * point;
@@ -164,12 +169,14 @@ fn nearest_points(
         })
     };
     let (a_form, b_form) = (&*a.form, &*b.form);
-    let apart = query::closest_points(&Pose::IDENTITY, a_form, a_from_b, b_form, f64::MAX)?;
+    let apart = query::closest_points(&Pose::IDENTITY, a_form, a_from_b, b_form, f64::MAX).expect(ANSWERS);
     if let ClosestPoints::WithinMargin(on_a, on_b) = apart {
-        return Ok(Some(((on_b - on_a).length(), in_link(on_a, on_b))));
+        let distance_m = (on_b - on_a).length();
+        return Some(NearestPoints { distance_m, points: in_link(on_a, on_b) });
     }
-    let contact = query::contact(&Pose::IDENTITY, a_form, a_from_b, b_form, 0.0)?;
-    Ok(contact.map(|contact| (contact.dist, in_link(contact.point1, contact.point2))))
+    let contact = query::contact(&Pose::IDENTITY, a_form, a_from_b, b_form, 0.0).expect(ANSWERS)?;
+    let points = in_link(contact.point1, contact.point2);
+    Some(NearestPoints { distance_m: contact.dist, points })
 }
 
 /// A convex shape with the radius of a ball about its own origin that contains it.
