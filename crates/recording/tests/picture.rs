@@ -300,16 +300,17 @@ fn of_many_joints_those_that_move_are_plotted() {
     let folder = tempfile::tempdir().unwrap();
     let body =
         "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
-    let mut urdf = format!("<robot name='long'><link name='l0'>{body}</link>");
-    for joint in 1..=14 {
-        urdf += &format!(
+    let link = |joint: u32| {
+        format!(
             "<link name='l{joint}'>{body}</link><joint name='j{joint}' type='revolute'><parent link='l{}'/>\
              <child link='l{joint}'/><origin xyz='0 0 0.1'/><axis xyz='0 1 0'/>\
              <limit lower='-3' upper='3' velocity='2' effort='500'/></joint>",
             joint - 1
-        );
-    }
-    std::fs::write(folder.path().join("long.urdf"), urdf + "</robot>").unwrap();
+        )
+    };
+    let links: String = (1..=14).map(link).collect();
+    let urdf = format!("<robot name='long'><link name='l0'>{body}</link>{links}</robot>");
+    std::fs::write(folder.path().join("long.urdf"), urdf).unwrap();
     let scenario = folder.path().join("long.toml");
     let text = "schema_version = 1\nname = 'long'\nrobot = 'long.urdf'\ncontroller = { kind = 'kinematic' }\n\
                 simulation = { step_s = 0.001, duration_s = 0.5 }\n\

@@ -1,7 +1,7 @@
 //! Plots of the joints: positions beside the commanded ones, what lies between both, speeds and efforts beside their
 //! limits. Many joints are shown in groups, without those that stand still.
 
-use congruent_description::{JointKind, Robot};
+use congruent_description::Robot;
 use congruent_twin::monitor::Names;
 
 use super::{
@@ -50,36 +50,36 @@ use JointQuantity::{Deviation, Effort, Position, Velocity};
 impl JointPlots<'_> {
     /// All plots, positions first.
     pub(super) fn all(&self) -> Vec<LayoutNode> {
-        let groups = [false, true].map(|is_length| self.groups(is_length));
+        let groups = ["rad", "m"].map(|unit| self.groups(unit));
         let groups: Vec<&Vec<usize>> = groups.iter().flatten().collect();
         let mut plots = Vec::new();
         for quantity in [Position, Deviation, Velocity, Effort] {
             for group in &groups {
                 if group.iter().any(|&joint| is_worth_a_plot(quantity, &self.extents[joint])) {
-                    plots.push(self.plot(quantity, group, groups.len() > 1));
+                    plots.push(self.plot(quantity, group, groups.len()));
                 }
             }
         }
         plots
     }
 
-    fn is_length(&self, joint: usize) -> bool {
-        self.robot.joint(self.robot.movable_joints()[joint]).kind == JointKind::Prismatic
+    fn unit(&self, joint: usize) -> &'static str {
+        self.robot.joint(self.robot.movable_joints()[joint]).kind.unit()
     }
 
     /// The joints of one unit, in the order of the tree: those that move, of an arm after those of another.
-    fn groups(&self, is_length: bool) -> Vec<Vec<usize>> {
+    fn groups(&self, unit: &str) -> Vec<Vec<usize>> {
         let is_shown = |joint: &usize| {
             self.names.joints.len() < MANY || width(self.extents[*joint].position) > STANDS_STILL
         };
-        let of_unit = (0..self.names.joints.len()).filter(|&joint| self.is_length(joint) == is_length);
+        let of_unit = (0..self.names.joints.len()).filter(|&joint| self.unit(joint) == unit);
         let shown: Vec<usize> = of_unit.filter(is_shown).collect();
         let count = shown.len().div_ceil(MAX_GROUP).max(1);
         shown.chunks(shown.len().div_ceil(count).max(1)).map(<[usize]>::to_vec).collect()
     }
 
-    fn plot(&self, quantity: JointQuantity, group: &[usize], is_one_of_many: bool) -> LayoutNode {
-        let unit = if group.iter().any(|&joint| self.is_length(joint)) { "m" } else { "rad" };
+    fn plot(&self, quantity: JointQuantity, group: &[usize], groups: usize) -> LayoutNode {
+        let unit = group.first().map_or("rad", |&joint| self.unit(joint));
         let title = match (quantity, unit) {
             (Position, _) => format!("Positions and commands (thin) [{unit}]"),
             (Deviation, _) => format!("Deviations from commands [{unit}]"),
@@ -87,7 +87,7 @@ impl JointPlots<'_> {
             (Effort, "m") => "Forces [N]".to_owned(),
             (Effort, _) => "Torques [N m]".to_owned(),
         };
-        let title = match (group, is_one_of_many) {
+        let title = match (group, groups > 1) {
             ([only], true) => format!("{title}: {}", self.names.joints[*only]),
             ([first, .., last], true) => {
                 format!("{title}: {} to {}", self.names.joints[*first], self.names.joints[*last])

@@ -34,8 +34,8 @@ struct Line {
     /// Kind of the check with its number, and the quantity with its unit.
     path: [String; 2],
     has_name: bool,
-    /// Whether the last value was outside the limit.
-    is_outside: bool,
+    /// The last value.
+    last: f64,
 }
 
 /// All quantities of all checks.
@@ -73,7 +73,6 @@ impl CheckSeries {
     /// Takes the values of a sample, recorded or not.
     pub(crate) fn observe(&mut self, values: &[CheckValue]) {
         for value in values {
-            let is_outside = !value.of.bound.holds(value.of.value, value.of.limit);
             let is_same = |line: &&mut Line| {
                 let of = &line.of;
                 (line.check, of.quantity, of.unit) == (value.check, value.of.quantity, value.of.unit)
@@ -84,16 +83,16 @@ impl CheckSeries {
                         line.of.value = value.of.value;
                     }
                     line.is_new = true;
-                    line.is_outside = is_outside;
+                    line.last = value.of.value;
                 }
-                None => self.lines.push(Line { is_outside, ..Line::new(value) }),
+                None => self.lines.push(Line::new(value)),
             }
         }
     }
 
     /// Whether a quantity is outside its limit at the last sample that has it.
     pub(crate) fn is_any_outside(&self) -> bool {
-        self.lines.iter().any(|line| line.is_outside)
+        self.lines.iter().any(|line| !line.of.bound.holds(line.last, line.of.limit))
     }
 
     /// Adds a row of the worst values.
@@ -126,7 +125,7 @@ impl Line {
             values: Vec::new(),
             path: path_parts(value.check, value.kind, (value.of.quantity, value.of.unit)),
             has_name: false,
-            is_outside: false,
+            last: value.of.value,
         }
     }
 

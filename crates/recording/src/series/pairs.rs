@@ -181,9 +181,7 @@ impl PairSeries {
             sample.clearance.below(below_m, limit_m, |pair, distance_m| {
                 add(found, FoundPair { kind: PairKind::Bodies, pair, distance_m, is_violating: true });
             });
-            for at in before..found.len() {
-                sign(&mut found[at], sample.clearance);
-            }
+            found.iter_mut().skip(before).for_each(|found| sign(found, sample.clearance));
             if let DistanceLimit::Depth(Some(depth_m)) = limit {
                 let mut at = 0;
                 found.retain(|found| {
@@ -206,9 +204,7 @@ impl PairSeries {
                 add(found, FoundPair { kind, pair, distance_m, is_violating: true });
             },
         );
-        for at in before..found.len() {
-            sign(&mut found[at], zones);
-        }
+        found.iter_mut().skip(before).for_each(|found| sign(found, zones));
         if let Some(near) = zones.nearest_below(NEAR_M) {
             let (pair, distance_m) = (near.pair, near.distance_m);
             add(found, FoundPair { kind, pair, distance_m, is_violating: false });
