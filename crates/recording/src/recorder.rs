@@ -10,24 +10,30 @@ use congruent_twin::{
     monitor::Names,
     recorder::{Recorder, RecordingError},
     report::RunReport,
+    verdict::CheckValue,
 };
 use nalgebra::{Isometry3, Point3};
 use re_log_types::{StoreId, StoreKind};
 
 use crate::{
     blueprint::layout::ViewerLayout,
-    outcome::{summary, timeline},
+    outcome::{joint_limits, limit_lines::LimitLines, summary, timeline},
     rrd::{identity, times::SampleTime, writer::RrdWriter},
     scene::{
         camera::{BoundingBox, Camera, ThinnedPath},
-        shapes, styles,
-        visual::VisualBody,
+        frames,
+        shapes::{self, SceneBody},
+        styles,
     },
     series::{
-        checks::CheckSeries,
+        checks::{CheckSeries, violating_link},
         clearance::ClearanceSeries,
+        colors::ColorSeries,
         disagreement::{AgreementLimits, DisagreementSeries},
+        extents::Extents,
+        pairs::PairSeries,
         samples::SampleBatch,
+        zones::ZoneSeries,
     },
 };
 
@@ -42,13 +48,27 @@ pub struct RerunRecorder {
     names: Names,
     description: RobotDescription,
     obstacles: Vec<Obstacle>,
-    bodies: Vec<VisualBody>,
+    moving: Vec<String>,
+    zones: Vec<Obstacle>,
+    bodies: Vec<SceneBody>,
+    /// For each link the link that it is fixed to and that a joint moves.
+    body_of_link: Vec<usize>,
+    /// Which of the bodies violate a limit at the present sample.
+    are_violating: Vec<bool>,
     tip_from_tcp: Isometry3<f64>,
     stride: u64,
+    /// Number of checks that had been violated at the sample before.
+    violated_checks: usize,
     batch: SampleBatch,
     disagreement: DisagreementSeries,
+    pairs: PairSeries,
+    colors: ColorSeries,
     clearance: ClearanceSeries,
+    zone_distances: ZoneSeries,
     checks: CheckSeries,
+    extents: Extents,
+    /// Boxes around the shapes of the links, in their own frames.
+    link_boxes: Vec<BoundingBox>,
     robot_box: BoundingBox,
     tool_path: ThinnedPath,
 }
@@ -63,7 +83,7 @@ impl RerunRecorder {
     /// Creates the file and writes the data that do not change: shapes, names, colours.
     ///
     /// `sources` are the model's sources of poses, in the robot's order of links. If a table gives the poses of some
-    /// links, the plots hide the links whose poses come from the URDF alone at first.
+    /// links, the plots leave out the links whose poses come from the URDF alone.
     ///
     /// # Errors
     /// [`RecordingError`] if the file cannot be written.
@@ -74,15 +94,17 @@ impl RerunRecorder {
         sources: &[PoseSource],
     ) -> Result<Self, RecordingError> {
         let description = &setup.description;
-        let tolerance = description.tolerance;
+        let (robot, tolerance) = (&description.robot, description.tolerance);
         let limits = AgreementLimits::of(&setup.scenario.check).unwrap_or(AgreementLimits {
             position_m: tolerance.position_m,
             orientation_rad: tolerance.orientation_rad,
         });
         let mut writer = RrdWriter::create(path, identity::store(setup, StoreKind::Recording))?;
-        let bodies = shapes::bodies(&description.robot, 0.0);
+        let bodies = shapes::bodies(setup);
         shapes::write(&mut writer, setup, &bodies)?;
+        frames::write(&mut writer, description)?;
         DisagreementSeries::write_static(&mut writer)?;
+        PairSeries::write_static(&mut writer)?;
         styles::write(&mut writer, &description.robot, names, sources)?;
         writer.flush()?;
         Ok(Self {
@@ -91,22 +113,48 @@ impl RerunRecorder {
             names: names.clone(),
             description: description.clone(),
             obstacles: setup.obstacles.clone(),
+            moving: moving_names(setup),
+            zones: setup.zones.iter().map(|zone| zone.space.clone()).collect(),
+            body_of_link: robot.link_indices().map(|link| robot.body(link).get()).collect(),
+            are_violating: vec![false; bodies.len()],
+            colors: ColorSeries::new(bodies.len()),
             bodies,
             tip_from_tcp: description.tip_from_tcp.unwrap_or_else(Isometry3::identity),
             stride: stride(setup.clock.step_s),
+            violated_checks: 0,
             batch: SampleBatch::new(names, moving_names(setup)),
             disagreement: DisagreementSeries::new(names.links.len(), limits),
+            pairs: PairSeries::new(&setup.scenario.check),
             clearance: ClearanceSeries::default(),
+            zone_distances: ZoneSeries::new(setup.zones.len()),
             checks: CheckSeries::default(),
+            extents: Extents::new(names.joints.len(), names.links.len()),
+            link_boxes: robot.links().iter().map(shapes::link_box).collect(),
             robot_box: BoundingBox::empty(),
             tool_path: ThinnedPath::new(),
         })
     }
 
+    /// Marks the links that checks of joints and links have found outside their limits, with what is fixed to them.
+    fn mark_links(&mut self, values: &[CheckValue]) {
+        let robot = &self.description.robot;
+        for link in values.iter().filter_map(|value| violating_link(value, robot)) {
+            let body = self.body_of_link[link];
+            for (marked, _) in
+                self.are_violating.iter_mut().zip(&self.body_of_link).filter(|(_, of)| **of == body)
+            {
+                *marked = true;
+            }
+        }
+    }
+
     fn write_batch(&mut self) -> Result<(), RecordingError> {
         self.batch.write(&mut self.writer, &self.names)?;
-        self.disagreement.write(&mut self.writer, &self.names.links, &self.bodies)?;
+        self.disagreement.write(&mut self.writer, &self.names.links)?;
+        self.pairs.write(&mut self.writer, &self.names)?;
+        self.colors.write(&mut self.writer, &self.bodies)?;
         self.clearance.write(&mut self.writer, &self.names.pairs)?;
+        self.zone_distances.write(&mut self.writer, self.zones.iter().map(|zone| &zone.name))?;
         self.checks.write(&mut self.writer)?;
         self.writer.flush()
     }
@@ -115,7 +163,9 @@ impl RerunRecorder {
 impl Recorder for RerunRecorder {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
         self.checks.observe(sample.values);
-        let is_due = sample.step.is_multiple_of(self.stride) || sample.is_last;
+        let is_violation = sample.violated_checks > self.violated_checks;
+        self.violated_checks = sample.violated_checks;
+        let is_due = is_violation || sample.step.is_multiple_of(self.stride) || sample.is_last;
         if !is_due && !self.disagreement.would_change(sample.errors) {
             return Ok(());
         }
@@ -127,16 +177,22 @@ impl Recorder for RerunRecorder {
         let by_twin = sample.twin[tip] * self.tip_from_tcp;
         let by_model = sample.model[tip].to_isometry() * self.tip_from_tcp;
         let tool_in_world = Point3::from(by_twin.translation.vector);
-        for (twin, model) in sample.twin.iter().zip(sample.model) {
-            self.robot_box.include(&Point3::from(twin.translation.vector));
+        for ((twin, model), own) in sample.twin.iter().zip(sample.model).zip(&self.link_boxes) {
+            self.robot_box.include_box(own, twin);
             self.robot_box.include(&Point3::from(model.translation));
         }
         self.robot_box.include(&tool_in_world);
         self.tool_path.push(tool_in_world);
         self.batch.push(time, sample, [&by_twin, &by_model]);
-        self.disagreement.push(time, sample);
+        self.extents.include(sample);
+        self.are_violating.fill(false);
+        self.disagreement.push(time, sample, &mut self.are_violating);
+        self.pairs.push(time, sample, &mut self.are_violating);
+        self.mark_links(sample.values);
+        self.colors.push(time, &self.are_violating);
         self.checks.push(time);
         self.clearance.push(time, sample.clearance, sample.twin.len());
+        self.zone_distances.push(time, sample.zones, sample.twin.len());
         Ok(())
     }
 }
@@ -144,6 +200,17 @@ impl Recorder for RerunRecorder {
 impl Recording for RerunRecorder {
     fn finish(mut self: Box<Self>, report: &RunReport) -> Result<(), RecordingError> {
         self.write_batch()?;
+        shapes::write_names(&mut self.writer, (&self.obstacles, &self.moving), &self.zones, self.robot_box)?;
+        let lines = LimitLines::until(timeline::time(report, report.simulation.duration_s));
+        lines.write_checks(&mut self.writer, report)?;
+        let robot = &self.description.robot;
+        let near_limits = joint_limits::near_limits(robot, &self.extents.joints);
+        joint_limits::write(&mut self.writer, &lines, (robot, &self.names), &near_limits)?;
+        for (number, name) in self.names.joints.iter().enumerate() {
+            if self.extents.joints[number].is_misread {
+                styles::write_measured(&mut self.writer, robot, (number, name))?;
+            }
+        }
         timeline::write(&mut self.writer, report)?;
         summary::write(&mut self.writer, report)?;
         let layout = ViewerLayout {
@@ -153,6 +220,12 @@ impl Recording for RerunRecorder {
             has_obstacles: !self.obstacles.is_empty(),
             camera: Camera::framing(self.robot_box, &self.obstacles, self.tool_path.points()),
             clearance_m: self.clearance.range_m,
+            zones_m: self.zone_distances.range_m,
+            distance_curves: &self.clearance.curves(&self.names.pairs),
+            extents: &self.extents,
+            near_limits: &near_limits,
+            recorded: &self.checks.recorded(),
+            ends_in_violation: self.colors.is_any_violating() || self.checks.is_any_outside(),
         };
         self.writer.open_store(self.layout_store)?;
         layout.write(&mut self.writer)?;

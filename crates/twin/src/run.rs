@@ -212,6 +212,7 @@ impl<'a> Run<'a> {
         }
         let (mut sample, store) = self.sample_and_store();
         sample.is_last = ends;
+        sample.violated_checks = checks.iter().filter(|check| check.monitor.has_failed()).count();
         store.take(&sample);
         recorder.record(&mut sample)?;
         Ok(ends)
@@ -239,6 +240,7 @@ impl<'a> Run<'a> {
             motions_s: self.setup.trajectory.duration_s() + longer_s(self.source.as_ref()),
             is_last: false,
             is_stopping: self.stopping.is_some(),
+            violated_checks: 0,
             joints: self.source.joints(),
             forces: self.source.step_forces(),
             model: self.model.latest(),

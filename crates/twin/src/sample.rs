@@ -5,10 +5,13 @@ use nalgebra::Isometry3;
 
 use crate::{
     bodies::MovingBodies,
-    proximity::Clearance,
+    proximity::{Clearance, Nearest, Pair},
     source::{JointSample, StepForces},
     verdict::CheckValue,
 };
+
+/// How far the physics keeps two shapes apart at most, m: the way of a link at 5 m/s in a step of 1 ms. Kind: physics.
+const KEPT_APART_M: f64 = 5e-3;
 
 /// One instant: borrowed from the run loop, nothing is copied.
 #[derive(Debug)]
@@ -24,6 +27,8 @@ pub struct Sample<'a> {
     pub is_last: bool,
     /// Whether a check stops the run: from its violation on the setpoint leaves the motions and comes to rest.
     pub is_stopping: bool,
+    /// Number of checks that have been violated by now; none for the checks themselves.
+    pub violated_checks: usize,
     /// The joints: true states, measured states and setpoints.
     pub joints: JointSample<'a>,
     /// What acted in the step that led here.
@@ -43,4 +48,18 @@ pub struct Sample<'a> {
     pub bodies: &'a MovingBodies<'a>,
     /// Distances from links to the zones that are forbidden to them, likewise.
     pub zones: &'a mut Clearance,
+}
+
+impl Sample<'_> {
+    /// The pair that the physics keeps apart in this step although its hulls do not meet: the nearest of the chosen pairs of
+    /// a link and an obstacle. `None` if a pair overlaps, which then is the one in contact.
+    pub fn kept_apart(&mut self, is_chosen: impl Fn(usize) -> bool) -> Option<usize> {
+        if self.forces != StepForces::Contact {
+            return None;
+        }
+        let links = self.twin.len();
+        let is_chosen = |pair: usize, Pair { b, .. }: Pair| b >= links && is_chosen(pair);
+        let Nearest { distance_m, pair } = self.clearance.nearest_of(KEPT_APART_M, is_chosen)?;
+        (distance_m > 0.0).then_some(pair)
+    }
 }

@@ -71,6 +71,8 @@ pub struct InstantValue {
     pub limit: f64,
     /// The value.
     pub value: f64,
+    /// The index of what has it: of a joint, a link or a pair, by the kind of check.
+    pub subject: usize,
 }
 
 /// The same with the number of the check in the scenario, from 0.

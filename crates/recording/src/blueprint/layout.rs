@@ -1,27 +1,41 @@
 //! The layout of the viewer: the three-dimensional view on the left with the statuses of the checks below it;
 //! on the right the plots, and the summary and the events below them.
 
-use congruent_description::{JointKind, RobotDescription};
-use congruent_twin::{monitor::Names, recorder::RecordingError, report::RunReport};
+use congruent_agreement::compare::PoseSource;
+use congruent_description::RobotDescription;
+use congruent_kinematics::PoseError;
+use congruent_twin::{
+    monitor::Names,
+    recorder::RecordingError,
+    report::{RunReport, quantity_words},
+    scenario::CheckKind,
+    verdict::{CheckResult, Measure, Status},
+};
 use re_sdk_types::{
     blueprint::{
         archetypes::{
-            Background, EyeControls3D, LineGrid3D, PanelBlueprint, PlotLegend, ScalarAxis, TextLogColumns,
-            TimePanelBlueprint, ViewportBlueprint,
+            Background, EyeControls3D, LineGrid3D, PanelBlueprint, TextLogColumns, TimePanelBlueprint,
+            ViewportBlueprint,
         },
         components::{
-            AbsoluteTimeRange, AutoLayout, AutoViews, BackgroundKind, Corner2D, PanelState, PlayState,
+            AbsoluteTimeRange, AutoLayout, AutoViews, BackgroundKind, LoopMode, PanelState, PlayState,
             RootContainer, TextLogColumn,
         },
         datatypes::{TextLogColumn as Column, TextLogColumnKind},
     },
-    components::Range1D,
     datatypes::{AbsoluteTimeRange as Range, TimeInt},
 };
 
-use super::tree::{BlueprintWriter, LayoutNode, View};
+use super::{
+    joints::JointPlots,
+    plots::PlotFrame,
+    tree::{BlueprintWriter, LayoutNode, View},
+};
 use crate::{
-    outcome::measures::{first_violation_s, of_kind},
+    outcome::{
+        joint_limits::NearLimit,
+        measures::{first_violation_s, of_kind},
+    },
     rrd::{
         convert::vector,
         paths,
@@ -29,6 +43,7 @@ use crate::{
         writer::RrdWriter,
     },
     scene::{camera::Camera, palette},
+    series::{checks::path_parts, extents::Extents},
 };
 
 /// Spacing of the grid lines.
@@ -37,6 +52,23 @@ const GRID_M: f32 = 0.1;
 const CLEARANCE_RANGE: f64 = 3.0;
 /// Duration of the tool's trail.
 const TRAIL_S: f64 = 2.0;
+/// Height of a window of 1600 x 900 pixels without its bars, and of the lanes of the checks in it.
+const WINDOW_PIXELS: f32 = 840.0;
+const LANE_PIXELS: f32 = 40.0;
+const LANES_HEAD_PIXELS: f32 = 66.0;
+/// Height of the summary.
+const SUMMARY_PIXELS: f32 = 235.0;
+/// Heights of a line of a legend, and of a plot without one.
+const LEGEND_LINE_PIXELS: f32 = 23.0;
+const PLOT_PIXELS: f32 = 80.0;
+/// The fewest and the most curves for which there is room.
+const CURVES: (usize, usize) = (4, 7);
+/// The fewest and the most lanes that are in the picture.
+const LANES: (usize, usize) = (3, 9);
+/// The most links with a curve of their own.
+const MAX_LINKS: usize = 10;
+/// Time that is played before and after a violation.
+const AROUND_VIOLATION_S: f64 = 0.5;
 
 /// What the viewer's layout depends on.
 #[derive(Debug)]
@@ -53,6 +85,18 @@ pub(crate) struct ViewerLayout<'a> {
     pub(crate) camera: Camera,
     /// The smallest and the largest minimum distance; `None` if there is no pair.
     pub(crate) clearance_m: Option<(f64, f64)>,
+    /// The same of the distances from the zones.
+    pub(crate) zones_m: Option<(f64, f64)>,
+    /// Names of the curves of distances.
+    pub(crate) distance_curves: &'a [String],
+    /// What joints and links did.
+    pub(crate) extents: &'a Extents,
+    /// Limits of joints that their values came near to.
+    pub(crate) near_limits: &'a [NearLimit],
+    /// The quantities of checks that are recorded, by the parts of their paths.
+    pub(crate) recorded: &'a [[String; 2]],
+    /// Whether a limit is violated at the end of the run.
+    pub(crate) ends_in_violation: bool,
 }
 
 impl ViewerLayout<'_> {
@@ -65,13 +109,7 @@ impl ViewerLayout<'_> {
             .with_auto_layout(AutoLayout(false.into()))
             .with_auto_views(AutoViews(false.into()));
         layout.log("viewport", &viewport)?;
-        let mut time = TimePanelBlueprint::new()
-            .with_timeline(SIM_TIME)
-            .with_state(PanelState::Collapsed)
-            .with_play_state(PlayState::Paused);
-        if let Some(violation_s) = first_violation_s(self.report) {
-            time = time.with_time_selection(selection(violation_s, self.report.simulation.duration_s));
-        }
+        let time = self.time_panel();
         layout.log("time_panel", &time)?;
         for panel in ["blueprint_panel", "selection_panel"] {
             layout.log(panel, &PanelBlueprint::new().with_state(PanelState::Hidden))?;
@@ -79,18 +117,60 @@ impl ViewerLayout<'_> {
         Ok(())
     }
 
+    /// Opens a failed run where its violation is: at the end if it lasts until then, otherwise playing around it. A layout
+    /// cannot set the time cursor.
+    fn time_panel(&self) -> TimePanelBlueprint {
+        let panel = TimePanelBlueprint::new().with_timeline(SIM_TIME).with_state(PanelState::Collapsed);
+        let end_s = self.report.simulation.duration_s;
+        let Some(violation_s) = first_violation_s(self.report) else {
+            let state = if self.report.error.is_some() { PlayState::Following } else { PlayState::Paused };
+            return panel.with_play_state(state);
+        };
+        if self.ends_in_violation || self.report.error.is_some() {
+            return panel
+                .with_time_selection(selection(violation_s, end_s))
+                .with_play_state(PlayState::Following);
+        }
+        let (from_s, to_s) = (violation_s - AROUND_VIOLATION_S, violation_s + AROUND_VIOLATION_S);
+        panel
+            .with_time_selection(selection(from_s.max(0.0), to_s.min(end_s)))
+            .with_loop_mode(LoopMode::Selection)
+            .with_play_state(PlayState::Playing)
+    }
+
     fn root(&self) -> LayoutNode {
-        let left = LayoutNode::Rows(vec![(5.0, self.scene()), (self.status_height(), statuses())]);
-        let mut right = vec![(2.6, self.agreement())];
-        if self.has_clearance() {
-            right.push((2.2, self.clearance()));
+        let lanes = self.lanes_pixels();
+        let left = LayoutNode::Rows(vec![(WINDOW_PIXELS - lanes, self.scene()), (lanes, statuses())]);
+        let mut right = vec![(self.agreement_pixels(), self.agreement())];
+        if let Some(distances) = self.distances() {
+            right.push((self.distances_pixels(), distances));
         }
         if let Some(joints) = self.joints() {
-            right.push((2.0, joints));
+            let others: f32 = right.iter().map(|(pixels, _)| pixels).sum();
+            right.push((WINDOW_PIXELS - SUMMARY_PIXELS - others, joints));
         }
         let summary = View::new("TextDocument", "Summary", paths::summary());
-        right.push((3.2, LayoutNode::Columns(vec![(3.0, summary.into()), (2.0, events())])));
+        right.push((SUMMARY_PIXELS, LayoutNode::Columns(vec![(1.0, summary.into()), (1.0, events())])));
         LayoutNode::Columns(vec![(1.0, left), (1.0, LayoutNode::Rows(right))])
+    }
+
+    /// Height of the plot of errors: with a curve for each link if they are outside their tolerance.
+    fn agreement_pixels(&self) -> f32 {
+        let is_violated = of_kind(self.report, "agreement").any(|measure| measure.first_violation.is_some());
+        plot_pixels(if is_violated { self.shown_links().count() + 1 } else { 0 })
+    }
+
+    /// Height of the plot of distances.
+    fn distances_pixels(&self) -> f32 {
+        plot_pixels(self.distance_curves.len())
+    }
+
+    /// The axes of all plots.
+    fn frame(&self) -> PlotFrame {
+        let names = self.names.joints.iter().map(String::as_str);
+        let links = self.shown_links().map(|link| self.names.links[link].as_str());
+        let names = names.chain(links).chain(self.distance_curves.iter().map(String::as_str));
+        PlotFrame::new(self.report.simulation.duration_s, names.chain(["orientation tolerance"]))
     }
 
     fn scene(&self) -> LayoutNode {
@@ -106,13 +186,16 @@ impl ViewerLayout<'_> {
             .with("Background", &background)
             .with("LineGrid3D", &grid)
             .with_trail(paths::trail(), TRAIL_S)
+            .hiding(paths::frames())
             .into()
     }
 
-    /// Height of the status lanes in units in which the three-dimensional view has 5.
-    fn status_height(&self) -> f32 {
-        let lanes = u8::try_from(self.report.checks.len()).unwrap_or(u8::MAX);
-        0.5 + 0.25 * f32::from(lanes.min(8))
+    /// Height of the status lanes: all that failed are in the picture, in front of the others.
+    fn lanes_pixels(&self) -> f32 {
+        let failed = self.report.checks.iter().filter(|check| has_failed(check)).count();
+        let (fewest, most) = LANES;
+        let lanes = self.report.checks.len().min(failed.max(fewest)).min(most);
+        LANES_HEAD_PIXELS + LANE_PIXELS * f32::from(u8::try_from(lanes.max(1)).unwrap_or(u8::MAX))
     }
 
     /// Plots of errors in tabs: in front the plot with a violated limit, or the logarithms of the largest
@@ -121,18 +204,22 @@ impl ViewerLayout<'_> {
         let of = |quantity: &'static str| {
             of_kind(self.report, "agreement").find(move |measure| measure.quantity == quantity)
         };
+        let frame = self.frame();
         let view = |quantity: &'static str, name: &str, fallback: f64| {
             let limit = of(quantity).map_or(fallback, |measure| measure.limit);
             let worst =
                 of(quantity).and_then(|measure| measure.worst.as_ref()).map_or(0.0, |worst| worst.value);
+            let links =
+                self.shown_links().map(|link| paths::path(&["agreement", quantity, &self.names.links[link]]));
+            let tolerance = paths::path(&["agreement", quantity, "tolerance"]);
             let view = View::new("TimeSeries", name, paths::path(&["agreement", quantity]));
-            plot(view, (0.0, limit.max(worst)))
+            frame.plot(view.only(links.chain([tolerance])), Some((0.0, limit.max(worst))))
         };
         let worst =
             View::new("TimeSeries", "Largest errors [power of ten]", paths::path(&["agreement", "worst"]));
         let tolerance = self.description.tolerance;
         let mut tabs = vec![
-            worst.with("PlotLegend", &legend()).into(),
+            frame.plot(worst, None),
             view("position", "Position errors [m]", tolerance.position_m),
             view("orientation", "Orientation errors [rad]", tolerance.orientation_rad),
         ];
@@ -145,45 +232,98 @@ impl ViewerLayout<'_> {
         LayoutNode::Tabs(tabs)
     }
 
-    /// Whether to show the clearance plot: distances were recorded, and there is a limit or an obstacle.
-    fn has_clearance(&self) -> bool {
-        let is_checked = of_kind(self.report, "clearance").next().is_some();
-        self.clearance_m.is_some() && (is_checked || self.has_obstacles)
-    }
-
-    fn clearance(&self) -> LayoutNode {
-        let (low, high) = self.clearance_m.unwrap_or((0.0, 1.0));
-        let limit = of_kind(self.report, "clearance").map(|measure| measure.limit).fold(0.0, f64::max);
-        let view = View::new("TimeSeries", "Clearance [m]", paths::path(&["clearance"]));
-        plot(view, (low.min(0.0), CLEARANCE_RANGE * high.max(limit)))
-    }
-
-    /// Joint positions, with one plot for each unit; `None` without joints.
-    fn joints(&self) -> Option<LayoutNode> {
-        let robot = &self.description.robot;
-        let of_unit = |is_length: bool| {
-            let movable = self.names.joints.iter().zip(robot.movable_joints());
-            movable
-                .filter(|&(_, &joint)| (robot.joint(joint).kind == JointKind::Prismatic) == is_length)
-                .map(|(name, _)| paths::joint_position(name))
-                .collect::<Vec<_>>()
+    /// The links with the largest errors, in the robot's order: of those that the table moves, if there is one.
+    fn shown_links(&self) -> impl Iterator<Item = usize> {
+        let limits = self.description.tolerance;
+        let ratio = |error: &PoseError| {
+            (error.position_m / limits.position_m).max(error.orientation_rad / limits.orientation_rad)
         };
-        let view = |unit: &str, joints: Vec<_>| {
-            let title = format!("Joint positions [{unit}]");
-            let view = View::new("TimeSeries", title, paths::path(&["joint", "position"])).only(joints);
-            view.with("PlotLegend", &legend()).into()
-        };
-        let mut views: Vec<LayoutNode> = [("rad", of_unit(false)), ("m", of_unit(true))]
-            .into_iter()
-            .filter(|(_, joints)| !joints.is_empty())
-            .map(|(unit, joints)| view(unit, joints))
-            .collect();
-        match views.len() {
-            0 => None,
-            1 => views.pop(),
-            _ => Some(LayoutNode::Tabs(views)),
+        let errors = &self.extents.links;
+        let is_of_table = |link: &usize| self.report.links[*link].source != PoseSource::Urdf;
+        let mut links: Vec<usize> = (0..errors.len()).filter(is_of_table).collect();
+        if links.is_empty() {
+            links = (0..errors.len()).collect();
         }
+        links.sort_by(|&a, &b| ratio(&errors[b]).total_cmp(&ratio(&errors[a])));
+        links.truncate(MAX_LINKS);
+        links.sort_unstable();
+        links.into_iter()
     }
+
+    /// Plots of distances, a violated one in front; `None` if there is nothing to be near to.
+    fn distances(&self) -> Option<LayoutNode> {
+        let frame = self.frame();
+        let is_checked =
+            ["clearance", "contact"].iter().any(|kind| of_kind(self.report, kind).next().is_some());
+        let clearance = self.clearance_m.filter(|_| is_checked || self.has_obstacles).map(|(low, high)| {
+            let limit = of_kind(self.report, "clearance").map(|measure| measure.limit).fold(0.0, f64::max);
+            let view = View::new("TimeSeries", "Clearance [m]", paths::path(&["clearance"]));
+            frame.plot(view, Some((low.min(0.0), CLEARANCE_RANGE * high.max(limit))))
+        });
+        let zones = self.zones_m.map(|(low, high)| {
+            let view = View::new("TimeSeries", "Distances from zones [m]", paths::path(&["zone"]));
+            frame.plot(view, Some((low.min(0.0), high)))
+        });
+        let mut tabs: Vec<LayoutNode> = clearance.into_iter().chain(zones).collect();
+        let is_violated =
+            |kind: &str| of_kind(self.report, kind).any(|measure| measure.first_violation.is_some());
+        if is_violated("zone") && !is_violated("clearance") {
+            tabs.reverse();
+        }
+        if tabs.len() > 1 { Some(LayoutNode::Tabs(tabs)) } else { tabs.pop() }
+    }
+
+    /// Plots of the joints, behind those of the checks that failed; `None` without joints.
+    fn joints(&self) -> Option<LayoutNode> {
+        let plots = JointPlots {
+            robot: &self.description.robot,
+            names: self.names,
+            extents: &self.extents.joints,
+            limits: self.near_limits,
+            frame: self.frame(),
+        };
+        let mut tabs = self.failed_plots();
+        tabs.extend(plots.all());
+        if tabs.len() > 1 { Some(LayoutNode::Tabs(tabs)) } else { tabs.pop() }
+    }
+
+    /// What checks without a plot of their own have measured outside a limit, the first violation first.
+    fn failed_plots(&self) -> Vec<LayoutNode> {
+        let own = [CheckKind::Agreement, CheckKind::Clearance, CheckKind::Contact, CheckKind::Zone];
+        let checks = self.report.checks.iter().enumerate().filter(|(_, check)| !own.contains(&check.check));
+        let violated = checks.flat_map(|(number, check)| {
+            check.measures.iter().filter_map(move |measure| {
+                Some((measure.first_violation.as_ref()?.time_s, number, check.check, measure))
+            })
+        });
+        let mut violated: Vec<(f64, usize, CheckKind, &Measure)> = violated.collect();
+        violated.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
+        violated.dedup_by_key(|&mut (_, number, _, measure)| (number, measure.quantity));
+        let frame = self.frame();
+        let plot = |(_, number, kind, measure): (f64, usize, CheckKind, &Measure)| {
+            let parts = path_parts(number, kind, (measure.quantity, measure.unit));
+            if !self.recorded.contains(&parts) {
+                return None;
+            }
+            let [check, quantity] = parts;
+            let unit = if measure.unit.is_empty() { "1" } else { measure.unit };
+            let title = format!("{kind}: {} [{unit}]", quantity_words(measure.quantity));
+            let entities = [paths::check(&check, &quantity), paths::check_limit(&check, &quantity)];
+            Some(frame.plot(View::new("TimeSeries", title, paths::path(&[])).only(entities), None))
+        };
+        violated.into_iter().filter_map(plot).collect()
+    }
+}
+
+/// Height of a plot of so many curves: its legend is in the picture.
+fn plot_pixels(curves: usize) -> f32 {
+    let (fewest, most) = CURVES;
+    let curves = u8::try_from(curves.clamp(fewest, most)).unwrap_or(u8::MAX);
+    PLOT_PIXELS + LEGEND_LINE_PIXELS * f32::from(curves)
+}
+
+fn has_failed(check: &CheckResult) -> bool {
+    matches!(check.status, Status::Fail | Status::Error)
 }
 
 fn statuses() -> LayoutNode {
@@ -202,23 +342,7 @@ fn events() -> LayoutNode {
     View::new("TextLog", "Events", paths::log()).with("TextLogColumns", &columns).into()
 }
 
-/// A legend on the left, since the values change least at the start of a run.
-fn legend() -> PlotLegend {
-    PlotLegend::new().with_corner(Corner2D::LeftTop)
-}
-
-/// A plot of this range with a margin above and below.
-fn plot(view: View, (low, high): (f64, f64)) -> LayoutNode {
-    let margin = 0.06 * (high - low);
-    let range = if margin.is_finite() && margin > 0.0 {
-        Range1D::new(low - margin, high + margin)
-    } else {
-        Range1D::new(0.0, 1.0)
-    };
-    view.with("ScalarAxis", &ScalarAxis::new().with_range(range)).with("PlotLegend", &legend()).into()
-}
-
-/// The time range from the first violation to the end. A layout cannot set the time cursor.
+/// A range of time.
 fn selection(from_s: f64, to_s: f64) -> AbsoluteTimeRange {
     let time = |time_s: f64| TimeInt(nanoseconds(time_s));
     AbsoluteTimeRange(Range { min: time(from_s), max: time(to_s) })

@@ -5,7 +5,7 @@ use re_log_types::{EntityPath, EntityPathPart, TimeInt, TimePoint, Timeline};
 use re_sdk_types::{
     AsComponents, SerializedComponentBatch,
     blueprint::{
-        archetypes::{ContainerBlueprint, ViewBlueprint, ViewContents, VisibleTimeRanges},
+        archetypes::{ContainerBlueprint, EntityBehavior, ViewBlueprint, ViewContents, VisibleTimeRanges},
         components::{
             ActiveTab, ColumnShare, ContainerKind, IncludedContent, QueryExpression, RowShare,
             VisibleTimeRange,
@@ -33,6 +33,7 @@ pub(crate) struct View {
     contents: Vec<String>,
     properties: Vec<(&'static str, Vec<SerializedComponentBatch>)>,
     trail: Option<(EntityPath, f64)>,
+    hidden: Vec<EntityPath>,
 }
 
 impl View {
@@ -45,6 +46,7 @@ impl View {
             contents: vec!["$origin/**".to_owned()],
             properties: Vec::new(),
             trail: None,
+            hidden: Vec::new(),
         }
     }
 
@@ -63,6 +65,12 @@ impl View {
     /// Shows the rows of an entity in the last seconds, not only the latest row.
     pub(crate) fn with_trail(mut self, entity: EntityPath, duration_s: f64) -> Self {
         self.trail = Some((entity, duration_s));
+        self
+    }
+
+    /// Hides an entity and all below it until someone shows it.
+    pub(crate) fn hiding(mut self, entity: EntityPath) -> Self {
+        self.hidden.push(entity);
         self
     }
 }
@@ -158,6 +166,10 @@ impl<'a> BlueprintWriter<'a> {
         self.log(path.clone(), &blueprint)?;
         for (name, property) in &view.properties {
             self.row(&path / EntityPathPart::new(*name), property.clone())?;
+        }
+        for entity in &view.hidden {
+            let at = ViewContents::blueprint_base_visualizer_path_for_entity(id, entity);
+            self.log(at, &EntityBehavior::new().with_visible(false))?;
         }
         if let Some((entity, duration_s)) = &view.trail {
             let at = ViewContents::blueprint_base_visualizer_path_for_entity(id, entity);

@@ -1,5 +1,7 @@
 //! What a finished run adds to its recording, from its report alone.
 
+pub(crate) mod joint_limits;
+pub(crate) mod limit_lines;
 pub(crate) mod measures;
 pub(crate) mod summary;
 pub(crate) mod timeline;

@@ -44,7 +44,8 @@ fn properties(report: &RunReport) -> AnyValues {
 }
 
 fn markdown(report: &RunReport) -> String {
-    let mut text = format!("### {}: {}\n\n", escaped(&report.scenario), escaped(&report.sentence()));
+    let (scenario, robot) = (escaped(&report.scenario), escaped(&report.robot));
+    let mut text = format!("### {scenario} on {robot}: {}\n\n", escaped(&report.sentence()));
     if let Some(error) = &report.error {
         let _ = writeln!(text, "{}\n", escaped(error));
     }

@@ -1,14 +1,13 @@
-//! What a finished run adds over time: lines at the limits, the status of each check, and events.
+//! What a finished run adds over time: the status of each check, and events.
 
 use congruent_twin::{
     recorder::RecordingError,
     report::{RunReport, sentence_at},
-    scenario::CheckKind,
     verdict::{CheckResult, Status},
 };
 use re_log_types::EntityPath;
 use re_sdk_types::{
-    archetypes::{Scalars, SeriesLines, StateChange, StateConfiguration, TextLog},
+    archetypes::{StateChange, StateConfiguration, TextLog},
     components::{Color, TextLogLevel},
 };
 
@@ -16,19 +15,18 @@ use super::measures::first_violation;
 use crate::{
     rrd::{paths, times::SampleTime, writer::RrdWriter},
     scene::palette,
-    series::scalars::log10,
 };
 
-/// Writes limits, statuses and events.
+/// Writes statuses and events.
 pub(crate) fn write(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
-    write_limits(writer, report)?;
     for (check, name) in report.checks.iter().zip(status_names(report)) {
         write_status(writer, report, check, &paths::status(check.status.word(), &name))?;
     }
     write_events(writer, report)
 }
 
-fn time(report: &RunReport, time_s: f64) -> SampleTime {
+/// A time of the run.
+pub(crate) fn time(report: &RunReport, time_s: f64) -> SampleTime {
     let steps = (time_s / report.simulation.step_s).round();
     #[expect(
         clippy::cast_possible_truncation,
@@ -36,47 +34,6 @@ fn time(report: &RunReport, time_s: f64) -> SampleTime {
         reason = "the cast of floats saturates, and times are not negative"
     )]
     SampleTime::new(time_s, steps as u64)
-}
-
-/// Writes a line at every limit in a plot, from the start to the end of the run.
-fn write_limits(writer: &mut RrdWriter, report: &RunReport) -> Result<(), RecordingError> {
-    let plotted = |kind: &str, quantity: &str| match (kind, quantity) {
-        ("agreement", "position") => Some((paths::position_error("tolerance"), "tolerance")),
-        ("agreement", "orientation") => Some((paths::orientation_error("tolerance"), "tolerance")),
-        ("clearance", _) => Some((paths::clearance("limit"), "limit")),
-        _ => None,
-    };
-    for check in &report.checks {
-        for (at, measure) in check.measures.iter().enumerate() {
-            // Further pairs of a clearance check have the same limit.
-            if check.measures[..at].iter().any(|before| before.quantity == measure.quantity) {
-                continue;
-            }
-            if let Some((path, name)) = plotted(check.check.word(), measure.quantity) {
-                write_line(writer, report, &path, (name, measure.limit))?;
-            }
-            if check.check == CheckKind::Agreement {
-                let name = format!("{} tolerance", measure.quantity);
-                let path = paths::worst_of_links(&name);
-                write_line(writer, report, &path, (&name, log10(measure.limit)))?;
-            }
-        }
-    }
-    Ok(())
-}
-
-fn write_line(
-    writer: &mut RrdWriter,
-    report: &RunReport,
-    path: &EntityPath,
-    (name, value): (&str, f64),
-) -> Result<(), RecordingError> {
-    let style = SeriesLines::new().with_names([name]).with_colors([palette::LIMIT]).with_widths([1.5]);
-    writer.log_static(path, &style)?;
-    for time_s in [0.0, report.simulation.duration_s] {
-        writer.log_at(path, time(report, time_s).point(), &Scalars::new([value]))?;
-    }
-    Ok(())
 }
 
 /// The kind of each check; a kind that appeared before is followed by the check's line in the scenario.
@@ -122,7 +79,8 @@ fn write_events(writer: &mut RrdWriter, report: &RunReport) -> Result<(), Record
     let mut events = vec![(0.0, TextLogLevel::INFO, start)];
     for check in &report.checks {
         if let Some((measure, moment)) = first_violation(check) {
-            let text = format!("{}: {}", check.check, sentence_at(measure, moment));
+            // The subject comes first: a narrow table cuts off the rest.
+            let text = format!("{}, {}: {}", check.check, moment.subject, sentence_at(measure, moment));
             events.push((moment.time_s, TextLogLevel::ERROR, text));
         }
     }

@@ -33,6 +33,26 @@ pub(crate) fn zone(name: &str) -> EntityPath {
     path(&["world", "zone", name])
 }
 
+/// The name of an obstacle or of a zone, below it.
+pub(crate) fn name_of(body: &EntityPath) -> EntityPath {
+    body / EntityPathPart::new("name")
+}
+
+/// All frames.
+pub(crate) fn frames() -> EntityPath {
+    path(&["world", "frame"])
+}
+
+/// A frame of a kind: of a link, of the table, or the tool's.
+pub(crate) fn frame(kind: &str, name: &str) -> EntityPath {
+    path(&["world", "frame", kind, name])
+}
+
+/// Lines between the nearest points of bodies that are too close, or near.
+pub(crate) fn nearest() -> EntityPath {
+    path(&["world", "nearest"])
+}
+
 /// The path of the tool.
 pub(crate) fn trail() -> EntityPath {
     path(&["world", "trail"])
@@ -81,6 +101,26 @@ pub(crate) fn tcp(source: &str, coordinate: &str) -> EntityPath {
 /// A distance, m: `minimum`, `limit`, or the distance of a named pair.
 pub(crate) fn clearance(name: &str) -> EntityPath {
     path(&["clearance", name])
+}
+
+/// The distance of the nearest link from a zone, m.
+pub(crate) fn zone_distance(zone: &str) -> EntityPath {
+    path(&["zone", "distance", zone])
+}
+
+/// The limit of those distances.
+pub(crate) fn zone_limit() -> EntityPath {
+    path(&["zone", "limit"])
+}
+
+/// The `upper` or the `lower` limit of a quantity of a joint.
+pub(crate) fn joint_limit(quantity: &str, joint: &str, side: &str) -> EntityPath {
+    path(&["joint_limit", quantity, joint, side])
+}
+
+/// The limit of a quantity of a check.
+pub(crate) fn check_limit(check: &str, quantity: &str) -> EntityPath {
+    path(&["limit", check, quantity])
 }
 
 /// A quantity of a check, both with what tells them apart: the number of the check, the unit.

@@ -29,6 +29,9 @@ pub(crate) fn failed(error: impl Display) -> RecordingError {
     RecordingError { message: error.to_string() }
 }
 
+/// Bytes that are gathered before they are passed on: most messages are one or two kB.
+const BUFFER_BYTES: usize = 1 << 18;
+
 /// An open file of messages. Rows go to the store that was opened last.
 pub(crate) struct RrdWriter {
     file: BufWriter<File>,
@@ -45,7 +48,7 @@ impl RrdWriter {
         let file = File::create(path)
             .map_err(|error| failed(format_args!("cannot write {}: {error}", path.display())))?;
         let mut writer = Self {
-            file: BufWriter::new(file),
+            file: BufWriter::with_capacity(BUFFER_BYTES, file),
             written: 0,
             frame: Vec::new(),
             store: store.clone(),
@@ -87,6 +90,16 @@ impl RrdWriter {
         components: &dyn AsComponents,
     ) -> Result<(), RecordingError> {
         self.row(path, TimePoint::default(), components.as_serialized_batches())
+    }
+
+    /// Logs the components of several archetypes, which hold at all times, in one row.
+    pub(crate) fn log_static_together(
+        &mut self,
+        path: &EntityPath,
+        archetypes: &[&dyn AsComponents],
+    ) -> Result<(), RecordingError> {
+        let parts = archetypes.iter().flat_map(|archetype| archetype.as_serialized_batches()).collect();
+        self.row(path, TimePoint::default(), parts)
     }
 
     /// Logs components that hold from one time on.

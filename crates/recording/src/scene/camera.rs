@@ -2,24 +2,37 @@
 
 use congruent_description::Geometry;
 use congruent_simulation::Obstacle;
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3};
 
-/// Margin around the link origins for the shapes of the links.
-const MARGIN_M: f64 = 0.12;
+/// Margin around the shapes of the links.
+const MARGIN_M: f64 = 0.02;
 /// Obstacles count up to this distance outside the robot's box, as a fraction of its diagonal: a floor of ten
 /// metres must not shrink the robot in the picture.
 const OBSTACLE_REACH: f64 = 0.05;
-/// Half of the viewer's vertical field of view, 55 degrees.
-const HALF_VIEW_RAD: f64 = 0.479_965_544;
+/// Tangents of half of the viewer's field of view: of 55 degrees vertically, and of the same with the aspect that the
+/// layout gives the view.
+const HALF_VIEW: [f64; 2] = [0.676_7, 0.520_6];
 /// Candidate azimuths of the camera, relative to the azimuth of the tool's path: the best first if nothing
 /// hides the path, views from behind last.
 const AZIMUTHS_RAD: [f64; 8] = [-0.95, 0.95, -0.45, 0.45, -1.6, 1.6, -2.3, 2.3];
 /// Elevation of the camera.
 const ELEVATION_RAD: f64 = 0.42;
-/// The fraction of the bounding sphere's radius that must be in the picture: arms are slim.
-const SPHERE_FRACTION: f64 = 0.7;
+/// The fraction of the box that must be in the picture: arms are slim, and leave its corners free.
+const BOX_FRACTION: f64 = 0.78;
 /// The most points kept of the tool's path.
 const MAX_POINTS: usize = 64;
+
+/// The corners of a box, by the signs of its half edges.
+const CORNERS: [[f64; 3]; 8] = [
+    [-1.0, -1.0, -1.0],
+    [1.0, -1.0, -1.0],
+    [-1.0, 1.0, -1.0],
+    [1.0, 1.0, -1.0],
+    [-1.0, -1.0, 1.0],
+    [1.0, -1.0, 1.0],
+    [-1.0, 1.0, 1.0],
+    [1.0, 1.0, 1.0],
+];
 
 /// Axis-aligned box around the points so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +50,12 @@ impl BoundingBox {
         }
     }
 
+    /// The box around a shape that is centred at its origin.
+    pub(crate) fn of(geometry: &Geometry) -> Self {
+        let half = half_size(geometry);
+        Self { low: (-half).into(), high: half.into() }
+    }
+
     /// Extends the box to a point; a point that is not finite is ignored.
     pub(crate) fn include(&mut self, point: &Point3<f64>) {
         if point.coords.iter().all(|coordinate| coordinate.is_finite()) {
@@ -45,16 +64,35 @@ impl BoundingBox {
         }
     }
 
+    /// Extends the box to the corners of another, which stands at a pose.
+    pub(crate) fn include_box(&mut self, other: &Self, world_from_other: &Isometry3<f64>) {
+        if other.low.x > other.high.x {
+            return;
+        }
+        let (middle, half) = (nalgebra::center(&other.low, &other.high), (other.high - other.low) / 2.0);
+        for signs in CORNERS {
+            self.include(&(world_from_other * (middle + half.component_mul(&Vector3::from(signs)))));
+        }
+    }
+
+    /// The point on top of a shape, in the middle of the part of it that is inside this box.
+    pub(crate) fn top_of(&self, shape: &Obstacle) -> Point3<f64> {
+        let mut own = Self::empty();
+        own.include_box(&Self::of(&shape.geometry), &shape.world_from_obstacle);
+        let inside = |bound: Point3<f64>| bound.sup(&self.low).inf(&self.high).sup(&own.low).inf(&own.high);
+        let [low, high] = [inside(own.low), inside(own.high)];
+        Point3::new(f64::midpoint(low.x, high.x), f64::midpoint(low.y, high.y), high.z)
+    }
+
     /// The robot's box, extended to the nearby parts of the obstacles.
-    fn with_obstacles(self, obstacles: &[Obstacle]) -> Self {
+    pub(crate) fn with_obstacles(self, obstacles: &[Obstacle]) -> Self {
         let reach = MARGIN_M + OBSTACLE_REACH * (self.high - self.low).norm();
         let near = self.grown(reach);
         let mut all = self.grown(MARGIN_M);
         for obstacle in obstacles {
             let half = half_size(&obstacle.geometry);
-            for corner in 0..8_u8 {
-                let sign = |bit: u8| if corner & (1 << bit) == 0 { -1.0 } else { 1.0 };
-                let corner = Point3::from(half.component_mul(&Vector3::new(sign(0), sign(1), sign(2))));
+            for signs in CORNERS {
+                let corner = Point3::from(half.component_mul(&Vector3::from(signs)));
                 let corner_in_world = obstacle.world_from_obstacle * corner;
                 all.include(&corner_in_world.sup(&near.low).inf(&near.high));
             }
@@ -99,14 +137,13 @@ impl Camera {
         }
         let all = robot.with_obstacles(obstacles);
         let target_in_world = nalgebra::center(&all.low, &all.high);
-        let radius = (all.high - all.low).norm() / 2.0;
-        let distance = SPHERE_FRACTION * radius / HALF_VIEW_RAD.sin();
         let sum = path_in_world.iter().fold(Vector3::zeros(), |sum: Vector3<f64>, point| sum + point.coords);
         let path_rad = if sum.xy().norm() > 0.0 { sum.y.atan2(sum.x) } else { 0.0 };
         let (up, level) = ELEVATION_RAD.sin_cos();
         let from = |azimuth_rad: f64| {
             let (sin, cos) = (path_rad + azimuth_rad).sin_cos();
-            target_in_world + Vector3::new(cos * level, sin * level, up) * distance
+            let to_eye = Vector3::new(cos * level, sin * level, up);
+            target_in_world + to_eye * distance_m(&all, &to_eye)
         };
         let hidden = |eye: &Point3<f64>| {
             let is_hidden =
@@ -117,6 +154,19 @@ impl Camera {
         let eye_in_world = eyes.into_iter().min_by_key(hidden).expect("there are candidate azimuths");
         Self { eye_in_world, target_in_world }
     }
+}
+
+/// Distance from the middle of a box at which an eye in this direction has it in its picture.
+fn distance_m(framed: &BoundingBox, to_eye: &Vector3<f64>) -> f64 {
+    let right = Vector3::z().cross(to_eye).normalize();
+    let up = to_eye.cross(&right);
+    let half = (framed.high - framed.low) / 2.0;
+    let from_corner = |signs: [f64; 3]| {
+        let corner = half.component_mul(&Vector3::from(signs)) * BOX_FRACTION;
+        let [across, along] = [corner.dot(&right), corner.dot(&up)].map(f64::abs);
+        corner.dot(to_eye) + (across / HALF_VIEW[0]).max(along / HALF_VIEW[1])
+    };
+    CORNERS.into_iter().map(from_corner).fold(0.0, f64::max)
 }
 
 /// Whether the box around an obstacle is between the eye and a point.
@@ -175,8 +225,6 @@ impl ThinnedPath {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::Isometry3;
-
     use super::*;
 
     fn arm() -> BoundingBox {

@@ -2,6 +2,7 @@
 //! them.
 
 pub(crate) mod camera;
+pub(crate) mod frames;
 pub(crate) mod palette;
 pub(crate) mod shapes;
 pub(crate) mod styles;

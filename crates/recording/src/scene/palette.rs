@@ -20,8 +20,21 @@ const LINKS: [[u8; 3]; 12] = [
 
 /// Lines at limits and tolerances.
 pub(crate) const LIMIT: Color = rgb([0xff, 0x5c, 0x5c]);
-/// A link outside its limit: red, which nothing else is.
+/// What violates a limit: red, which nothing else is.
 pub(crate) const OUTSIDE: Color = rgb([0xff, 0x2d, 0x2d]);
+/// An obstacle that a link is too close to: darker, since it is large and the link must stand out before it.
+pub(crate) const OUTSIDE_OBSTACLE: Color = rgba([0xa8, 0x24, 0x24], 0xd8);
+/// A zone that a link is in.
+pub(crate) const OUTSIDE_ZONE: Color = rgba([0xff, 0x2d, 0x2d], 0x40);
+/// A line to something that is near without a violation.
+pub(crate) const QUIET: Color = rgb([0x8c, 0xa0, 0xb8]);
+/// A link whose description gives no colour: one colour for all of them.
+pub(crate) const UNPAINTED: Color = rgb([0xa4, 0xae, 0xbc]);
+/// The tolerances of position and orientation, each in a pale shade of its error's colour.
+pub(crate) const TOLERANCES: [Color; 2] = [rgb([0xb4, 0xd4, 0xff]), rgb([0xff, 0xdc, 0xb0])];
+/// The axes x, y and z of a frame.
+pub(crate) const AXES: [Color; 3] =
+    [rgb([0xff, 0x6b, 0x6b]), rgb([0x5f, 0xe0, 0x7a]), rgb([0x5f, 0x9d, 0xff])];
 /// The model's links: translucent, in a hue that robots rarely have.
 pub(crate) const MODEL: Color = rgba([0x2e, 0xe6, 0xd6], 0x48);
 /// Zones: a translucent warning colour.
@@ -46,6 +59,16 @@ const OBSTACLES: [[u8; 3]; 5] =
 /// The colour of a link or of a numbered line.
 pub(crate) fn link(index: usize) -> Color {
     rgb(LINKS[index % LINKS.len()])
+}
+
+/// The same colour, half way to white: a commanded value beside the true one.
+pub(crate) fn pale(index: usize) -> Color {
+    rgb(LINKS[index % LINKS.len()].map(|channel| channel / 2 + 0x80))
+}
+
+/// The same colour, half as bright: a measured value beside the true one.
+pub(crate) fn dim(index: usize) -> Color {
+    rgb(LINKS[index % LINKS.len()].map(|channel| channel / 2 + 0x18))
 }
 
 /// The colour of an obstacle.

@@ -1,17 +1,26 @@
 //! What the checks measure over time: for each quantity the worst value since the recorded time before, beside its limit.
 
+use congruent_description::Robot;
 use congruent_twin::{
     recorder::RecordingError,
+    report::quantity_words,
+    scenario::CheckKind,
     verdict::{CheckValue, InstantValue},
 };
 use re_sdk_types::archetypes::SeriesLines;
 
 use super::scalars::write_scalars;
-use crate::rrd::{
-    paths,
-    times::{SampleTime, SampleTimes},
-    writer::RrdWriter,
+use crate::{
+    rrd::{
+        paths,
+        times::{SampleTime, SampleTimes},
+        writer::RrdWriter,
+    },
+    scene::palette,
 };
+
+/// Width of a line on the screen.
+const WIDTH_UI_POINTS: f32 = 1.5;
 
 /// One quantity of one check.
 #[derive(Debug)]
@@ -25,12 +34,39 @@ struct Line {
     /// Kind of the check with its number, and the quantity with its unit.
     path: [String; 2],
     has_name: bool,
+    /// The last value.
+    last: f64,
 }
 
 /// All quantities of all checks.
 #[derive(Debug, Default)]
 pub(crate) struct CheckSeries {
     lines: Vec<Line>,
+}
+
+/// The link that a value outside its limit is about: that of a joint, or a link itself.
+pub(crate) fn violating_link(value: &CheckValue, robot: &Robot) -> Option<usize> {
+    let InstantValue { quantity, bound, limit, value: measured, subject, .. } = value.of;
+    if bound.holds(measured, limit) {
+        return None;
+    }
+    match value.kind {
+        CheckKind::Twist => Some(subject),
+        CheckKind::Tracking if quantity.contains("tcp") => Some(subject),
+        CheckKind::Dynamics | CheckKind::Limits | CheckKind::Tracking => {
+            // Beyond the last joint there is the sum of all.
+            let &joint = robot.movable_joints().get(subject)?;
+            Some(robot.joint(joint).child.get())
+        }
+        _ => None,
+    }
+}
+
+/// The two parts of a path that tell a quantity of a check, by its number from 0: kind with number, quantity with unit.
+pub(crate) fn path_parts(check: usize, kind: CheckKind, (quantity, unit): (&str, &str)) -> [String; 2] {
+    let unit = unit.replace([' ', '/'], "_");
+    let quantity = if unit.is_empty() { quantity.to_owned() } else { format!("{quantity}_{unit}") };
+    [format!("{}_{}", check + 1, kind.word()), quantity]
 }
 
 impl CheckSeries {
@@ -47,10 +83,16 @@ impl CheckSeries {
                         line.of.value = value.of.value;
                     }
                     line.is_new = true;
+                    line.last = value.of.value;
                 }
                 None => self.lines.push(Line::new(value)),
             }
         }
+    }
+
+    /// Whether a quantity is outside its limit at the last sample that has it.
+    pub(crate) fn is_any_outside(&self) -> bool {
+        self.lines.iter().any(|line| !line.of.bound.holds(line.last, line.of.limit))
     }
 
     /// Adds a row of the worst values.
@@ -62,6 +104,11 @@ impl CheckSeries {
         }
     }
 
+    /// The parts of the paths of all quantities so far.
+    pub(crate) fn recorded(&self) -> Vec<[String; 2]> {
+        self.lines.iter().map(|line| line.path.clone()).collect()
+    }
+
     /// Writes all rows and removes them.
     pub(crate) fn write(&mut self, writer: &mut RrdWriter) -> Result<(), RecordingError> {
         self.lines.iter_mut().try_for_each(|line| line.write(writer))
@@ -70,18 +117,15 @@ impl CheckSeries {
 
 impl Line {
     fn new(value: &CheckValue) -> Self {
-        let InstantValue { quantity, unit, .. } = value.of;
-        let check = format!("{}_{}", value.check + 1, value.kind.word());
-        let unit = unit.replace([' ', '/'], "_");
-        let quantity = if unit.is_empty() { quantity.to_owned() } else { format!("{quantity}_{unit}") };
         Self {
             check: value.check,
             of: value.of,
             is_new: true,
             times: SampleTimes::default(),
             values: Vec::new(),
-            path: [check, quantity],
+            path: path_parts(value.check, value.kind, (value.of.quantity, value.of.unit)),
             has_name: false,
+            last: value.of.value,
         }
     }
 
@@ -93,9 +137,9 @@ impl Line {
         let [check, quantity] = &self.path;
         let path = paths::check(check, quantity);
         if !self.has_name {
-            let InstantValue { bound, limit, unit, .. } = self.of;
-            let name = format!("{quantity}, {} {limit} {unit}", bound.words());
-            writer.log_static(&path, &SeriesLines::new().with_names([name.trim_end()]))?;
+            let name = quantity_words(self.of.quantity);
+            let style = SeriesLines::new().with_names([name]).with_colors([palette::link(0)]);
+            writer.log_static(&path, &style.with_widths([WIDTH_UI_POINTS]))?;
             self.has_name = true;
         }
         write_scalars(writer, &path, &self.times.columns(), self.values.iter().copied())?;

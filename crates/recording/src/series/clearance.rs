@@ -4,65 +4,15 @@
 use std::collections::BTreeMap;
 
 use congruent_twin::{proximity::Clearance, recorder::RecordingError};
-use re_sdk_types::{archetypes::SeriesLines, components::Color};
 
-use super::scalars::write_scalars;
+use super::{distance_line::DistanceLine, pairs::NEAR_M};
 use crate::{
-    rrd::{
-        paths,
-        times::{SampleTime, SampleTimes},
-        writer::RrdWriter,
-    },
+    rrd::{paths, times::SampleTime, writer::RrdWriter},
     scene::palette,
 };
 
 /// The most pairs with a line of their own, so that the plot stays readable.
 const MAX_PAIRS: usize = 8;
-
-/// Below this distance, a pair of a link and an obstacle gets a line.
-const NEAR_M: f64 = 0.1;
-
-/// The values of one line.
-#[derive(Debug, Default)]
-struct DistanceLine {
-    times: SampleTimes,
-    values: Vec<f64>,
-    /// Number of earlier lines, which gives the colour.
-    number: usize,
-    has_style: bool,
-}
-
-impl DistanceLine {
-    fn numbered(number: usize) -> Self {
-        Self { number, ..Self::default() }
-    }
-
-    fn push(&mut self, time: SampleTime, value: f64) {
-        self.times.push(time);
-        self.values.push(value);
-    }
-
-    /// Writes the values; the first time also colour and width of the line.
-    fn write(
-        &mut self,
-        writer: &mut RrdWriter,
-        name: &str,
-        (color, width): (Color, f32),
-    ) -> Result<(), RecordingError> {
-        let path = paths::clearance(name);
-        if !self.has_style {
-            let style = SeriesLines::new().with_names([name]).with_colors([color]).with_widths([width]);
-            writer.log_static(&path, &style)?;
-            self.has_style = true;
-        }
-        if !self.times.is_empty() {
-            write_scalars(writer, &path, &self.times.columns(), self.values.iter().copied())?;
-        }
-        self.times.clear();
-        self.values.clear();
-        Ok(())
-    }
-}
 
 /// Distances of one run until they are written.
 #[derive(Debug, Default)]
@@ -99,14 +49,18 @@ impl ClearanceSeries {
         }
     }
 
+    /// Names of all curves, with that of the limit.
+    pub(crate) fn curves(&self, pairs: &[String]) -> Vec<String> {
+        let of_all = ["limit", "minimum"].map(str::to_owned).into_iter();
+        of_all.chain(self.pairs.keys().map(|&pair| pairs[pair].clone())).collect()
+    }
+
     /// Writes all rows and removes them.
     pub(crate) fn write(&mut self, writer: &mut RrdWriter, pairs: &[String]) -> Result<(), RecordingError> {
-        if self.minimum.times.is_empty() {
-            return Ok(());
-        }
-        self.minimum.write(writer, "minimum", (palette::NEUTRAL, 2.5))?;
+        self.minimum.write(writer, &paths::clearance("minimum"), ("minimum", palette::NEUTRAL, 2.5))?;
         for (&pair, line) in &mut self.pairs {
-            line.write(writer, &pairs[pair], (palette::link(line.number), 1.2))?;
+            let (name, color) = (pairs[pair].as_str(), palette::link(line.number));
+            line.write(writer, &paths::clearance(name), (name, color, 1.2))?;
         }
         Ok(())
     }

@@ -1,12 +1,11 @@
-//! Model and twin where they disagree: links outside the limits turn red, arrows of true length point from
-//! the twin's links to the model's, and a label shows the error of the worst link.
+//! Model and twin where they disagree: arrows of true length point from the twin's links outside the limits to the
+//! model's, and a label shows the error of the worst link.
 
 use congruent_description::display::length_and_angle;
 use congruent_kinematics::PoseError;
 use congruent_twin::{Sample, recorder::RecordingError, scenario::Check};
-use re_log_types::EntityPath;
 use re_sdk_types::{
-    SerializedComponentBatch, SerializedComponentColumn,
+    SerializedComponentColumn,
     archetypes::{Arrows3D, Ellipsoids3D, Points3D},
     components::{FillMode, Radius},
 };
@@ -18,11 +17,10 @@ use crate::{
         times::{SampleTime, SampleTimes},
         writer::{RrdWriter, failed},
     },
-    scene::{
-        palette,
-        visual::{Coloring, VisualBody},
-    },
+    scene::palette,
 };
+
+use super::samples::MAX_ROWS;
 
 /// Thickness of an arrow on the screen.
 const ARROW_UI_POINTS: f32 = 2.5;
@@ -66,14 +64,6 @@ impl AgreementLimits {
     }
 }
 
-/// A link whose error crossed its limits in either direction.
-#[derive(Debug, Clone, Copy)]
-struct ColorChange {
-    link: usize,
-    time: SampleTime,
-    is_outside: bool,
-}
-
 /// The link with the largest error at one time.
 #[derive(Debug, Clone, Copy)]
 struct WorstLink {
@@ -82,13 +72,12 @@ struct WorstLink {
     origin_in_world: [f32; 3],
 }
 
-/// Colours, arrows and labels of the links outside the limits, until they are written.
+/// Arrows and labels of the links outside the limits, until they are written.
 #[derive(Debug)]
 pub(crate) struct DisagreementSeries {
     limits: AgreementLimits,
-    /// For each link, whether it is drawn as outside the limits; `None` before the first sample.
+    /// For each link, whether it was outside the limits in the row before; `None` before the first.
     is_outside: Vec<Option<bool>>,
-    changes: Vec<ColorChange>,
     times: SampleTimes,
     /// Number of arrows at each time.
     arrows: Vec<u32>,
@@ -103,35 +92,32 @@ impl DisagreementSeries {
         Self {
             limits,
             is_outside: vec![None; links],
-            changes: Vec::with_capacity(links),
-            times: SampleTimes::default(),
-            arrows: Vec::new(),
-            origins: Vec::new(),
-            vectors: Vec::new(),
-            worst: Vec::new(),
+            times: SampleTimes::with_capacity(MAX_ROWS),
+            arrows: Vec::with_capacity(MAX_ROWS),
+            origins: Vec::with_capacity(MAX_ROWS * links),
+            vectors: Vec::with_capacity(MAX_ROWS * links),
+            worst: Vec::with_capacity(MAX_ROWS),
         }
     }
 
-    /// Whether these errors change the colour of a link.
+    /// Whether a link has crossed its limits since the row before.
     pub(crate) fn would_change(&self, errors: &[PoseError]) -> bool {
         let shown = self.is_outside.iter();
         shown.zip(errors).any(|(shown, error)| *shown != Some(self.limits.excludes(error)))
     }
 
-    /// Adds a row.
-    pub(crate) fn push(&mut self, time: SampleTime, sample: &Sample<'_>) {
+    /// Adds a row, and marks the links outside the limits.
+    pub(crate) fn push(&mut self, time: SampleTime, sample: &Sample<'_>, are_violating: &mut [bool]) {
         let had_arrows = self.is_outside.contains(&Some(true));
         let first = self.origins.len();
         let mut worst: Option<(f64, WorstLink)> = None;
         for (link, error) in sample.errors.iter().enumerate() {
             let is_outside = self.limits.excludes(error);
-            if self.is_outside[link] != Some(is_outside) {
-                self.is_outside[link] = Some(is_outside);
-                self.changes.push(ColorChange { link, time, is_outside });
-            }
+            self.is_outside[link] = Some(is_outside);
             if !is_outside {
                 continue;
             }
+            are_violating[link] = true;
             let (twin, model) = (&sample.twin[link].translation.vector, &sample.model[link].translation);
             let origin_in_world = vector(twin);
             self.origins.push(origin_in_world);
@@ -166,15 +152,7 @@ impl DisagreementSeries {
     }
 
     /// Writes all rows and removes them.
-    pub(crate) fn write(
-        &mut self,
-        writer: &mut RrdWriter,
-        links: &[String],
-        bodies: &[VisualBody],
-    ) -> Result<(), RecordingError> {
-        for (link, name) in links.iter().enumerate() {
-            self.write_colors(writer, link, &bodies[link], &paths::twin(name))?;
-        }
+    pub(crate) fn write(&mut self, writer: &mut RrdWriter, links: &[String]) -> Result<(), RecordingError> {
         if !self.times.is_empty() {
             let times = self.times.columns();
             let lengths = self.arrows.iter().map(|&arrows| arrows as usize);
@@ -182,7 +160,6 @@ impl DisagreementSeries {
             writer.columns(&paths::error_arrows(), &times, arrows.columns(lengths).map_err(failed)?)?;
             writer.columns(&paths::worst_error(), &times, self.worst(links)?)?;
         }
-        self.changes.clear();
         self.times.clear();
         self.arrows.clear();
         self.origins.clear();
@@ -207,34 +184,6 @@ impl DisagreementSeries {
         let labels = labels.columns(lengths()).map_err(failed)?;
         Ok(labels.chain(markers.columns(lengths()).map_err(failed)?))
     }
-
-    fn write_colors(
-        &self,
-        writer: &mut RrdWriter,
-        link: usize,
-        body: &VisualBody,
-        path: &EntityPath,
-    ) -> Result<(), RecordingError> {
-        let mut times = SampleTimes::default();
-        // The rows of each path.
-        let mut columns: Vec<(EntityPath, Vec<Vec<SerializedComponentBatch>>)> = Vec::new();
-        for change in self.changes.iter().filter(|change| change.link == link) {
-            times.push(change.time);
-            let coloring =
-                if change.is_outside { Coloring::Uniform(palette::OUTSIDE) } else { Coloring::AsDescribed };
-            for (index, (path, parts)) in body.colors(path, coloring).into_iter().enumerate() {
-                if columns.len() <= index {
-                    columns.push((path, Vec::new()));
-                }
-                columns[index].1.push(parts);
-            }
-        }
-        let times = times.columns();
-        for (path, rows) in columns {
-            writer.columns(&path, &times, stack(&rows)?)?;
-        }
-        Ok(())
-    }
 }
 
 /// A link with its position error, and its orientation error if that can be seen.
@@ -243,19 +192,4 @@ fn pose_error(link: &str, error: &PoseError) -> String {
     const VISIBLE: f64 = 1e-3;
     let angle_rad = if error.orientation_rad >= VISIBLE { error.orientation_rad } else { 0.0 };
     format!("{link}: {}", length_and_angle(error.position_m, angle_rad))
-}
-
-/// Columns of rows that all have the same components.
-fn stack(rows: &[Vec<SerializedComponentBatch>]) -> Result<Vec<SerializedComponentColumn>, RecordingError> {
-    use re_chunk::external::arrow::{array::Array, compute::concat};
-    let components = rows.first().map_or(0, Vec::len);
-    let column = |index: usize| {
-        let pieces: Vec<&dyn Array> = rows.iter().map(|row| row[index].array.as_ref()).collect();
-        let whole = SerializedComponentBatch {
-            array: concat(&pieces).map_err(failed)?,
-            descriptor: rows[0][index].descriptor.clone(),
-        };
-        whole.partitioned(pieces.iter().map(|piece| piece.len())).map_err(failed)
-    };
-    (0..components).map(column).collect()
 }

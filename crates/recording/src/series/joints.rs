@@ -9,26 +9,33 @@ use super::scalars::write_scalars;
 use crate::rrd::{paths, writer::RrdWriter};
 
 /// What is recorded of each joint besides its position.
-const QUANTITIES: [&str; 5] =
-    ["velocity", "effort", "reference_position", "reference_velocity", "measured_position"];
+const QUANTITIES: [&str; 6] =
+    ["velocity", "effort", "reference_position", "reference_velocity", "measured_position", "deviation"];
 const COORDINATES: [&str; 7] =
     ["x_m", "y_m", "z_m", "quaternion_w", "quaternion_x", "quaternion_y", "quaternion_z"];
 
 /// Values of all joints for each row, or none if the source does not know them.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct JointSeries {
     /// For each quantity, the joints of one row after those of the row before.
-    values: [Vec<f64>; 5],
+    values: [Vec<f64>; 6],
 }
 
 impl JointSeries {
+    /// No rows, with memory for this number of values of each quantity.
+    pub(super) fn with_capacity(values: usize) -> Self {
+        Self { values: std::array::from_fn(|_| Vec::with_capacity(values)) }
+    }
+
     /// Adds a row.
     pub(super) fn push(&mut self, sample: &Sample<'_>) {
         let joints = &sample.joints;
         let (reference_q, reference_qd) =
             joints.setpoint.map_or((&[][..], &[][..]), |setpoint| (&setpoint.q[..], setpoint.qd));
         let row = [joints.truth.qd, joints.truth.effort, reference_q, reference_qd, joints.measured.q];
-        self.values.iter_mut().zip(row).for_each(|(values, row)| values.extend_from_slice(row));
+        let [values @ .., deviations] = &mut self.values;
+        values.iter_mut().zip(row).for_each(|(values, row)| values.extend_from_slice(row));
+        deviations.extend(joints.truth.q.iter().zip(reference_q).map(|(q, reference)| q - reference));
     }
 
     /// Writes the quantities that every row has.
@@ -52,13 +59,18 @@ impl JointSeries {
 }
 
 /// Poses of the TCP, in the root link's frame.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct TcpSeries {
     twin: Vec<[f64; 7]>,
     model: Vec<[f64; 7]>,
 }
 
 impl TcpSeries {
+    /// No rows, with memory for this number.
+    pub(super) fn with_capacity(rows: usize) -> Self {
+        Self { twin: Vec::with_capacity(rows), model: Vec::with_capacity(rows) }
+    }
+
     /// Adds a row.
     pub(super) fn push(&mut self, twin: &Isometry3<f64>, model: &Isometry3<f64>) {
         self.twin.push(coordinates(twin));

@@ -21,7 +21,7 @@ use crate::rrd::{
 };
 
 /// The most rows of a batch. A batch of any length adds some 2 kB to the footer for each entity.
-const MAX_ROWS: usize = 1000;
+pub(super) const MAX_ROWS: usize = 1000;
 
 /// A pose in rerun's types.
 #[derive(Debug, Clone, Copy)]
@@ -66,8 +66,8 @@ impl SampleBatch {
             moving_names,
             errors: Vec::with_capacity(poses),
             q: Vec::with_capacity(MAX_ROWS * names.joints.len()),
-            joints: JointSeries::default(),
-            tcp: TcpSeries::default(),
+            joints: JointSeries::with_capacity(MAX_ROWS * names.joints.len()),
+            tcp: TcpSeries::with_capacity(MAX_ROWS),
             tool: Vec::with_capacity(MAX_ROWS),
             previous_tool: None,
         }

@@ -18,6 +18,8 @@ pub(crate) struct Watch {
     first_violation: Seen,
     /// The worst value of the last instant, and its time.
     latest: (f64, f64),
+    /// What has that value.
+    latest_subject: usize,
 }
 
 /// A value with its time and configuration; `q` is allocated once.
@@ -55,6 +57,7 @@ impl Watch {
             worst: unseen.clone(),
             first_violation: unseen,
             latest: (f64::NAN, f64::NAN),
+            latest_subject: 0,
         }
     }
 
@@ -64,6 +67,7 @@ impl Watch {
         #[expect(clippy::float_cmp, reason = "the time of one sample")]
         if *at_s != sample.time_s || self.bound.is_worse(value, *latest) {
             (*latest, *at_s) = (value, sample.time_s);
+            self.latest_subject = subject;
         }
         if !self.worst.is_set || self.bound.is_worse(value, self.worst.value) {
             self.worst.set(value, subject, sample);
@@ -75,9 +79,9 @@ impl Watch {
 
     /// The worst value of this instant, if it has one.
     pub(crate) fn at(&self, time_s: f64) -> Option<InstantValue> {
-        let Self { quantity, unit, bound, limit, latest: (value, at_s), .. } = *self;
+        let Self { quantity, unit, bound, limit, latest: (value, at_s), latest_subject: subject, .. } = *self;
         #[expect(clippy::float_cmp, reason = "the time of one sample")]
-        (at_s == time_s).then_some(InstantValue { quantity, unit, bound, limit, value })
+        (at_s == time_s).then_some(InstantValue { quantity, unit, bound, limit, value, subject })
     }
 
     /// What is watched.

@@ -8,7 +8,7 @@
 
 use congruent_description::{Link, RobotDescription, Shape};
 use congruent_simulation::Obstacle;
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Point3};
 
 use super::{
     hulls::{Hulls, ProximityError},
@@ -381,6 +381,15 @@ impl Clearance {
             return None;
         }
         Some(self.measure(pair)).filter(|&distance_m| distance_m < threshold_m)
+    }
+
+    /// The points of one pair between which its distance is, in the root link's frame: of the first and of the second.
+    pub fn nearest_points(&self, pair: usize) -> Option<[Point3<f64>; 2]> {
+        let Pair { a, b } = self.watches[pair].pair;
+        let root_from_a = &self.root_from_subjects[a];
+        let a_from_b = root_from_a.inv_mul(&self.root_from_subjects[b]);
+        let points = self.hulls[a].nearest_points(&self.hulls[b], &a_from_b)?;
+        Some(points.map(|point| root_from_a * point))
     }
 
     /// Measures one pair with negative depths for overlaps.

@@ -7,7 +7,7 @@ use congruent_description::{Geometry, Shape};
 use nalgebra::{Isometry3, Point3};
 use parry3d_f64::{
     math::{Pose, Rotation, Vector},
-    query::{self, Unsupported},
+    query::{self, ClosestPoints, Unsupported},
     shape::{Ball, ConvexPolyhedron, Cuboid, Cylinder, SharedShape},
 };
 
@@ -39,6 +39,9 @@ struct Hull {
     /// Radius of a ball about its own origin that contains it.
     radius_m: f64,
 }
+
+/// Why a query never fails.
+const ANSWERS: &str = "parry answers for every pair of boxes, balls, cylinders and hulls";
 
 /// No distance is off by more than that. See `DISTANCE_SLACK_M` in `clearance.rs`.
 const SOLVER_STOP_M: f64 = 1e-7;
@@ -107,6 +110,21 @@ impl Hulls {
         })
     }
 
+    /// The points of two hulls between which their distance is, in the frame of the first; if they overlap, the points
+    /// between which the depth is. `None` if there is nothing to touch, or they touch without depth.
+    pub fn nearest_points(&self, other: &Self, self_from_other: &Isometry3<f64>) -> Option<[Point3<f64>; 2]> {
+        let mut nearest: Option<NearestPoints> = None;
+        for a in &self.shapes {
+            for b in &other.shapes {
+                let self_from_b = pose(self_from_other) * b.link_from_local;
+                let found = nearest_points(a, &a.link_from_local.inv_mul(&self_from_b), b);
+                nearest =
+                    found.into_iter().chain(nearest).min_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
+            }
+        }
+        nearest.map(|nearest| nearest.points)
+    }
+
     fn smallest(
         &self,
         other: &Self,
@@ -127,13 +145,38 @@ impl Hulls {
                 if a_from_b.translation.length() - a.radius_m - b.radius_m > smallest + SOLVER_STOP_M {
                     continue;
                 }
-                let apart = distance(&a_from_b, &*a.form, &*b.form)
-                    .expect("parry answers for every pair of boxes, balls, cylinders and hulls");
+                let apart = distance(&a_from_b, &*a.form, &*b.form).expect(ANSWERS);
                 smallest = smallest.min(apart);
             }
         }
         smallest
     }
+}
+
+/// The points of two shapes between which their distance is, in the first link's frame.
+struct NearestPoints {
+    /// Negative if they overlap.
+    distance_m: f64,
+    points: [Point3<f64>; 2],
+}
+
+/// Where two shapes are nearest; `None` if they touch without depth.
+fn nearest_points(a: &Hull, a_from_b: &Pose, b: &Hull) -> Option<NearestPoints> {
+    let in_link = |on_a: Vector, on_b: Vector| {
+        [on_a, on_b].map(|point| {
+            let point = a.link_from_local * point;
+            Point3::new(point.x, point.y, point.z)
+        })
+    };
+    let (a_form, b_form) = (&*a.form, &*b.form);
+    let apart = query::closest_points(&Pose::IDENTITY, a_form, a_from_b, b_form, f64::MAX).expect(ANSWERS);
+    if let ClosestPoints::WithinMargin(on_a, on_b) = apart {
+        let distance_m = (on_b - on_a).length();
+        return Some(NearestPoints { distance_m, points: in_link(on_a, on_b) });
+    }
+    let contact = query::contact(&Pose::IDENTITY, a_form, a_from_b, b_form, 0.0).expect(ANSWERS)?;
+    let points = in_link(contact.point1, contact.point2);
+    Some(NearestPoints { distance_m: contact.dist, points })
 }
 
 /// A convex shape with the radius of a ball about its own origin that contains it.
@@ -273,6 +316,31 @@ mod tests {
             apart(&mesh, &other, turn, solid.distance_m(&other, &turn));
         }
         assert!((mesh.radius_m() - solid.radius_m()).abs() < 1e-15);
+    }
+
+    /// The points are as far apart as the shapes, and the depth if they overlap; both ways round.
+    #[track_caller]
+    fn nearest(a: &Hulls, b: &Hulls, a_from_b: Isometry3<f64>) {
+        let [on_a, on_b] = a.nearest_points(b, &a_from_b).expect("there are such points");
+        let size_m = a.signed_distance_m(b, &a_from_b).abs();
+        assert!(((on_b - on_a).norm() - size_m).abs() < DISTANCE_M, "{on_a} {on_b}: {size_m}");
+        let [on_b_in_b, _] = b.nearest_points(a, &a_from_b.inverse()).expect("there are such points");
+        assert!((a_from_b * on_b_in_b - on_b).norm() < 1e-4, "{on_b} is not {}", a_from_b * on_b_in_b);
+    }
+
+    #[test]
+    fn nearest_points_are_where_the_distance_is() {
+        let turn = turned(Vector3::new(0.3, -0.4, 1.1), at(1.3, 0.4, -0.9));
+        for other in [ball(0.2), can(0.2, 0.7), cuboid_mesh(0.5, 0.3, 0.2)] {
+            nearest(&cuboid(0.4, 0.6, 0.8), &other, turn);
+        }
+        nearest(&ball(0.5), &ball(0.25), at(0.7, 0.0, 0.0));
+        nearest(&cuboid(1.0, 1.0, 1.0), &ball(0.1), at(0.1, 0.0, 0.55));
+        let [on_box, on_ball] = cuboid(1.0, 1.0, 1.0).nearest_points(&ball(0.1), &at(0.0, 0.2, 0.9)).unwrap();
+        assert!((on_box - Point3::new(0.0, 0.2, 0.5)).norm() < DISTANCE_M, "{on_box}");
+        assert!((on_ball - Point3::new(0.0, 0.2, 0.8)).norm() < DISTANCE_M, "{on_ball}");
+        let nothing = Hulls::new("nothing", &[]).unwrap();
+        assert_eq!(nothing.nearest_points(&ball(1.0), &at(3.0, 0.0, 0.0)), None);
     }
 
     #[test]

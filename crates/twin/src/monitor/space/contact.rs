@@ -4,17 +4,14 @@
 use super::clearance::{notes_on, owned};
 use crate::{
     monitor::{CheckContext, Monitor, Names, Observed, watch::Watch},
-    proximity::{Clearance, Pair, PairNames},
+    proximity::{Clearance, PairNames},
     sample::Sample,
     scenario::ContactCheck,
-    source::StepForces,
     verdict::{Bound, Contact},
 };
 
 /// Most contacts that are listed: a chattering pair has a new one every few samples.
 const MOST_CONTACTS: usize = 200;
-/// How far the physics keeps two shapes apart at most, m: the way of a link at 5 m/s in a step of 1 ms. Kind: physics.
-const KEPT_APART_M: f64 = 5e-3;
 
 pub(crate) struct ContactMonitor {
     names: PairNames,
@@ -76,20 +73,6 @@ impl ContactMonitor {
         self.pairs = chosen.map(|pair| LookedAt { pair, touch: TouchNow::None }).collect();
     }
 
-    /// The pair that the physics keeps apart in this step although its hulls do not meet: the nearest pair of a link and
-    /// an obstacle. `None` if a pair overlaps, which then is the one in contact.
-    fn pushed(&self, sample: &mut Sample<'_>) -> Option<usize> {
-        if sample.forces != StepForces::Contact {
-            return None;
-        }
-        let links = sample.twin.len();
-        let is_chosen = |pair: usize, Pair { b, .. }: Pair| {
-            b >= links && self.pairs.iter().any(|looked_at| looked_at.pair == pair)
-        };
-        let nearest = sample.clearance.nearest_of(KEPT_APART_M, is_chosen)?;
-        (nearest.distance_m > 0.0).then_some(nearest.pair)
-    }
-
     /// Begins or continues the contact of a pair.
     fn touches(&mut self, at: usize, depth_m: f64, time_s: f64) {
         let LookedAt { pair, touch } = &mut self.pairs[at];
@@ -118,7 +101,8 @@ impl Monitor for ContactMonitor {
             self.choose(sample.clearance);
         }
         self.samples += 1;
-        let pushed = self.pushed(sample);
+        let pairs = &self.pairs;
+        let pushed = sample.kept_apart(|pair| pairs.iter().any(|looked_at| looked_at.pair == pair));
         // A pair farther than the nearest so far changes nothing; one that touches always counts.
         let mut threshold_m =
             self.distance.worst().map_or(f64::INFINITY, |worst_m| worst_m.max(f64::MIN_POSITIVE));

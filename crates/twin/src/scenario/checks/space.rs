@@ -63,6 +63,11 @@ pub struct ZoneCheck {
 }
 
 impl ClearanceCheck {
+    /// The smallest distance in metres.
+    pub fn limit_m(&self) -> Option<f64> {
+        self.unit_keys().value()
+    }
+
     /// The distance.
     pub(crate) fn unit_keys(&self) -> UnitKeys {
         length(["minimum_m", "minimum_mm"], [self.minimum_m, self.minimum_mm])
@@ -70,6 +75,11 @@ impl ClearanceCheck {
 }
 
 impl ContactCheck {
+    /// The largest depth in metres; `None` if shapes may not even touch.
+    pub fn limit_m(&self) -> Option<f64> {
+        self.unit_keys().value()
+    }
+
     /// The depth.
     pub(crate) fn unit_keys(&self) -> UnitKeys {
         length(["depth_m", "depth_mm"], [self.depth_m, self.depth_mm])

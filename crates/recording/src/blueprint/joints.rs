@@ -1,0 +1,161 @@
+//! Plots of the joints: positions beside the commanded ones, what lies between both, speeds and efforts beside their
+//! limits. Many joints are shown in groups, without those that stand still.
+
+use congruent_description::Robot;
+use congruent_twin::monitor::Names;
+
+use super::{
+    plots::PlotFrame,
+    tree::{LayoutNode, View},
+};
+use crate::{
+    outcome::joint_limits::NearLimit,
+    rrd::paths,
+    series::extents::{JointExtents, width},
+};
+
+/// From so many joints on, those that stand still are left out.
+const MANY: usize = 12;
+/// The most joints of one plot.
+const MAX_GROUP: usize = 7;
+/// A joint that goes no further stands still, rad or m.
+const STANDS_STILL: f64 = 1e-3;
+/// Differences below this are rounding, in SI units.
+const ROUNDING: f64 = 1e-9;
+/// The joints of a run with what they did.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct JointPlots<'a> {
+    pub(super) robot: &'a Robot,
+    pub(super) names: &'a Names,
+    pub(super) extents: &'a [JointExtents],
+    pub(super) limits: &'a [NearLimit],
+    pub(super) frame: PlotFrame,
+}
+
+/// A kind of plot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum JointQuantity {
+    /// Beside the commanded ones.
+    Position,
+    /// True minus commanded positions.
+    Deviation,
+    /// Beside their limits.
+    Velocity,
+    /// Likewise.
+    Effort,
+}
+
+use JointQuantity::{Deviation, Effort, Position, Velocity};
+
+impl JointPlots<'_> {
+    /// All plots, positions first.
+    pub(super) fn all(&self) -> Vec<LayoutNode> {
+        let groups = ["rad", "m"].map(|unit| self.groups(unit));
+        let groups: Vec<&Vec<usize>> = groups.iter().flatten().collect();
+        let mut plots = Vec::new();
+        for quantity in [Position, Deviation, Velocity, Effort] {
+            for group in &groups {
+                if group.iter().any(|&joint| is_worth_a_plot(quantity, &self.extents[joint])) {
+                    plots.push(self.plot(quantity, group, groups.len()));
+                }
+            }
+        }
+        plots
+    }
+
+    fn unit(&self, joint: usize) -> &'static str {
+        self.robot.joint(self.robot.movable_joints()[joint]).kind.unit()
+    }
+
+    /// The joints of one unit, in the order of the tree: those that move, of an arm after those of another.
+    fn groups(&self, unit: &str) -> Vec<Vec<usize>> {
+        let is_shown = |joint: &usize| {
+            self.names.joints.len() < MANY || width(self.extents[*joint].position) > STANDS_STILL
+        };
+        let of_unit = (0..self.names.joints.len()).filter(|&joint| self.unit(joint) == unit);
+        let shown: Vec<usize> = of_unit.filter(is_shown).collect();
+        let count = shown.len().div_ceil(MAX_GROUP).max(1);
+        shown.chunks(shown.len().div_ceil(count).max(1)).map(<[usize]>::to_vec).collect()
+    }
+
+    fn plot(&self, quantity: JointQuantity, group: &[usize], groups: usize) -> LayoutNode {
+        let unit = group.first().map_or("rad", |&joint| self.unit(joint));
+        let title = match (quantity, unit) {
+            (Position, _) => format!("Positions and commands (thin) [{unit}]"),
+            (Deviation, _) => format!("Deviations from commands [{unit}]"),
+            (Velocity, _) => format!("Velocities [{unit}/s]"),
+            (Effort, "m") => "Forces [N]".to_owned(),
+            (Effort, _) => "Torques [N m]".to_owned(),
+        };
+        let title = match (group, groups > 1) {
+            ([only], true) => format!("{title}: {}", self.names.joints[*only]),
+            ([first, .., last], true) => {
+                format!("{title}: {} to {}", self.names.joints[*first], self.names.joints[*last])
+            }
+            _ => title,
+        };
+        let entities = |word: &str, joints: &mut dyn Iterator<Item = usize>| {
+            joints.map(|joint| paths::joint_value(word, &self.names.joints[joint])).collect::<Vec<_>>()
+        };
+        let mut shown = entities(word(quantity), &mut group.iter().copied());
+        // Positions go where they go; other values are held against 0 and against their limits.
+        let mut range = (-ROUNDING, ROUNDING);
+        if quantity == Position {
+            let is_commanded = |joint: &usize| self.extents[*joint].deviation.0.is_finite();
+            shown.extend(entities("reference_position", &mut group.iter().copied().filter(is_commanded)));
+            let is_misread = |joint: &usize| self.extents[*joint].is_misread;
+            shown.extend(entities("measured_position", &mut group.iter().copied().filter(is_misread)));
+        }
+        for &joint in group {
+            range = union(range, extent_of(quantity, &self.extents[joint]));
+        }
+        for limit in self.limits(quantity, group) {
+            range = union(range, (limit.value, limit.value));
+            shown.push(paths::joint_limit(limit.quantity, &self.names.joints[limit.joint], limit.side));
+        }
+        let view = View::new("TimeSeries", title, paths::path(&[])).only(shown);
+        self.frame.plot(view, (quantity != Position).then_some(range))
+    }
+
+    /// The limits that are in the picture, each value once.
+    fn limits(&self, quantity: JointQuantity, group: &[usize]) -> Vec<NearLimit> {
+        let mut limits: Vec<NearLimit> = Vec::new();
+        for limit in self.limits.iter().filter(|limit| limit.quantity == word(quantity)) {
+            #[expect(clippy::float_cmp, reason = "one value of a file")]
+            let is_known = limits.iter().any(|known| known.value == limit.value);
+            if group.contains(&limit.joint) && !is_known {
+                limits.push(*limit);
+            }
+        }
+        limits
+    }
+}
+
+/// The word of a quantity in paths.
+fn word(quantity: JointQuantity) -> &'static str {
+    match quantity {
+        Position => "position",
+        Deviation => "deviation",
+        Velocity => "velocity",
+        Effort => "effort",
+    }
+}
+
+fn extent_of(quantity: JointQuantity, extents: &JointExtents) -> (f64, f64) {
+    match quantity {
+        Position => extents.position,
+        Deviation => extents.deviation,
+        Velocity => extents.velocity,
+        Effort => extents.effort,
+    }
+}
+
+/// Positions always; of the others what is more than rounding.
+fn is_worth_a_plot(quantity: JointQuantity, extents: &JointExtents) -> bool {
+    let (low, high) = extent_of(quantity, extents);
+    quantity == Position || high.max(-low) > ROUNDING
+}
+
+fn union((low, high): (f64, f64), (other_low, other_high): (f64, f64)) -> (f64, f64) {
+    (low.min(other_low), high.max(other_high))
+}

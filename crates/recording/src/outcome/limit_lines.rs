@@ -1,0 +1,100 @@
+//! Lines at the limits in the plots, from the start to the end of the run.
+
+use congruent_twin::{
+    recorder::RecordingError,
+    report::RunReport,
+    scenario::CheckKind,
+    verdict::{CheckResult, Measure},
+};
+use re_log_types::EntityPath;
+use re_sdk_types::{archetypes::SeriesLines, components::Color};
+
+use crate::{
+    rrd::{
+        paths,
+        times::{SampleTime, SampleTimes},
+        writer::RrdWriter,
+    },
+    scene::palette,
+    series::{
+        checks::path_parts,
+        scalars::{log10, write_scalars},
+    },
+};
+
+/// Width of a line at a limit on the screen.
+const WIDTH_UI_POINTS: f32 = 1.5;
+
+/// The times at which every line begins and ends.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LimitLines {
+    ends: [SampleTime; 2],
+}
+
+impl LimitLines {
+    /// For a run that ends at this time.
+    pub(crate) fn until(end: SampleTime) -> Self {
+        Self { ends: [SampleTime::new(0.0, 0), end] }
+    }
+
+    /// Writes a line with its name, its colour and its value.
+    pub(crate) fn write(
+        &self,
+        writer: &mut RrdWriter,
+        path: &EntityPath,
+        (name, color, value): (&str, Color, f64),
+    ) -> Result<(), RecordingError> {
+        let style = SeriesLines::new().with_names([name]).with_colors([color]).with_widths([WIDTH_UI_POINTS]);
+        writer.log_static(path, &style)?;
+        let mut times = SampleTimes::default();
+        self.ends.into_iter().for_each(|time| times.push(time));
+        write_scalars(writer, path, &times.columns(), [value; 2].into_iter())
+    }
+
+    /// Writes the limits of all checks with a plot: of agreement and distances always, of others if they are violated.
+    pub(crate) fn write_checks(
+        &self,
+        writer: &mut RrdWriter,
+        report: &RunReport,
+    ) -> Result<(), RecordingError> {
+        for (number, check) in report.checks.iter().enumerate() {
+            for (at, measure) in check.measures.iter().enumerate() {
+                // Further pairs of a check have the same limit.
+                let is_same = |before: &Measure| before.quantity == measure.quantity;
+                if !check.measures[..at].iter().any(is_same) {
+                    self.write_limit(writer, (number, check), measure)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn write_limit(
+        &self,
+        writer: &mut RrdWriter,
+        (number, check): (usize, &CheckResult),
+        measure: &Measure,
+    ) -> Result<(), RecordingError> {
+        let Measure { quantity, unit, limit, .. } = *measure;
+        let [position, orientation] = palette::TOLERANCES;
+        let (path, name, color) = match (check.check, quantity) {
+            (CheckKind::Agreement, "position") => (paths::position_error("tolerance"), "tolerance", position),
+            (CheckKind::Agreement, "orientation") => {
+                (paths::orientation_error("tolerance"), "tolerance", orientation)
+            }
+            (CheckKind::Clearance, _) => (paths::clearance("limit"), "limit", palette::LIMIT),
+            (CheckKind::Zone, _) => (paths::zone_limit(), "limit", palette::LIMIT),
+            _ if measure.first_violation.is_none() => return Ok(()),
+            _ => {
+                let [check, quantity] = path_parts(number, check.check, (quantity, unit));
+                (paths::check_limit(&check, &quantity), "limit", palette::LIMIT)
+            }
+        };
+        self.write(writer, &path, (name, color, limit))?;
+        if check.check == CheckKind::Agreement {
+            let name = format!("{quantity} tolerance");
+            self.write(writer, &paths::worst_of_links(&name), (&name, color, log10(limit)))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,55 @@
+//! One distance over time.
+
+use congruent_twin::recorder::RecordingError;
+use re_log_types::EntityPath;
+use re_sdk_types::{archetypes::SeriesLines, components::Color};
+
+use super::scalars::write_scalars;
+use crate::rrd::{
+    times::{SampleTime, SampleTimes},
+    writer::RrdWriter,
+};
+
+/// The values of one line.
+#[derive(Debug, Default)]
+pub(super) struct DistanceLine {
+    times: SampleTimes,
+    values: Vec<f64>,
+    /// Number of earlier lines, which gives the colour.
+    pub(super) number: usize,
+    has_style: bool,
+}
+
+impl DistanceLine {
+    /// No values.
+    pub(super) fn numbered(number: usize) -> Self {
+        Self { number, ..Self::default() }
+    }
+
+    /// Adds a value.
+    pub(super) fn push(&mut self, time: SampleTime, value: f64) {
+        self.times.push(time);
+        self.values.push(value);
+    }
+
+    /// Writes the values and removes them; the first time also colour and width of the line.
+    pub(super) fn write(
+        &mut self,
+        writer: &mut RrdWriter,
+        path: &EntityPath,
+        (name, color, width): (&str, Color, f32),
+    ) -> Result<(), RecordingError> {
+        if self.times.is_empty() {
+            return Ok(());
+        }
+        if !self.has_style {
+            let style = SeriesLines::new().with_names([name]).with_colors([color]).with_widths([width]);
+            writer.log_static(path, &style)?;
+            self.has_style = true;
+        }
+        write_scalars(writer, path, &self.times.columns(), self.values.iter().copied())?;
+        self.times.clear();
+        self.values.clear();
+        Ok(())
+    }
+}
