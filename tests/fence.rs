@@ -90,7 +90,7 @@ fn a_scenario_names_files_of_its_project() {
     let bench = Bench::new();
     let out = bench.path("out");
     let check = |lines: &str| {
-        bench.write("project/scenarios/s.toml", &format!("schema_version = 2\nname = 's'\n{lines}"));
+        bench.write("project/scenarios/s.toml", &format!("schema_version = 1\nname = 's'\n{lines}\n"));
         congruent_alone(&["run", &bench.path("project/scenarios/s.toml"), "--no-recording", "--out", &out])
     };
     refused(&check("robot = '../../outside/r.urdf'"));
@@ -98,12 +98,15 @@ fn a_scenario_names_files_of_its_project() {
     let robot = text(&workspace().join("robots/ur5e"));
     refused(&check(&format!("robot = '{robot}'")));
     for section in [
-        "[[motion]]\nplay_csv = '/etc/passwd'",
-        "[controller]\nkind = 'torque'\ntorque_file = '/etc/passwd'",
-        "[[obstacle]]\nname = 'o'\nmesh = '../../../../../../../etc/passwd'",
+        "kind = 'kinematic'\n[[motion]]\nplay_csv = '/etc/passwd'",
+        "kind = 'torque'\ntorque_file = '/etc/passwd'",
+        "kind = 'kinematic'\n[[obstacle]]\nname = 'o'\nmesh = '../../../../../../../etc/passwd'",
     ] {
-        let answer = check(&format!("robot = '../r.urdf'\n{section}"));
+        let answer =
+            check(&format!("robot = '../r.urdf'\n[simulation]\nduration_s = 1.0\n[controller]\n{section}"));
         assert_eq!(answer.code, 2, "{}", answer.stderr);
+        let reason = ["outside of the project", "leaves the project"];
+        assert!(reason.iter().any(|reason| answer.stderr.contains(reason)), "{}", answer.stderr);
         assert!(!answer.stderr.contains("root:x"), "{}", answer.stderr);
     }
 }

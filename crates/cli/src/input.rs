@@ -74,17 +74,19 @@ pub(crate) fn files_of(description: &RobotDescription) -> Vec<PathBuf> {
 
 /// The same access with the files of a robot, which a new file about that robot may name wherever it is written.
 pub(crate) fn allowing_inputs(access: FileAccess, description: &RobotDescription) -> FileAccess {
-    description.inputs.iter().fold(access, |access, input| access.beside(&input.path))
+    let named =
+        [Some(&description.path), Some(&description.urdf_path), description.named_files.srdf.as_ref()];
+    named.into_iter().flatten().fold(access, |access, file| access.beside(file))
 }
 
 /// Whether a new file names another that commands open only if it is allowed.
 pub(crate) fn needs_to_be_allowed(file: &Path, named: &Path) -> Option<Diagnostic> {
     FileAccess::default().of_file(file).ok()?.check(named).err()?;
-    let folder = named.canonicalize().ok()?.parent()?.display().to_string();
+    let folder = named.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let message = format!("{} is outside of the project of {}", named.display(), file.display());
     Some(
         Diagnostic::warning("new::outside", message)
-            .with_help(format!("other commands open it with --allow {folder}")),
+            .with_help(format!("other commands open it with --allow {}", folder.display())),
     )
 }
 

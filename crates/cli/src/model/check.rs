@@ -162,9 +162,9 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
     let other = arguments.against.as_ref().map(|other| load_robot_with(other, &access)).transpose()?;
     let mut inputs = files_of(&description);
     inputs.extend(other.iter().flat_map(files_of));
+    batch.reads(&inputs)?;
     arguments.plot.is_none_of(&inputs)?;
     arguments.page.is_none_of(&inputs)?;
-    batch.reads(&inputs)?;
     let compared = match &other {
         Some(other) => {
             batch.warn(&other.path, &other.warnings);

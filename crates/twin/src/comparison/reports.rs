@@ -11,7 +11,7 @@ use super::{
 use crate::trajectory_file::Value;
 
 /// Keys that say where a run was and how its files were written, not what it found.
-const LEFT_OUT: [&str; 3] = ["scenario_file", "overrides", "warnings"];
+const LEFT_OUT: [&str; 4] = ["scenario_file", "inputs", "overrides", "warnings"];
 /// The key of the line of a check or of a finding.
 const LINE: &str = "line";
 /// The key of the trajectory's hash.
