@@ -8,14 +8,14 @@ mod compare;
 mod failure;
 mod faults;
 mod input;
-#[cfg(feature = "recording")]
-mod inspect;
 mod model;
 mod new;
 mod output_file;
 mod page_file;
 mod plot_file;
 mod print;
+#[cfg(feature = "recording")]
+mod recording;
 mod run;
 mod schema;
 mod table;
@@ -60,7 +60,7 @@ enum Command {
     Derive(model::derive::Arguments),
     Convert(model::convert::Arguments),
     #[cfg(feature = "recording")]
-    Inspect(inspect::Arguments),
+    Inspect(recording::inspect::Arguments),
     Compare(compare::Arguments),
     Schema(schema::Arguments),
 }
@@ -87,7 +87,7 @@ fn main() -> ExitCode {
         Command::Derive(arguments) => model::derive::run(&arguments, &printer),
         Command::Convert(arguments) => model::convert::run(&arguments, &printer),
         #[cfg(feature = "recording")]
-        Command::Inspect(arguments) => inspect::run(&arguments, &printer),
+        Command::Inspect(arguments) => recording::inspect::run(&arguments, &printer),
         Command::Compare(arguments) => compare::run(&arguments, &printer),
         Command::Schema(arguments) => schema::run(&arguments, &printer),
     };

@@ -13,6 +13,8 @@ mod scene;
 mod series;
 
 pub use read::{
-    EntitySummary, InspectError, RecordingSummary, ScalarSummary, TimelineSummary, inspect, scalars,
+    Basis, CheckSummary, Disagreement, EntitySummary, InspectError, QuantitySummary, Recheck, RecheckError,
+    RecheckedCheck, RecheckedQuantity, RecordingSummary, ScalarSummary, TimelineSummary, inspect, recheck,
+    scalars, scalars_csv,
 };
 pub use recorder::{RerunFormat, RerunRecorder};

@@ -2,6 +2,7 @@
 
 use congruent_twin::{
     recorder::RecordingError,
+    scenario::CheckKind,
     verdict::{CheckValue, InstantValue},
 };
 use re_sdk_types::archetypes::SeriesLines;
@@ -31,6 +32,13 @@ struct Line {
 #[derive(Debug, Default)]
 pub(crate) struct CheckSeries {
     lines: Vec<Line>,
+}
+
+/// The two parts of a path that tell a quantity of a check, by its number from 0: kind with number, quantity with unit.
+pub(crate) fn path_parts(check: usize, kind: CheckKind, (quantity, unit): (&str, &str)) -> [String; 2] {
+    let unit = unit.replace([' ', '/'], "_");
+    let quantity = if unit.is_empty() { quantity.to_owned() } else { format!("{quantity}_{unit}") };
+    [format!("{}_{}", check + 1, kind.word()), quantity]
 }
 
 impl CheckSeries {
@@ -70,17 +78,13 @@ impl CheckSeries {
 
 impl Line {
     fn new(value: &CheckValue) -> Self {
-        let InstantValue { quantity, unit, .. } = value.of;
-        let check = format!("{}_{}", value.check + 1, value.kind.word());
-        let unit = unit.replace([' ', '/'], "_");
-        let quantity = if unit.is_empty() { quantity.to_owned() } else { format!("{quantity}_{unit}") };
         Self {
             check: value.check,
             of: value.of,
             is_new: true,
             times: SampleTimes::default(),
             values: Vec::new(),
-            path: [check, quantity],
+            path: path_parts(value.check, value.kind, (value.of.quantity, value.of.unit)),
             has_name: false,
         }
     }

@@ -1,0 +1,4 @@
+//! Commands about recordings.
+
+pub(crate) mod inspect;
+mod inspect_text;
