@@ -41,12 +41,18 @@ pub(crate) fn congruent_with_input<S: AsRef<OsStr>>(arguments: &[S], input: &str
     answer(&child.wait_with_output().expect("the command ends"))
 }
 
+/// The same with this `PATH`, where other programs are looked for.
+pub(crate) fn congruent_in_path<S: AsRef<OsStr>>(arguments: &[S], path: &Path) -> Answer {
+    answer(&command(arguments).env("PATH", path).output().expect("the command starts"))
+}
+
 fn command<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_congruent"));
     command
         .args(arguments)
         .current_dir(crate::corpus::workspace())
         .env_remove("GITHUB_ACTIONS")
+        .env_remove("NO_COLOR")
         .env_remove("COLUMNS"); // the width of help
     command
 }

@@ -35,6 +35,8 @@ mod new_files;
 mod pages;
 mod pairing;
 mod planted_dynamics;
+#[cfg(feature = "recording")]
+mod recordings;
 mod robots;
 mod safety;
 mod scenarios;
@@ -42,5 +44,6 @@ mod schemas;
 mod servo;
 mod snapshots;
 mod suggestions;
+mod terminal;
 mod trajectories;
 mod uses;

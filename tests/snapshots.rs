@@ -12,7 +12,7 @@ use crate::{
     corpus::workspace,
 };
 
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 18] = [
     "run",
     "check",
     "describe",
@@ -28,6 +28,9 @@ const COMMANDS: [&str; 15] = [
     "derive",
     "convert",
     "inspect",
+    "view",
+    "completions",
+    "man",
 ];
 
 /// A pattern, and what stands for it in the snapshot.

@@ -18,3 +18,6 @@ pub use read::{
     scalars, scalars_csv,
 };
 pub use recorder::{RerunFormat, RerunRecorder};
+
+/// The version of rerun that reads these recordings; a newer viewer reads them, too.
+pub const RERUN_VERSION: &str = "0.36.3";

@@ -28,7 +28,7 @@ use crate::{
 /// A Denavit-Hartenberg table from the axes of a URDF, proved by comparing back.
 ///
 /// Prints the section `[dh]` of a robot file, with the free choices beside it, or writes a whole robot file with
-/// --output. With --base-parameters prints which sums of inertial parameters joint torques tell instead. Axes that are parallel or meet but for rounded values of the URDF are taken as such, and told.
+/// --out. With --base-parameters prints which sums of inertial parameters joint torques tell instead. Axes that are parallel or meet but for rounded values of the URDF are taken as such, and told.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]

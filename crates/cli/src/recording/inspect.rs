@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use congruent::{
     description::Diagnostic,
-    recording::{RecordingSummary, inspect, recheck, scalars, scalars_csv},
+    recording::{Recheck, RecordingSummary, inspect, recheck, scalars, scalars_csv},
     twin::{
         RunSetup,
         report::{Reason, TestResult, TestSuite, write_whole},
@@ -105,27 +105,31 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
         write_whole(file, &scalars_csv(&summary, &scalars))
             .map_err(|error| unwritable(&error, "choose a file that can be written with --csv"))?;
     }
+    let Some(scenario) = &arguments.check else { return Ok(summary) };
     // A file that is damaged or has no verdict shows nothing about its checks.
-    if let Some(scenario) = &arguments.check
-        && !matches!(summary.exit_code, BAD_INPUT)
-        && summary.report.is_some()
-    {
-        let setup = load(scenario, &summary, arguments)?;
-        batch.warn(path, &setup.warnings);
-        let result = recheck(&summary, &scalars, setup)
-            .map_err(|error| Diagnostic::error("inspect::check", error.to_string()))?;
-        let code = result.exit_code();
-        let before = summary.exit_code;
-        // Other limits have a verdict of their own.
-        summary.exit_code = if result.same_scenario || before == BROKEN { worse(before, code) } else { code };
-        if let Some(first) = result.disagreements.first() {
-            summary.reason = format!("the series do not show what the report says: {}", sentence(first));
-        } else if !result.same_verdict {
-            summary.reason = "the limits of this scenario change the verdict".to_owned();
-        }
-        summary.recheck = Some(result);
+    if summary.exit_code == BAD_INPUT || summary.report.is_none() {
+        summary.reason += "; its checks are not evaluated again";
+        return Ok(summary);
     }
+    let setup = load(scenario, &summary, arguments)?;
+    batch.warn(path, &setup.warnings);
+    let result = recheck(&summary, &scalars, setup)
+        .map_err(|error| Diagnostic::error("inspect::check", error.to_string()))?;
+    take(&mut summary, result);
     Ok(summary)
+}
+
+/// Adds the result to what is printed.
+fn take(summary: &mut RecordingSummary, result: Recheck) {
+    let (before, code) = (summary.exit_code, result.exit_code());
+    // Other limits have a verdict of their own.
+    summary.exit_code = if result.same_limits || before == BROKEN { worse(before, code) } else { code };
+    if let Some(first) = result.disagreements.first() {
+        summary.reason = format!("the series do not show what the report says: {}", sentence(first));
+    } else if !result.same_verdict {
+        summary.reason = "the limits of this scenario change the verdict".to_owned();
+    }
+    summary.recheck = Some(result);
 }
 
 /// The scenario with the values that replaced those of its file in the run.

@@ -16,7 +16,7 @@ use crate::table::paragraph;
 /// The property that is printed as the verdict.
 const VERDICT: &str = "congruent/verdict";
 /// The widest first column; a longer path has a line of its own.
-const PATH_WIDTH: usize = 36;
+const PATH_WIDTH: usize = 35;
 
 /// The whole summary.
 pub(super) fn text(summary: &RecordingSummary) -> String {
@@ -74,8 +74,8 @@ fn words(quantity: &str) -> String {
 fn push_recheck(text: &mut String, recheck: &Recheck) {
     let file = recheck.scenario.as_deref().unwrap_or("the scenario");
     let _ = writeln!(text, "\nchecked again with {file}");
-    if !recheck.same_scenario {
-        let other = "the scenario or its robot is not that of the run: its limits are used, and the verdict may be another";
+    if !recheck.same_limits {
+        let other = "limits or expectation are not those of the run: the verdict may be another";
         *text += &paragraph(other, 2, 4);
     }
     if recheck.instants == 0 {

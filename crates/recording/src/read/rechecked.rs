@@ -14,9 +14,8 @@ use super::evidence::{At, Evidence};
 pub struct Recheck {
     /// The scenario file.
     pub scenario: Option<String>,
-    /// Whether scenario and robot are those of the run, so that the results must be the same. If not, the checks are
-    /// evaluated with the limits of this scenario.
-    pub same_scenario: bool,
+    /// Whether the scenario has the limits and the expectation of the run, so that the verdict must be the same.
+    pub same_limits: bool,
     /// Number of recorded samples at which checks were evaluated.
     pub instants: usize,
     /// The longest time between two of them.
@@ -137,8 +136,22 @@ impl Recheck {
     /// of a run that broke or checked nothing.
     pub fn exit_code(&self) -> u8 {
         match self.verdict {
-            _ if !self.disagreements.is_empty() || self.same_scenario && !self.same_verdict => 1,
+            _ if !self.disagreements.is_empty() || self.same_limits && !self.same_verdict => 1,
             verdict => verdict.exit_code(),
         }
+    }
+}
+
+impl RecheckedCheck {
+    /// Whether its limits are those of the run.
+    pub(super) fn has_same_limits(&self) -> bool {
+        self.quantities.iter().all(RecheckedQuantity::has_same_limit)
+    }
+}
+
+impl RecheckedQuantity {
+    /// Whether the limit is that of the run.
+    pub(super) fn has_same_limit(&self) -> bool {
+        self.limit.to_bits() == self.recorded_limit.to_bits()
     }
 }

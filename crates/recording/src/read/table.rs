@@ -23,12 +23,12 @@ pub fn scalars_csv(summary: &RecordingSummary, scalars: &Scalars) -> Vec<u8> {
     table.write_record(header).expect(in_memory);
     let mut series: Vec<&[(f64, f64)]> = scalars.values().map(Vec::as_slice).collect();
     for time_s in times {
-        let shown = if time_s < NO_TIME_S { String::new() } else { (time_s * scale).to_string() };
+        let shown = if time_s < NO_TIME_S { String::new() } else { format!("{:?}", time_s * scale) };
         let cells = series.iter_mut().map(|rest| {
             let now = rest.partition_point(|&(at_s, _)| at_s <= time_s);
             let (here, later) = rest.split_at(now);
             *rest = later;
-            here.last().map_or_else(String::new, |(_, value)| value.to_string())
+            here.last().map_or_else(String::new, |(_, value)| format!("{value:?}"))
         });
         table.write_record(std::iter::once(shown).chain(cells)).expect(in_memory);
     }

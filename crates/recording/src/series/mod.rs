@@ -3,6 +3,6 @@
 pub(crate) mod checks;
 pub(crate) mod clearance;
 pub(crate) mod disagreement;
-mod joints;
+pub(crate) mod joints;
 pub(crate) mod samples;
 pub(crate) mod scalars;

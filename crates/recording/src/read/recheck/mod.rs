@@ -14,7 +14,6 @@ use congruent_twin::{
     scenario::CheckKind,
     verdict::{CheckResult, Status, Verdict, judge},
 };
-use re_log_types::StoreKind;
 use serde_json::Value;
 
 use self::replay::Replay;
@@ -23,10 +22,7 @@ use super::{
     rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity},
     summary::RecordingSummary,
 };
-use crate::{
-    rrd::{identity, paths},
-    series::checks::path_parts,
-};
+use crate::{rrd::paths, series::checks::path_parts};
 
 /// Why a recording cannot be held against a scenario.
 #[derive(Debug, thiserror::Error)]
@@ -67,17 +63,16 @@ pub fn recheck(
     let report = summary.report.as_ref().ok_or(RecheckError::NoReport)?;
     let recorded: Vec<&Value> = report["checks"].as_array().into_iter().flatten().collect();
     is_of_scenario(&recorded, &setup)?;
-    let same_scenario =
-        identity::store(&setup, StoreKind::Recording).recording_id().to_string() == summary.recording_id;
-    let stopped_s = report["stopped"]["time_s"].as_f64();
     let is_broken = report["error"].is_string();
-    if let (None, false, Some(steps)) = (stopped_s, is_broken, report["simulation"]["steps"].as_u64()) {
-        setup.clock.steps = steps; // a motion that was slowed down in the run made it longer
+    let is_early = is_broken || report["stopped"].is_object();
+    if let Some(steps) = report["simulation"]["steps"].as_u64() {
+        // A motion that was slowed down in the run made it longer; one that ended early has no last step.
+        setup.clock.steps = if is_early { setup.clock.steps.max(steps + 1) } else { steps };
     }
-    let left_out = left_out(report, stopped_s.is_some() || is_broken);
-    let replay = Replay::of(scalars, &setup, stopped_s.unwrap_or(f64::INFINITY), &left_out)?;
+    let left_out = left_out(report, is_early);
+    let replay = Replay::of(scalars, &setup, &left_out)?;
     let lines = setup.checks().iter().map(|check| check.line).collect();
-    let mut context = Context { scalars, setup: &setup, lines, replay, same_scenario, is_broken, gap_s: 0.0 };
+    let mut context = Context { scalars, setup: &setup, lines, replay, is_broken, gap_s: 0.0 };
     context.gap_s = context.longest_gap_s();
     let mut disagreements = Vec::new();
     let checks: Vec<RecheckedCheck> = recorded
@@ -85,12 +80,14 @@ pub fn recheck(
         .enumerate()
         .map(|(at, recorded)| context.check(at, recorded, &mut disagreements))
         .collect();
+    let expected = serde_json::to_value(&setup.scenario.expect).unwrap_or(Value::Null);
+    let same_limits = expected == report["expected"] && checks.iter().all(RecheckedCheck::has_same_limits);
     let verdict = if is_broken { Verdict::Broken } else { context.verdict(&checks) };
     let recorded_verdict = summary.verdict.clone().unwrap_or_default();
     let same_verdict = congruent_description::serde_name(&verdict) == recorded_verdict;
     Ok(Recheck {
         scenario: setup.path.as_ref().map(|path| path.display().to_string()),
-        same_scenario,
+        same_limits,
         instants: context.replay.steps.len(),
         gap_s: context.gap_s,
         step_s: setup.clock.step_s,
@@ -125,6 +122,11 @@ fn left_out(report: &Value, is_early: bool) -> Vec<CheckKind> {
     }
 }
 
+/// Whether a difference is above a limit; one that is no number is.
+fn exceeds(difference: f64, limit: f64) -> bool {
+    difference > limit || difference.is_nan()
+}
+
 /// What all checks are evaluated with.
 struct Context<'a> {
     scalars: &'a Scalars,
@@ -132,7 +134,6 @@ struct Context<'a> {
     /// Lines of the checks.
     lines: Vec<Option<usize>>,
     replay: Replay,
-    same_scenario: bool,
     is_broken: bool,
     gap_s: f64,
 }
@@ -167,9 +168,9 @@ impl Context<'_> {
         let unreported = self.replay.found[at].iter().filter(|evidence| {
             !reported.iter().any(|known| known.of.is(&evidence.of.name, &evidence.of.unit))
         });
-        for evidence in unreported
-            .filter(|evidence| evidence.beyond(evidence.of.limit) > self.slack(kind, &evidence.of.unit))
-        {
+        for evidence in unreported.filter(|evidence| {
+            exceeds(evidence.beyond(evidence.of.limit), self.slack(kind, &evidence.of.unit))
+        }) {
             let at = evidence.first_violation.unwrap_or(evidence.worst);
             let problem =
                 "violates the limit at a recorded sample, and the report has no such value".to_owned();
@@ -178,13 +179,14 @@ impl Context<'_> {
         let basis = Basis::worst(quantities.iter().map(|quantity| quantity.basis));
         let recorded_status = recorded["status"].as_str().unwrap_or_default().to_owned();
         let is_violated = quantities.iter().any(|quantity| quantity.violation_s.is_some());
+        let is_same = quantities.iter().all(RecheckedQuantity::has_same_limit);
         let status = match &recorded_status[..] {
             "skipped" if quantities.is_empty() => Status::Skipped,
             _ if is_violated || !found_here.is_empty() && quantities.is_empty() => Status::Fail,
             "error" => Status::Error,
             _ => Status::Pass,
         };
-        if self.same_scenario && found_here.is_empty() && status.word() != recorded_status {
+        if is_same && found_here.is_empty() && status.word() != recorded_status {
             found_here.push(Disagreement::of_status(kind, line, status, &recorded_status));
         }
         disagreements.append(&mut found_here);
@@ -211,7 +213,7 @@ impl Context<'_> {
             disagreements.push(Disagreement::new(kind, line, evidence, at, problem));
         }
         let slack = self.slack(kind, unit);
-        let sampled_violation = sampled.filter(|sampled| !(sampled.beyond(limit) <= slack));
+        let sampled_violation = sampled.filter(|sampled| exceeds(sampled.beyond(limit), slack));
         let seen = every_step.as_ref().and_then(|found| found.first_violation);
         let seen = seen.or_else(|| sampled_violation?.violation_of(limit));
         let violation = seen.or_else(|| reported.violation_of(limit));
@@ -258,7 +260,7 @@ impl Context<'_> {
         let sampled = sampled?;
         let slack = self.slack(kind, &reported.of.unit);
         let difference = sampled.beyond(reported.worst.value);
-        if !(difference <= slack)
+        if exceeds(difference, slack)
             && !is_same(sampled.worst.value, reported.worst.value)
             && !reported.worst.value.is_nan()
         {

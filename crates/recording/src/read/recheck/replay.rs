@@ -61,19 +61,13 @@ fn needs_states_alone(kind: CheckKind) -> bool {
 }
 
 impl Replay {
-    /// Lets the checks of the scenario see the recorded states until `until_s`; `left_out` are not to be evaluated.
+    /// Lets the checks of the scenario see the recorded states; `left_out` are not to be evaluated.
     ///
     /// # Errors
     /// [`RunError`] if the robot has no model or a shape no hull.
-    pub(super) fn of(
-        scalars: &Scalars,
-        setup: &RunSetup,
-        until_s: f64,
-        left_out: &[CheckKind],
-    ) -> Result<Self, RunError> {
+    pub(super) fn of(scalars: &Scalars, setup: &RunSetup, left_out: &[CheckKind]) -> Result<Self, RunError> {
         let mut replay = Self { found: vec![Vec::new(); setup.scenario.check.len()], ..Self::default() };
-        let robot = &setup.description.robot;
-        if let Some(states) = RecordedStates::new(scalars, robot, setup.clock.step_s, until_s) {
+        if let Some(states) = RecordedStates::new(scalars, &setup.description, setup.clock.step_s) {
             replay.steps = states.steps();
             replay.run(states, setup, left_out)?;
         }
