@@ -103,6 +103,7 @@ impl ChainArguments {
     ) -> Result<RobotDescription, Failure> {
         let description = self.of(description)?;
         printer.warnings(&description.warnings);
+        printer.detail(|| read_from(&description));
         Ok(description)
     }
 }

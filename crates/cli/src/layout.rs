@@ -7,8 +7,9 @@ use std::{
 
 /// Narrower than this no line is read with ease.
 const NARROWEST: usize = 40;
-/// What follows in a line that is continued, beyond its own indent.
+/// What follows in a line that is continued, beyond its own indent, unless that is deep already.
 const HANGING: usize = 4;
+const DEEP: usize = 12;
 
 /// The columns of the terminal that shows the answer; `None` in a pipe.
 pub(crate) fn columns() -> Option<usize> {
@@ -42,7 +43,12 @@ fn is_verbatim(line: &str) -> bool {
         !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | '-'))
     };
     let is_value = line.split_once(" = ").is_some_and(|(key, _)| is_key(key));
-    is_value || line.starts_with(['<', '[', '#', '{']) || line.contains(['│', '╭', '╰', '·', '\u{1b}'])
+    let is_between = |open: char, close: char| line.starts_with(open) && line.ends_with(close);
+    is_value
+        || is_between('[', ']')
+        || is_between('<', '>')
+        || is_between('{', '}')
+        || line.contains(['│', '╭', '╰', '·', '\u{1b}'])
 }
 
 /// Breaks a line at spaces; what has no space within the columns stays whole.
@@ -72,7 +78,7 @@ fn hanging(chars: &[char], columns: usize) -> usize {
     let is_column =
         |at: &usize| *at > own && chars[at - 1] == ' ' && chars[at - 2] == ' ' && chars[*at] != ' ';
     let column = (own + 2..chars.len().min(columns / 3)).rev().find(is_column);
-    column.unwrap_or(own + HANGING).min(columns / 2)
+    column.unwrap_or(if own < DEEP { own + HANGING } else { own }).min(columns / 2)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::{
     fs::File,
     io::{self, Read, Write},
     path::Path,
+    process::Child,
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
@@ -23,6 +24,7 @@ use congruent::{
 };
 
 use super::viewer::Viewer;
+use crate::{failure::Failure, print::Printer};
 
 /// Between two looks whether the file has grown.
 const PAUSE: Duration = Duration::from_millis(50);
@@ -34,6 +36,7 @@ pub(crate) struct LiveFormat(pub(crate) Viewer);
 /// A recording with the thread that shows it.
 struct LiveRecording {
     recording: Box<dyn Recording>,
+    viewer: Child,
     is_complete: Arc<AtomicBool>,
     copying: JoinHandle<()>,
 }
@@ -57,7 +60,7 @@ impl RecordingFormat for LiveFormat {
                 let _ = copy(file, input, || seen.load(Ordering::Acquire));
             }
         });
-        Ok(Box::new(LiveRecording { recording, is_complete, copying }))
+        Ok(Box::new(LiveRecording { recording, viewer, is_complete, copying }))
     }
 }
 
@@ -78,12 +81,6 @@ fn copy(mut file: impl Read, mut input: impl Write, is_complete: impl Fn() -> bo
     }
 }
 
-/// The thread ends with the input of the viewer, which stays open.
-fn end(is_complete: &AtomicBool, copying: JoinHandle<()>) {
-    is_complete.store(true, Ordering::Release);
-    let _ = copying.join();
-}
-
 impl Recorder for LiveRecording {
     fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
         self.recording.record(sample)
@@ -92,8 +89,17 @@ impl Recorder for LiveRecording {
 
 impl Recording for LiveRecording {
     fn finish(self: Box<Self>, report: &RunReport) -> Result<(), RecordingError> {
-        let result = self.recording.finish(report);
-        end(&self.is_complete, self.copying);
+        let Self { recording, mut viewer, is_complete, copying } = *self;
+        let result = recording.finish(report);
+        is_complete.store(true, Ordering::Release);
+        // The thread ends with the input of the viewer, which stays open.
+        let _ = copying.join();
+        if let Ok(Some(status)) = viewer.try_wait()
+            && !status.success()
+        {
+            let message = format!("the viewer ended with {status}; the recording is written all the same");
+            Printer::explain(None, &Failure::Machine(message));
+        }
         result
     }
 }

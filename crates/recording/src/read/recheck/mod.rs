@@ -213,7 +213,9 @@ impl Context<'_> {
             disagreements.push(Disagreement::new(kind, line, evidence, at, problem));
         }
         let slack = self.slack(kind, unit);
-        let sampled_violation = sampled.filter(|sampled| exceeds(sampled.beyond(limit), slack));
+        // Shapes that touch are at the limit exactly: the run has seen it, too.
+        let is_known = reported.violation_of(limit).is_some();
+        let sampled_violation = sampled.filter(|sampled| is_known || exceeds(sampled.beyond(limit), slack));
         let seen = every_step.as_ref().and_then(|found| found.first_violation);
         let seen = seen.or_else(|| sampled_violation?.violation_of(limit));
         let violation = seen.or_else(|| reported.violation_of(limit));
