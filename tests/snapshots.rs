@@ -264,7 +264,7 @@ fn inspect() {
     let out = text(folder.path());
     let answer = congruent(&["run", "scenarios/ur5e_tool_5mm_off.toml", "--out", &out]);
     assert_eq!(answer.code, 0, "{}", answer.stderr);
-    let filters: Vec<Filter> = RECORDING.into_iter().chain([NO_RESIDUAL]).collect();
+    let filters: Vec<Filter> = RECORDING.into_iter().chain([NO_RESIDUAL, SAMPLE]).collect();
     prints_in(folder.path(), "inspect", "inspect FOLDER/ur5e_tool_5mm_off/recording.rrd", &filters);
 }
 

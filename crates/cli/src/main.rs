@@ -44,10 +44,10 @@ struct Arguments {
     #[arg(long, value_enum, value_name = "WHEN", default_value_t = Color::Auto, global = true)]
     color: Color,
     /// Print the answer alone, and errors: no warnings, no progress.
-    #[arg(short, long, global = true, overrides_with = "verbose")]
+    #[arg(short, long, global = true)]
     quiet: bool,
-    /// Also print what was read and how long it took, and findings in full.
-    #[arg(short, long, global = true, overrides_with = "quiet")]
+    /// Also print what was read and how long it took, and findings in full, unless --quiet is given.
+    #[arg(short, long, global = true)]
     verbose: bool,
     #[command(subcommand)]
     command: Command,

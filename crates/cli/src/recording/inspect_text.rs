@@ -1,4 +1,4 @@
-//! The content of a recording as people read it, in 80 columns.
+//! The content of a recording as people read it; its tables have 80 columns.
 
 use std::fmt::Write;
 
@@ -35,7 +35,7 @@ pub(super) fn text(summary: &RecordingSummary) -> String {
     ];
     let problems = summary.problems.iter().map(|problem| ("problem", problem.as_str()));
     for (name, value) in heading.into_iter().chain(problems) {
-        text += &paragraph(&format!("{name}: {value}"), 0, 2);
+        let _ = writeln!(text, "{name}: {value}");
     }
     for check in &summary.checks {
         push_check(&mut text, check);
@@ -45,7 +45,7 @@ pub(super) fn text(summary: &RecordingSummary) -> String {
     }
     text.push('\n');
     for (name, value) in summary.properties.iter().filter(|(name, _)| *name != VERDICT) {
-        text += &paragraph(&format!("property {name}: {value}"), 0, 2);
+        let _ = writeln!(text, "property {name}: {value}");
     }
     for timeline in &summary.timelines {
         push_timeline(&mut text, timeline);
@@ -58,12 +58,17 @@ pub(super) fn text(summary: &RecordingSummary) -> String {
 fn push_check(text: &mut String, check: &CheckSummary) {
     let _ = writeln!(text, "  {:10} {}", check.check, check.status);
     for of in &check.quantities {
-        let (worst, time) = (quantity(of.worst, &of.unit), quantity(of.worst_s, "s"));
+        let (worst, time) = (shown(of.worst, &of.unit), quantity(of.worst_s, "s"));
         let subject = of.subject.as_ref().map(|subject| format!(" at {subject}")).unwrap_or_default();
         let (bound, limit) = (of.bound.words(), quantity(of.limit, &of.unit));
         let line = format!("{} {worst}{subject} ({time}), {bound} {limit}", words(&of.quantity));
-        *text += &paragraph(&line, 4, 6);
+        let _ = writeln!(text, "    {line}");
     }
+}
+
+/// A value, or what it means that there is none: a time that has not come is infinite, which JSON does not know.
+fn shown(value: f64, unit: &str) -> String {
+    if unit == "s" && !value.is_finite() { "not reached".to_owned() } else { quantity(value, unit) }
 }
 
 /// The name of a quantity as words.
@@ -76,10 +81,10 @@ fn push_recheck(text: &mut String, recheck: &Recheck) {
     let _ = writeln!(text, "\nchecked again with {file}");
     if !recheck.same_limits {
         let other = "limits or expectation are not those of the run: the verdict may be another";
-        *text += &paragraph(other, 2, 4);
+        let _ = writeln!(text, "  {other}");
     }
     if recheck.instants == 0 {
-        *text += &paragraph("the positions of the joints are not in the recording", 2, 4);
+        let _ = writeln!(text, "  the positions of the joints are not in the recording");
     } else if recheck.gap_s > 1.5 * recheck.step_s {
         let (gap, step) = (quantity(recheck.gap_s, "s"), quantity(recheck.step_s, "s"));
         let thinned = format!(
@@ -87,13 +92,13 @@ fn push_recheck(text: &mut String, recheck: &Recheck) {
              known as the worst value of the check alone",
             recheck.instants
         );
-        *text += &paragraph(&thinned, 2, 4);
+        let _ = writeln!(text, "  {thinned}");
     }
     for check in &recheck.checks {
         push_rechecked(text, check);
     }
     for disagreement in &recheck.disagreements {
-        *text += &paragraph(&format!("DISAGREES: {}", sentence(disagreement)), 2, 4);
+        let _ = writeln!(text, "  DISAGREES: {}", sentence(disagreement));
     }
     let verdict = serde_name(&recheck.verdict);
     let compared = match (recheck.same_verdict, recheck.disagreements.is_empty()) {
@@ -114,9 +119,9 @@ fn push_rechecked(text: &mut String, check: &RecheckedCheck) {
     let _ = writeln!(text, "  {:10} {:7} {basis}", check.check.word(), check.status.word());
     for of in &check.quantities {
         let report = if of.basis == Basis::Report { ", by the report alone" } else { "" };
-        let (worst, time) = (quantity(of.worst, &of.unit), quantity(of.worst_s, "s"));
+        let (worst, time) = (shown(of.worst, &of.unit), quantity(of.worst_s, "s"));
         let line = format!("{} {worst} ({time}), {}{report}", words(&of.quantity), limit(of));
-        *text += &paragraph(&line, 4, 6);
+        let _ = writeln!(text, "    {line}");
     }
 }
 

@@ -23,7 +23,7 @@ use crate::{
     print::Printer,
     progress::Progress,
     run::run_one,
-    table::{Table, paragraph},
+    table::Table,
 };
 
 /// Opens the rerun viewer on a recording, on a robot with each joint moving over its range, or on the run of a scenario.
@@ -142,7 +142,7 @@ fn text(sweep: &JointSweep) -> String {
     }
     table.write(&mut text);
     if !sweep.follow.is_empty() {
-        text += &paragraph(&format!("joints that follow others: {}", sweep.follow.join(", ")), 2, 4);
+        let _ = writeln!(text, "  joints that follow others: {}", sweep.follow.join(", "));
     }
     let agreement = if sweep.agrees { "agree" } else { "do NOT agree" };
     let _ = writeln!(

@@ -84,13 +84,15 @@ pub struct RecheckedQuantity {
     pub limit: f64,
     /// The limit of the run.
     pub recorded_limit: f64,
-    /// The worst value in the recording.
+    /// The worst value in the recording; `null` for infinity.
+    #[schemars(with = "Option<f64>")]
     pub worst: f64,
     /// Its time.
     pub worst_s: f64,
     /// The link, joint or pair with the worst value.
     pub subject: Option<String>,
     /// The worst value of the run; `null` for infinity.
+    #[schemars(with = "Option<f64>")]
     pub recorded_worst: f64,
     /// When the limit is first violated.
     pub violation_s: Option<f64>,

@@ -76,6 +76,7 @@ pub struct QuantitySummary {
     /// The limit.
     pub limit: f64,
     /// The worst value; `null` for infinity.
+    #[schemars(with = "Option<f64>")]
     pub worst: f64,
     /// Its time.
     pub worst_s: f64,
