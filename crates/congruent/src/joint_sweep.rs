@@ -248,8 +248,9 @@ mod tests {
 
     #[test]
     fn a_joint_without_limits_turns_once_and_a_shift_stays() {
-        assert_eq!(range_of(JointKind::Continuous, None).0, [0.0, 2.0 * PI]);
-        assert_eq!(range_of(JointKind::Revolute, Some((-1e16, 1e16))).0, [0.0, 2.0 * PI]);
+        let one_turn = ([0.0, 2.0 * PI], Some("without limits: one turn".to_owned()));
+        assert_eq!(range_of(JointKind::Continuous, None), one_turn);
+        assert_eq!(range_of(JointKind::Revolute, Some((-1e16, 1e16))), one_turn);
         let (range, note) = range_of(JointKind::Prismatic, Some((f64::NEG_INFINITY, f64::INFINITY)));
         assert!(range[0].to_bits() == range[1].to_bits() && note.unwrap().contains("stays"));
         assert_eq!(range_of(JointKind::Revolute, Some((0.5, 1.5))), ([0.5, 1.5], None));

@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     convention: Option<ConventionArgument>,
     /// Print the base parameters instead: the sums of masses, first moments and inertias that joint torques tell, with
     /// what is grouped in each, and the parameters that change no torque.
-    #[arg(long, conflicts_with_all = ["convention", "exact", "output"])]
+    #[arg(long, conflicts_with_all = ["convention", "exact", "out"])]
     base_parameters: bool,
     #[command(flatten)]
     accuracy: AccuracyArguments,

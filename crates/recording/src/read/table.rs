@@ -12,6 +12,9 @@ const NO_TIME_S: f64 = -9e9;
 /// There is a row for each instant at which any series has a value. A series without a value at that instant has an
 /// empty cell: nothing is interpolated or repeated. Values without a time are in a row whose time is empty. Of several
 /// values of a series at one instant the last one counts.
+///
+/// # Panics
+/// Never: memory takes every row.
 pub fn scalars_csv(summary: &RecordingSummary, scalars: &Scalars) -> Vec<u8> {
     let mut times: Vec<f64> = scalars.values().flatten().map(|&(time_s, _)| time_s).collect();
     times.sort_by(f64::total_cmp);

@@ -64,12 +64,11 @@ pub fn recheck(
     let recorded: Vec<&Value> = report["checks"].as_array().into_iter().flatten().collect();
     is_of_scenario(&recorded, &setup)?;
     let is_broken = report["error"].is_string();
-    let is_early = is_broken || report["stopped"].is_object();
     if let Some(steps) = report["simulation"]["steps"].as_u64() {
         // A motion that was slowed down in the run made it longer; one that ended early has no last step.
-        setup.clock.steps = if is_early { setup.clock.steps.max(steps + 1) } else { steps };
+        setup.clock.steps = if is_early(report) { setup.clock.steps.max(steps + 1) } else { steps };
     }
-    let left_out = left_out(report, is_early);
+    let left_out = left_out(report);
     let replay = Replay::of(scalars, &setup, &left_out)?;
     let lines = setup.checks().iter().map(|check| check.line).collect();
     let mut context = Context { scalars, setup: &setup, lines, replay, is_broken, gap_s: 0.0 };
@@ -110,12 +109,17 @@ fn is_of_scenario(recorded: &[&Value], setup: &RunSetup) -> Result<(), RecheckEr
     Err(RecheckError::OtherScenario { recorded: listed(&kinds), given: listed(&given) })
 }
 
+/// Whether the run ended before its time: it broke, or a check stopped it.
+fn is_early(report: &Value) -> bool {
+    report["error"].is_string() || report["stopped"].is_object()
+}
+
 /// Checks that depend on what a recording does not hold: when the motions end if the run was delayed, and what follows
 /// once it has ended early.
-fn left_out(report: &Value, is_early: bool) -> Vec<CheckKind> {
+fn left_out(report: &Value) -> Vec<CheckKind> {
     let mut motions = report["motions"].as_array().into_iter().flatten();
     let is_slowed = motions.any(|motion| motion["slowed"].is_object());
-    match (is_early, is_slowed) {
+    match (is_early(report), is_slowed) {
         (true, _) => vec![CheckKind::CycleTime, CheckKind::Goal],
         (false, true) => vec![CheckKind::CycleTime],
         (false, false) => Vec::new(),
@@ -252,12 +256,11 @@ impl Context<'_> {
         // Infinity is `null` in the report.
         let is_same = |a: f64, b: f64| a.to_bits() == b.to_bits() || !a.is_finite() && b.is_nan();
         // A run that broke has not written the values of its last steps.
-        if let Some(found) = every_step.filter(|_| !self.is_broken) {
-            if !is_same(found.worst.value, reported.worst.value) {
-                let problem =
-                    "is the worst value of the check's series, and the report has another".to_owned();
-                return Some((found.worst, found, problem));
-            }
+        if let Some(found) = every_step.filter(|_| !self.is_broken)
+            && !is_same(found.worst.value, reported.worst.value)
+        {
+            let problem = "is the worst value of the check's series, and the report has another".to_owned();
+            return Some((found.worst, found, problem));
         }
         let sampled = sampled?;
         let slack = self.slack(kind, &reported.of.unit);
