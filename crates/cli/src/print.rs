@@ -179,7 +179,7 @@ impl Printer {
     #[cfg_attr(not(feature = "recording"), expect(dead_code, reason = "said about recordings alone"))]
     pub(crate) fn notes<'a>(&self, notes: impl IntoIterator<Item = &'a str>) {
         if self.format == Format::Human && self.verbosity != Verbosity::Quiet {
-            to_stderr(&notes.into_iter().map(|note| format!("note: {note}\n")).collect::<String>());
+            notes.into_iter().for_each(|note| to_stderr(&format!("note: {note}\n")));
         }
     }
 

@@ -127,7 +127,7 @@ fn take(summary: &mut RecordingSummary, result: Recheck) {
     if let Some(first) = result.disagreements.first() {
         summary.reason = format!("the series do not show what the report says: {}", sentence(first));
     } else if !result.same_verdict {
-        summary.reason = "the limits of this scenario change the verdict".to_owned();
+        "the limits of this scenario change the verdict".clone_into(&mut summary.reason);
     }
     summary.recheck = Some(result);
 }
