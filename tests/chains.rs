@@ -159,7 +159,7 @@ fn a_robot_may_come_from_standard_input_but_only_one_argument() {
     let both = congruent_with_input(&["fk", "-", "--configurations", "-"], &urdf);
     refused(&both, &["standard input is read already"]);
     let output =
-        congruent_with_input(&["derive", "-", "--convention", "standard", "--output", "no.toml"], &urdf);
+        congruent_with_input(&["derive", "-", "--convention", "standard", "--out", "no.toml"], &urdf);
     refused(&output, &["standard input"]);
 }
 

@@ -52,6 +52,11 @@ pub(crate) fn congruent_with_input<S: AsRef<OsStr>>(arguments: &[S], input: &str
     answer(&child.wait_with_output().expect("the command ends"))
 }
 
+/// The same with this `PATH`, where other programs are looked for.
+pub(crate) fn congruent_in_path<S: AsRef<OsStr>>(arguments: &[S], path: &Path) -> Answer {
+    answer(&allowing(arguments).env("PATH", path).output().expect("the command starts"))
+}
+
 /// The command, which may open the robots of the workspace and of the corpus.
 pub(crate) fn allowing<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
     let mut command = command(arguments);
@@ -69,7 +74,12 @@ pub(crate) fn allowing<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
 
 fn command<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_congruent"));
-    command.args(arguments).current_dir(workspace()).env_remove("GITHUB_ACTIONS").env_remove("COLUMNS"); // the width of help
+    command
+        .args(arguments)
+        .current_dir(workspace())
+        .env_remove("GITHUB_ACTIONS")
+        .env_remove("NO_COLOR")
+        .env_remove("COLUMNS"); // the width of help
     command
 }
 

@@ -202,7 +202,7 @@ fn a_robot_file_that_is_derived_agrees_at_once() {
     fs::create_dir(folder.path().join("models")).unwrap();
     let output = text(&folder.path().join("models/robot.toml"));
     let derive = |more: &[&str]| {
-        let mut arguments = vec!["derive", &path, "--convention", "modified", "--output", &output];
+        let mut arguments = vec!["derive", &path, "--convention", "modified", "--out", &output];
         arguments.extend(more);
         congruent(&arguments)
     };
@@ -235,12 +235,11 @@ fn nothing_that_exists_is_lost_by_an_output() {
         (path.clone(), "ends in .toml"),
         (text(&folder.path().join("nowhere/robot.toml")), "cannot write"),
     ] {
-        let refused =
-            congruent(&["derive", &path, "--convention", "standard", "--force", "--output", &output]);
+        let refused = congruent(&["derive", &path, "--convention", "standard", "--force", "--out", &output]);
         assert_eq!(refused.code, 2, "{output}: {}", refused.stdout);
         assert!(refused.stderr.contains(says), "{output}: {}", refused.stderr);
     }
-    let urdf = congruent(&["convert", &path, "--to", "urdf", "--force", "--output", &path]);
+    let urdf = congruent(&["convert", &path, "--to", "urdf", "--force", "--out", &path]);
     assert!(urdf.code == 2 && urdf.stderr.contains("is a file that is read"), "{}", urdf.stderr);
     // A robot file beside the URDF of another robot's meshes that it cannot reach.
     let output = folder.path().join("robot.toml");
@@ -252,7 +251,7 @@ fn nothing_that_exists_is_lost_by_an_output() {
         "standard",
         "--tip",
         "base",
-        "--output",
+        "--out",
         &text(&output),
         "--force",
     ]);

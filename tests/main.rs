@@ -36,6 +36,8 @@ mod new_files;
 mod pages;
 mod pairing;
 mod planted_dynamics;
+#[cfg(feature = "recording")]
+mod recordings;
 mod robots;
 mod safety;
 mod scenarios;
@@ -43,5 +45,6 @@ mod schemas;
 mod servo;
 mod snapshots;
 mod suggestions;
+mod terminal;
 mod trajectories;
 mod uses;

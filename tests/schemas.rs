@@ -143,8 +143,22 @@ fn reports_and_recordings_follow_their_schemas() {
         follows("report", &format!("report.json of {file}"), &serde_json::from_str(&written).unwrap());
         let recording = folder.path().join(scenario).join("recording.rrd");
         if cfg!(feature = "recording") {
-            follows("inspect", &file, &congruent_json(&["inspect", &text(&recording)]).json());
+            let recording = text(&recording);
+            follows("inspect", &file, &congruent_json(&["inspect", &recording]).json());
+            let checked = congruent_json(&["inspect", &recording, "--check", &file]).json();
+            assert!(checked["recheck"].is_object(), "{file}");
+            follows("inspect", &format!("--check {file}"), &checked);
         }
+    }
+}
+
+#[cfg(feature = "recording")]
+#[test]
+fn a_robot_that_is_viewed_follows_its_schema() {
+    let folder = tempfile::tempdir().unwrap();
+    for robot in ["robots/rrr_arm", "robots/cylindrical_rpp"] {
+        let answer = congruent_json(&["view", robot, "--no-viewer", "--out", &text(folder.path())]);
+        follows("view", robot, &answer.json());
     }
 }
 

@@ -12,7 +12,7 @@ use crate::{
     corpus::workspace,
 };
 
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 18] = [
     "run",
     "check",
     "describe",
@@ -28,6 +28,9 @@ const COMMANDS: [&str; 15] = [
     "derive",
     "convert",
     "inspect",
+    "view",
+    "completions",
+    "man",
 ];
 
 /// A pattern, and what stands for it in the snapshot.
@@ -261,7 +264,7 @@ fn inspect() {
     let out = text(folder.path());
     let answer = congruent(&["run", "scenarios/ur5e_tool_5mm_off.toml", "--out", &out]);
     assert_eq!(answer.code, 0, "{}", answer.stderr);
-    let filters: Vec<Filter> = RECORDING.into_iter().chain([NO_RESIDUAL]).collect();
+    let filters: Vec<Filter> = RECORDING.into_iter().chain([NO_RESIDUAL, SAMPLE]).collect();
     prints_in(folder.path(), "inspect", "inspect FOLDER/ur5e_tool_5mm_off/recording.rrd", &filters);
 }
 

@@ -9,7 +9,7 @@ use std::{
 };
 
 use congruent::{
-    description::{Diagnostic, Finding},
+    description::{Diagnostic, Finding, display::quantity},
     twin::report::{CasePlace, Reason, TestResult, TestSuite},
 };
 use serde::Serialize;
@@ -115,7 +115,9 @@ impl<'a> Batch<'a> {
         if let (Err(failure), Some(label)) = (&result, self.label(input)) {
             Printer::explain(Some(label), failure);
         }
-        Answer { input: input.to_owned(), result, wall_s: start.elapsed().as_secs_f64() }
+        let wall_s = start.elapsed().as_secs_f64();
+        self.printer.detail(|| format!("{}: {} of this machine", input.display(), quantity(wall_s, "s")));
+        Answer { input: input.to_owned(), result, wall_s }
     }
 
     /// The next stage of an answer, unless the first has failed.
@@ -293,7 +295,7 @@ fn shown(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::print::Format;
+    use crate::print::{Format, Verbosity};
 
     #[derive(Serialize)]
     struct Passed;
@@ -317,7 +319,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let junit = folder.path().join("junit.xml");
         let inputs = ["a.toml", "b.toml", "c.toml"].map(PathBuf::from);
-        let printer = Printer::new(Format::Human);
+        let printer = Printer::new(Format::Human, Verbosity::Usual);
         let ci = CiArguments::of_junit(&junit);
         let batch = Batch::begin(&inputs, &ci, &printer).unwrap();
         // On threads of their own, as scenarios run.

@@ -20,6 +20,7 @@ use crate::{
     input::AccessArguments,
     output_file::replace,
     print::Printer,
+    progress::{Progress, RunProgress},
 };
 
 /// Runs scenarios that inject faults and shows which checks see them, after how long, and what the diagnosis says.
@@ -49,9 +50,10 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         Ok(setup)
     };
     let document = arguments.markdown.as_deref().map(Document::read).transpose()?;
+    let progress = Progress::new(printer);
     let (mut reports, mut exit_code) = (Vec::new(), 0);
     for path in &arguments.scenarios {
-        match load(path).and_then(|setup| report(&setup)) {
+        match load(path).and_then(|setup| report(&setup, &progress.of_run(&setup))) {
             Ok(report) => reports.push(report),
             // The others are answered all the same.
             Err(failure) if arguments.scenarios.len() > 1 => {
@@ -75,14 +77,14 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     Ok(worse(exit_code, of_table))
 }
 
-fn report(setup: &RunSetup) -> Result<RunReport, Failure> {
+fn report(setup: &RunSetup, progress: &RunProgress) -> Result<RunReport, Failure> {
     let refused = |error: &dyn std::fmt::Display| {
         let message = format!("scenario \"{}\" cannot run: {error}", setup.scenario.name);
         Diagnostic::error("run::cannot_run", message)
     };
     let run = Run::new(setup).map_err(|error| refused(&error))?;
     let sources = run.model().sources().to_vec();
-    let (outcome, result) = run.finish(&mut setup.checks(), &mut NoRecorder, |_| ());
+    let (outcome, result) = run.finish(&mut setup.checks(), &mut NoRecorder, |steps| progress.steps(steps));
     Ok(RunReport::new(setup, &sources, outcome, result.as_ref().err()))
 }
 

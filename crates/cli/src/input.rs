@@ -63,8 +63,22 @@ impl RobotArgument {
         let description = self.read()?;
         description.for_use(needed)?;
         printer.warnings(&description.warnings);
+        printer.detail(|| read_from(&description));
         Ok(description)
     }
+}
+
+/// What was read, for --verbose.
+fn read_from(description: &RobotDescription) -> String {
+    let robot = &description.robot;
+    let files: Vec<String> = files_of(description).iter().map(|path| path.display().to_string()).collect();
+    let (links, dof) = (robot.links().len(), robot.dof());
+    let [base, tip] = [description.base, description.tip].map(|link| robot.link(link).name.as_str());
+    format!(
+        "{}: {links} links, {dof} joints that move, chain {base} to {tip}; read from {}",
+        robot.name(),
+        files.join(", ")
+    )
 }
 
 /// The files that a robot was read from, which no result may replace.
@@ -115,6 +129,7 @@ impl ChainArguments {
     ) -> Result<RobotDescription, Failure> {
         let description = self.of(description)?;
         printer.warnings(&description.warnings);
+        printer.detail(|| read_from(&description));
         Ok(description)
     }
 }

@@ -5,26 +5,30 @@ mod arm;
 mod batch;
 mod ci;
 mod compare;
+mod completions;
 mod failure;
 mod faults;
 mod input;
-#[cfg(feature = "recording")]
-mod inspect;
+mod layout;
+mod man;
 mod model;
 mod new;
 mod output_file;
 mod page_file;
 mod plot_file;
 mod print;
+mod progress;
+#[cfg(feature = "recording")]
+mod recording;
 mod run;
 mod schema;
 mod table;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::print::{Format, Printer};
+use crate::print::{Color, Format, Printer, Verbosity};
 
 /// Is a robot's analytical model the same robot as its URDF? With the difference and its cause.
 ///
@@ -36,6 +40,15 @@ struct Arguments {
     /// Print for people, or one JSON document.
     #[arg(long, value_enum, default_value_t = Format::Human, global = true)]
     format: Format,
+    /// Colour what people read. `auto` is on a terminal, unless `NO_COLOR` is set.
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t = Color::Auto, global = true)]
+    color: Color,
+    /// Print the answer alone, and errors: no warnings, no progress.
+    #[arg(short, long, global = true)]
+    quiet: bool,
+    /// Also print what was read and how long it took, and findings in full, unless --quiet is given.
+    #[arg(short, long, global = true)]
+    verbose: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -60,14 +73,29 @@ enum Command {
     Derive(model::derive::Arguments),
     Convert(model::convert::Arguments),
     #[cfg(feature = "recording")]
-    Inspect(inspect::Arguments),
+    Inspect(recording::inspect::Arguments),
+    #[cfg(feature = "recording")]
+    View(recording::view::Arguments),
     Compare(compare::Arguments),
     Schema(schema::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
+}
+
+impl Arguments {
+    fn verbosity(&self) -> Verbosity {
+        match (self.quiet, self.verbose) {
+            (true, _) => Verbosity::Quiet,
+            (false, true) => Verbosity::Verbose,
+            (false, false) => Verbosity::Usual,
+        }
+    }
 }
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let printer = Printer::new(arguments.format);
+    arguments.color.apply();
+    let printer = Printer::new(arguments.format, arguments.verbosity());
     let result = match arguments.command {
         Command::Run(arguments) => run::run(&arguments, &printer),
         Command::Faults(arguments) => faults::run(&arguments, &printer),
@@ -87,9 +115,13 @@ fn main() -> ExitCode {
         Command::Derive(arguments) => model::derive::run(&arguments, &printer),
         Command::Convert(arguments) => model::convert::run(&arguments, &printer),
         #[cfg(feature = "recording")]
-        Command::Inspect(arguments) => inspect::run(&arguments, &printer),
+        Command::Inspect(arguments) => recording::inspect::run(&arguments, &printer),
+        #[cfg(feature = "recording")]
+        Command::View(arguments) => recording::view::run(&arguments, &printer),
         Command::Compare(arguments) => compare::run(&arguments, &printer),
         Command::Schema(arguments) => schema::run(&arguments, &printer),
+        Command::Completions(arguments) => completions::run(&arguments, Arguments::command(), &printer),
+        Command::Man(arguments) => man::run(&arguments, Arguments::command(), &printer),
     };
     match result {
         Ok(code) => ExitCode::from(code),

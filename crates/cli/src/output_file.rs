@@ -1,4 +1,4 @@
-//! Files that a command makes, such as the model of `--output FILE`. A file appears whole or not at all, and nothing is
+//! Files that a command makes, such as the model of `--out FILE`. A file appears whole or not at all, and nothing is
 //! overwritten that the user did not mean.
 
 use std::{
@@ -17,10 +17,10 @@ use crate::failure::{self, Failure};
 #[derive(Debug, clap::Args)]
 pub(crate) struct OutputArgument {
     /// Write the model to this file instead of printing it: a table as a whole robot file (.toml).
-    #[arg(long, value_name = "FILE")]
-    pub(crate) output: Option<PathBuf>,
-    /// Replace the file of --output if it exists.
-    #[arg(long, requires = "output")]
+    #[arg(long, alias = "output", value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the file of --out if it exists.
+    #[arg(long, requires = "out")]
     force: bool,
 }
 
@@ -34,7 +34,7 @@ impl OutputArgument {
         inputs: &[PathBuf],
         accept: impl FnOnce(&Path) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        NewFile { option: "--output", path, force: self.force }.write(text, inputs, accept)
+        NewFile { option: "--out", path, force: self.force }.write(text, inputs, accept)
     }
 }
 

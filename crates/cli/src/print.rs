@@ -5,6 +5,7 @@ use std::{
     fmt::Write as _,
     io::{self, IsTerminal, Write},
     path::Path,
+    sync::OnceLock,
 };
 
 use clap::ValueEnum;
@@ -12,7 +13,10 @@ use congruent::description::{Diagnostic, Finding, serde_name};
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
 
-use crate::failure::Failure;
+use crate::{
+    failure::Failure,
+    layout::{columns, fitted},
+};
 
 /// How results are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -23,10 +27,47 @@ pub(crate) enum Format {
     Json,
 }
 
+/// When what people read is coloured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Color {
+    /// On a terminal, unless `NO_COLOR` is set.
+    Auto,
+    /// In a pipe, too.
+    Always,
+    /// Never.
+    Never,
+}
+
+/// How much is printed beside the answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Verbosity {
+    /// Errors alone.
+    Quiet,
+    /// Warnings, and progress on a terminal.
+    Usual,
+    /// Also what was read, and findings in full.
+    Verbose,
+}
+
+/// Set if findings are shown in full.
+static IN_FULL: OnceLock<()> = OnceLock::new();
+
+/// The choice of a call; findings are rendered in many places.
+static COLOR: OnceLock<Color> = OnceLock::new();
+
+impl Color {
+    /// Makes it the choice of this call.
+    pub(crate) fn apply(self) {
+        // There is one call.
+        let _ = COLOR.set(self);
+    }
+}
+
 /// Prints in the requested format.
 #[derive(Debug)]
 pub(crate) struct Printer {
     format: Format,
+    verbosity: Verbosity,
 }
 
 /// The JSON document of a command that has no result.
@@ -51,6 +92,8 @@ fn is_zero(count: &usize) -> bool {
 const MOST_FINDINGS: usize = 100;
 /// Longest message or help that is shown to people, in bytes.
 const MOST_SHOWN: usize = 2000;
+/// Columns of a finding, unless the terminal has less.
+const WIDEST_FINDING: usize = 100;
 /// Longest snippet: beyond it, a line fills the terminal and what is marked in it is not found.
 const LONGEST_SNIPPET: usize = 500;
 
@@ -77,12 +120,29 @@ impl Refusal<'_> {
 }
 
 impl Printer {
-    pub(crate) fn new(format: Format) -> Self {
-        Self { format }
+    pub(crate) fn new(format: Format, verbosity: Verbosity) -> Self {
+        if verbosity == Verbosity::Verbose {
+            // There is one call.
+            let _ = IN_FULL.set(());
+        }
+        Self { format, verbosity }
     }
 
-    /// The result of a command: the document as JSON, or the text for people.
+    /// The result of a command: the document as JSON, or the text for people, in the columns of their terminal.
     pub(crate) fn result<T: Serialize>(
+        &self,
+        document: &T,
+        text: impl FnOnce(&T) -> String,
+    ) -> Result<(), Failure> {
+        let within = |text: String| match columns() {
+            Some(columns) => fitted(&text, columns),
+            None => text,
+        };
+        self.verbatim(document, |document| within(text(document)))
+    }
+
+    /// The same for a text that is a file, of which no line is broken.
+    pub(crate) fn verbatim<T: Serialize>(
         &self,
         document: &T,
         text: impl FnOnce(&T) -> String,
@@ -110,8 +170,23 @@ impl Printer {
 
     /// The same with the name of the input in front of each, of several inputs.
     pub(crate) fn warnings_of(&self, input: Option<&Path>, warnings: &[Diagnostic]) {
-        if self.format == Format::Human {
+        if self.format == Format::Human && self.verbosity != Verbosity::Quiet {
             to_stderr(&warnings.iter().map(|warning| labelled(input, warning)).collect::<String>());
+        }
+    }
+
+    /// Remarks that are no part of the answer, one line each.
+    #[cfg_attr(not(feature = "recording"), expect(dead_code, reason = "said about recordings alone"))]
+    pub(crate) fn notes<'a>(&self, notes: impl IntoIterator<Item = &'a str>) {
+        if self.format == Format::Human && self.verbosity != Verbosity::Quiet {
+            notes.into_iter().for_each(|note| to_stderr(&format!("note: {note}\n")));
+        }
+    }
+
+    /// What was done, for those who ask with --verbose.
+    pub(crate) fn detail(&self, detail: impl FnOnce() -> String) {
+        if self.verbosity == Verbosity::Verbose {
+            to_stderr(&format!("{}\n", detail()));
         }
     }
 
@@ -132,9 +207,10 @@ impl Printer {
                 None => format!("error: {message}\n"),
             },
             Failure::Input(findings) => {
-                let shown = findings.iter().take(MOST_FINDINGS).map(|finding| labelled(input, finding));
+                let most = if IN_FULL.get().is_some() { findings.len() } else { MOST_FINDINGS };
+                let shown = findings.iter().take(most).map(|finding| labelled(input, finding));
                 let mut text: String = shown.collect();
-                if let Some(more) = findings.len().checked_sub(MOST_FINDINGS).filter(|&more| more > 0) {
+                if let Some(more) = findings.len().checked_sub(most).filter(|&more| more > 0) {
                     let _ = writeln!(text, "and {more} more");
                 }
                 text
@@ -150,7 +226,7 @@ impl Printer {
 
     /// Whether progress may be drawn.
     pub(crate) fn is_interactive(&self) -> bool {
-        self.format == Format::Human && io::stderr().is_terminal()
+        self.format == Format::Human && self.verbosity != Verbosity::Quiet && io::stderr().is_terminal()
     }
 }
 
@@ -170,18 +246,26 @@ fn labelled(input: Option<&Path>, finding: &Diagnostic) -> String {
     heading.unwrap_or_default() + &rendered(finding)
 }
 
-/// Whether text may be coloured: both outputs are terminals, since findings are shown on either, and the user has not
-/// set `NO_COLOR` (<https://no-color.org>).
+/// Whether text is coloured. On its own only if both outputs are terminals, since findings are shown on either, and the user
+/// has not set `NO_COLOR` (<https://no-color.org>).
 fn is_coloured() -> bool {
-    let is_forbidden = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-    !is_forbidden && io::stdout().is_terminal() && io::stderr().is_terminal()
+    let is_forbidden = || std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    match COLOR.get() {
+        Some(Color::Always) => true,
+        Some(Color::Never) => false,
+        Some(Color::Auto) | None => {
+            !is_forbidden() && io::stdout().is_terminal() && io::stderr().is_terminal()
+        }
+    }
 }
 
 /// A finding with the line it is about, as a compiler shows it.
 pub(crate) fn rendered(finding: &Diagnostic) -> String {
     let plain = !is_coloured();
     let theme = if plain { GraphicalTheme::unicode_nocolor() } else { GraphicalTheme::unicode() };
-    let handler = GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
+    let handler = GraphicalReportHandler::new_themed(theme)
+        .with_width(columns().map_or(WIDEST_FINDING, |columns| columns.min(WIDEST_FINDING)))
+        .with_links(false);
     let mut text = String::new();
     let finding = &shortened(finding);
     // Without a place in a text there is no snippet with the file's name.
@@ -202,6 +286,9 @@ fn shortened(finding: &Diagnostic) -> Diagnostic {
     let mut shortened = finding.clone();
     if let Some(stopped) = finding.stops {
         let _ = write!(shortened.message, " (stops {} alone)", serde_name(&stopped));
+    }
+    if IN_FULL.get().is_some() {
+        return shortened;
     }
     clip(&mut shortened.message);
     shortened.help.as_mut().map(clip);

@@ -22,15 +22,17 @@ use congruent::{
         verdict::{CheckResult, Status, Verdict},
     },
 };
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use serde::{Serialize, Serializer};
 
+#[cfg(feature = "recording")]
+use crate::recording::{live::LiveFormat, viewer::Viewer};
 use crate::{
     batch::{Answer, Batch, BatchReport},
     ci::CiArguments,
     failure::{BROKEN, Failure, unwritable},
     input::AccessArguments,
     print::Printer,
+    progress::Progress,
 };
 
 /// Runs scenario files and writes report, page, JUnit and recording of each to its own folder; of several an index of the
@@ -57,7 +59,14 @@ pub(crate) struct Arguments {
     seed: Option<u64>,
     /// Write no recording.
     #[arg(long)]
+    #[cfg_attr(not(feature = "recording"), expect(dead_code, reason = "without the feature there is none"))]
     no_recording: bool,
+    /// Show the recording of one scenario in the rerun viewer while it is written; the viewer stays open.
+    ///
+    /// The recording is written every 1000 samples, 10 s of the run; its layout comes with its end.
+    #[cfg(feature = "recording")]
+    #[arg(long, conflicts_with = "no_recording")]
+    view: bool,
     #[command(flatten)]
     ci: CiArguments,
     #[command(flatten)]
@@ -83,10 +92,10 @@ impl Arguments {
 }
 
 /// A scenario that ran.
-struct Ran {
-    report: RunReport,
+pub(crate) struct Ran {
+    pub(crate) report: RunReport,
     /// Where its results are, or why they are not all on disk.
-    results: Result<PathBuf, String>,
+    pub(crate) results: Result<PathBuf, String>,
 }
 
 impl Serialize for Ran {
@@ -125,10 +134,12 @@ impl BatchReport for Ran {
 }
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let recording = recording_format(arguments, printer)?;
     let batch = Batch::begin(&arguments.scenarios, &arguments.ci, printer)?;
     let loaded = load(arguments, &batch)?;
-    let bars = printer.is_interactive().then(MultiProgress::new);
-    let answers = run_all(loaded, arguments, (&batch, bars.as_ref()));
+    let progress = Progress::new(printer);
+    let options = Options { out: arguments.out.clone(), recordings: recordings(recording.as_deref()) };
+    let answers = run_all(loaded, arguments, &options, (&batch, &progress));
     let written = write_index(&answers, &arguments.out);
     batch.finish_with_page(answers, written)
 }
@@ -187,7 +198,8 @@ fn load(arguments: &Arguments, batch: &Batch<'_>) -> Result<Vec<Answer<RunSetup>
     Ok(arguments.scenarios.iter().map(|path| batch.answer(path, || load(path))).collect())
 }
 
-fn no_folder(error: FolderError) -> Failure {
+/// Why there is no folder for results, and what to do.
+pub(crate) fn no_folder(error: FolderError) -> Failure {
     let help = match error {
         FolderError::Output(error) => {
             return unwritable(&error, "choose a folder that can be written with --out");
@@ -212,9 +224,9 @@ fn same_folder(folder: &Path, first: &Path, second: &Path) -> Diagnostic {
 fn run_all(
     loaded: Vec<Answer<RunSetup>>,
     arguments: &Arguments,
-    (batch, bars): (&Batch<'_>, Option<&MultiProgress>),
+    options: &Options<'_>,
+    (batch, progress): (&Batch<'_>, &Progress),
 ) -> Vec<Answer<Ran>> {
-    let options = Options { out: arguments.out.clone(), recordings: recordings(arguments) };
     let jobs = arguments.threads(loaded.len());
     let waiting = Mutex::new(loaded.into_iter().enumerate());
     let work = || {
@@ -222,7 +234,7 @@ fn run_all(
         loop {
             let next = waiting.lock().expect("no thread panics while it takes a scenario").next();
             let Some((index, loaded)) = next else { return answers };
-            let answer = batch.go_on(loaded, |setup| run_one(&setup, &options, bars));
+            let answer = batch.go_on(loaded, |setup| run_one(&setup, options, progress));
             batch.keep(index, &answer);
             answers.push((index, answer));
         }
@@ -239,37 +251,42 @@ fn run_all(
 }
 
 /// The files that take the samples: the recording, and the page, which links to it.
-fn recordings(arguments: &Arguments) -> Vec<&'static dyn RecordingFormat> {
-    let recording = (!arguments.no_recording).then_some(recording_format()).flatten();
+fn recordings(recording: Option<&dyn RecordingFormat>) -> Vec<&dyn RecordingFormat> {
     recording.into_iter().chain([&PageFormat as &dyn RecordingFormat]).collect()
 }
 
-/// The format of recordings, if this command was built with one.
-#[cfg_attr(
-    feature = "recording",
-    expect(clippy::unnecessary_wraps, reason = "without the feature there is no format")
-)]
-fn recording_format() -> Option<&'static dyn RecordingFormat> {
-    #[cfg(feature = "recording")]
-    return Some(&congruent::recording::RerunFormat);
-    #[cfg(not(feature = "recording"))]
-    None
+/// The format of recordings, if they are wanted and this command was built with one.
+#[cfg(feature = "recording")]
+fn recording_format(
+    arguments: &Arguments,
+    printer: &Printer,
+) -> Result<Option<Box<dyn RecordingFormat>>, Failure> {
+    if arguments.no_recording {
+        return Ok(None);
+    }
+    if !arguments.view {
+        return Ok(Some(Box::new(congruent::recording::RerunFormat)));
+    }
+    if arguments.scenarios.len() > 1 {
+        let message = format!("--view shows one run, and there are {} scenarios", arguments.scenarios.len());
+        return Err(Diagnostic::error("run::view", message).with_help("give one scenario").into());
+    }
+    let viewer = Viewer::find(None)?;
+    printer.notes(viewer.remark().as_deref());
+    Ok(Some(Box::new(LiveFormat(viewer))))
 }
 
-fn run_one(setup: &RunSetup, options: &Options<'_>, bars: Option<&MultiProgress>) -> Result<Ran, Failure> {
-    /// Steps between two looks at the progress bar.
-    const STEPS_A_TICK: u64 = 256;
-    let bar = bars.map(|bars| bars.add(progress_bar(setup)));
-    let progress = |steps| {
-        if let Some(bar) = bar.as_ref().filter(|_| steps % STEPS_A_TICK == 0) {
-            bar.set_position(steps);
-        }
-    };
-    let result = execute(setup, options, progress);
-    if let Some(bar) = &bar {
-        bar.finish_and_clear();
-    }
-    match result {
+/// This command was built without recordings.
+#[cfg(not(feature = "recording"))]
+#[expect(clippy::unnecessary_wraps, reason = "with recordings it may fail")]
+fn recording_format(_: &Arguments, _: &Printer) -> Result<Option<Box<dyn RecordingFormat>>, Failure> {
+    Ok(None)
+}
+
+/// Runs a scenario and writes its results.
+pub(crate) fn run_one(setup: &RunSetup, options: &Options<'_>, progress: &Progress) -> Result<Ran, Failure> {
+    let progress = progress.of_run(setup);
+    match execute(setup, options, |steps| progress.steps(steps)) {
         Ok((report, folder)) => Ok(Ran { report, results: Ok(folder.path().to_owned()) }),
         Err(ExecuteError::Lost { report, source }) => {
             Printer::explain(setup.path.as_deref(), &Failure::Machine(source.to_string()));
@@ -280,12 +297,6 @@ fn run_one(setup: &RunSetup, options: &Options<'_>, bars: Option<&MultiProgress>
         Err(ExecuteError::Recording(error)) => Err(Failure::Machine(error.to_string())),
         Err(error) => Err(Diagnostic::error("run::cannot_run", error.to_string()).into()),
     }
-}
-
-fn progress_bar(setup: &RunSetup) -> ProgressBar {
-    let style = ProgressStyle::with_template("{prefix} {bar:40} {percent:>3} %")
-        .unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(setup.clock.steps).with_style(style).with_prefix(setup.scenario.name.clone())
 }
 
 fn described(report: &RunReport) -> String {

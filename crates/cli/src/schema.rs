@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     })?;
     let schema = document.schema();
     let text = serde_json::to_string_pretty(&schema).map_err(|error| Failure::Machine(error.to_string()))?;
-    printer.result(&schema, |_| format!("{text}\n"))?;
+    printer.verbatim(&schema, |_| format!("{text}\n"))?;
     Ok(0)
 }
 

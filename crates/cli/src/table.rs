@@ -1,8 +1,10 @@
 //! Tables for people: columns as wide as their longest entry.
 
-use std::fmt::Write;
+use std::{fmt::Write, ops::Range};
 
 use congruent::{description::display::in_column, kinematics::ReportedPose};
+
+use crate::layout::columns;
 
 /// Rows of a table: the first column is aligned to the left, the others to the right.
 #[derive(Debug, Default)]
@@ -21,17 +23,44 @@ impl Table {
         self.rows.push(row.into_iter().collect());
     }
 
-    /// Adds it to a text, each row indented.
+    /// Adds it to a text, each row indented. On a terminal that is too narrow it goes on below, with its first column again.
     pub(crate) fn write(&self, text: &mut String) {
-        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        self.write_within(text, columns().unwrap_or(usize::MAX));
+    }
+
+    fn write_within(&self, text: &mut String, columns: usize) {
+        let count = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let length = |cell: &String| cell.chars().count();
         let width = |at: usize| self.rows.iter().filter_map(|row| row.get(at)).map(length).max().unwrap_or(0);
-        let widths: Vec<usize> = (0..columns).map(width).collect();
+        let widths: Vec<usize> = (0..count).map(width).collect();
+        let mut next = 1;
+        loop {
+            let room = columns.saturating_sub(widths.first().map_or(0, |first| first + 2));
+            let mut end = next;
+            let mut used = 0;
+            while end < count && (end == next || used + widths[end] + 2 <= room) {
+                used += widths[end] + 2;
+                end += 1;
+            }
+            self.write_columns(text, &widths, next..end);
+            if end >= count {
+                return;
+            }
+            next = end;
+        }
+    }
+
+    /// The first column and these.
+    fn write_columns(&self, text: &mut String, widths: &[usize], shown: Range<usize>) {
         for row in &self.rows {
             let mut line = String::new();
-            for (at, (cell, &width)) in row.iter().zip(&widths).enumerate() {
-                let _ =
-                    if at == 0 { write!(line, "  {cell:width$}") } else { write!(line, "  {cell:>width$}") };
+            if let (Some(cell), Some(width)) = (row.first(), widths.first()) {
+                let _ = write!(line, "  {cell:width$}");
+            }
+            for at in shown.clone() {
+                if let Some(cell) = row.get(at) {
+                    let _ = write!(line, "  {cell:>0$}", widths[at]);
+                }
             }
             let _ = writeln!(text, "{}", line.trim_end());
         }
@@ -130,6 +159,20 @@ mod tests {
         assert!(lines[0].starts_with("  word") && lines[1].starts_with("    word"), "{text}");
         assert!(lines[..lines.len() - 1].iter().all(|line| line.len() <= 80), "{text}");
         assert_eq!(lines.last().unwrap().len(), 94);
+    }
+
+    #[test]
+    fn a_table_that_is_too_wide_goes_on_below() {
+        let mut table = Table::headed(["", "one", "two", "three"]);
+        table.row(["name", "1.00", "2.00", "3.00"].map(str::to_owned));
+        let mut text = String::new();
+        table.write_within(&mut text, 18);
+        assert_eq!(text, "         one   two\n  name  1.00  2.00\n        three\n  name   3.00\n");
+        for columns in 0..40 {
+            let mut text = String::new();
+            table.write_within(&mut text, columns);
+            assert!(["1.00", "2.00", "3.00"].iter().all(|cell| text.matches(cell).count() == 1), "{text}");
+        }
     }
 
     #[test]

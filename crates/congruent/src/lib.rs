@@ -18,6 +18,8 @@ pub use congruent_twin as twin;
 pub use nalgebra;
 
 mod check;
+#[cfg(feature = "recording")]
+mod joint_sweep;
 mod run_comparison;
 pub mod schema;
 pub mod starter;
@@ -26,6 +28,8 @@ mod with_physics;
 pub use check::{
     DeclaredSource, OtherDescription, RobotCheck, check, check_against, check_suite, checked_robot,
 };
+#[cfg(feature = "recording")]
+pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};
 pub use run_comparison::{NotComparable, RunComparison, compare_runs};
 pub use with_physics::{forward, joint_dynamics};
 

@@ -83,6 +83,12 @@ impl Document {
         Self::new("compare", "two runs, printed by `compare`", written::<RunComparison>),
         #[cfg(feature = "recording")]
         Self::new("inspect", "summary of a recording, printed by `inspect`", written::<RecordingSummary>),
+        #[cfg(feature = "recording")]
+        Self::new(
+            "view",
+            "joints over their ranges, printed by `view` of a robot",
+            written::<crate::JointSweep>,
+        ),
     ];
 
     const fn new(name: &'static str, about: &'static str, make: fn() -> Schema) -> Self {

@@ -13,6 +13,11 @@ mod scene;
 mod series;
 
 pub use read::{
-    EntitySummary, InspectError, RecordingSummary, ScalarSummary, TimelineSummary, inspect, scalars,
+    Basis, CheckSummary, Disagreement, EntitySummary, InspectError, QuantitySummary, Recheck, RecheckError,
+    RecheckedCheck, RecheckedQuantity, RecordingSummary, ScalarSummary, TimelineSummary, inspect, recheck,
+    scalars, scalars_csv,
 };
 pub use recorder::{RerunFormat, RerunRecorder};
+
+/// The version of rerun that reads these recordings; a newer viewer reads them, too.
+pub const RERUN_VERSION: &str = "0.36.3";

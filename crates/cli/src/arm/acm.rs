@@ -75,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
             printer
                 .result(&pairs, |pairs| format!("{}written to {}\n", summary(pairs), file.path.display()))?;
         }
-        None => printer.result(&pairs, |pairs| {
+        None => printer.verbatim(&pairs, |pairs| {
             // Two hyphens end a comment in XML.
             let remarks = format!("<!--\n{}-->\n", summary(pairs).replace("--", "- -"));
             srdf.clone() + &remarks

@@ -28,7 +28,7 @@ use crate::{
 /// A Denavit-Hartenberg table from the axes of a URDF, proved by comparing back.
 ///
 /// Prints the section `[dh]` of a robot file, with the free choices beside it, or writes a whole robot file with
-/// --output. With --base-parameters prints which sums of inertial parameters joint torques tell instead. Axes that are parallel or meet but for rounded values of the URDF are taken as such, and told.
+/// --out. With --base-parameters prints which sums of inertial parameters joint torques tell instead. Axes that are parallel or meet but for rounded values of the URDF are taken as such, and told.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     convention: Option<ConventionArgument>,
     /// Print the base parameters instead: the sums of masses, first moments and inertias that joint torques tell, with
     /// what is grouped in each, and the parameters that change no torque.
-    #[arg(long, conflicts_with_all = ["convention", "exact", "output"])]
+    #[arg(long, conflicts_with_all = ["convention", "exact", "out"])]
     base_parameters: bool,
     #[command(flatten)]
     accuracy: AccuracyArguments,

@@ -31,14 +31,14 @@ pub(super) fn answer(
 ) -> Result<u8, Failure> {
     let report = convert(description, conversion)?;
     printer.warnings(&report.findings);
-    let Some(path) = &output.output else {
-        printer.result(&report, text)?;
+    let Some(path) = &output.out else {
+        printer.verbatim(&report, text)?;
         return Ok(0);
     };
     let inputs = files_of(description);
     if let Some(section) = &report.robot_toml {
         if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
-            let message = format!("--output {}: the name of a robot file ends in .toml", path.display());
+            let message = format!("--out {}: the name of a robot file ends in .toml", path.display());
             return Err(Diagnostic::error("output::name", message).into());
         }
         let text = comments(&report) + &robot_file(description, &report, section, &folder_of(path)?)?;

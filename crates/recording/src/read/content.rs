@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use congruent_description::display::quantity;
 use re_chunk::{
     Chunk,
     external::arrow::{
@@ -13,7 +14,14 @@ use re_log_types::{ArrowMsg, EntityPathPart, StoreId, TimeType};
 use re_sdk_types::archetypes::Scalars;
 use serde_json::Value;
 
-use super::summary::{EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary, VERDICT};
+use super::{
+    evidence::Evidence,
+    summary::{
+        CheckSummary, EntitySummary, QuantitySummary, RecordingSummary, ScalarSummary, TimelineSummary,
+        VERDICT,
+    },
+};
+use crate::rrd::identity;
 
 /// The property that holds the whole report.
 const REPORT: &str = "congruent/report";
@@ -35,11 +43,16 @@ struct ScalarStatistics {
     min: Option<f64>,
     max: Option<f64>,
     last: Option<(i64, f64)>,
+    /// The first time that is earlier than one before it in the file.
+    backwards: Option<i64>,
 }
 
 impl ScalarStatistics {
     fn add(&mut self, time: i64, value: f64) {
         self.count += 1;
+        if self.backwards.is_none() && self.last.is_some_and(|(known, _)| time < known) {
+            self.backwards = Some(time);
+        }
         if self.last.is_none_or(|(known, _)| known <= time) {
             self.last = Some((time, value));
         }
@@ -129,7 +142,10 @@ impl RecordingContent {
         let Some(rows) = chunk.components().get_array(Scalars::descriptor_scalars().component) else {
             return;
         };
-        let first_timeline = chunk.timelines().iter().min_by_key(|(name, _)| name.as_str());
+        let timelines = chunk.timelines().iter();
+        let is_counted = |kind: TimeType| kind == TimeType::Sequence;
+        let first_timeline =
+            timelines.min_by_key(|(name, column)| (is_counted(column.timeline().typ()), name.as_str()));
         let times = first_timeline.map_or(&[][..], |(_, column)| column.times_raw());
         let scalar = self.scalars.entry(path.to_owned()).or_default();
         for row in (0..rows.len()).filter(|&row| rows.is_valid(row)) {
@@ -163,6 +179,7 @@ impl RecordingContent {
         self.find_problems();
         let report = self.properties.remove(REPORT);
         let report = report.and_then(|text| serde_json::from_str(text.as_str()?).ok());
+        let checks = report.as_ref().map(checks).unwrap_or_default();
         let verdict = self.properties.get(VERDICT).and_then(Value::as_str).map(str::to_owned);
         let entity = |(path, entity): (String, EntityContent)| EntitySummary {
             path,
@@ -188,6 +205,9 @@ impl RecordingContent {
             verdict,
             exit_code: 0,
             reason: String::new(),
+            duration_s: self.duration_s(),
+            checks,
+            recheck: None,
             has_layout: self.has_layout,
             timelines: std::mem::take(&mut self.timelines).into_values().collect(),
             entities: std::mem::take(&mut self.entities).into_iter().map(entity).collect(),
@@ -197,9 +217,26 @@ impl RecordingContent {
         })
     }
 
+    fn duration_s(&self) -> Option<f64> {
+        let mut timelines = self.timelines.values();
+        let timeline = timelines.find(|timeline| timeline.kind != "sequence")?;
+        Some(seconds(timeline.last) - seconds(timeline.first))
+    }
+
     fn find_problems(&mut self) {
         for (path, scalar) in self.scalars.iter().filter(|(_, scalar)| scalar.nan > 0) {
             self.problems.push(format!("{path}: {} of {} values are NaN", scalar.nan, scalar.count));
+        }
+        // Other programs may log as they like; this one writes each series in order of time.
+        let is_ours =
+            self.recording.as_ref().is_some_and(|store| identity::is_application(store.application_id()));
+        for (path, scalar) in self.scalars.iter().filter(|_| is_ours) {
+            if let Some(nanoseconds) = scalar.backwards {
+                self.problems.push(format!(
+                    "{path}: the times are not in order, the value at {} comes after later ones",
+                    quantity(seconds(nanoseconds), "s")
+                ));
+            }
         }
         for (path, entity) in self.entities.iter().filter(|(_, entity)| entity.nan > 0) {
             self.problems.push(format!("{path}: {} values are NaN", entity.nan));
@@ -209,6 +246,34 @@ impl RecordingContent {
                 .push(format!("the file contains another recording, which is not summarised: {other}"));
         }
     }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "2^53 nanoseconds are 104 days")]
+fn seconds(nanoseconds: i64) -> f64 {
+    nanoseconds as f64 / 1e9
+}
+
+/// The checks in a report.
+fn checks(report: &Value) -> Vec<CheckSummary> {
+    let word = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    let quantity = |Evidence { of, subject, worst, .. }: Evidence| QuantitySummary {
+        quantity: of.name,
+        unit: of.unit,
+        bound: of.bound,
+        limit: of.limit,
+        worst: worst.value,
+        worst_s: worst.time_s,
+        subject,
+    };
+    let check = |check: &Value| {
+        let measures = check["measures"].as_array().into_iter().flatten();
+        CheckSummary {
+            check: word(&check["check"]),
+            status: word(&check["status"]),
+            quantities: measures.filter_map(Evidence::of_report).map(quantity).collect(),
+        }
+    };
+    report["checks"].as_array().into_iter().flatten().map(check).collect()
 }
 
 /// Number of NaN in nested lists.

@@ -2,11 +2,15 @@
 //! program, complete or cut off. Draws nothing and repairs nothing.
 
 mod content;
+mod evidence;
 mod frames;
 mod judgement;
 mod lengths;
 mod panics;
+mod recheck;
+mod rechecked;
 mod summary;
+mod table;
 
 use std::{
     collections::BTreeMap,
@@ -19,7 +23,12 @@ use re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHea
 use re_log_types::LogMsg;
 
 use congruent_twin::comparison::Scalars;
-pub use summary::{EntitySummary, RecordingSummary, ScalarSummary, TimelineSummary};
+pub use recheck::{RecheckError, recheck};
+pub use rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity};
+pub use summary::{
+    CheckSummary, EntitySummary, QuantitySummary, RecordingSummary, ScalarSummary, TimelineSummary,
+};
+pub use table::scalars_csv;
 
 use self::{content::RecordingContent, frames::Extent, panics::catch_panic};
 

@@ -1,9 +1,12 @@
-//! The result of [`inspect`](super::inspect): ordered lists, as text for people and as JSON.
+//! The result of [`inspect`](super::inspect): ordered lists.
 
-use std::{collections::BTreeMap, fmt};
+use std::collections::BTreeMap;
 
+use congruent_twin::verdict::Bound;
 use schemars::JsonSchema;
 use serde::Serialize;
+
+use super::rechecked::Recheck;
 
 /// The property that holds the verdict.
 pub(super) const VERDICT: &str = "congruent/verdict";
@@ -29,6 +32,13 @@ pub struct RecordingSummary {
     pub exit_code: u8,
     /// Why it is that one.
     pub reason: String,
+    /// From the first to the last time of the recording, on its first timeline of times; `None` without one.
+    pub duration_s: Option<f64>,
+    /// The checks of the run with their worst values, if this program made the recording.
+    pub checks: Vec<CheckSummary>,
+    /// The checks of a scenario, evaluated once more, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recheck: Option<Recheck>,
     /// Whether the file contains a layout for the viewer.
     pub has_layout: bool,
     /// Timelines, by name.
@@ -41,6 +51,37 @@ pub struct RecordingSummary {
     pub properties: BTreeMap<String, serde_json::Value>,
     /// The report of the run, if this program made the recording.
     pub report: Option<serde_json::Value>,
+}
+
+/// A check of the recorded run.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct CheckSummary {
+    /// Its kind.
+    pub check: String,
+    /// Its result.
+    pub status: String,
+    /// Its quantities that have a value, each with the worst one.
+    pub quantities: Vec<QuantitySummary>,
+}
+
+/// The worst value of a quantity that a check has watched.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct QuantitySummary {
+    /// What it is.
+    pub quantity: String,
+    /// Its unit.
+    pub unit: String,
+    /// On which side of the limit it must be.
+    pub bound: Bound,
+    /// The limit.
+    pub limit: f64,
+    /// The worst value; `null` for infinity.
+    #[schemars(with = "Option<f64>")]
+    pub worst: f64,
+    /// Its time.
+    pub worst_s: f64,
+    /// The link, joint or pair that it is about.
+    pub subject: Option<String>,
 }
 
 /// A timeline and its range.
@@ -84,59 +125,4 @@ pub struct ScalarSummary {
     pub max: Option<f64>,
     /// The value at the last time.
     pub last: Option<f64>,
-}
-
-impl TimelineSummary {
-    #[expect(clippy::cast_precision_loss, reason = "shown with a few digits")]
-    fn seconds(&self) -> (f64, f64) {
-        (self.first as f64 * 1e-9, self.last as f64 * 1e-9)
-    }
-}
-
-/// The archetypes of components that are sorted by name, each once.
-fn archetypes(components: &[String]) -> Vec<&str> {
-    let mut archetypes: Vec<_> =
-        components.iter().map(|name| name.split(':').next().unwrap_or(name)).collect();
-    archetypes.dedup();
-    archetypes
-}
-
-impl fmt::Display for RecordingSummary {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "application: {}", self.application_id)?;
-        writeln!(f, "recording: {}", self.recording_id)?;
-        let state = if self.complete { "complete" } else { "incomplete" };
-        writeln!(f, "file: {} bytes, {state}", self.bytes)?;
-        writeln!(f, "verdict: {}", self.verdict.as_deref().unwrap_or("none"))?;
-        writeln!(f, "reason: {}", self.reason)?;
-        for problem in &self.problems {
-            writeln!(f, "problem: {problem}")?;
-        }
-        for (name, value) in self.properties.iter().filter(|(name, _)| *name != VERDICT) {
-            writeln!(f, "property {name}: {value}")?;
-        }
-        for timeline in &self.timelines {
-            if timeline.kind == "duration" {
-                let (first, last) = timeline.seconds();
-                writeln!(f, "timeline {}: {first:.3} s to {last:.3} s", timeline.name)?;
-            } else {
-                writeln!(f, "timeline {}: {} to {}", timeline.name, timeline.first, timeline.last)?;
-            }
-        }
-        let longest = |paths: &mut dyn Iterator<Item = &String>| paths.map(|path| path.chars().count()).max();
-        let width = longest(&mut self.entities.iter().map(|entity| &entity.path)).unwrap_or(0).min(60);
-        writeln!(f, "\n{:<width$}  {:>7}  archetypes", "entity", "rows")?;
-        for EntitySummary { path, components, rows, .. } in &self.entities {
-            writeln!(f, "{path:<width$}  {rows:>7}  {}", archetypes(components).join(", "))?;
-        }
-        let width = longest(&mut self.scalars.iter().map(|scalar| &scalar.path)).unwrap_or(0).min(60);
-        let number =
-            |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.6e}"));
-        writeln!(f, "\n{:<width$}  {:>7}  {:>13}  {:>13}  {:>13}", "scalar", "count", "min", "max", "last")?;
-        for scalar in &self.scalars {
-            let [min, max, last] = [scalar.min, scalar.max, scalar.last].map(number);
-            writeln!(f, "{:<width$}  {:>7}  {min:>13}  {max:>13}  {last:>13}", scalar.path, scalar.count)?;
-        }
-        Ok(())
-    }
 }

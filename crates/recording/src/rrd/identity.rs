@@ -27,6 +27,11 @@ fn application(scenario: &str) -> String {
     format!("congruent {}", safe.collect::<String>().trim())
 }
 
+/// Whether an application id is of a scenario that this program recorded.
+pub(crate) fn is_application(id: &ApplicationId) -> bool {
+    id.as_str().starts_with("congruent ")
+}
+
 /// Hash of the scenario and of the robot without its meshes: runs that can differ have different hashes.
 fn fingerprint(setup: &RunSetup) -> String {
     let description = &setup.description;

@@ -11,7 +11,8 @@ use crate::rrd::{paths, writer::RrdWriter};
 /// What is recorded of each joint besides its position.
 const QUANTITIES: [&str; 6] =
     ["velocity", "effort", "reference_position", "reference_velocity", "measured_position", "deviation"];
-const COORDINATES: [&str; 7] =
+/// The coordinates of a recorded pose.
+pub(crate) const COORDINATES: [&str; 7] =
     ["x_m", "y_m", "z_m", "quaternion_w", "quaternion_x", "quaternion_y", "quaternion_z"];
 
 /// Values of all joints for each row, or none if the source does not know them.

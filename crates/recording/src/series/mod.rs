@@ -6,7 +6,7 @@ pub(crate) mod colors;
 pub(crate) mod disagreement;
 mod distance_line;
 pub(crate) mod extents;
-mod joints;
+pub(crate) mod joints;
 pub(crate) mod pairs;
 pub(crate) mod samples;
 pub(crate) mod scalars;

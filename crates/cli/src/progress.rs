@@ -1,0 +1,51 @@
+//! The progress of a run: a line on the terminal with the time left, and nothing in a pipe.
+
+use congruent::twin::RunSetup;
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+
+use crate::print::Printer;
+
+/// Steps between two looks at the clock.
+const STEPS_A_TICK: u64 = 256;
+
+/// The lines of a call, one for each scenario that runs; none if no one sees them.
+#[derive(Debug)]
+pub(crate) struct Progress(Option<MultiProgress>);
+
+/// The line of a run, which goes with it.
+#[derive(Debug)]
+pub(crate) struct RunProgress(Option<ProgressBar>);
+
+impl Progress {
+    pub(crate) fn new(printer: &Printer) -> Self {
+        Self(printer.is_interactive().then(MultiProgress::new))
+    }
+
+    /// A line of at most 80 columns: name, bar, share, time left.
+    pub(crate) fn of_run(&self, setup: &RunSetup) -> RunProgress {
+        let style = ProgressStyle::with_template("{prefix:28!} {bar:24} {percent:>3} %  {eta:>5} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let bar = |bars: &MultiProgress| {
+            let bar = ProgressBar::new(setup.clock.steps).with_style(style);
+            bars.add(bar.with_prefix(setup.scenario.name.clone()))
+        };
+        RunProgress(self.0.as_ref().map(bar))
+    }
+}
+
+impl RunProgress {
+    /// So many steps are done.
+    pub(crate) fn steps(&self, steps: u64) {
+        if let Some(bar) = self.0.as_ref().filter(|_| steps.is_multiple_of(STEPS_A_TICK)) {
+            bar.set_position(steps);
+        }
+    }
+}
+
+impl Drop for RunProgress {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
+}

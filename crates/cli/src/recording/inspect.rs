@@ -1,0 +1,139 @@
+//! `congruent inspect`: what a recording holds, its verdict, and whether its series show what its report says.
+
+use std::path::{Path, PathBuf};
+
+use congruent::{
+    description::Diagnostic,
+    recording::{Recheck, RecordingSummary, inspect, recheck, scalars, scalars_csv},
+    twin::{
+        RunSetup,
+        report::{Reason, TestResult, TestSuite},
+        results::write_whole,
+        scenario::Override,
+    },
+};
+use serde_json::Value;
+
+use super::inspect_text::{sentence, text};
+use crate::{
+    batch::{Batch, BatchReport},
+    ci::CiArguments,
+    failure::{BAD_INPUT, BROKEN, FAILED, Failure, unwritable, worse},
+    input::AccessArguments,
+    output_file::refuse_inputs,
+    print::Printer,
+};
+
+/// What recordings hold: verdict, worst values, duration, entities, statistics of their scalars, problems of the file.
+///
+/// The exit code is that of the recorded run, so 1 if it went against expectation; 2 if a file is cut off, damaged or no
+/// recording, has no footer, values that are NaN or times that are not in order; 4 without a verdict. With --check it is 1
+/// as well if series and report disagree. Of several recordings it is the worst.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Recordings (.rrd).
+    #[arg(required = true)]
+    recordings: Vec<PathBuf>,
+    /// Evaluate the checks of this scenario again, on the recordings alone, and compare with the report in each.
+    ///
+    /// Values that replaced those of the file in the run replace them here, too. A scenario with other limits than the run
+    /// tells whether the run would have passed with these.
+    #[arg(long, value_name = "SCENARIO")]
+    check: Option<PathBuf>,
+    /// Also write all scalar series of one recording as a table: time, then a column for each series.
+    ///
+    /// A row for each instant at which any series has a value; a series without a value there has an empty cell.
+    #[arg(long, value_name = "FILE.csv")]
+    csv: Option<PathBuf>,
+    #[command(flatten)]
+    ci: CiArguments,
+    #[command(flatten)]
+    access: AccessArguments,
+}
+
+impl BatchReport for RecordingSummary {
+    fn exit_code(&self) -> u8 {
+        self.exit_code
+    }
+
+    fn text(&self) -> String {
+        text(self)
+    }
+
+    fn test_suite(&self, input: &str) -> TestSuite {
+        let reason = Reason { kind: "recording".to_owned(), message: self.reason.clone() };
+        let result = match self.exit_code {
+            0 => TestResult::Passed,
+            FAILED => TestResult::Failed(reason),
+            _ => TestResult::Error(reason),
+        };
+        TestSuite::of_case(input, "verdict", result)
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    examine(arguments)?;
+    let batch = Batch::begin(&arguments.recordings, &arguments.ci, printer)?;
+    let recordings = arguments.recordings.iter();
+    batch.finish(recordings.map(|path| batch.answer(path, || answer(path, arguments, &batch))).collect())
+}
+
+/// The table is of one recording, and none of the files that are read.
+fn examine(arguments: &Arguments) -> Result<(), Diagnostic> {
+    let Some(file) = &arguments.csv else { return Ok(()) };
+    let refused =
+        |message: String, help: &str| Err(Diagnostic::error("inspect::csv", message).with_help(help));
+    if arguments.recordings.len() > 1 {
+        let message = format!("--csv {} is a table of one recording", file.display());
+        return refused(message, "give one recording");
+    }
+    let inputs: Vec<PathBuf> = arguments.recordings.iter().chain(&arguments.check).cloned().collect();
+    refuse_inputs("--csv", file, &inputs)
+}
+
+fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<RecordingSummary, Failure> {
+    let unreadable = |error: congruent::recording::InspectError| {
+        Diagnostic::error("inspect::recording", error.to_string())
+    };
+    if arguments.check.is_none() && arguments.csv.is_none() {
+        return Ok(inspect(path).map_err(unreadable)?);
+    }
+    let (mut summary, scalars) = scalars(path).map_err(unreadable)?;
+    if let Some(file) = &arguments.csv {
+        write_whole(file, &scalars_csv(&summary, &scalars))
+            .map_err(|error| unwritable(&error, "choose a file that can be written with --csv"))?;
+    }
+    let Some(scenario) = &arguments.check else { return Ok(summary) };
+    // A file that is damaged or has no verdict shows nothing about its checks.
+    if summary.exit_code == BAD_INPUT || summary.report.is_none() {
+        summary.reason += "; its checks are not evaluated again";
+        return Ok(summary);
+    }
+    let setup = load(scenario, &summary, arguments)?;
+    batch.warn(path, &setup.warnings);
+    let result = recheck(&summary, &scalars, setup)
+        .map_err(|error| Diagnostic::error("inspect::check", error.to_string()))?;
+    take(&mut summary, result);
+    Ok(summary)
+}
+
+/// Adds the result to what is printed.
+fn take(summary: &mut RecordingSummary, result: Recheck) {
+    let (before, code) = (summary.exit_code, result.exit_code());
+    // Other limits have a verdict of their own.
+    summary.exit_code = if result.same_limits || before == BROKEN { worse(before, code) } else { code };
+    if let Some(first) = result.disagreements.first() {
+        summary.reason = format!("the series do not show what the report says: {}", sentence(first));
+    } else if !result.same_verdict {
+        "the limits of this scenario change the verdict".clone_into(&mut summary.reason);
+    }
+    summary.recheck = Some(result);
+}
+
+/// The scenario with the values that replaced those of its file in the run.
+fn load(scenario: &Path, summary: &RecordingSummary, arguments: &Arguments) -> Result<RunSetup, Failure> {
+    let report = summary.report.as_ref().unwrap_or(&Value::Null);
+    let texts = report["overrides"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    let overrides: Vec<Override> = texts.map(str::parse).collect::<Result<_, Diagnostic>>()?;
+    Ok(RunSetup::load_with(scenario, &overrides, &arguments.access.access()?)?)
+}

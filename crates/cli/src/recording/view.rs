@@ -1,0 +1,155 @@
+//! `congruent view`: opens the rerun viewer on a recording, on a robot whose joints move, or on a run.
+
+use std::{
+    fmt::Write,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use congruent::{
+    JointSweep, SweepError, SweptJoint,
+    description::{Diagnostic, display::position, load_robot_with},
+    joint_sweep,
+    page::PageFormat,
+    recording::RerunFormat,
+    twin::{Options, RecordingFormat, RunSetup},
+};
+
+use super::viewer::Viewer;
+use crate::{
+    batch::BatchReport,
+    failure::Failure,
+    input::AccessArguments,
+    print::Printer,
+    progress::Progress,
+    run::{no_folder, run_one},
+    table::Table,
+};
+
+/// Opens the rerun viewer on a recording, on a robot with each joint moving over its range, or on the run of a scenario.
+///
+/// `rerun` is looked for in PATH. Without it the recording is written all the same, it is said how to get the viewer, and
+/// the exit code is 3; --no-viewer only writes. Otherwise the exit code is 0, of a scenario that of its run.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// A recording (.rrd), a robot (folder, robot file or .urdf), or a scenario file.
+    input: PathBuf,
+    /// Folder for the recording of a robot or the results of a scenario; each has a folder of its own in it.
+    #[arg(long, default_value = "out", value_name = "DIR")]
+    out: PathBuf,
+    /// Only write the recording.
+    #[arg(long)]
+    no_viewer: bool,
+    #[command(flatten)]
+    access: AccessArguments,
+}
+
+/// What there is to see.
+enum Input {
+    Recording,
+    Robot,
+    Scenario,
+}
+
+impl Input {
+    fn of(path: &Path) -> Result<Self, Diagnostic> {
+        let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
+        match ending.as_deref() {
+            _ if path.is_dir() => Ok(Self::Robot),
+            Some("rrd") => Ok(Self::Recording),
+            Some("urdf" | "xml") => Ok(Self::Robot),
+            Some("toml") => Ok(if is_robot_file(path) { Self::Robot } else { Self::Scenario }),
+            _ => {
+                let message = format!("{} is no recording, robot or scenario", path.display());
+                Err(Diagnostic::error("view::input", message)
+                    .with_help("give a file that ends in .rrd, .urdf or .toml, or the folder of a robot"))
+            }
+        }
+    }
+}
+
+/// Whether a file names a URDF before its first section, as a robot file does. What cannot be read is told by the reader.
+fn is_robot_file(path: &Path) -> bool {
+    let text = fs::read_to_string(path).unwrap_or_default();
+    let mut keys = text.lines().map(str::trim_start).take_while(|line| !line.starts_with('['));
+    keys.any(|line| line.strip_prefix("urdf").is_some_and(|rest| rest.trim_start().starts_with('=')))
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    match Input::of(&arguments.input)? {
+        Input::Recording => {
+            // The viewer would open an empty window.
+            let summary = congruent::recording::inspect(&arguments.input)
+                .map_err(|error| Diagnostic::error("view::recording", error.to_string()))?;
+            printer.notes(summary.problems.iter().map(String::as_str));
+            open(&arguments.input, arguments, printer)?;
+            Ok(0)
+        }
+        Input::Robot => {
+            let description = load_robot_with(&arguments.input, &arguments.access.access()?)?;
+            printer.warnings(&description.warnings);
+            let sweep = joint_sweep(description, &arguments.out).map_err(refused)?;
+            printer.result(&sweep, text)?;
+            open(&sweep.recording, arguments, printer)?;
+            Ok(0)
+        }
+        Input::Scenario => scenario(arguments, printer),
+    }
+}
+
+fn refused(error: SweepError) -> Failure {
+    match error {
+        SweepError::Robot(findings) => findings.into(),
+        SweepError::Folder(error) => no_folder(error),
+        SweepError::Output(error) => no_folder(error.into()),
+        SweepError::Recording(error) => Failure::Machine(error.to_string()),
+        error => Diagnostic::error("view::robot", error.to_string()).into(),
+    }
+}
+
+fn scenario(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    let setup = RunSetup::load_with(&arguments.input, &[], &arguments.access.access()?)
+        .and_then(RunSetup::for_simulation)?;
+    printer.warnings(&setup.description.warnings);
+    printer.warnings(&setup.warnings);
+    let options = Options { out: arguments.out.clone(), recordings: vec![&RerunFormat, &PageFormat] };
+    let ran = run_one(&setup, &options, &Progress::new(printer))?;
+    printer.result(&ran, BatchReport::text)?;
+    let code = ran.exit_code();
+    let Ok(folder) = &ran.results else { return Ok(code) };
+    let recording = folder.join(RerunFormat.file_name());
+    open(&recording, arguments, printer)?;
+    Ok(code)
+}
+
+/// Opens a recording and waits until the viewer is closed.
+fn open(recording: &Path, arguments: &Arguments, printer: &Printer) -> Result<(), Failure> {
+    if arguments.no_viewer {
+        return Ok(());
+    }
+    let viewer = Viewer::find(Some(recording))?;
+    printer.notes(viewer.remark().as_deref());
+    viewer.show(recording)
+}
+
+fn text(sweep: &JointSweep) -> String {
+    let mut text = format!("{}: each joint over its range\n", sweep.robot);
+    let mut table = Table::headed(["joint", "from", "to", "at", ""]);
+    for joint in &sweep.joints {
+        let SweptJoint { joint, unit, range: [lower, upper], from_s, until_s, note, .. } = joint;
+        let at = if until_s > from_s { format!("{from_s} s to {until_s} s") } else { "-".to_owned() };
+        let note = note.clone().unwrap_or_default();
+        table.row([joint.clone(), position(*lower, unit), position(*upper, unit), at, note]);
+    }
+    table.write(&mut text);
+    if !sweep.follow.is_empty() {
+        let _ = writeln!(text, "  joints that follow others: {}", sweep.follow.join(", "));
+    }
+    let agreement = if sweep.agrees { "agree" } else { "do NOT agree" };
+    let _ = writeln!(
+        text,
+        "  model and URDF {agreement} in all of it\n  recording {}",
+        sweep.recording.display()
+    );
+    text
+}

@@ -1,0 +1,310 @@
+//! The checks of a scenario once more, on a recording alone: does it show what its report says?
+//!
+//! A recording keeps one sample in 10 ms. Three origins tell about a check, and each has its limits: the worst values
+//! that the check itself measured between two recorded samples (every step, but measured by the run); the joint states
+//! at the recorded samples, which the checks of the scenario see again (nothing of the run is believed, but steps
+//! between are missing); and the report in the recording, which decides alone only where the others are silent.
+
+mod replay;
+mod states;
+
+use congruent_twin::{
+    RunError, RunSetup,
+    comparison::Scalars,
+    scenario::CheckKind,
+    verdict::{CheckResult, Status, Verdict, judge},
+};
+use serde_json::Value;
+
+use self::replay::Replay;
+use super::{
+    evidence::{At, Evidence, Quantity, merged},
+    rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity},
+    summary::RecordingSummary,
+};
+use crate::{rrd::paths, series::checks::path_parts};
+
+/// Why a recording cannot be held against a scenario.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecheckError {
+    /// There is nothing to compare with.
+    #[error("the recording has no report of a run, so there is no verdict to compare with")]
+    NoReport,
+    /// The scenario has other checks than the run.
+    #[error("the recording is of another scenario: it has the checks {recorded}, and this one has {given}")]
+    OtherScenario {
+        /// The kinds of checks in the recording.
+        recorded: String,
+        /// Those of the scenario.
+        given: String,
+    },
+    /// The checks cannot start.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+/// By how much a value that is computed again from joint positions may be worse than that of the run. Kind: rounding of
+/// the physics; the poses of the run are those of its bodies, these follow from the URDF. In the unit of the value.
+const COMPUTED_AGAIN: f64 = 1e-6;
+
+/// Evaluates the checks of a scenario on a recording, and compares the results with the report in it.
+///
+/// `summary` and `scalars` are those of [`scalars`](super::scalars). The limits are those of the scenario; if they are
+/// not those of the run, its verdict may be another.
+///
+/// # Errors
+/// [`RecheckError`] if the recording has no report, or one of other checks.
+pub fn recheck(
+    summary: &RecordingSummary,
+    scalars: &Scalars,
+    mut setup: RunSetup,
+) -> Result<Recheck, RecheckError> {
+    let report = summary.report.as_ref().ok_or(RecheckError::NoReport)?;
+    let recorded: Vec<&Value> = report["checks"].as_array().into_iter().flatten().collect();
+    is_of_scenario(&recorded, &setup)?;
+    let is_broken = report["error"].is_string();
+    if let Some(steps) = report["simulation"]["steps"].as_u64() {
+        // A motion that was slowed down in the run made it longer; one that ended early has no last step.
+        setup.clock.steps = if is_early(report) { setup.clock.steps.max(steps + 1) } else { steps };
+    }
+    let left_out = left_out(report);
+    let replay = Replay::of(scalars, &setup, &left_out)?;
+    let lines = setup.checks().iter().map(|check| check.line).collect();
+    let mut context = Context { scalars, setup: &setup, lines, replay, is_broken, gap_s: 0.0 };
+    context.gap_s = context.longest_gap_s();
+    let mut disagreements = Vec::new();
+    let checks: Vec<RecheckedCheck> = recorded
+        .iter()
+        .enumerate()
+        .map(|(at, recorded)| context.check(at, recorded, &mut disagreements))
+        .collect();
+    let expected = serde_json::to_value(&setup.scenario.expect).unwrap_or(Value::Null);
+    let same_limits = expected == report["expected"] && checks.iter().all(RecheckedCheck::has_same_limits);
+    let verdict = if is_broken { Verdict::Broken } else { context.verdict(&checks) };
+    let recorded_verdict = summary.verdict.clone().unwrap_or_default();
+    let same_verdict = congruent_description::serde_name(&verdict) == recorded_verdict;
+    Ok(Recheck {
+        scenario: setup.path.as_ref().map(|path| path.display().to_string()),
+        same_limits,
+        instants: context.replay.steps.len(),
+        gap_s: context.gap_s,
+        step_s: setup.clock.step_s,
+        verdict,
+        same_verdict,
+        recorded_verdict,
+        checks,
+        disagreements,
+    })
+}
+
+/// Whether the checks are of the same kinds in the same order.
+fn is_of_scenario(recorded: &[&Value], setup: &RunSetup) -> Result<(), RecheckError> {
+    let kinds: Vec<&str> = recorded.iter().filter_map(|check| check["check"].as_str()).collect();
+    let given: Vec<&str> = setup.scenario.check.iter().map(|check| check.kind().word()).collect();
+    if kinds == given {
+        return Ok(());
+    }
+    let listed = |kinds: &[&str]| if kinds.is_empty() { "none".to_owned() } else { kinds.join(", ") };
+    Err(RecheckError::OtherScenario { recorded: listed(&kinds), given: listed(&given) })
+}
+
+/// Whether the run ended before its time: it broke, or a check stopped it.
+fn is_early(report: &Value) -> bool {
+    report["error"].is_string() || report["stopped"].is_object()
+}
+
+/// Checks that depend on what a recording does not hold: when the motions end if the run was delayed, and what follows
+/// once it has ended early.
+fn left_out(report: &Value) -> Vec<CheckKind> {
+    let mut motions = report["motions"].as_array().into_iter().flatten();
+    let is_slowed = motions.any(|motion| motion["slowed"].is_object());
+    match (is_early(report), is_slowed) {
+        (true, _) => vec![CheckKind::CycleTime, CheckKind::Goal],
+        (false, true) => vec![CheckKind::CycleTime],
+        (false, false) => Vec::new(),
+    }
+}
+
+/// Whether a difference is above a limit; one that is no number is.
+fn exceeds(difference: f64, limit: f64) -> bool {
+    difference > limit || difference.is_nan()
+}
+
+/// What all checks are evaluated with.
+struct Context<'a> {
+    scalars: &'a Scalars,
+    setup: &'a RunSetup,
+    /// Lines of the checks.
+    lines: Vec<Option<usize>>,
+    replay: Replay,
+    is_broken: bool,
+    gap_s: f64,
+}
+
+impl Context<'_> {
+    /// The longest time between two recorded samples.
+    fn longest_gap_s(&self) -> f64 {
+        let gaps = self.replay.steps.windows(2).map(|pair| pair[1] - pair[0]);
+        self.setup.clock.time_s(gaps.max().unwrap_or(0))
+    }
+
+    /// How much worse than in the run a value at recorded instants may be. A time is late by the samples between.
+    fn slack(&self, kind: CheckKind, unit: &str) -> f64 {
+        match unit {
+            _ if kind == CheckKind::Agreement => 0.0, // recorded, not computed again
+            "s" => self.gap_s,
+            _ => COMPUTED_AGAIN,
+        }
+    }
+
+    fn check(&self, at: usize, recorded: &Value, disagreements: &mut Vec<Disagreement>) -> RecheckedCheck {
+        let kind = self.setup.scenario.check[at].kind();
+        let line = self.lines[at];
+        let measures = recorded["measures"].as_array().into_iter().flatten();
+        let reported = merged(measures.filter_map(Evidence::of_report));
+        let mut quantities = Vec::new();
+        let mut found_here = Vec::new();
+        for reported in &reported {
+            let quantity = self.quantity(at, kind, reported, &mut found_here);
+            quantities.push(quantity);
+        }
+        let unreported = self.replay.found[at].iter().filter(|evidence| {
+            !reported.iter().any(|known| known.of.is(&evidence.of.name, &evidence.of.unit))
+        });
+        for evidence in unreported.filter(|evidence| {
+            exceeds(evidence.beyond(evidence.of.limit), self.slack(kind, &evidence.of.unit))
+        }) {
+            let at = evidence.first_violation.unwrap_or(evidence.worst);
+            let problem =
+                "violates the limit at a recorded sample, and the report has no such value".to_owned();
+            found_here.push(Disagreement::new(kind, line, evidence, at, problem));
+        }
+        let basis = Basis::worst(quantities.iter().map(|quantity| quantity.basis));
+        let recorded_status = recorded["status"].as_str().unwrap_or_default().to_owned();
+        let is_violated = quantities.iter().any(|quantity| quantity.violation_s.is_some());
+        let is_same = quantities.iter().all(RecheckedQuantity::has_same_limit);
+        let status = match &recorded_status[..] {
+            "skipped" if quantities.is_empty() => Status::Skipped,
+            _ if is_violated || !found_here.is_empty() && quantities.is_empty() => Status::Fail,
+            "error" => Status::Error,
+            _ => Status::Pass,
+        };
+        if is_same && found_here.is_empty() && status.word() != recorded_status {
+            found_here.push(Disagreement::of_status(kind, line, status, &recorded_status));
+        }
+        disagreements.append(&mut found_here);
+        RecheckedCheck { check: kind, line, status, recorded_status, basis, quantities }
+    }
+
+    /// One quantity of a check, from all origins.
+    fn quantity(
+        &self,
+        at: usize,
+        kind: CheckKind,
+        reported: &Evidence,
+        disagreements: &mut Vec<Disagreement>,
+    ) -> RecheckedQuantity {
+        let Quantity { name, unit, .. } = &reported.of;
+        let limit = self.replay.limit(at, name, unit).unwrap_or(reported.of.limit);
+        let of = Quantity { limit, ..reported.of.clone() };
+        let [kind_part, quantity_part] = path_parts(at, kind, (name, unit));
+        let series = self.scalars.get(&paths::check(&kind_part, &quantity_part).to_string());
+        let every_step = series.and_then(|values| Evidence::of_values(&of, values));
+        let sampled = self.replay.found[at].iter().find(|evidence| evidence.of.is(name, unit));
+        let line = self.lines[at];
+        if let Some((at, evidence, problem)) = self.problem(kind, reported, (every_step.as_ref(), sampled)) {
+            disagreements.push(Disagreement::new(kind, line, evidence, at, problem));
+        }
+        let slack = self.slack(kind, unit);
+        // Shapes that touch are at the limit exactly: the run has seen it, too.
+        let is_known = reported.violation_of(limit).is_some();
+        let sampled_violation = sampled.filter(|sampled| is_known || exceeds(sampled.beyond(limit), slack));
+        let seen = every_step.as_ref().and_then(|found| found.first_violation);
+        let seen = seen.or_else(|| sampled_violation?.violation_of(limit));
+        let violation = seen.or_else(|| reported.violation_of(limit));
+        let basis = match (&every_step, sampled) {
+            (Some(_), _) => Basis::EveryStep,
+            (None, Some(_)) if seen.is_some() || violation.is_none() => Basis::RecordedSamples,
+            _ => Basis::Report,
+        };
+        let worst = every_step.as_ref().or(sampled).unwrap_or(reported);
+        let subject =
+            sampled.and_then(|sampled| sampled.subject.clone()).or_else(|| reported.subject.clone());
+        RecheckedQuantity {
+            quantity: name.clone(),
+            unit: unit.clone(),
+            bound: of.bound,
+            limit,
+            recorded_limit: reported.of.limit,
+            worst: worst.worst.value,
+            worst_s: worst.worst.time_s,
+            subject,
+            recorded_worst: reported.worst.value,
+            violation_s: violation.map(|at| at.time_s),
+            basis,
+        }
+    }
+
+    /// Where the series and the report contradict each other: the value of the series, and why.
+    fn problem<'e>(
+        &self,
+        kind: CheckKind,
+        reported: &'e Evidence,
+        (every_step, sampled): (Option<&'e Evidence>, Option<&'e Evidence>),
+    ) -> Option<(At, &'e Evidence, String)> {
+        // Infinity is `null` in the report.
+        let is_same = |a: f64, b: f64| a.to_bits() == b.to_bits() || !a.is_finite() && b.is_nan();
+        // A run that broke has not written the values of its last steps.
+        if let Some(found) = every_step.filter(|_| !self.is_broken)
+            && !is_same(found.worst.value, reported.worst.value)
+        {
+            let problem = "is the worst value of the check's series, and the report has another".to_owned();
+            return Some((found.worst, found, problem));
+        }
+        let sampled = sampled?;
+        let slack = self.slack(kind, &reported.of.unit);
+        let difference = sampled.beyond(reported.worst.value);
+        if exceeds(difference, slack)
+            && !is_same(sampled.worst.value, reported.worst.value)
+            && !reported.worst.value.is_nan()
+        {
+            let problem =
+                "follows from the recorded series, and is worse than the report's worst value".to_owned();
+            return Some((sampled.worst, sampled, problem));
+        }
+        let first = reported.first_violation?;
+        // In contact the physics keeps bodies apart: no joint position shows it.
+        let is_shown =
+            kind != CheckKind::Contact && self.is_recorded(first.time_s) && reported.of.unit != "s";
+        let is_near = (first.value - reported.of.limit).abs() <= slack;
+        if is_shown && !is_near && sampled.violation_of(reported.of.limit).is_none() {
+            let problem = format!(
+                "is the worst value that follows from the recorded series, and the report has a violation at {}",
+                congruent_description::display::quantity(first.time_s, "s")
+            );
+            return Some((sampled.worst, sampled, problem));
+        }
+        None
+    }
+
+    /// Whether there is a sample at this time.
+    fn is_recorded(&self, time_s: f64) -> bool {
+        let step_s = self.setup.clock.step_s;
+        self.replay.steps.iter().any(|&step| (self.setup.clock.time_s(step) - time_s).abs() < step_s / 2.0)
+    }
+
+    /// The verdict of these results, by what the scenario expects.
+    fn verdict(&self, checks: &[RecheckedCheck]) -> Verdict {
+        let results = checks.iter().map(|check| CheckResult {
+            check: check.check,
+            line: check.line,
+            status: check.status,
+            samples: 0,
+            measures: Vec::new(),
+            contacts: Vec::new(),
+            notes: Vec::new(),
+        });
+        judge(&self.setup.scenario.expect, &results.collect::<Vec<_>>())
+    }
+}

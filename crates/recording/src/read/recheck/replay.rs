@@ -1,0 +1,132 @@
+//! The checks of a scenario on the joint states that a recording holds, and on its errors of the links.
+
+use congruent_twin::{
+    Run, RunError, RunSetup, Sample,
+    comparison::Scalars,
+    recorder::{Recorder, RecordingError},
+    scenario::{CheckKind, OnViolation},
+    verdict::{Bound, CheckValue},
+};
+
+use super::states::RecordedStates;
+use crate::{
+    read::evidence::{Evidence, Quantity, merged},
+    rrd::paths,
+};
+
+/// What the checks find at the recorded instants.
+#[derive(Debug, Default)]
+pub(super) struct Replay {
+    /// Steps of the recorded instants; empty if the joint positions are not recorded.
+    pub(super) steps: Vec<u64>,
+    /// What each check of the scenario finds; nothing if it cannot be evaluated at recorded instants.
+    pub(super) found: Vec<Vec<Evidence>>,
+    /// The limits of the scenario, as far as its checks tell.
+    limits: Limits,
+}
+
+/// The quantities of all checks with the number of their check, each once.
+#[derive(Debug, Default)]
+struct Limits(Vec<(usize, Quantity)>);
+
+impl Recorder for Limits {
+    fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
+        for CheckValue { check, of, .. } in sample.values {
+            if !self.0.iter().any(|(known, quantity)| known == check && quantity.is(of.quantity, of.unit)) {
+                let (name, unit) = (of.quantity.to_owned(), of.unit.to_owned());
+                self.0.push((*check, Quantity { name, unit, bound: of.bound, limit: of.limit }));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether the joint states at recorded instants are all that a check needs. The others compare one step with the next,
+/// or the physics with itself.
+fn needs_states_alone(kind: CheckKind) -> bool {
+    match kind {
+        CheckKind::Clearance
+        | CheckKind::Contact
+        | CheckKind::CycleTime
+        | CheckKind::Goal
+        | CheckKind::Limits
+        | CheckKind::Tracking
+        | CheckKind::Zone => true,
+        CheckKind::Agreement
+        | CheckKind::Dynamics
+        | CheckKind::Invariants
+        | CheckKind::Power
+        | CheckKind::Twist => false,
+    }
+}
+
+impl Replay {
+    /// Lets the checks of the scenario see the recorded states; `left_out` are not to be evaluated.
+    ///
+    /// # Errors
+    /// [`RunError`] if the robot has no model or a shape no hull.
+    pub(super) fn of(scalars: &Scalars, setup: &RunSetup, left_out: &[CheckKind]) -> Result<Self, RunError> {
+        let mut replay = Self { found: vec![Vec::new(); setup.scenario.check.len()], ..Self::default() };
+        if let Some(states) = RecordedStates::new(scalars, &setup.description, setup.clock.step_s) {
+            replay.steps = states.steps();
+            replay.run(states, setup, left_out)?;
+        }
+        for (at, check) in setup.scenario.check.iter().enumerate() {
+            if check.kind() == CheckKind::Agreement {
+                replay.found[at] = replay.errors(at, scalars, setup);
+            }
+        }
+        Ok(replay)
+    }
+
+    fn run(
+        &mut self,
+        states: RecordedStates,
+        setup: &RunSetup,
+        left_out: &[CheckKind],
+    ) -> Result<(), RunError> {
+        let mut checks = setup.checks();
+        for check in &mut checks {
+            // The states after a stop are recorded, too.
+            check.on_violation = OnViolation::Continue;
+        }
+        let mut run = Run::with_source(setup, Box::new(states))?;
+        for instant in 0..self.steps.len() {
+            if instant > 0 {
+                run.step()?;
+            }
+            run.compare()?;
+            run.observe(&mut checks, &mut self.limits)?;
+        }
+        for (found, check) in self.found.iter_mut().zip(&checks) {
+            if needs_states_alone(check.kind) && !left_out.contains(&check.kind) {
+                let result = check.result(run.names());
+                *found = merged(result.measures.iter().filter_map(Evidence::of_measure));
+            }
+        }
+        Ok(())
+    }
+
+    /// The recorded errors of all links.
+    fn errors(&self, check: usize, scalars: &Scalars, setup: &RunSetup) -> Vec<Evidence> {
+        let of_quantity = |name: &str, unit: &str, path: fn(&str) -> re_log_types::EntityPath| {
+            let limit = self.limit(check, name, unit)?;
+            let of = Quantity { name: name.to_owned(), unit: unit.to_owned(), bound: Bound::AtMost, limit };
+            let of_link = |link: &str| {
+                let found = Evidence::of_values(&of, scalars.get(&path(link).to_string())?)?;
+                Some(Evidence { subject: Some(link.to_owned()), ..found })
+            };
+            let links = setup.description.robot.links().iter();
+            merged(links.filter_map(|link| of_link(&link.name))).pop()
+        };
+        let position = of_quantity("position", "m", paths::position_error);
+        position.into_iter().chain(of_quantity("orientation", "rad", paths::orientation_error)).collect()
+    }
+
+    /// The limit of a quantity by the scenario, if its checks have told it.
+    pub(super) fn limit(&self, check: usize, name: &str, unit: &str) -> Option<f64> {
+        let told = self.limits.0.iter().find(|(known, quantity)| *known == check && quantity.is(name, unit));
+        let found = || self.found[check].iter().find(|evidence| evidence.of.is(name, unit));
+        told.map(|(_, quantity)| quantity.limit).or_else(|| Some(found()?.of.limit))
+    }
+}

@@ -1,0 +1,159 @@
+//! The result of [`recheck`](super::recheck).
+
+use congruent_twin::{
+    scenario::CheckKind,
+    verdict::{Bound, Status, Verdict},
+};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::evidence::{At, Evidence};
+
+/// The checks of a scenario, evaluated once more on a recording.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Recheck {
+    /// The scenario file.
+    pub scenario: Option<String>,
+    /// Whether the scenario has the limits and the expectation of the run, so that the verdict must be the same.
+    pub same_limits: bool,
+    /// Number of recorded samples at which checks were evaluated.
+    pub instants: usize,
+    /// The longest time between two of them.
+    pub gap_s: f64,
+    /// The length of a step of the run: what happened between two samples is in the recording as the worst values of
+    /// some checks only.
+    pub step_s: f64,
+    /// The verdict that follows from the recording.
+    pub verdict: Verdict,
+    /// Whether it is that of the run.
+    pub same_verdict: bool,
+    /// The verdict of the run.
+    pub recorded_verdict: String,
+    /// Every check, in the order of the scenario.
+    pub checks: Vec<RecheckedCheck>,
+    /// Where the recorded series contradict the recorded report.
+    pub disagreements: Vec<Disagreement>,
+}
+
+/// From what a check was evaluated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Basis {
+    /// The worst values of the check between recorded samples: every step of the run.
+    EveryStep,
+    /// The joint states or errors at recorded samples.
+    RecordedSamples,
+    /// The report in the recording alone: the check cannot be evaluated on the recording.
+    Report,
+}
+
+impl Basis {
+    /// The weakest; the report if there is none.
+    pub(super) fn worst(all: impl Iterator<Item = Self>) -> Self {
+        all.max().unwrap_or(Self::Report)
+    }
+}
+
+/// A check, evaluated once more.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct RecheckedCheck {
+    /// The kind.
+    pub check: CheckKind,
+    /// Its line in the scenario file, from 1.
+    pub line: Option<usize>,
+    /// The result on the recording.
+    pub status: Status,
+    /// The result of the run.
+    pub recorded_status: String,
+    /// From what it follows, by its weakest quantity.
+    pub basis: Basis,
+    /// Its quantities.
+    pub quantities: Vec<RecheckedQuantity>,
+}
+
+/// A quantity of a check.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct RecheckedQuantity {
+    /// What it is, as in the report of the run.
+    pub quantity: String,
+    /// Its unit.
+    pub unit: String,
+    /// On which side of the limit it must be.
+    pub bound: Bound,
+    /// The limit of the scenario.
+    pub limit: f64,
+    /// The limit of the run.
+    pub recorded_limit: f64,
+    /// The worst value in the recording; `null` for infinity.
+    #[schemars(with = "Option<f64>")]
+    pub worst: f64,
+    /// Its time.
+    pub worst_s: f64,
+    /// The link, joint or pair with the worst value.
+    pub subject: Option<String>,
+    /// The worst value of the run; `null` for infinity.
+    #[schemars(with = "Option<f64>")]
+    pub recorded_worst: f64,
+    /// When the limit is first violated.
+    pub violation_s: Option<f64>,
+    /// From what it follows.
+    pub basis: Basis,
+}
+
+/// A contradiction between the recorded series and the recorded report.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Disagreement {
+    /// The kind of check.
+    pub check: CheckKind,
+    /// Its line in the scenario file, from 1.
+    pub line: Option<usize>,
+    /// The quantity; `None` if it is the result of the whole check.
+    pub quantity: Option<String>,
+    /// The unit of the value.
+    pub unit: Option<String>,
+    /// When.
+    pub time_s: Option<f64>,
+    /// The value of the series.
+    pub value: Option<f64>,
+    /// What is wrong with it.
+    pub problem: String,
+}
+
+impl Disagreement {
+    /// About a value.
+    pub(super) fn new(check: CheckKind, line: Option<usize>, of: &Evidence, at: At, problem: String) -> Self {
+        let (quantity, unit) = (Some(of.of.name.clone()), Some(of.of.unit.clone()));
+        Self { check, line, quantity, unit, time_s: Some(at.time_s), value: Some(at.value), problem }
+    }
+
+    /// About the result of a check.
+    pub(super) fn of_status(check: CheckKind, line: Option<usize>, status: Status, recorded: &str) -> Self {
+        let problem = format!("is `{}` on the recording and `{recorded}` in its report", status.word());
+        Self { check, line, quantity: None, unit: None, time_s: None, value: None, problem }
+    }
+}
+
+impl Recheck {
+    /// 0 if the recording shows what its report says and the verdict is as the scenario expects, 1 otherwise, and the code
+    /// of a run that broke or checked nothing.
+    pub fn exit_code(&self) -> u8 {
+        match self.verdict {
+            _ if !self.disagreements.is_empty() || self.same_limits && !self.same_verdict => 1,
+            verdict => verdict.exit_code(),
+        }
+    }
+}
+
+impl RecheckedCheck {
+    /// Whether its limits are those of the run.
+    pub(super) fn has_same_limits(&self) -> bool {
+        self.quantities.iter().all(RecheckedQuantity::has_same_limit)
+    }
+}
+
+impl RecheckedQuantity {
+    /// Whether the limit is that of the run.
+    pub(super) fn has_same_limit(&self) -> bool {
+        self.limit.to_bits() == self.recorded_limit.to_bits()
+    }
+}
