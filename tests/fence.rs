@@ -93,10 +93,10 @@ fn a_scenario_names_files_of_its_project() {
         bench.write("project/scenarios/s.toml", &format!("schema_version = 1\nname = 's'\n{lines}\n"));
         congruent_alone(&["run", &bench.path("project/scenarios/s.toml"), "--no-recording", "--out", &out])
     };
-    refused(&check("robot = '../../outside/r.urdf'"));
-    refused(&check("robot = '/etc/passwd'"));
-    let robot = text(&workspace().join("robots/ur5e"));
-    refused(&check(&format!("robot = '{robot}'")));
+    let workspace_robot = text(&workspace().join("robots/ur5e"));
+    for robot in ["../../outside/r.urdf", "/etc/passwd", &workspace_robot] {
+        refused(&check(&format!("robot = '{robot}'\n[controller]\nkind = 'kinematic'")));
+    }
     for section in [
         "kind = 'kinematic'\n[[motion]]\nplay_csv = '/etc/passwd'",
         "kind = 'torque'\ntorque_file = '/etc/passwd'",

@@ -21,11 +21,8 @@ fn changed(name: &str, change: impl Fn(&mut Side)) -> DynamicsReport {
     let reference = Side::new(&description.robot);
     let mut candidate = reference.clone();
     change(&mut candidate);
-    let candidate = NamedSide {
-        name: "changed",
-        side: &candidate,
-        places: description.places.urdf.as_ref().map(|places| places as _),
-    };
+    let places = description.places.urdf.as_ref().map(|places| places as _);
+    let candidate = NamedSide { name: "changed", side: &candidate, places };
     let reference = NamedSide { name: "original", side: &reference, places: None };
     let mut report = compare(&candidate, &reference, 1).expect("one chain");
     report.certificates = Some(certify(&candidate, &reference, 1).expect("one chain"));

@@ -122,8 +122,11 @@ fn share_in_full(value: f64, unit: &str) -> String {
     /// As a part of the value. Kind: rounding of products.
     const LOST: f64 = 1e-9;
     let shown = quantity(value, unit);
-    let is_lossy = |shown: f64| (shown - value).abs() > LOST * value.abs();
-    if unit.is_empty() && shown.parse().is_ok_and(is_lossy) { quantity_in_full(value, unit) } else { shown }
+    // The margin that a limit has for rounding was not asked for.
+    let rounded = (value * 1e6).round() / 1e6;
+    let is_lossy = |shown: f64| (shown - rounded).abs() > LOST * rounded.abs();
+    let is_share = unit.is_empty() && rounded > 0.1;
+    if is_share && shown.parse().is_ok_and(is_lossy) { quantity_in_full(rounded, unit) } else { shown }
 }
 
 /// How far a value is from its limit.

@@ -7,8 +7,8 @@ use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use crate::{
     scenario::{FilePlace, PayloadInertia, PayloadSettings},
     setup::{
-        LARGEST_M,
         payload::{HEAVIEST_KG, Payload, too_heavy},
+        surroundings::LARGEST_M,
     },
 };
 
