@@ -5,7 +5,6 @@ use congruent_description::{JointIndex, JointValues, Mimic, Robot, RobotDescript
 use congruent_kinematics::{LinkPoses, Pose, PoseError, Uniform, UrdfTree, range, sample_configurations};
 
 use super::{
-    certificate::{Brackets, worst},
     check::{CheckOptions, RANDOM_CONFIGURATIONS, verdict, worst_of},
     check_report::{Agreement, CheckReport, TipDifference},
     error::CheckError,
@@ -80,15 +79,13 @@ impl CheckReport {
                 comparison.worst.error = comparison.worst.error.larger(*error);
             }
         }
-        // It is of chains whose joints follow in the same way.
+        // The bounds are of chains whose joints follow in the same way: there is none of the whole.
         for certificate in self.certificates.iter_mut().filter(|of| of.name == SourcePair::UrdfOther) {
             certificate.brackets = None;
         }
+        (self.certificate, self.certificate_bracket) = (None, None);
         self.verdict = verdict(&self.comparisons);
         self.worst = worst_of(&self.comparisons, &self.tolerance);
-        let brackets = worst(&self.certificates);
-        self.certificate = brackets.as_ref().map(Brackets::bounds);
-        self.certificate_bracket = brackets;
     }
 
     /// The differences at requested configurations.
