@@ -222,3 +222,38 @@ fn a_stated_noise_that_is_exceeded_is_a_failed_check() {
     let exceeded = run("0.01");
     assert!(exceeded.code == 1 && exceeded.stdout.contains("stated noise"), "{}", exceeded.stdout);
 }
+
+/// A gross error in one coordinate never turns into whole turns or metres of a correction, and is named.
+#[test]
+fn a_gross_error_gives_no_gross_corrections() {
+    let bench = Bench::new();
+    let perfect = measured(&bench.robot("ur5e", &[]), &UR5E_JOINTS, 40, (0.0, 0.0));
+    for row in [0, 3, 8, 17, 25, 39] {
+        let mut rows = perfect.clone();
+        let coordinate = number(&rows[row]["translation_m"][row % 3]);
+        rows[row]["translation_m"][row % 3] = json!(1e3 * coordinate);
+        for free in ["zero-offsets", "dh"] {
+            let report = judged(&rows, free).json();
+            assert!(report["outliers"].as_array().unwrap().iter().any(|of| of["row"] == row + 1), "{report}");
+            assert_eq!(report["recommended"], "robust", "{free}, row {row}: {}", report["statements"]);
+            for parameter in report["parameters"].as_array().unwrap() {
+                assert!(
+                    number(&parameter["robust_correction"]).abs() < 1e-9,
+                    "{free}, row {row}: {parameter}"
+                );
+                assert!(number(&parameter["correction"]).abs() <= 1e3, "{parameter}");
+            }
+        }
+    }
+}
+
+/// The suggestions are chosen from a stated number of configurations.
+#[test]
+fn more_suggestions_than_candidates_are_refused() {
+    let bench = Bench::new();
+    let file = bench.write("poses.json", &Value::from(poses(5)).to_string());
+    for count in ["18446744073709551615", "100000000000", "401"] {
+        let answer = congruent(&["calibrate", "robots/ur5e", &file, "--next", count]);
+        assert!(answer.code == 2 && answer.stderr.contains("at most as many"), "{count}: {}", answer.stderr);
+    }
+}

@@ -124,3 +124,23 @@ fn a_table_or_chart_of_nothing_is_refused() {
     refused(&["robots/ur5e", "--configurations", &text(&asked), "--plot", "p.svg"], "--plot is of one robot");
     assert_eq!(fs::read_to_string(&asked).unwrap(), "[{\"q\": {}}]");
 }
+
+/// At many turns identified screws differ by rounding, which has no cause; positions that do not resolve the tolerance
+/// are refused.
+#[test]
+fn large_angles_have_no_cause_or_are_refused() {
+    let temporary = tempfile::tempdir().unwrap();
+    let asked = temporary.path().join("configurations.json");
+    let check = |position: f64| {
+        fs::write(&asked, json!([{ "q": { "elbow_joint": position } }]).to_string()).unwrap();
+        congruent_json(&["check", "robots/ur5e", "--configurations", &text(&asked)])
+    };
+    let many_turns = check(1000.0);
+    assert_eq!(many_turns.code, 0, "{}", many_turns.stderr);
+    let report = many_turns.json();
+    assert_eq!((&report["verdict"], &report["diagnosis"]), (&json!("agree"), &json!([])));
+    let unresolved = check(1e15);
+    assert_eq!(unresolved.code, 2, "{}", unresolved.stdout);
+    let said = unresolved.stdout + &unresolved.stderr;
+    assert!(said.contains("elbow_joint") && said.contains("7.16 deg apart"), "{said}");
+}

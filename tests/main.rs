@@ -32,6 +32,7 @@ mod forward_goldens;
 mod frames;
 mod golden;
 mod jacobian_goldens;
+mod mimics;
 mod new_files;
 mod pages;
 mod pairing;

@@ -34,12 +34,18 @@ pub fn needed_coordinates(description: &RobotDescription) -> Result<Vec<usize>, 
 /// Estimates the free corrections of a robot from measurements.
 ///
 /// # Errors
-/// The robot has no chain, or the choice of corrections is unknown or empty.
+/// The robot has no chain, the choice of corrections is unknown or empty, or more configurations are to be suggested than
+/// are tried.
 pub fn calibrate(
     description: &RobotDescription,
     rows: &[MeasuredRow],
     options: &CalibrationOptions,
 ) -> Result<CalibrationReport, Diagnostic> {
+    if options.suggestions > CANDIDATES {
+        let message = format!("{} configurations to measure next cannot be suggested", options.suggestions);
+        return Err(Diagnostic::error("calibrate::next", message)
+            .with_help(format!("they are chosen from {CANDIDATES} random ones: ask for at most as many")));
+    }
     let nominal = NominalChain::new(description)?;
     let parameters = free::parameters(&nominal, &options.free, &options.hold)?;
     let chain = CorrectedChain::new(nominal.chain.clone(), parameters);

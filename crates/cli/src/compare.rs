@@ -70,7 +70,7 @@ fn described(text: &mut String, file: &FileComparison) {
         let _ = writeln!(text, "  {statement}");
     }
     if let Some(Difference { series: name, time_s, a, b, difference, .. }) = first {
-        let time = time_s.map_or_else(String::new, |time_s| format!(" at {time_s:?} s"));
+        let time = time_s.map_or_else(String::new, |time_s| format!(" at {}", moment(time_s)));
         let unit = series.iter().find(|series| series.series == *name).map_or("", |series| series.unit);
         let apart =
             difference.map_or_else(String::new, |apart| format!(", {} apart", quantity(apart.abs(), unit)));
@@ -101,7 +101,7 @@ fn described(text: &mut String, file: &FileComparison) {
 fn rows(series: &[SeriesDifference]) -> Vec<[String; 5]> {
     let time = |difference: &Option<Difference>| {
         let time_s = difference.as_ref().and_then(|difference| difference.time_s);
-        time_s.map_or_else(|| "-".to_owned(), |time_s| format!("{time_s:?} s"))
+        time_s.map_or_else(|| "-".to_owned(), moment)
     };
     let row = |series: &SeriesDifference| {
         let SeriesDifference { series: name, unit, compared, differing, only_in_a, only_in_b, first, worst } =
@@ -122,11 +122,27 @@ fn rows(series: &[SeriesDifference]) -> Vec<[String; 5]> {
     joints.chain(series.iter().filter(|series| !has_joint(series))).take(MOST_SHOWN).map(row).collect()
 }
 
+/// A time without the rounding of many steps added up, which starts far below a nanosecond.
+fn moment(time_s: f64) -> String {
+    const PARTS: f64 = 1e9;
+    format!("{:?} s", (time_s * PARTS).round() / PARTS)
+}
+
 /// A value with all its digits.
 fn shown(value: &Value) -> String {
     match value {
         Value::Null => "missing".to_owned(),
         Value::String(text) => text.clone(),
         other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_printed_without_the_rounding_of_a_sum() {
+        assert_eq!([1.1 + 2.2, 0.0, 1e-6].map(moment), ["3.3 s", "0.0 s", "1e-6 s"]);
     }
 }

@@ -44,6 +44,7 @@ fn outcome(verdict: CalibrationVerdict) -> (Outcome, &'static str) {
         CalibrationVerdict::NoiseExceeded => (Outcome::Bad, "RESIDUAL ABOVE THE NOISE"),
         CalibrationVerdict::Unexplained => (Outcome::Bad, "NOT EXPLAINED"),
         CalibrationVerdict::Misinterpreted => (Outcome::Bad, "FILE LIKELY MEANT OTHERWISE"),
+        CalibrationVerdict::TooLarge => (Outcome::Bad, "CORRECTIONS TOO LARGE"),
         CalibrationVerdict::Unverifiable => (Outcome::Unclear, "CANNOT BE VERIFIED"),
         CalibrationVerdict::NothingIdentified => (Outcome::Unclear, "NOTHING IDENTIFIED"),
     }

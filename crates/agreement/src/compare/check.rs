@@ -1,6 +1,8 @@
 //! The comparison of model, URDF and physics without motion: are they the same robot?
 
-use congruent_description::{Diagnostic, Finding, JointValues, RobotDescription, RobotQ, Tolerance};
+use congruent_description::{
+    Diagnostic, Finding, JointValues, RobotDescription, RobotQ, Tolerance, display::quantity,
+};
 use congruent_kinematics::{
     KinematicsError, LinkPoses, Pose, PoseError, ScrewChain, ScrewTree, UrdfTree, sample_configurations,
 };
@@ -46,6 +48,7 @@ pub fn check(
     options: &CheckOptions,
 ) -> Result<CheckReport, CheckError> {
     let robot = &description.robot;
+    resolved(description, &options.configurations)?;
     let mut configurations = sample_configurations(robot, options.seed, RANDOM_CONFIGURATIONS);
     let Physics { source, identified, certificates, not_asked } =
         Physics::new(description, physics, &configurations)?;
@@ -68,7 +71,10 @@ pub fn check(
     }
     let comparisons: Vec<Comparison> =
         running.iter().map(|comparison| comparison.finish(description, &configurations)).collect();
-    let diagnoses = diagnose_models(description, identified.as_ref(), &configurations);
+    let verdict = verdict(&comparisons);
+    // What is left of sources that agree is the rounding of the identified screws: it has no cause.
+    let diagnosed: &[RobotQ] = if verdict == Agreement::Agree { &[] } else { &configurations };
+    let diagnoses = diagnose_models(description, identified.as_ref(), diagnosed);
     let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
     let brackets = worst(&certificates);
     Ok(CheckReport {
@@ -76,7 +82,7 @@ pub fn check(
         robot: robot.name().to_owned(),
         chain: description.reported_chain(),
         table_compared: description.dh.is_some(),
-        verdict: verdict(&comparisons),
+        verdict,
         worst: worst_of(&comparisons, &description.tolerance),
         tolerance: description.tolerance,
         replaced_tolerance: None,
@@ -94,6 +100,25 @@ pub fn check(
         not_asked,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     })
+}
+
+/// Refuses positions so large that numbers of their size are further apart than the tolerance.
+fn resolved(description: &RobotDescription, configurations: &[RobotQ]) -> Result<(), CheckError> {
+    let (robot, tolerance) = (&description.robot, &description.tolerance);
+    for (number, q) in (1..).zip(configurations) {
+        for (&joint, &position) in robot.movable_joints().iter().zip(q.iter()) {
+            let joint = robot.joint(joint);
+            let spacing = position.abs().next_up() - position.abs();
+            let most = if joint.kind.is_angular() { tolerance.orientation_rad } else { tolerance.position_m };
+            if spacing > most {
+                let unit = joint.kind.unit();
+                let (joint, what) =
+                    (joint.name.clone(), [position, spacing, most].map(|it| quantity(it, unit)));
+                return Err(CheckError::Unresolved { number, joint, what });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The physics and what is known of its chain, or why it was not asked.

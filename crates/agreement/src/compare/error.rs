@@ -12,4 +12,17 @@ pub enum CheckError {
     /// The model does not fit the robot.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
+    /// A requested position is so large that its digits do not resolve the tolerance.
+    #[error(
+        "configuration {number}: joint \"{joint}\" at {}: numbers of this size are {} apart, more than the tolerance of {}; \
+         give the position within a turn, or a larger tolerance", what[0], what[1], what[2]
+    )]
+    Unresolved {
+        /// Number of the configuration, from 1.
+        number: usize,
+        /// The joint.
+        joint: String,
+        /// Its position, the distance to the next number, and the tolerance, with their units.
+        what: [String; 3],
+    },
 }

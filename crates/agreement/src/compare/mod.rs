@@ -9,6 +9,7 @@ pub(crate) mod check_report;
 pub(crate) mod diagnosis;
 pub(crate) mod error;
 pub(crate) mod identified;
+mod mimic;
 pub(crate) mod model;
 
 pub use basics::{Basics, BySource, CoordinateUnit, SingleJointMotion, TcpDisplacement};

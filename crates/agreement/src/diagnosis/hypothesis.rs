@@ -61,6 +61,8 @@ causes! {
     Parameter = "parameter",
     /// A joint moves more or less than its variable says.
     Ratio = "ratio",
+    /// A joint follows another one in only one of two files, or in another way.
+    Mimic = "mimic",
     /// Several of these together.
     Several = "several",
     /// None of these.

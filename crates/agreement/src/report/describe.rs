@@ -91,7 +91,7 @@ fn describe(
 }
 
 /// Several faults as one: all of their lines.
-fn several(parts: &[Fault]) -> Fault {
+pub(super) fn several(parts: &[Fault]) -> Fault {
     let located = parts.iter().find(|part| part.line.is_some());
     let all =
         |words: fn(&Fault) -> &str, between: &str| parts.iter().map(words).collect::<Vec<_>>().join(between);

@@ -1,7 +1,9 @@
 //! The diagnosis of a robot description: the table against the URDF and against the physics, which is
 //! identified as a black box.
 
-use congruent_description::{JointIndex, RobotDescription, RobotQ};
+use std::f64::consts::TAU;
+
+use congruent_description::{ChainQ, JointIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::ScrewChain;
 
 use super::{content::ReportedDiagnosis, describe::reported_diagnosis, names::ModelNames};
@@ -30,7 +32,10 @@ pub fn diagnose_models(
     let physics = physics.map(ReferenceModel::from_screws);
     let criterion = Criterion {
         tolerance: description.tolerance,
-        configurations: configurations.iter().map(|q| q.of_chain(&coordinates)).collect(),
+        configurations: configurations
+            .iter()
+            .map(|q| within_a_turn(robot, &moving, q.of_chain(&coordinates)))
+            .collect(),
     };
     let names = ModelNames { description, moving, chain, places, urdf: description.places.urdf.as_ref() };
     let mut pairs = Vec::new();
@@ -46,6 +51,17 @@ pub fn diagnose_models(
         reported_diagnosis(*pair, (models, &criterion), &diagnose(models, &criterion), &names)
     };
     pairs.iter().map(diagnosis).collect()
+}
+
+/// The same configuration with angles beyond a turn brought within one: there the rounding of an identified screw,
+/// which grows with the angle, stays far below the tolerance.
+fn within_a_turn(robot: &Robot, moving: &[JointIndex], mut q: ChainQ) -> ChainQ {
+    for (&joint, position) in moving.iter().zip(q.iter_mut()) {
+        if robot.joint(joint).kind.is_angular() {
+            *position %= TAU;
+        }
+    }
+    q
 }
 
 /// The table with the roll, pitch and yaw of its declared transforms as the file writes them.

@@ -9,7 +9,7 @@ use std::{
 use congruent_description::{
     ChangedLines, ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, Slack,
     SourceFile,
-    display::{angle, length, number},
+    display::{angle, length, length_and_angle, number},
     fitted_number, fitted_transform, line_column,
     units::{Unit, UnitSystem},
 };
@@ -148,7 +148,7 @@ impl FaultContext<'_> {
             ),
             Cause::Ratio => (
                 ratio(named),
-                format!("joint \"{listed}\" moves {} times as far as expected", number(found / expected)),
+                format!("joint \"{listed}\" moves {} times as far as expected", times(found / expected)),
                 "check the joint's gear ratio and unit".to_owned(),
             ),
             Cause::JointsSwapped => {
@@ -336,10 +336,20 @@ fn within_a_turn(entry: DhEntry, value: f64) -> f64 {
     value - TAU * ((value - PI) / TAU).ceil()
 }
 
-/// The error of a transform; a part that is rounding is left out.
+/// A ratio, with its distance from 1 if the digits for people do not show one.
+fn times(ratio: f64) -> String {
+    let shown = number(ratio);
+    let sign = if ratio < 1.0 { '-' } else { '+' };
+    if shown == "1" { format!("1 {sign} {}", number((ratio - 1.0).abs())) } else { shown }
+}
+
+/// The error of a transform; a part that is rounding is left out if the other is not.
 fn off_by(shift_m: f64, turn_rad: f64) -> String {
     /// Rounding of a fit. Unit: m or rad.
     const ROUNDING: f64 = 1e-12;
+    if shift_m.max(turn_rad) <= ROUNDING {
+        return length_and_angle(shift_m, turn_rad);
+    }
     let shift = (shift_m > ROUNDING).then(|| length(shift_m));
     let turn = (turn_rad > ROUNDING).then(|| angle(turn_rad));
     shift.into_iter().chain(turn).collect::<Vec<_>>().join(" and ")

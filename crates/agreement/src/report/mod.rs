@@ -5,6 +5,7 @@ mod content;
 mod describe;
 mod diagnose_models;
 mod fault_message;
+mod mimic;
 mod names;
 mod reference;
 mod statement;
@@ -17,5 +18,6 @@ pub use content::{
     ReportedStage, TableComparison,
 };
 pub use diagnose_models::diagnose_models;
+pub(crate) use mimic::{FollowedJoint, Relation, with_mimics};
 pub use statement::foremost;
 pub use values::ReportedValue;

@@ -1,9 +1,14 @@
 //! Least squares by Levenberg-Marquardt, its covariance, and the noise estimated from the residuals.
 
+use std::f64::consts::TAU;
+
 use congruent_kinematics::least_squares::{BalancedCholesky, Damping, damped_step};
 use nalgebra::DMatrix;
 
-use super::problem::{CalibrationEquations, Measurement, Noise, PoseResidual, Problem, Weighting};
+use super::{
+    model::ParameterUnit,
+    problem::{CalibrationEquations, Measurement, Noise, PoseResidual, Problem, Weighting},
+};
 
 /// Most iterations: near the solution each gains several digits, so this is far more than needed.
 const MOST_ITERATIONS: usize = 200;
@@ -146,6 +151,12 @@ pub(super) fn weighted_fit(
             converged = true;
         } else {
             damping = (damping * 10.0).max(FIRST_DAMPING);
+        }
+    }
+    // A gross error may move an angle by whole turns on its way; these change nothing.
+    for &at in kept {
+        if problem.chain.parameters()[at].unit() == ParameterUnit::Angle {
+            p[at] -= TAU * (p[at] / TAU).round();
         }
     }
     finished(problem, kept, p, (weighting, &equations, converged, iterations))

@@ -57,7 +57,7 @@ pub fn most_informative(
         })
         .collect();
     let ranges = ranges(candidates);
-    let mut suggestions: Vec<Suggestion> = Vec::with_capacity(count);
+    let mut suggestions: Vec<Suggestion> = Vec::with_capacity(count.min(candidates.len()));
     for _ in 0..count.min(candidates.len()) {
         let Some(before) = information.clone().cholesky().map(|factor| log_volume(&factor)) else { break };
         let gain = |candidate: usize| {

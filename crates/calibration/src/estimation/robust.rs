@@ -187,7 +187,8 @@ fn start_of_agreement(
             + count(Measurement::orientation_count) * orientation_rad.ln()
     };
     let [from_plain, from_nominal] = found;
-    if size(&from_nominal) < size(&from_plain) { from_nominal } else { from_plain }
+    // Of two that agree alike the one from nominal, which moved less.
+    if size(&from_nominal) <= size(&from_plain) { from_nominal } else { from_plain }
 }
 
 /// Noise of the median row, neither kind so small against the other that it alone would decide.

@@ -1,6 +1,6 @@
 //! From computed values to the report.
 
-use congruent_description::{DhRowKind, Finding, JointValues};
+use congruent_description::{DhRowKind, Finding, JointValues, RowKey, line_column};
 
 use super::{
     calibration_report::{
@@ -86,8 +86,20 @@ pub(crate) fn report(computed: &Computed<'_>) -> CalibrationReport {
         next: next(computed),
         warnings: computed.description.warnings.iter().map(Finding::from).collect(),
     };
-    report.statements = statements::statements(&report);
+    report.statements = statements::statements(&report, largest(computed, &report.parameters));
     report
+}
+
+/// The length of the arm that would change by too much, with its correction.
+fn largest<'a>(
+    computed: &Computed<'_>,
+    estimates: &'a [EstimatedCorrection],
+) -> Option<(&'a EstimatedCorrection, f64)> {
+    let problem = Problem { chain: &computed.chain, measurements: &computed.measurements };
+    let corrections = &computed.best().corrections;
+    let at = ReachScale::of(&problem).too_large(&computed.chain, corrections)?;
+    let estimate = computed.identification.kept.iter().position(|&kept| kept == at)?;
+    Some((&estimates[estimate], corrections[at]))
 }
 
 fn residuals(computed: &Computed<'_>, corrections: &[f64]) -> Vec<PoseResidual> {
@@ -169,15 +181,22 @@ fn reinterpreted(
     let size = ReachScale::of(&problem).correction_size(&computed.chain, &computed.best().corrections);
     let misfit = match verdict {
         CalibrationVerdict::Unexplained => Misfit::Residual(residual.share()),
-        CalibrationVerdict::Explained | CalibrationVerdict::UnexplainedRows if size > LARGE_CORRECTION => {
+        CalibrationVerdict::Explained
+        | CalibrationVerdict::UnexplainedRows
+        | CalibrationVerdict::NoiseExceeded
+            if size > LARGE_CORRECTION =>
+        {
             Misfit::Correction(size)
         }
         _ => return (verdict, None),
     };
+    let is_too_large = verdict != CalibrationVerdict::Unexplained
+        && ReachScale::of(&problem).too_large(&computed.chain, &computed.best().corrections).is_some();
     match interpretation::likely_reason(&computed.nominal, computed.rows, computed.options, misfit) {
         Some(reason) if verdict != CalibrationVerdict::Unexplained => {
             (CalibrationVerdict::Misinterpreted, Some(reason))
         }
+        None if is_too_large => (CalibrationVerdict::TooLarge, None),
         reason => (verdict, reason),
     }
 }
@@ -266,7 +285,19 @@ fn in_table(
         (CorrectionEntry::Alpha, _) => (RowEntry::Alpha, row.alpha_rad),
         _ => return None,
     };
-    Some(CorrectedTableEntry { entry, nominal, corrected: nominal + sign * correction, line: row.line })
+    let key = match entry {
+        RowEntry::Theta => RowKey::Theta,
+        RowEntry::D => RowKey::D,
+        RowEntry::A => RowKey::A,
+        RowEntry::Alpha => RowKey::Alpha,
+    };
+    let places = computed.description.places.robot_file.as_ref();
+    let written = places.and_then(|places| {
+        let place = places.value(parameter.joint?, key).filter(|place| place.is_written)?;
+        Some(line_column(&places.source().text, place.span.start).0)
+    });
+    let line = written.unwrap_or(row.line);
+    Some(CorrectedTableEntry { entry, nominal, corrected: nominal + sign * correction, line })
 }
 
 fn fixed(computed: &Computed<'_>, fixed: &FixedParameter) -> ReportedFixedParameter {

@@ -107,6 +107,9 @@ pub enum CalibrationVerdict {
     /// The corrections explain the measurements only by being as large as the arm, and another interpretation
     /// of the file does so with small ones.
     Misinterpreted,
+    /// The corrections explain the measurements only by a length beyond a tenth of the reach, which is no correction of
+    /// an arm; base and tool may be anywhere.
+    TooLarge,
     /// There is no redundancy, or all rows are at one configuration: the estimate cannot be verified.
     Unverifiable,
     /// No free correction can be identified.
@@ -169,7 +172,7 @@ pub struct CorrectedTableEntry {
     pub nominal: f64,
     /// Its corrected value.
     pub corrected: f64,
-    /// Line of the row in the robot file.
+    /// Its line in the robot file; that of its row if the file leaves it out.
     pub line: usize,
 }
 

@@ -15,6 +15,10 @@ const NOTABLE_SHARE: f64 = 0.01;
 /// degrees are more than assembly errors, yet a zero may be a quarter turn off, so it only raises a question.
 pub(super) const LARGE_CORRECTION: f64 = 0.1;
 
+/// A correction of a length of the arm beyond this share of the reach is never recommended. Kind: judgement: no
+/// assembly error is that large, a wrong table or file is.
+pub(super) const LARGEST_LENGTH: f64 = 0.1;
+
 /// The reach of an arm, which turns lengths into shares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ReachScale {
@@ -45,6 +49,19 @@ impl ReachScale {
                 (_, ParameterUnit::Length) => correction.abs() / self.reach_m,
             };
         chain.parameters().iter().zip(corrections).map(size).fold(0.0, f64::max)
+    }
+
+    /// The length of the arm with the largest correction beyond a tenth of the reach, by its index.
+    pub(super) fn too_large(self, chain: &CorrectedChain, corrections: &[f64]) -> Option<usize> {
+        let is_length = |&at: &usize| {
+            let parameter = &chain.parameters()[at];
+            let is_of_arm = !matches!(parameter.entry, CorrectionEntry::Base | CorrectionEntry::Tool);
+            is_of_arm && parameter.unit() == ParameterUnit::Length
+        };
+        let largest = (0..corrections.len())
+            .filter(is_length)
+            .max_by(|&a, &b| corrections[a].abs().total_cmp(&corrections[b].abs()));
+        largest.filter(|&at| corrections[at].abs() > LARGEST_LENGTH * self.reach_m)
     }
 
     /// The residual of the rows besides `outlier_rows`; of all rows if those are more than half of them, since

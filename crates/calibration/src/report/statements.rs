@@ -1,8 +1,10 @@
 //! The report in sentences.
 
-use congruent_description::display::{length_and_angle, number};
+use congruent_description::display::{length, length_and_angle, number};
 
-use super::calibration_report::{CalibrationReport, CalibrationVerdict, Recommendation, RowResidual};
+use super::calibration_report::{
+    CalibrationReport, CalibrationVerdict, EstimatedCorrection, Recommendation, RowResidual,
+};
 use crate::estimation::ParameterUnit;
 
 /// Most terms of a relation that are written out.
@@ -37,9 +39,13 @@ pub(super) fn why_fixed(unit: ParameterUnit, terms: &[(&str, f64, ParameterUnit)
     format!("is correlated: 1 {unit} of it has nearly the effect of {}{more}", shown.join(", "))
 }
 
-/// What one should know before using a correction, the most important first.
-pub(super) fn statements(report: &CalibrationReport) -> Vec<String> {
-    let mut statements = vec![verdict(report)];
+/// What one should know before using a correction, the most important first; `largest` is the length of the arm that
+/// would change by too much.
+pub(super) fn statements(
+    report: &CalibrationReport,
+    largest: Option<(&EstimatedCorrection, f64)>,
+) -> Vec<String> {
+    let mut statements = vec![verdict(report, largest)];
     let insignificant: Vec<&str> =
         report.parameters.iter().filter(|each| !each.significant).map(|each| each.name.as_str()).collect();
     let is_known = report.parameters.iter().all(|each| each.standard_deviation.is_finite());
@@ -65,13 +71,14 @@ pub(super) fn statements(report: &CalibrationReport) -> Vec<String> {
     statements
 }
 
-fn verdict(report: &CalibrationReport) -> String {
+fn verdict(report: &CalibrationReport, largest: Option<(&EstimatedCorrection, f64)>) -> String {
     match report.verdict {
         CalibrationVerdict::NothingIdentified => {
             "none of the free corrections can be identified from these measurements".to_owned()
         }
         CalibrationVerdict::Unexplained => unexplained(report),
         CalibrationVerdict::Misinterpreted => misinterpreted(report),
+        CalibrationVerdict::TooLarge => too_large(largest),
         CalibrationVerdict::Unverifiable => unverifiable(report),
         CalibrationVerdict::UnexplainedRows => unexplained_rows(report),
         CalibrationVerdict::NoiseExceeded => format!(
@@ -128,6 +135,17 @@ fn misinterpreted(report: &CalibrationReport) -> String {
              corrections explain them with a residual of {}",
             reason.condition,
             length_and_angle(reason.rms_m, reason.rms_rad)
+        )
+    })
+}
+
+fn too_large(largest: Option<(&EstimatedCorrection, f64)>) -> String {
+    largest.map_or_else(String::new, |(parameter, correction)| {
+        format!(
+            "the measurements are explained only by {} being off by {}, more than a tenth of the reach, which is no \
+             correction: look for wrong rows of the file, or a wrong value of the model",
+            parameter.name,
+            length(correction.abs())
         )
     })
 }

@@ -37,7 +37,8 @@ use crate::{
 /// from 1, in the order of the file.
 ///
 /// Exit code 1 if the corrections do not explain the measurements (the residual is too large for noise, or for
-/// the stated noise, or the file is likely meant in other units, another order or frame), 4 if no correction
+/// the stated noise, the file is likely meant in other units, another order or frame, or a length would have to
+/// change by more than a tenth of the reach), 4 if no correction
 /// can be identified or the corrections cannot be verified.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
@@ -64,7 +65,7 @@ pub(crate) struct Arguments {
     /// Known noise of one component of a measured orientation.
     #[arg(long, value_name = "DEG")]
     noise_deg: Option<f64>,
-    /// Number of configurations that are suggested for the next measurements.
+    /// Number of configurations that are suggested for the next measurements, at most 400.
     #[arg(long, default_value_t = 5)]
     next: usize,
     // The cost over the most significant correction, and the residual of each row.
@@ -94,6 +95,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         | CalibrationVerdict::NoImprovement => 0,
         CalibrationVerdict::Unexplained
         | CalibrationVerdict::Misinterpreted
+        | CalibrationVerdict::TooLarge
         | CalibrationVerdict::NoiseExceeded => FAILED,
         CalibrationVerdict::Unverifiable | CalibrationVerdict::NothingIdentified => NOTHING,
     })

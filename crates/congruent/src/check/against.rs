@@ -42,7 +42,14 @@ pub(super) fn compared(
     if against.dynamics_not_compared.is_some() {
         return Ok((against, None));
     }
-    geometry.add_other(description, &mut PosesOfOther::new(&description.robot, &other.robot), options)?;
+    let mut poses = PosesOfOther::new(&description.robot, &other.robot);
+    geometry.add_other(description, &mut poses, options)?;
+    if let Some(followed) = geometry.add_mimics((description, other), &mut poses, options)? {
+        against.dynamics_not_compared = Some(format!(
+            "torques are those of driven joints, which are not the same: {followed} in the other file"
+        ));
+        return Ok((against, None));
+    }
     let misplaced = misplaced_joint(description, geometry);
     let in_other_frames = match &misplaced {
         Some(_) => moved_alike((description, other), options.seed)?,

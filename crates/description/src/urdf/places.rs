@@ -46,6 +46,12 @@ impl UrdfPlaces {
         Some(place(last(document.root_element(), "joint", name)?, "dynamics"))
     }
 
+    /// Place of the `<mimic>` of a joint, or of the joint if it has none.
+    pub fn joint_mimic(&self, name: &str) -> Option<Range<usize>> {
+        let document = xml::parse(&self.source.text).ok()?;
+        Some(place(last(document.root_element(), "joint", name)?, "mimic"))
+    }
+
     /// Place of a part of the `<inertial>` of a link: `mass`, `origin` or `inertia`; of the `<inertial>` if that is
     /// missing, or of the link if it has none.
     pub fn inertial_part(&self, link: &str, part: &str) -> Option<Range<usize>> {

@@ -55,6 +55,8 @@ impl<'a> Catalogue<'a> {
             overall: cause::of_all_links(side, &slips),
         };
         catalogue.overall.extend(cause::of_two_links(side, faulty));
+        let reference = reference.filter(|_| faulty == FaultySide::Candidate);
+        catalogue.overall.extend(reference.and_then(|reference| cause::all_left_out(side, reference)));
         for hypothesis in cause::of_joints_and_gravity(side, faulty) {
             match &hypothesis.place {
                 Place::Joints(joints) if joints.len() == 1 => {

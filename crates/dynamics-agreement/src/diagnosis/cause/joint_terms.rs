@@ -122,6 +122,17 @@ fn left_out(side: &Side) -> Vec<Hypothesis> {
     names.into_iter().map(hypothesis).collect()
 }
 
+/// All terms that the other description has, if this one has none at all and the other both damping and dry friction.
+pub(in crate::diagnosis) fn all_left_out(side: &Side, reference: &Side) -> Option<Hypothesis> {
+    let has = |term: fn(&JointResistance) -> f64| reference.resistances.iter().any(|of| term(of) != 0.0);
+    let is_left_out = side.resistances.iter().all(|of| *of == JointResistance::default())
+        && side.resistances.len() == reference.resistances.len()
+        && has(|of| of.damping)
+        && has(|of| of.friction);
+    let change = || Change::Joints(reference.resistances.clone());
+    is_left_out.then(|| Hypothesis::new(DynamicsCause::JointTermsMissing, "", Place::AllJoints, change()))
+}
+
 /// Written values are so many times the right ones.
 fn factor_of(faulty: FaultySide, factor: f64) -> f64 {
     match faulty {

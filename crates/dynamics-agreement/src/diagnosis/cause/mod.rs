@@ -11,6 +11,7 @@ mod tensor;
 mod two_links;
 mod units;
 
+pub(super) use self::joint_terms::all_left_out;
 use self::slip::Slip;
 pub(crate) use self::units::{rounded_damping_unit, rounded_unit};
 use super::{

@@ -1,0 +1,240 @@
+//! Mimic joints of two URDFs with the same joints: whether each follows the same joint in the same way. The comparison
+//! of poses takes each joint for a driven one, which finds the faults of the chain itself; what follows is compared here.
+
+use congruent_description::{JointIndex, JointValues, Mimic, Robot, RobotDescription, RobotQ};
+use congruent_kinematics::{LinkPoses, Pose, PoseError, Uniform, UrdfTree, range, sample_configurations};
+
+use super::{
+    check::{CheckOptions, RANDOM_CONFIGURATIONS, verdict, worst_of},
+    check_report::{Agreement, CheckReport, TipDifference},
+    error::CheckError,
+};
+use crate::{
+    report::{FollowedJoint, Relation, with_mimics},
+    source_pair::SourcePair,
+};
+
+impl CheckReport {
+    /// Adds joints that follow another one in `description` and in `other` in different ways: to the verdict, the
+    /// differences, and the diagnosis. Returns the first of them in words.
+    ///
+    /// `poses` are those of the other description, at the configurations of this one.
+    ///
+    /// # Errors
+    /// [`CheckError`] if a source rejects a configuration.
+    ///
+    /// # Panics
+    /// If [`CheckReport::add_other`] was not called before, or if the two have other moving joints.
+    pub fn add_mimics(
+        &mut self,
+        (description, other): (&RobotDescription, &RobotDescription),
+        poses: &mut dyn LinkPoses,
+        options: &CheckOptions,
+    ) -> Result<Option<String>, CheckError> {
+        let mut joints = Vec::new();
+        for joint in differing(&description.robot, &other.robot) {
+            if joint.matters(description, options.seed)? {
+                joints.push(joint);
+            }
+        }
+        let Some(first) = joints.first().map(|joint| joint.words.message()) else { return Ok(None) };
+        let mut worst_left = Vec::with_capacity(joints.len() + 1);
+        for corrected in 0..=joints.len() {
+            let mut differences = Differences::new(description, &joints[corrected..]);
+            let own = sample_configurations(&description.robot, options.seed, RANDOM_CONFIGURATIONS);
+            let mut random = Uniform::seeded(options.seed);
+            for q in own {
+                differences.observe(differences.both(&q, &mut random), poses)?;
+            }
+            if corrected == 0 {
+                self.enlarge(description, &differences);
+                self.at_requested(description, (&mut differences, poses), options)?;
+            }
+            worst_left.push(differences.links.iter().copied().fold(PoseError::default(), PoseError::larger));
+        }
+        let at = self.diagnoses.iter().position(|diagnosis| diagnosis.name == SourcePair::UrdfOther);
+        let known = at.map(|at| self.diagnoses.remove(at));
+        let words: Vec<FollowedJoint> = joints.into_iter().map(|joint| joint.words).collect();
+        self.diagnoses.push(with_mimics(known, &words, [description, other], &worst_left));
+        let named = self.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
+        self.diagnosis = named.map(|diagnosis| diagnosis.causes.clone()).unwrap_or_default();
+        self.indistinguishable =
+            named.map(|diagnosis| diagnosis.indistinguishable.clone()).unwrap_or_default();
+        Ok(Some(first))
+    }
+
+    /// The comparison of the two, its certificate and the verdict with these differences.
+    fn enlarge(&mut self, description: &RobotDescription, differences: &Differences<'_>) {
+        for comparison in self.comparisons.iter_mut().filter(|of| of.name == SourcePair::UrdfOther) {
+            comparison.verdict = Agreement::Disagree;
+            let furthest = differences.furthest.as_ref();
+            if let Some((link, q, error)) = furthest
+                && error.position_m >= comparison.worst.error.position_m
+            {
+                comparison.worst.link.clone_from(&description.robot.links()[*link].name);
+                comparison.worst.at = JointValues::of_robot(&description.robot, q);
+            }
+            for (link, error) in comparison.links.iter_mut().zip(&differences.links) {
+                link.error = link.error.larger(*error);
+                comparison.worst.error = comparison.worst.error.larger(*error);
+            }
+        }
+        // The bounds are of chains whose joints follow in the same way: there is none of the whole.
+        for certificate in self.certificates.iter_mut().filter(|of| of.name == SourcePair::UrdfOther) {
+            certificate.brackets = None;
+        }
+        (self.certificate, self.certificate_bracket) = (None, None);
+        self.verdict = verdict(&self.comparisons);
+        self.worst = worst_of(&self.comparisons, &self.tolerance);
+    }
+
+    /// The differences at requested configurations.
+    fn at_requested(
+        &mut self,
+        description: &RobotDescription,
+        (differences, poses): (&mut Differences<'_>, &mut dyn LinkPoses),
+        options: &CheckOptions,
+    ) -> Result<(), CheckError> {
+        let (base, tip) = (description.base.get(), description.tip.get());
+        for (here, q) in self.at_configurations.iter_mut().zip(&options.configurations) {
+            let error = differences.observe([q.clone(), differences.followed(q)], poses)?;
+            here.error = here.error.larger(error);
+            let [first, second] = [&differences.own_links, &differences.other_links]
+                .map(|links| links[base].inverse() * links[tip]);
+            for tip in here.tip.iter_mut().filter(|tip| tip.pair == SourcePair::UrdfOther) {
+                *tip = TipDifference {
+                    pair: tip.pair,
+                    first: (&first).into(),
+                    second: (&second).into(),
+                    error: PoseError::between(&first, &second),
+                };
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A joint with two relations that are not the same.
+struct Differing {
+    coordinate: usize,
+    /// Of both files: the coordinate of the master, multiplier and offset.
+    relations: [Option<(usize, f64, f64)>; 2],
+    words: FollowedJoint,
+}
+
+/// Both robots have the same moving joints by name.
+fn differing(robot: &Robot, other: &Robot) -> Vec<Differing> {
+    let relation = |of: &Robot, joint: JointIndex| {
+        let Mimic { master, multiplier, offset } = of.joint(joint).mimic?;
+        Some(Relation { master: of.joint(master).name.clone(), multiplier, offset })
+    };
+    let in_coordinates = |relation: &Relation| {
+        let coordinate = robot.find_joint(&relation.master).and_then(|master| robot.coordinate(master));
+        (coordinate.expect("the joints are the same"), relation.multiplier, relation.offset)
+    };
+    let differs = |(coordinate, &joint): (usize, &JointIndex)| {
+        let name = &robot.joint(joint).name;
+        let there = other.find_joint(name).expect("the joints are the same");
+        let relations = [relation(robot, joint), relation(other, there)];
+        (relations[0] != relations[1]).then(|| Differing {
+            coordinate,
+            relations: [0, 1].map(|file| relations[file].as_ref().map(in_coordinates)),
+            words: FollowedJoint { joint: name.clone(), unit: robot.joint(joint).kind.unit(), relations },
+        })
+    };
+    robot.movable_joints().iter().enumerate().filter_map(differs).collect()
+}
+
+impl Differing {
+    /// Whether the two relations are not the same within the tolerance: two that follow the same joint may differ by the
+    /// rounding of their numbers.
+    fn matters(&self, description: &RobotDescription, seed: u64) -> Result<bool, CheckError> {
+        let [Some((master, ..)), Some((other_master, ..))] = self.relations else { return Ok(true) };
+        if master != other_master {
+            return Ok(true);
+        }
+        let only = std::slice::from_ref(self);
+        let mut differences = Differences::new(description, only);
+        let mut same_chain = UrdfTree::new(&description.robot);
+        let mut random = Uniform::seeded(seed);
+        for q in sample_configurations(&description.robot, seed, RANDOM_CONFIGURATIONS) {
+            let error = differences.observe(differences.both(&q, &mut random), &mut same_chain)?;
+            if !error.is_within(&description.tolerance) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+}
+
+/// The differences of two sources if some joints follow in different ways.
+struct Differences<'a> {
+    robot: &'a Robot,
+    joints: &'a [Differing],
+    own: UrdfTree,
+    own_links: Vec<Pose>,
+    other_links: Vec<Pose>,
+    /// The worst at each link.
+    links: Vec<PoseError>,
+    /// The link that is furthest, where, and by how much.
+    furthest: Option<(usize, RobotQ, PoseError)>,
+}
+
+impl<'a> Differences<'a> {
+    fn new(description: &'a RobotDescription, joints: &'a [Differing]) -> Self {
+        let robot = &description.robot;
+        let links = robot.links().len();
+        Self {
+            robot,
+            joints,
+            own: UrdfTree::new(robot),
+            own_links: vec![Pose::identity(); links],
+            other_links: vec![Pose::identity(); links],
+            links: vec![PoseError::default(); links],
+            furthest: None,
+        }
+    }
+
+    /// A configuration of this description and of the other: a joint that one of them drives is anywhere in its range.
+    fn both(&self, q: &RobotQ, random: &mut Uniform) -> [RobotQ; 2] {
+        let mut driven = q.clone();
+        for joint in self.joints.iter().filter(|joint| joint.relations.iter().any(Option::is_none)) {
+            let index = self.robot.movable_joints()[joint.coordinate];
+            driven[joint.coordinate] = random.between(range(self.robot.joint(index)));
+        }
+        let mut own = driven.clone();
+        self.robot.apply_mimic(&mut own);
+        [own, self.followed(&driven)]
+    }
+
+    /// The configuration of the other description.
+    fn followed(&self, q: &RobotQ) -> RobotQ {
+        let mut there = q.clone();
+        for Differing { coordinate, relations, .. } in self.joints {
+            if let Some((master, multiplier, offset)) = relations[1] {
+                there[*coordinate] = multiplier * there[master] + offset;
+            }
+        }
+        there
+    }
+
+    /// Adds a configuration of both; returns the largest difference there.
+    fn observe(
+        &mut self,
+        [own, other]: [RobotQ; 2],
+        poses: &mut dyn LinkPoses,
+    ) -> Result<PoseError, CheckError> {
+        self.own.root_from_links_into(&own, &mut self.own_links)?;
+        poses.root_from_links_into(&other, &mut self.other_links)?;
+        let mut here = PoseError::default();
+        for link in 0..self.links.len() {
+            let error = PoseError::between(&self.own_links[link], &self.other_links[link]);
+            here = here.larger(error);
+            self.links[link] = self.links[link].larger(error);
+            if self.furthest.as_ref().is_none_or(|(.., most)| error.position_m > most.position_m) {
+                self.furthest = Some((link, own.clone(), error));
+            }
+        }
+        Ok(here)
+    }
+}
