@@ -18,6 +18,7 @@ use crate::{
     ci::CiArguments,
     failure::{BAD_INPUT, BROKEN, FAILED, Failure, NOTHING, worse},
     print::{Printer, Refusal},
+    terminal_text::shown,
 };
 
 /// What a command prints for one input.
@@ -109,7 +110,7 @@ impl<'a> Batch<'a> {
         #[expect(clippy::disallowed_methods, reason = "for the JUnit file of the call alone, which CI reads")]
         let start = Instant::now();
         let result = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
-            let message = format!("{} ended in an internal error; please report it", input.display());
+            let message = format!("{} ended in an internal error; please report it", shown(input));
             Err(Failure::Machine(message))
         });
         if let (Err(failure), Some(label)) = (&result, self.label(input)) {
@@ -254,7 +255,7 @@ fn text<R: BatchReport>(answers: &[Answer<R>]) -> String {
     for (code, word) in WORDS {
         let of_code = || answers.iter().filter(|answer| answer.exit_code() == code);
         for answer in of_code() {
-            let _ = write!(text, "{}: {word}\n{}", answer.input.display(), answer.text());
+            let _ = write!(text, "{}: {word}\n{}", shown(&answer.input), answer.text());
         }
         if of_code().next().is_some() {
             counts.push(format!("{} {word}", of_code().count()));
@@ -284,10 +285,6 @@ fn place(failure: &Failure) -> Option<CasePlace> {
     let Failure::Input(findings) = failure else { return None };
     let of = |finding: Finding| CasePlace::of(finding.file.as_deref(), finding.line);
     findings.iter().map(Finding::from).find_map(of)
-}
-
-fn shown(path: &Path) -> String {
-    path.display().to_string()
 }
 
 #[cfg(test)]

@@ -19,12 +19,16 @@ mod print;
 mod run;
 mod schema;
 mod table;
+mod terminal_text;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::print::{Format, Printer};
+use crate::{
+    failure::BAD_INPUT,
+    print::{Format, Printer},
+};
 
 /// Is a robot's analytical model the same robot as its URDF? With the difference and its cause.
 ///
@@ -66,7 +70,19 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match input::shown_arguments().map(|()| Arguments::try_parse()) {
+        Ok(Ok(arguments)) => arguments,
+        Ok(Err(error)) if error.use_stderr() => {
+            Printer::usage(&error);
+            return ExitCode::from(BAD_INPUT);
+        }
+        // Help and version.
+        Ok(Err(error)) => error.exit(),
+        Err(failure) => {
+            Printer::explain(None, &failure);
+            return ExitCode::from(failure.exit_code());
+        }
+    };
     let printer = Printer::new(arguments.format);
     let result = match arguments.command {
         Command::Run(arguments) => run::run(&arguments, &printer),
