@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::{
     ci::CiArguments,
     failure::{BAD_INPUT, BROKEN, FAILED, Failure, NOTHING, worse},
-    print::{Printer, Refusal},
+    print::{MOST_FINDINGS, Printer, Refusal},
     terminal_text::shown,
 };
 
@@ -265,18 +265,19 @@ fn text<R: BatchReport>(answers: &[Answer<R>]) -> String {
     text
 }
 
-/// A failure as the reason of a test case, one line for each finding.
+/// A failure as the reason of a test case, one line for each finding that is shown.
 fn reason(failure: &Failure) -> Reason {
     match failure {
         Failure::Machine(message) => Reason { kind: "machine".to_owned(), message: message.clone() },
-        Failure::Input(findings) => Reason {
-            kind: findings.first().map_or("bad input", |finding| finding.code).to_owned(),
-            message: findings
-                .iter()
-                .map(|finding| Finding::from(finding).to_string())
-                .collect::<Vec<_>>()
-                .join("\n"),
-        },
+        Failure::Input(findings) => {
+            let shown = findings.iter().take(MOST_FINDINGS);
+            let mut lines: Vec<String> = shown.map(|finding| Finding::from(finding).to_string()).collect();
+            if findings.len() > MOST_FINDINGS {
+                lines.push(format!("and {} more", findings.len() - MOST_FINDINGS));
+            }
+            let kind = findings.first().map_or("bad input", |finding| finding.code).to_owned();
+            Reason { kind, message: lines.join("\n") }
+        }
     }
 }
 

@@ -51,7 +51,7 @@ fn is_zero(count: &usize) -> bool {
 }
 
 /// Most findings that are shown; the others appear once these are corrected.
-const MOST_FINDINGS: usize = 100;
+pub(crate) const MOST_FINDINGS: usize = 100;
 /// Longest message or help that is shown to people, in bytes.
 const MOST_SHOWN: usize = 2000;
 /// Longest snippet: beyond it, a line fills the terminal and what is marked in it is not found.
