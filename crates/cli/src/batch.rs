@@ -204,7 +204,7 @@ impl<R: BatchReport> Answer<R> {
 
     fn entry(&self) -> Entry<'_, R> {
         match &self.result {
-            Ok(report) => Entry::Report { input: shown(&self.input), report },
+            Ok(report) => Entry::Report { input: self.input.display().to_string(), report },
             Err(failure) => Entry::Refusal(Refusal::from(failure).of_input(&self.input)),
         }
     }

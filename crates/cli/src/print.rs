@@ -75,7 +75,7 @@ impl<'a> From<&'a Failure> for Refusal<'a> {
 impl Refusal<'_> {
     /// The same with the name of the input.
     pub(crate) fn of_input(self, input: &Path) -> Self {
-        Self { input: Some(shown(input)), ..self }
+        Self { input: Some(input.display().to_string()), ..self }
     }
 }
 

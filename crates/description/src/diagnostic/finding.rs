@@ -59,10 +59,7 @@ impl From<&Diagnostic> for Finding {
             stops: diagnostic.stops,
             code: diagnostic.code,
             message: diagnostic.message.clone(),
-            file: diagnostic
-                .source
-                .as_ref()
-                .map(|source| visible(&source.path.to_string_lossy()).into_owned()),
+            file: diagnostic.source.as_ref().map(|source| source.path.display().to_string()),
             line: place.map(|(line, _)| line),
             column: place.map(|(_, column)| column),
             help: diagnostic.help.clone(),
@@ -90,8 +87,8 @@ fn finding_place(places: Option<&mut LineCounter<'_>>, found: &Occurrence) -> Fi
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.file, self.line) {
-            (Some(file), Some(line)) => write!(f, "{file}:{line}: ")?,
-            (Some(file), None) => write!(f, "{file}: ")?,
+            (Some(file), Some(line)) => write!(f, "{}:{line}: ", visible(file))?,
+            (Some(file), None) => write!(f, "{}: ", visible(file))?,
             (None, _) => {}
         }
         f.write_str(&self.message)?;
