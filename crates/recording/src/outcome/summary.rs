@@ -100,6 +100,6 @@ mod tests {
     #[test]
     fn names_from_files_are_escaped() {
         assert_eq!(escaped("wrist_1_link--table"), "wrist_1_link--table");
-        assert_eq!(escaped("a|b\n<img>`x`"), "a\\|b \\<img\\>\\`x\\`");
+        assert_eq!(escaped("a|b\n<img>`x`"), r"a\|b\\n\<img\>\`x\`");
     }
 }
