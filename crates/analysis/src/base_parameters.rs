@@ -1,6 +1,6 @@
 //! `congruent derive --base-parameters`: the combinations of inertial parameters that joint torques can tell.
 
-use congruent_description::{RobotDescription, RobotQ};
+use congruent_description::{Finding, RobotDescription, RobotQ};
 use congruent_dynamics::{BodyTree, DynamicsError, InertialParameter, JointMotion};
 use congruent_kinematics::{Uniform, range};
 use schemars::JsonSchema;
@@ -61,6 +61,8 @@ pub struct BaseParameterReport {
     pub not_seen: Vec<NamedParameter>,
     /// Seed of the motions at which torques are looked at.
     pub seed: u64,
+    /// What is suspicious about the description.
+    pub warnings: Vec<Finding>,
 }
 
 /// Random motions that excite every joint. Kind: choice; 20 show the rank of every arm at hand already.
@@ -134,6 +136,7 @@ pub fn base_parameters(
         base_parameters: groups.collect(),
         not_seen: found.unseen.iter().map(named).collect(),
         seed,
+        warnings: description.warnings.iter().map(Finding::from).collect(),
     })
 }
 

@@ -17,7 +17,8 @@ use serde::Serialize;
 use crate::{
     ci::CiArguments,
     failure::{BAD_INPUT, BROKEN, FAILED, Failure, NOTHING, worse},
-    print::{Printer, Refusal},
+    print::{MOST_FINDINGS, Printer, Refusal},
+    terminal_text::shown,
 };
 
 /// What a command prints for one input.
@@ -109,7 +110,7 @@ impl<'a> Batch<'a> {
         #[expect(clippy::disallowed_methods, reason = "for the JUnit file of the call alone, which CI reads")]
         let start = Instant::now();
         let result = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
-            let message = format!("{} ended in an internal error; please report it", input.display());
+            let message = format!("{} ended in an internal error; please report it", shown(input));
             Err(Failure::Machine(message))
         });
         if let (Err(failure), Some(label)) = (&result, self.label(input)) {
@@ -205,7 +206,7 @@ impl<R: BatchReport> Answer<R> {
 
     fn entry(&self) -> Entry<'_, R> {
         match &self.result {
-            Ok(report) => Entry::Report { input: shown(&self.input), report },
+            Ok(report) => Entry::Report { input: self.input.display().to_string(), report },
             Err(failure) => Entry::Refusal(Refusal::from(failure).of_input(&self.input)),
         }
     }
@@ -256,7 +257,7 @@ fn text<R: BatchReport>(answers: &[Answer<R>]) -> String {
     for (code, word) in WORDS {
         let of_code = || answers.iter().filter(|answer| answer.exit_code() == code);
         for answer in of_code() {
-            let _ = write!(text, "{}: {word}\n{}", answer.input.display(), answer.text());
+            let _ = write!(text, "{}: {word}\n{}", shown(&answer.input), answer.text());
         }
         if of_code().next().is_some() {
             counts.push(format!("{} {word}", of_code().count()));
@@ -266,18 +267,19 @@ fn text<R: BatchReport>(answers: &[Answer<R>]) -> String {
     text
 }
 
-/// A failure as the reason of a test case, one line for each finding.
+/// A failure as the reason of a test case, one line for each finding that is shown.
 fn reason(failure: &Failure) -> Reason {
     match failure {
         Failure::Machine(message) => Reason { kind: "machine".to_owned(), message: message.clone() },
-        Failure::Input(findings) => Reason {
-            kind: findings.first().map_or("bad input", |finding| finding.code).to_owned(),
-            message: findings
-                .iter()
-                .map(|finding| Finding::from(finding).to_string())
-                .collect::<Vec<_>>()
-                .join("\n"),
-        },
+        Failure::Input(findings) => {
+            let shown = findings.iter().take(MOST_FINDINGS);
+            let mut lines: Vec<String> = shown.map(|finding| Finding::from(finding).to_string()).collect();
+            if findings.len() > MOST_FINDINGS {
+                lines.push(format!("and {} more", findings.len() - MOST_FINDINGS));
+            }
+            let kind = findings.first().map_or("bad input", |finding| finding.code).to_owned();
+            Reason { kind, message: lines.join("\n") }
+        }
     }
 }
 
@@ -286,10 +288,6 @@ fn place(failure: &Failure) -> Option<CasePlace> {
     let Failure::Input(findings) = failure else { return None };
     let of = |finding: Finding| CasePlace::of(finding.file.as_deref(), finding.line);
     findings.iter().map(Finding::from).find_map(of)
-}
-
-fn shown(path: &Path) -> String {
-    path.display().to_string()
 }
 
 #[cfg(test)]

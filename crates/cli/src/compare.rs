@@ -4,7 +4,7 @@ use std::{fmt::Write, path::PathBuf};
 
 use congruent::{
     RunComparison, compare_runs,
-    description::{Diagnostic, display::quantity},
+    description::{Diagnostic, display::quantity, visible},
     twin::comparison::{Difference, FileComparison, SeriesDifference},
 };
 use serde_json::Value;
@@ -67,14 +67,20 @@ fn described(text: &mut String, file: &FileComparison) {
     }
     let _ = writeln!(text, "{kind}: {} of {compared} {what} differ", series.len());
     for statement in statements.iter().take(MOST_SHOWN) {
-        let _ = writeln!(text, "  {statement}");
+        let _ = writeln!(text, "  {}", visible(statement));
     }
     if let Some(Difference { series: name, time_s, a, b, difference, .. }) = first {
         let time = time_s.map_or_else(String::new, |time_s| format!(" at {}", moment(time_s)));
         let unit = series.iter().find(|series| series.series == *name).map_or("", |series| series.unit);
         let apart =
             difference.map_or_else(String::new, |apart| format!(", {} apart", quantity(apart.abs(), unit)));
-        let _ = writeln!(text, "  first{time}: {name} is {} in A and {} in B{apart}", shown(a), shown(b));
+        let _ = writeln!(
+            text,
+            "  first{time}: {} is {} in A and {} in B{apart}",
+            visible(name),
+            shown(a),
+            shown(b)
+        );
     }
     let worst = rows(series);
     if !worst.is_empty() {
@@ -92,7 +98,11 @@ fn described(text: &mut String, file: &FileComparison) {
             let names: Vec<&str> = only.iter().take(MOST_SHOWN).map(String::as_str).collect();
             let more = only.len() - names.len();
             let more = if more > 0 { format!(", and {more} more") } else { String::new() };
-            let _ = write!(text, "  only in {side}:\n{}", wrapped(&format!("{}{more}", names.join(", "))));
+            let _ = write!(
+                text,
+                "  only in {side}:\n{}",
+                wrapped(&format!("{}{more}", visible(&names.join(", "))))
+            );
         }
     }
 }
@@ -113,7 +123,7 @@ fn rows(series: &[SeriesDifference]) -> Vec<[String; 5]> {
                 None => format!("{} and {}", shown(&worst.a), shown(&worst.b)),
             },
         );
-        [name.clone(), time(first), format!("{differing} of {compared}"), time(worst), apart]
+        [visible(name).into_owned(), time(first), format!("{differing} of {compared}"), time(worst), apart]
     };
     // Poses and errors follow from the joints.
     let has_joint =
@@ -132,7 +142,7 @@ fn moment(time_s: f64) -> String {
 fn shown(value: &Value) -> String {
     match value {
         Value::Null => "missing".to_owned(),
-        Value::String(text) => text.clone(),
+        Value::String(text) => visible(text).into_owned(),
         other => other.to_string(),
     }
 }

@@ -17,6 +17,21 @@ use congruent::description::{
 
 use crate::{failure::Failure, print::Printer};
 
+/// Refuses arguments with control characters or separators of lines: paths and names go into every output.
+pub(crate) fn shown_arguments() -> Result<(), Failure> {
+    let is_refused = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}');
+    let arguments = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned());
+    match arguments.skip(1).find(|argument| argument.contains(is_refused)) {
+        None => Ok(()),
+        Some(argument) => Err(Diagnostic::error(
+            "cli::hidden_character",
+            format!("the argument \"{argument}\" has a control character or a line break"),
+        )
+        .with_help("write it without; rename a file that has one in its name")
+        .into()),
+    }
+}
+
 /// A robot on the command line.
 #[derive(Debug, clap::Args)]
 pub(crate) struct RobotArgument {

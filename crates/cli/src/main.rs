@@ -23,12 +23,16 @@ mod recording;
 mod run;
 mod schema;
 mod table;
+mod terminal_text;
 
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::print::{Color, Format, Printer, Verbosity};
+use crate::{
+    failure::BAD_INPUT,
+    print::{Color, Format, Printer, Verbosity},
+};
 
 /// Is a robot's analytical model the same robot as its URDF? With the difference and its cause.
 ///
@@ -93,7 +97,19 @@ impl Arguments {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match input::shown_arguments().map(|()| Arguments::try_parse()) {
+        Ok(Ok(arguments)) => arguments,
+        Ok(Err(error)) if error.use_stderr() => {
+            Printer::usage(&error);
+            return ExitCode::from(BAD_INPUT);
+        }
+        // Help and version.
+        Ok(Err(error)) => error.exit(),
+        Err(failure) => {
+            Printer::explain(None, &failure);
+            return ExitCode::from(failure.exit_code());
+        }
+    };
     arguments.color.apply();
     let printer = Printer::new(arguments.format, arguments.verbosity());
     let result = match arguments.command {

@@ -9,13 +9,14 @@ use std::{
 };
 
 use clap::ValueEnum;
-use congruent::description::{Diagnostic, Finding, serde_name};
+use congruent::description::{Diagnostic, Finding, serde_name, visible};
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
 
 use crate::{
     failure::Failure,
     layout::{columns, fitted},
+    terminal_text::{for_people, for_programs, shown, with_visible_lines},
 };
 
 /// How results are printed.
@@ -89,7 +90,7 @@ fn is_zero(count: &usize) -> bool {
 }
 
 /// Most findings that are shown; the others appear once these are corrected.
-const MOST_FINDINGS: usize = 100;
+pub(crate) const MOST_FINDINGS: usize = 100;
 /// Longest message or help that is shown to people, in bytes.
 const MOST_SHOWN: usize = 2000;
 /// Columns of a finding, unless the terminal has less.
@@ -148,11 +149,11 @@ impl Printer {
         text: impl FnOnce(&T) -> String,
     ) -> Result<(), Failure> {
         let printed = match self.format {
-            Format::Human => text(document),
+            Format::Human => for_people(&text(document), is_coloured()),
             Format::Json => {
                 let mut json = serde_json::to_string(document).map_err(machine)?;
                 json.push('\n');
-                json
+                for_programs(&json).into_owned()
             }
         };
         let mut out = io::stdout().lock();
@@ -163,16 +164,21 @@ impl Printer {
         }
     }
 
-    /// Warnings for people; in JSON they are part of the document.
+    /// Warnings for people; beside a JSON document, which has them in full, each in one line.
     pub(crate) fn warnings(&self, warnings: &[Diagnostic]) {
         self.warnings_of(None, warnings);
     }
 
     /// The same with the name of the input in front of each, of several inputs.
     pub(crate) fn warnings_of(&self, input: Option<&Path>, warnings: &[Diagnostic]) {
-        if self.format == Format::Human && self.verbosity != Verbosity::Quiet {
-            to_stderr(&warnings.iter().map(|warning| labelled(input, warning)).collect::<String>());
+        if self.verbosity == Verbosity::Quiet {
+            return;
         }
+        let shown = |warning: &Diagnostic| match self.format {
+            Format::Human => labelled(input, warning),
+            Format::Json => in_one_line(input, warning),
+        };
+        to_stderr(&warnings.iter().map(shown).collect::<String>());
     }
 
     /// Remarks that are no part of the answer, one line each.
@@ -203,8 +209,8 @@ impl Printer {
     pub(crate) fn explain(input: Option<&Path>, failure: &Failure) {
         let text = match failure {
             Failure::Machine(message) => match input {
-                Some(input) => format!("error: {}: {message}\n", input.display()),
-                None => format!("error: {message}\n"),
+                Some(input) => format!("error: {}: {}\n", shown(input), visible(message)),
+                None => format!("error: {}\n", visible(message)),
             },
             Failure::Input(findings) => {
                 let most = if IN_FULL.get().is_some() { findings.len() } else { MOST_FINDINGS };
@@ -221,7 +227,13 @@ impl Printer {
 
     /// Lines for a CI host, which reads them from standard error as well as from standard output.
     pub(crate) fn annotations(lines: &str) {
-        to_stderr(lines);
+        // There is nothing to be done if standard error is closed.
+        let _ = io::stderr().lock().write_all(lines.as_bytes());
+    }
+
+    /// What is wrong with the arguments.
+    pub(crate) fn usage(error: &clap::Error) {
+        to_stderr(&error.render().to_string());
     }
 
     /// Whether progress may be drawn.
@@ -236,14 +248,22 @@ fn machine(error: impl std::fmt::Display) -> Failure {
 
 fn to_stderr(text: &str) {
     // There is nothing to be done if standard error is closed.
-    let _ = io::stderr().lock().write_all(text.as_bytes());
+    let _ = io::stderr().lock().write_all(for_people(text, is_coloured()).as_bytes());
 }
 
 /// A finding below the name of the input that it belongs to.
 fn labelled(input: Option<&Path>, finding: &Diagnostic) -> String {
     let word = serde_name(&finding.severity);
-    let heading = input.map(|input| format!("{}: {word}\n", input.display()));
+    let heading = input.map(|input| format!("{}: {word}\n", shown(input)));
     heading.unwrap_or_default() + &rendered(finding)
+}
+
+/// `robot.toml: warning: robot.urdf:12: link "tool" has no mass; ...`.
+fn in_one_line(input: Option<&Path>, finding: &Diagnostic) -> String {
+    let heading = input.map(|input| format!("{}: ", shown(input))).unwrap_or_default();
+    let text = Finding::from(finding).to_string();
+    let text = text.lines().map(str::trim).collect::<Vec<_>>().join(" ");
+    format!("{heading}{}: {text}\n", serde_name(&finding.severity))
 }
 
 /// Whether text is coloured. On its own only if both outputs are terminals, since findings are shown on either, and the user
@@ -267,10 +287,10 @@ pub(crate) fn rendered(finding: &Diagnostic) -> String {
         .with_width(columns().map_or(WIDEST_FINDING, |columns| columns.min(WIDEST_FINDING)))
         .with_links(false);
     let mut text = String::new();
-    let finding = &shortened(finding);
+    let finding = &with_visible_lines(shortened(finding));
     // Without a place in a text there is no snippet with the file's name.
     if let (None, Some(source)) = (&finding.span, &finding.source) {
-        let _ = writeln!(text, "{}:", source.path.display());
+        let _ = writeln!(text, "{}:", shown(&source.path));
     }
     if handler.render_report(&mut text, finding).is_err() {
         // The renderer rejects spans outside the text; the message is printed all the same.
@@ -296,7 +316,7 @@ fn shortened(finding: &Diagnostic) -> Diagnostic {
         (&finding.source, &finding.span, finding.line_column())
         && snippet_bytes(&source.text, span) > LONGEST_SNIPPET
     {
-        let _ = write!(shortened.message, " ({}:{line}:{column})", source.path.display());
+        let _ = write!(shortened.message, " ({}:{line}:{column})", shown(&source.path));
         (shortened.source, shortened.span) = (None, None);
     }
     shortened

@@ -17,6 +17,7 @@ mod robot_file;
 mod srdf;
 pub mod units;
 mod urdf;
+mod visible;
 mod written;
 mod xml;
 
@@ -27,8 +28,8 @@ pub use configuration_file::{
 };
 pub use description::{NamedFiles, Places, RobotDescription, TABLE_DROPPED};
 pub use diagnostic::{
-    Diagnostic, Diagnostics, Finding, FindingPlace, Kind, Occurrence, Severity, SourceFile, Use, known_names,
-    line_column, nearest,
+    Diagnostic, Diagnostics, Finding, FindingPlace, Kind, LineCounter, Occurrence, Severity, SourceFile, Use,
+    known_names, line_column, nearest,
 };
 pub use edits::{ChangedLines, TextEdit, changed_lines};
 pub use files::{FileAccess, InputFile, RosPackages, is_standard_input, read_text};
@@ -45,6 +46,7 @@ pub use robot_file::{
     robot_file_text, robot_file_values, toml_string,
 };
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
+pub use visible::{hidden_character, is_hidden, visible, visible_lines};
 pub use written::{
     array::fixed_array,
     name::serde_name,

@@ -14,11 +14,15 @@ pub(crate) const UNKNOWN_PREFIX: &str = "xml::prefix";
 /// URDF needs six levels, vendor blocks a few more, COLLADA one for each node of a limb.
 const DEEPEST: usize = 64;
 
+/// The tree builder compares each attribute of an element with all others: a hundred thousand take a minute.
+const MOST_ATTRIBUTES: usize = 1000;
+
 /// An element that is not closed yet.
 struct OpenElement<'a> {
     tag: &'a str,
     name: Option<&'a str>,
     start: usize,
+    attributes: usize,
 }
 
 /// The tree of a text.
@@ -58,15 +62,27 @@ fn check(text: &str) -> Result<(), Diagnostic> {
                     .with_help("write the values out; no entity is ever expanded or fetched"));
             }
             Token::ElementStart { span, local, .. } => {
-                open.push(OpenElement { tag: local.as_str(), name: None, start: span.start() });
+                open.push(OpenElement {
+                    tag: local.as_str(),
+                    name: None,
+                    start: span.start(),
+                    attributes: 0,
+                });
                 if open.len() > DEEPEST {
                     let message = format!("XML is nested deeper than {DEEPEST} elements");
                     return Err(Diagnostic::error("xml::depth", message).at(span.range()));
                 }
             }
-            Token::Attribute { local, value, .. } if local.as_str() == "name" => {
+            Token::Attribute { local, value, span, .. } => {
                 if let Some(element) = open.last_mut() {
-                    element.name = Some(value.as_str());
+                    element.attributes += 1;
+                    if element.attributes > MOST_ATTRIBUTES {
+                        let message = format!("<{}> has more than {MOST_ATTRIBUTES} attributes", element.tag);
+                        return Err(Diagnostic::error("xml::attributes", message).at(span.range()));
+                    }
+                    if local.as_str() == "name" {
+                        element.name = Some(value.as_str());
+                    }
                 }
             }
             Token::ElementEnd { end: ElementEnd::Empty | ElementEnd::Close(..), .. } => {
@@ -134,6 +150,14 @@ mod tests {
         refused(&nested(100_000), "xml::depth", "deeper than 64");
         refused("<!DOCTYPE r [<!ENTITY x SYSTEM \"f\">]><r>&x;</r>", "xml::dtd", "entity");
         refused("<!DOCTYPE r><r/>", "xml::dtd", "DTD");
+    }
+
+    #[test]
+    fn attributes_are_bounded() {
+        let attributes = |count| (0..count).map(|at| format!("k{at}='1'")).collect::<Vec<_>>().join(" ");
+        let element = |count| format!("<a {}/>", attributes(count));
+        assert_eq!(check(&element(MOST_ATTRIBUTES)), Ok(()));
+        refused(&element(100_000), "xml::attributes", "<a> has more than 1000 attributes");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
-use congruent_description::{Diagnostic, Robot, RobotQ, line_column};
+use congruent_description::{Diagnostic, LineCounter, Robot, RobotQ};
 use csv::{ByteRecord, ReaderBuilder};
 
 use super::{
@@ -50,10 +50,12 @@ fn records(text: &str) -> Result<Vec<Record<'_>>, Vec<Diagnostic>> {
         .flexible(true)
         .comment(Some(b'#'))
         .from_reader(text.as_bytes());
-    let (mut records, mut record) = (Vec::new(), ByteRecord::new());
+    let (mut records, mut record, mut lines) = (Vec::new(), ByteRecord::new(), LineCounter::new(text));
     loop {
         match reader.read_byte_record(&mut record) {
-            Ok(true) => records.push(cells(text, &record, offset(reader.position().byte()))),
+            Ok(true) => {
+                records.push(cells(text, &record, offset(reader.position().byte()), &mut lines));
+            }
             Ok(false) => return Ok(records),
             Err(fault) => return Err(vec![Diagnostic::error("measurements::csv", fault.to_string())]),
         }
@@ -66,7 +68,7 @@ fn offset(byte: u64) -> usize {
 
 /// The cells with their places in the text. A quoted cell, which is longer there than its contents, and
 /// those behind it get the place of the whole record.
-fn cells<'a>(text: &'a str, record: &ByteRecord, end: usize) -> Record<'a> {
+fn cells<'a>(text: &'a str, record: &ByteRecord, end: usize, lines: &mut LineCounter<'_>) -> Record<'a> {
     let start = offset(record.position().map_or(0, csv::Position::byte));
     let raw = &text[start.min(end)..end];
     // Comments and blank lines before the record belong to what the reader skipped.
@@ -89,7 +91,7 @@ fn cells<'a>(text: &'a str, record: &ByteRecord, end: usize) -> Record<'a> {
         });
         from = to + 1;
     }
-    Record { line: line_column(text, start).0, span, cells }
+    Record { line: lines.line_column(start).0, span, cells }
 }
 
 fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<Column>, Vec<Diagnostic>> {

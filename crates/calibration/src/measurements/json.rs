@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use congruent_description::{
-    Diagnostic, JsonList, Robot, configuration, line_column, unique_names, units::Unit,
+    Diagnostic, JsonList, LineCounter, Robot, configuration, unique_names, units::Unit,
 };
 use serde::Deserialize;
 
@@ -38,8 +38,9 @@ pub(super) fn parse(
     robot: &Robot,
     needed: &[usize],
 ) -> Result<Vec<MeasuredRow>, Vec<Diagnostic>> {
+    let mut lines = LineCounter::new(text);
     LIST.read(text, |written: WrittenMeasurement, place| {
-        Ok(MeasuredRow { line: line_column(text, place.start).0, ..row(&written, robot, needed)? })
+        Ok(MeasuredRow { line: lines.line_column(place.start).0, ..row(&written, robot, needed)? })
     })
 }
 

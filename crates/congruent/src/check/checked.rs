@@ -48,6 +48,7 @@ fn checked(
         Some(other) => {
             let (against, dynamics) = against::compared(&mut geometry, (description, other), options)?;
             compared.extend(dynamics);
+            geometry.warnings.extend(other.warnings.iter().map(Finding::from));
             Some(against)
         }
         None => None,

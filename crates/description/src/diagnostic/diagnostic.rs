@@ -6,6 +6,9 @@ use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpa
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::line_counter::LineCounter;
+use crate::visible::{visible, visible_lines};
+
 /// A file that was read, kept so that a diagnostic can show the line.
 #[derive(Debug, PartialEq, Eq)]
 pub struct SourceFile {
@@ -24,7 +27,7 @@ impl SourceCode for SourceFile {
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let read = self.text.read_span(span, lines_before, lines_after)?;
         Ok(Box::new(MietteSpanContents::new_named(
-            self.path.display().to_string(),
+            visible(&self.path.to_string_lossy()).into_owned(),
             read.data(),
             *read.span(),
             read.line(),
@@ -100,13 +103,14 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// A diagnostic that stops the work.
+    /// A diagnostic that stops the work. Its message is one line in which every character is shown, whatever names and
+    /// values of files it quotes.
     pub fn error(code: &'static str, message: impl Into<String>) -> Self {
         Self {
             severity: Severity::Error,
             stops: None,
             code,
-            message: message.into(),
+            message: visible(&message.into()).into_owned(),
             kind: Box::default(),
             help: None,
             span: None,
@@ -133,14 +137,15 @@ impl Diagnostic {
     /// Makes it one of a kind: several are told as one, as in "12 `kind`: `name`, ...".
     #[must_use]
     pub fn one_of(mut self, kind: impl Into<String>, name: impl Into<String>) -> Self {
-        self.kind.words = Some((kind.into(), name.into()));
+        let one_line = |text: String| visible(&text).into_owned();
+        self.kind.words = Some((one_line(kind.into()), one_line(name.into())));
         self
     }
 
     /// Adds what to do.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(visible_lines(&help.into()).into_owned());
         self
     }
 
@@ -167,13 +172,7 @@ impl Diagnostic {
 
 /// Line and column of a byte offset, both from 1, columns in characters.
 pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
-    let mut offset = offset.min(text.len());
-    while !text.is_char_boundary(offset) {
-        offset -= 1;
-    }
-    let before = &text[..offset];
-    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    LineCounter::new(text).line_column(offset)
 }
 
 impl From<Diagnostic> for Vec<Diagnostic> {

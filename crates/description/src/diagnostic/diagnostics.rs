@@ -7,7 +7,10 @@ use std::{
     sync::Arc,
 };
 
-use super::diagnostic::{Diagnostic, Kind, Occurrence, Severity, SourceFile, Use, line_column};
+use super::{
+    diagnostic::{Diagnostic, Kind, Occurrence, Severity, SourceFile, Use},
+    line_counter::LineCounter,
+};
 
 /// The diagnostics of one input so far.
 #[derive(Debug, Default)]
@@ -129,10 +132,10 @@ fn headline(found: &Diagnostic) -> String {
         return format!("{} {words}: {}", occurrences.len(), listed(names));
     }
     let (first, others) = (&occurrences[0].message, &occurrences[1..]);
-    let source = &found.source;
+    let mut places = found.source.as_ref().map(|source| LineCounter::new(&source.text));
     let line = |found: &Occurrence| {
-        let (source, span) = (source.as_ref()?, found.span.as_ref()?);
-        Some(line_column(&source.text, span.start).0.to_string())
+        let (places, span) = (places.as_mut()?, found.span.as_ref()?);
+        Some(places.line_column(span.start).0.to_string())
     };
     let lines: Vec<String> = others.iter().filter_map(line).collect();
     let places = match &lines[..] {

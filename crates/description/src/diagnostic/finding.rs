@@ -5,7 +5,12 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::diagnostic::{Diagnostic, Occurrence, Severity, Use, line_column};
+use crate::visible::visible;
+
+use super::{
+    diagnostic::{Diagnostic, Occurrence, Severity, Use},
+    line_counter::LineCounter,
+};
 
 /// A diagnostic as programs read it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
@@ -48,6 +53,7 @@ pub struct FindingPlace {
 impl From<&Diagnostic> for Finding {
     fn from(diagnostic: &Diagnostic) -> Self {
         let place = diagnostic.line_column();
+        let mut places = diagnostic.source.as_ref().map(|source| LineCounter::new(&source.text));
         Self {
             severity: diagnostic.severity,
             stops: diagnostic.stops,
@@ -61,15 +67,14 @@ impl From<&Diagnostic> for Finding {
                 .kind
                 .occurrences
                 .iter()
-                .map(|found| finding_place(diagnostic, found))
+                .map(|found| finding_place(places.as_mut(), found))
                 .collect(),
         }
     }
 }
 
-fn finding_place(diagnostic: &Diagnostic, found: &Occurrence) -> FindingPlace {
-    let source = diagnostic.source.as_ref().zip(found.span.as_ref());
-    let place = source.map(|(source, span)| line_column(&source.text, span.start));
+fn finding_place(places: Option<&mut LineCounter<'_>>, found: &Occurrence) -> FindingPlace {
+    let place = places.zip(found.span.as_ref()).map(|(places, span)| places.line_column(span.start));
     FindingPlace {
         message: found.message.clone(),
         name: found.name.clone(),
@@ -82,8 +87,8 @@ fn finding_place(diagnostic: &Diagnostic, found: &Occurrence) -> FindingPlace {
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.file, self.line) {
-            (Some(file), Some(line)) => write!(f, "{file}:{line}: ")?,
-            (Some(file), None) => write!(f, "{file}: ")?,
+            (Some(file), Some(line)) => write!(f, "{}:{line}: ", visible(file))?,
+            (Some(file), None) => write!(f, "{}: ", visible(file))?,
             (None, _) => {}
         }
         f.write_str(&self.message)?;

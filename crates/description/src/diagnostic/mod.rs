@@ -4,9 +4,11 @@
 mod diagnostic;
 mod diagnostics;
 mod finding;
+mod line_counter;
 
 pub use diagnostic::{
     Diagnostic, Kind, Occurrence, Severity, SourceFile, Use, known_names, line_column, nearest,
 };
 pub use diagnostics::Diagnostics;
 pub use finding::{Finding, FindingPlace};
+pub use line_counter::LineCounter;

@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use roxmltree::Node;
 
+use crate::visible::visible;
+
 /// The last element with this name: of two that share one, the second is at fault.
 pub(super) fn last<'a, 'i>(root: Node<'a, 'i>, tag_name: &str, name: &str) -> Option<Node<'a, 'i>> {
     elements(root, tag_name).filter(|node| node.attribute("name") == Some(name)).last()
@@ -38,5 +40,5 @@ pub(super) fn label(node: Node<'_, '_>) -> String {
     let name = node.attribute("name").unwrap_or_default();
     let short: String = name.chars().take(SHOWN).collect();
     let dots = if short.len() < name.len() { "..." } else { "" };
-    format!("{} \"{short}{dots}\"", node.tag_name().name())
+    format!("{} \"{}{dots}\"", node.tag_name().name(), visible(&short))
 }

@@ -338,3 +338,21 @@ fn text_cut_at_any_byte_never_panics() {
         assert!(read(&whole[..end]).0.is_none(), "{end}");
     }
 }
+
+#[test]
+fn names_are_shown_as_they_are() {
+    let good = arm(LIMIT, INERTIAL);
+    let name = r#"<link name="base""#;
+    assert!(good.contains(name), "{good}");
+    for (hidden, said) in [("&#10;", r"\n"), ("\u{202e}", r"\u{202e}"), ("\u{9b}", r"\u{9b}")] {
+        let (robot, found) = read(&good.replace(name, &format!("<link name=\"a{hidden}b\"")));
+        let first = &found[0];
+        assert_eq!((robot, first.severity, first.code), (None, Severity::Error, "urdf::hidden_character"));
+        assert!(first.message.contains(&format!(r#"link "a{said}b": <link> name = "a{said}b""#)), "{first}");
+    }
+    // What kinematics can do without stops what needs it.
+    let mesh =
+        "<visual><geometry><mesh filename=\"a&#27;.stl\"/></geometry></visual>".replace("&#27;", "\u{85}");
+    let (robot, found) = read(&arm(LIMIT, &format!("{mesh}{INERTIAL}")));
+    assert!(robot.is_some() && found[0].code == "urdf::hidden_character", "{found:#?}");
+}

@@ -11,15 +11,50 @@ use toml::{
     de::{DeTable, DeValue, Error},
 };
 
-use crate::diagnostic::{Diagnostic, Diagnostics, known_names};
+use crate::{
+    diagnostic::{Diagnostic, Diagnostics, known_names},
+    visible::hidden_character,
+};
 
 /// Parses `text`; faults go to `diagnostics`.
 ///
 /// A value is returned as well if the only faults are unknown keys, so that the caller can
 /// check the rest and report everything at once.
 pub fn parse_toml<T: DeserializeOwned>(text: &str, diagnostics: &mut Diagnostics) -> Option<T> {
-    let root = diagnostics.keep(DeTable::parse(text).map_err(|error| diagnostic(&error)))?;
+    let root = diagnostics.keep(parse_document(text))?;
     read_table(root, diagnostics)
+}
+
+/// The tree of a text. Names go into every output, so keys and texts have no hidden characters, written out or not.
+///
+/// # Errors
+/// The text is no TOML, or a key or a text in it has such a character.
+pub fn parse_document(text: &str) -> Result<Spanned<DeTable<'_>>, Diagnostic> {
+    let root = DeTable::parse(text).map_err(|error| diagnostic(&error))?;
+    all_shown(root.get_ref())?;
+    Ok(root)
+}
+
+fn all_shown(table: &DeTable<'_>) -> Result<(), Diagnostic> {
+    table.iter().try_for_each(|(key, value)| {
+        shown("the key", key.get_ref(), key.span())?;
+        all_shown_in(value)
+    })
+}
+
+fn all_shown_in(value: &Spanned<DeValue<'_>>) -> Result<(), Diagnostic> {
+    match value.get_ref() {
+        DeValue::String(text) => shown("the text", text, value.span()),
+        DeValue::Array(array) => array.iter().try_for_each(all_shown_in),
+        DeValue::Table(table) => all_shown(table),
+        _ => Ok(()),
+    }
+}
+
+fn shown(what: &str, text: &str, at: Range<usize>) -> Result<(), Diagnostic> {
+    let Some(hidden) = hidden_character(text) else { return Ok(()) };
+    let message = format!("{what} \"{text}\" has a character that is not shown: {hidden}");
+    Err(Diagnostic::error("toml::hidden_character", message).at(at).with_help("write it without"))
 }
 
 /// The same for a table that is parsed already.
@@ -166,5 +201,20 @@ mod tests {
         assert_eq!(read("\n[[row]]").1, ["2:1: missing key \"kind\""]);
         assert_eq!(read("duration = \"2\"").1, ["1:12: invalid type: string \"2\", expected f64"]);
         assert_eq!(read("duration = = 2").1.len(), 1);
+    }
+
+    #[test]
+    fn what_is_not_shown_is_refused_at_its_place() {
+        let refused = |text: &str| {
+            let fault = parse_document(text).unwrap_err();
+            (fault.message, fault.span.unwrap().start)
+        };
+        let (message, at) = refused("a = 1\nb = [{ c = \"x\\u001b[2J\" }]");
+        assert_eq!(message, r#"the text "x\u{1b}[2J" has a character that is not shown: U+001B"#);
+        assert_eq!(at, 17);
+        assert_eq!(refused("\"a\\nb\" = 1").0, r#"the key "a\nb" has a character that is not shown: U+000A"#);
+        assert_eq!(refused("a = '\u{202e}'").1, 4);
+        // A comment says nothing.
+        assert!(parse_document("a = 'Gelenk \u{e4}' # \u{202e}").is_ok());
     }
 }

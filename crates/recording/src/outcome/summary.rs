@@ -2,6 +2,7 @@
 
 use std::{fmt::Write, sync::Arc};
 
+use congruent_description::visible;
 use congruent_twin::{
     recorder::RecordingError,
     report::{RunReport, lines},
@@ -82,9 +83,8 @@ fn push_check(text: &mut String, check: &CheckResult) {
 /// Text from files, escaped so that Markdown shows it unchanged.
 fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
+    for c in visible(text).chars() {
         match c {
-            c if c.is_control() => safe.push(' '),
             '_' | '-' | '.' | ',' | ':' | ';' | '/' => safe.push(c),
             c if c.is_ascii_punctuation() => safe.extend(['\\', c]),
             c => safe.push(c),
@@ -100,6 +100,6 @@ mod tests {
     #[test]
     fn names_from_files_are_escaped() {
         assert_eq!(escaped("wrist_1_link--table"), "wrist_1_link--table");
-        assert_eq!(escaped("a|b\n<img>`x`"), "a\\|b \\<img\\>\\`x\\`");
+        assert_eq!(escaped("a|b\n<img>`x`"), r"a\|b\\n\<img\>\`x\`");
     }
 }

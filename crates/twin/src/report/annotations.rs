@@ -3,6 +3,8 @@
 
 use std::fmt::Write;
 
+use congruent_description::visible_lines;
+
 use super::suite::{CasePlace, Reason, TestSuite};
 
 /// A line `::error file=...,line=...,title=...::message` for each case that failed or could not be checked.
@@ -29,8 +31,7 @@ fn annotate(text: &mut String, (place, title): (Option<&CasePlace>, &str), reaso
 
 /// The message of a command: a line break would end the command.
 fn data(text: &str) -> String {
-    let escaped = text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A");
-    escaped.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+    visible_lines(text).replace('%', "%25").replace('\n', "%0A")
 }
 
 /// A property of a command, which also ends at a colon or a comma.

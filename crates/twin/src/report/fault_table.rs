@@ -1,6 +1,6 @@
 //! Faults against checks: which check sees which fault, after how long, and what the diagnosis says.
 
-use congruent_description::display::quantity;
+use congruent_description::{Finding, display::quantity, visible};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -46,6 +46,8 @@ pub struct FaultRow {
     pub diagnosis: Option<RunDiagnosis>,
     /// Whether that is right.
     pub judgement: Judgement,
+    /// What is suspicious about the scenario and its robot.
+    pub warnings: Vec<Finding>,
 }
 
 /// What one kind of check says.
@@ -134,20 +136,25 @@ impl FaultTable {
             let checks: Vec<String> = self.checks.iter().map(|&kind| row.cell(kind)).collect();
             lines.push(format!(
                 "| `{}` | {} | {} | {} | {} |",
-                row.scenario,
-                row.injected(),
+                cell(&row.scenario),
+                cell(&row.injected()),
                 checks.join(" | "),
-                row.diagnosed(),
+                cell(&row.diagnosed()),
                 row.judged()
             ));
         }
         let remarks = self.remarks();
         if !remarks.is_empty() {
             lines.push(String::new());
-            lines.extend(remarks.iter().map(|remark| format!("- {remark}")));
+            lines.extend(remarks.iter().map(|remark| format!("- {}", cell(remark))));
         }
         lines.join("\n") + "\n"
     }
+}
+
+/// Text with names of files as text of a cell: it ends neither the cell nor its quotes, and is no HTML.
+fn cell(text: &str) -> String {
+    visible(text).replace('|', "\\|").replace('`', "'").replace('<', "&lt;")
 }
 
 impl FaultRow {
@@ -170,6 +177,7 @@ impl FaultRow {
             checks,
             diagnosis: report.diagnosis.clone(),
             judgement: judge(&report.faults, &found),
+            warnings: report.warnings.clone(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::{fs, io, path::Path, time::Duration};
 
+use congruent_description::visible_lines;
 use quick_junit::{NonSuccessKind, Property, Report, TestCaseStatus};
 
 use super::suite::{Clock, TestResult, TestSuite};
@@ -72,8 +73,7 @@ fn duration(seconds: f64) -> Duration {
     Duration::try_from_secs_f64(seconds).unwrap_or_default()
 }
 
-/// XML does not allow most control characters, and two further characters.
+/// XML does not allow most control characters, and readers of the file obey others.
 fn printable(text: &str) -> String {
-    let has_place = |c: char| c == '\n' || !(c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'));
-    text.chars().map(|c| if has_place(c) { c } else { '\u{fffd}' }).collect()
+    visible_lines(text).into_owned()
 }

@@ -3,6 +3,8 @@
 
 use std::fmt::Write;
 
+use congruent_description::visible;
+
 use super::suite::{TestCase, TestResult, TestSuite};
 
 /// The counts, a table of what did not pass with reasons, and the names of what passed.
@@ -62,7 +64,7 @@ fn row(text: &mut String, suite: &TestSuite, case: &TestCase) {
 /// Text of a file as text of a cell: nothing in it is Markdown or HTML.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
+    for c in visible(text).chars() {
         match c {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
@@ -71,7 +73,6 @@ fn escaped(text: &str) -> String {
                 escaped.push('\\');
                 escaped.push(c);
             }
-            c if c.is_control() => escaped.push(' '),
             c => escaped.push(c),
         }
     }

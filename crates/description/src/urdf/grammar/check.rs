@@ -14,6 +14,7 @@ use super::{
 use crate::{
     diagnostic::{Diagnostic, Diagnostics, Use, known_names},
     urdf::node::{elements, label, tag},
+    visible::hidden_character,
 };
 
 /// The longest name without a warning: what a file system allows.
@@ -168,10 +169,13 @@ impl GrammarCheck<'_> {
     fn attribute(&mut self, rules: &Element, known: &Attribute, attribute: &XmlAttribute<'_, '_>) {
         let value = attribute.value();
         let fault = match known.value {
-            AttributeValue::Text => None,
-            AttributeValue::Name => {
-                value.trim().is_empty().then(|| ("urdf::empty_name", "it is empty".to_owned()))
+            AttributeValue::Name if value.trim().is_empty() => {
+                Some(("urdf::empty_name", "it is empty".to_owned()))
             }
+            // These go into every output.
+            AttributeValue::Text | AttributeValue::Name => hidden_character(value).map(|hidden| {
+                ("urdf::hidden_character", format!("it has a character that is not shown: {hidden}"))
+            }),
             AttributeValue::Numbers(count) => {
                 number::fault(value, count).map(|fault| ("urdf::number", fault))
             }
@@ -228,8 +232,8 @@ impl GrammarCheck<'_> {
         let length = name.chars().count();
         let what = if length > LONGEST_NAME {
             format!("its name is {length} characters long")
-        } else if name.contains("../") || name.chars().any(char::is_control) {
-            "its name holds \"../\" or control characters; it is escaped wherever it is written".to_owned()
+        } else if name.contains("../") {
+            "its name holds \"../\"; it is escaped wherever it is written".to_owned()
         } else {
             return;
         };

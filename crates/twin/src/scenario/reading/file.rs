@@ -10,7 +10,7 @@ use congruent_description::{
     Diagnostic, Diagnostics, FileAccess, SourceFile, is_standard_input, known_names, toml_text,
 };
 use serde::Deserialize;
-use toml::{Spanned, de::DeTable};
+use toml::Spanned;
 
 use super::{faults::read_fault, overrides::Override, section::Section};
 use crate::scenario::{
@@ -92,8 +92,7 @@ impl ScenarioFile {
         let in_file = |findings: Vec<Diagnostic>| -> Vec<Diagnostic> {
             findings.into_iter().map(|finding| finding.in_file(&source)).collect()
         };
-        let mut document =
-            DeTable::parse(&source.text).map_err(|error| in_file(vec![toml_text::diagnostic(&error)]))?;
+        let mut document = toml_text::parse_document(&source.text).map_err(|fault| in_file(vec![fault]))?;
         let places = PlaceNode::of_document(&source.text, &document);
         let set: Result<Vec<Range<usize>>, Diagnostic> =
             overrides.iter().map(|change| change.apply(&mut document)).collect();

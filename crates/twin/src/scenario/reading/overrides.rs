@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use congruent_description::Diagnostic;
+use congruent_description::{Diagnostic, toml_text};
 use toml::{
     Spanned,
     de::{DeTable, DeValue},
@@ -54,6 +54,8 @@ impl std::str::FromStr for Override {
             }
             _ => format!("value = {}", toml::Value::String(value.trim().to_owned())),
         };
+        toml_text::parse_document(&document)
+            .map_err(|fault| Diagnostic::error("cli::set", format!("--set \"{text}\": {}", fault.message)))?;
         Ok(Self { path, written: text.to_owned(), document })
     }
 }

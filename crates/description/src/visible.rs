@@ -1,0 +1,92 @@
+//! Characters that are not shown but obeyed, by terminals, by CI hosts, by whatever lays out a line: controls, marks that
+//! turn the direction of text, line separators, characters without width. Files of strangers hold them to make an
+//! output say what it does not. Here they become visible.
+
+use std::borrow::Cow;
+
+/// Whether a character is not shown: a control character, a mark of direction, a separator of lines, or one without width.
+pub fn is_hidden(c: char) -> bool {
+    c.is_control()
+        || matches!(
+            c,
+            '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}'
+                | '\u{180b}'..='\u{180f}'
+                | '\u{200b}'..='\u{200f}'
+                | '\u{2028}'..='\u{202e}'
+                | '\u{2060}'..='\u{206f}'
+                | '\u{3164}' | '\u{feff}' | '\u{ffa0}'
+                | '\u{fff0}'..='\u{fffb}'
+                | '\u{fffe}' | '\u{ffff}'
+                | '\u{1bca0}'..='\u{1bca3}'
+                | '\u{1d173}'..='\u{1d17a}'
+                | '\u{e0000}'..='\u{e0fff}'
+        )
+}
+
+/// The first hidden character, as people name it: `U+001B`.
+///
+/// # Examples
+/// ```
+/// use congruent_description::hidden_character;
+/// assert_eq!(hidden_character("tool\u{202e}0").as_deref(), Some("U+202E"));
+/// assert_eq!(hidden_character("outil_d\u{e9}port\u{e9} 0"), None);
+/// ```
+pub fn hidden_character(text: &str) -> Option<String> {
+    text.chars().find(|&c| is_hidden(c)).map(|c| format!("U+{:04X}", u32::from(c)))
+}
+
+/// A text in one line: what is hidden in it is written as Rust writes it, line breaks too.
+///
+/// # Examples
+/// ```
+/// use congruent_description::visible;
+/// assert_eq!(visible("a\u{1b}[2J\nb"), r"a\u{1b}[2J\nb");
+/// ```
+pub fn visible(text: &str) -> Cow<'_, str> {
+    written(text, is_hidden)
+}
+
+/// A text whose line breaks are its layout.
+pub fn visible_lines(text: &str) -> Cow<'_, str> {
+    written(text, |c| is_hidden(c) && c != '\n')
+}
+
+fn written(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
+    let Some(first) = text.find(&is_escaped) else { return Cow::Borrowed(text) };
+    let (plain, rest) = text.split_at(first);
+    let mut written = plain.to_owned();
+    for c in rest.chars() {
+        match c {
+            c if !is_escaped(c) => written.push(c),
+            '\n' => written.push_str("\\n"),
+            '\r' => written.push_str("\\r"),
+            '\t' => written.push_str("\\t"),
+            c => written.extend(c.escape_unicode()),
+        }
+    }
+    Cow::Owned(written)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_hidden_is_written_out() {
+        let hidden = "\u{7}\u{9b}\u{202e}\u{2066}\u{200f}\u{61c}\u{2028}\u{200b}\u{feff}\u{e0041}";
+        assert_eq!(
+            visible(hidden),
+            r"\u{7}\u{9b}\u{202e}\u{2066}\u{200f}\u{61c}\u{2028}\u{200b}\u{feff}\u{e0041}"
+        );
+        assert_eq!(visible("a\r\n\tb"), r"a\r\n\tb");
+        assert_eq!(visible_lines("a\r\n\tb"), "a\\r\n\\tb");
+    }
+
+    #[test]
+    fn other_text_stays() {
+        let text = "Gelenk \u{e4} \u{2019} \u{6a9}\u{6cc} \u{95a2}\u{7bc0} \u{1f9be}";
+        assert_eq!((visible(text), hidden_character(text)), (Cow::Borrowed(text), None));
+        // Once it is visible it stays as it is.
+        assert_eq!(visible(&visible("a\u{1b}")), visible("a\u{1b}"));
+    }
+}
