@@ -10,6 +10,7 @@ mod faults;
 mod input;
 #[cfg(feature = "recording")]
 mod inspect;
+mod interrupt;
 mod model;
 mod new;
 mod output_file;

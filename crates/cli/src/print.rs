@@ -143,6 +143,13 @@ impl Printer {
         to_stderr(&text);
     }
 
+    /// How one of several inputs has ended, for people, on standard error: the results follow in the order of the inputs.
+    pub(crate) fn ended(&self, input: &Path, word: &str) {
+        if self.format == Format::Human {
+            to_stderr(&format!("{}: {word}\n", input.display()));
+        }
+    }
+
     /// Lines for a CI host, which reads them from standard error as well as from standard output.
     pub(crate) fn annotations(lines: &str) {
         to_stderr(lines);
