@@ -235,7 +235,9 @@ fn a_call_that_is_killed_leaves_no_green_junit_file() {
     call.kill().unwrap();
     call.wait().unwrap();
     let cases = junit(&file);
-    assert_eq!((words(&cases), cases[0].0.as_str()), (vec!["error"], long.as_str()));
+    // Before the scenario is read it is one case, afterwards one for each check.
+    assert!(!cases.is_empty() && words(&cases).iter().all(|&word| word == "error"), "{cases:?}");
+    assert!([long.as_str(), "long"].contains(&cases[0].0.as_str()), "{cases:?}");
 }
 
 #[test]
