@@ -126,7 +126,7 @@ impl<'a> RunningCheck<'a> {
         };
         let Self { kind: check, line, is_default, .. } = *self;
         if is_default && status == Status::Fail {
-            notes.push(format!("default check: a [[check]] with kind = \"{check}\" takes its place"));
+            notes.push(format!("default check, for want of one in the scenario: a [[check]] with kind = \"{check}\" takes its place"));
         }
         CheckResult { check, line, is_default, status, samples, measures, contacts, notes }
     }
