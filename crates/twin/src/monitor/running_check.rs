@@ -117,7 +117,7 @@ impl<'a> RunningCheck<'a> {
 
     /// The result of the check.
     pub fn result(&self, names: &Names) -> CheckResult {
-        let Observed { samples, measures, contacts, mut notes } = self.monitor.finish(names);
+        let Observed { samples, measures, contacts, notes } = self.monitor.finish(names);
         let status = match samples {
             _ if self.monitor.has_failed() => Status::Fail,
             0 => Status::Skipped,
@@ -125,9 +125,6 @@ impl<'a> RunningCheck<'a> {
             _ => Status::Pass,
         };
         let Self { kind: check, line, is_default, .. } = *self;
-        if is_default && status == Status::Fail {
-            notes.push(format!("default check, for want of one in the scenario: a [[check]] with kind = \"{check}\" takes its place"));
-        }
         CheckResult { check, line, is_default, status, samples, measures, contacts, notes }
     }
 }

@@ -4,7 +4,7 @@ use congruent_description::display::{quantity, quantity_in_full};
 
 use crate::{
     monitor::{ANGLE_BEYOND_LIMIT, SHIFT_BEYOND_LIMIT},
-    verdict::{Bound, CheckResult, Contact, Measure, Moment},
+    verdict::{Bound, CheckResult, Contact, Measure, Moment, Status},
 };
 
 /// A check in lines: what was violated first, with the remarks on it. The first line says if it is a default check.
@@ -12,6 +12,12 @@ pub fn lines(check: &CheckResult) -> Vec<String> {
     let mut lines = all_lines(check);
     if let Some(first) = lines.first_mut().filter(|_| check.is_default) {
         first.push_str(" (default)");
+    }
+    if check.is_default && check.status == Status::Fail {
+        let kind = check.check;
+        lines.push(format!(
+            "the scenario has no check {kind}: a [[check]] with kind = \"{kind}\" takes the place of this one"
+        ));
     }
     lines
 }
