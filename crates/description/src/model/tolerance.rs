@@ -41,13 +41,14 @@ impl ToleranceScale {
     /// That of a robot with a tool.
     pub(crate) fn of(robot: &Robot, tip: LinkIndex, tip_from_tcp: Option<&Isometry3<f64>>) -> Self {
         let tool_m = tip_from_tcp.map_or(0.0, |tool| tool.translation.vector.norm());
-        let longest = |from_root: bool| {
-            let distances_m = distances(robot, from_root);
+        let longest = |start: Start| {
+            let distances_m = distances(robot, start);
             let tcp_m = distances_m.get(tip.get()).map_or(0.0, |tip_m| tip_m + tool_m);
             distances_m.into_iter().fold(tcp_m, f64::max)
         };
         // Of a wheel on a frame all that moves is in the axis.
-        let found = [longest(false), longest(true)].into_iter().find(|&reach_m| reach_m > 0.0);
+        let found =
+            [longest(Start::FirstAxis), longest(Start::Root)].into_iter().find(|&reach_m| reach_m > 0.0);
         Self { reach_m: found.filter(|reach_m| reach_m.is_finite()) }
     }
 
@@ -98,11 +99,18 @@ impl ToleranceScale {
     }
 }
 
-/// How far each link can be at most from the first moving axis above it, or from the root: along its joints, with the range
-/// of those that slide.
-fn distances(robot: &Robot, from_root: bool) -> Vec<f64> {
+/// Where a distance begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Start {
+    /// At the first moving axis above a link.
+    FirstAxis,
+    Root,
+}
+
+/// How far each link can be at most from the start: along its joints, with the range of those that slide.
+fn distances(robot: &Robot, start: Start) -> Vec<f64> {
     let mut distances_m = vec![0.0; robot.links().len()];
-    let mut moves = vec![from_root; robot.links().len()];
+    let mut moves = vec![start == Start::Root; robot.links().len()];
     // Parents come before their children.
     for joint in robot.joints() {
         let (parent, child) = (joint.parent.get(), joint.child.get());

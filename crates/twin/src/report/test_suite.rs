@@ -43,7 +43,7 @@ pub fn planned_suite(setup: &RunSetup) -> TestSuite {
     let cases = setup.checks().into_iter().enumerate().map(|(index, check)| {
         let message = "the call ended before this check did".to_owned();
         TestCase {
-            name: case_name(index, check.kind, check.is_default),
+            name: case_name(index, (check.kind, check.is_default)),
             result: TestResult::Error(Reason { kind: "unfinished".to_owned(), message }),
             output: String::new(),
             place: CasePlace::of(file.as_deref(), check.line),
@@ -59,7 +59,7 @@ pub fn planned_suite(setup: &RunSetup) -> TestSuite {
 }
 
 /// The name of a case: the number of the check in the scenario, from 1, and its kind.
-fn case_name(index: usize, kind: CheckKind, is_default: bool) -> String {
+fn case_name(index: usize, (kind, is_default): (CheckKind, bool)) -> String {
     let by_default = if is_default { "_default" } else { "" };
     format!("{}_{kind}{by_default}", index + 1)
 }
@@ -93,5 +93,5 @@ fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
         Status::Fail => TestResult::Failed(reason(output.clone())),
     };
     let place = CasePlace::of(report.scenario_file.as_deref(), check.line);
-    TestCase { name: case_name(index, check.check, check.is_default), result, output, place }
+    TestCase { name: case_name(index, (check.check, check.is_default)), result, output, place }
 }
