@@ -137,6 +137,27 @@ impl<'a> Batch<'a> {
         }
     }
 
+    /// Notes what the JUnit file must have of each input that goes on.
+    pub(crate) fn plan<S>(&self, loaded: &[Answer<S>], planned: impl Fn(&S) -> TestSuite) {
+        let Ok(mut suites) = self.suites.lock() else { return };
+        for (suite, answer) in suites.iter_mut().zip(loaded) {
+            *suite = match &answer.result {
+                Ok(stage) => planned(stage),
+                Err(failure) => refused_suite(&answer.input, failure),
+            };
+        }
+        // What cannot be written is told at the end.
+        let _ = self.ci.begin(self.inputs, &suites);
+    }
+
+    /// Tells at once how one of several inputs has ended; all of it is told at the end.
+    pub(crate) fn tell<R: BatchReport>(&self, answer: &Answer<R>) {
+        let word = WORDS.iter().find_map(|&(code, word)| (code == answer.exit_code()).then_some(word));
+        if let (Some(input), Some(word)) = (self.label(&answer.input), word) {
+            self.printer.ended(input, word);
+        }
+    }
+
     /// Writes the answer to the input of this number to the JUnit file at once: a call that is killed keeps it.
     pub(crate) fn keep<R: BatchReport>(&self, input: usize, answer: &Answer<R>) {
         if !self.ci.has_junit() {
@@ -214,12 +235,7 @@ impl<R: BatchReport> Answer<R> {
     fn suite(&self) -> TestSuite {
         let suite = match &self.result {
             Ok(report) => report.test_suite(&shown(&self.input)),
-            Err(failure) => {
-                let result = TestResult::Error(reason(failure));
-                let mut suite = TestSuite::of_case(shown(&self.input), "start", result);
-                suite.cases.iter_mut().for_each(|case| case.place = place(failure));
-                suite
-            }
+            Err(failure) => refused_suite(&self.input, failure),
         };
         suite.measured(self.wall_s)
     }
@@ -240,6 +256,13 @@ impl<R: BatchReport> Answer<R> {
             }
         }
     }
+}
+
+/// The suite of an input that could not start.
+fn refused_suite(input: &Path, failure: &Failure) -> TestSuite {
+    let mut suite = TestSuite::of_case(shown(input), "start", TestResult::Error(reason(failure)));
+    suite.cases.iter_mut().for_each(|case| case.place = place(failure));
+    suite
 }
 
 /// Exit codes as people read them, the worst first.

@@ -9,6 +9,7 @@ mod completions;
 mod failure;
 mod faults;
 mod input;
+mod interrupt;
 mod layout;
 mod man;
 mod model;

@@ -16,7 +16,7 @@ use serde::Serialize;
 use crate::{
     failure::Failure,
     layout::{columns, fitted},
-    terminal_text::{for_people, for_programs, shown, with_visible_lines},
+    terminal_text::{Colours, for_people, for_programs, shown, with_visible_lines},
 };
 
 /// How results are printed.
@@ -149,7 +149,7 @@ impl Printer {
         text: impl FnOnce(&T) -> String,
     ) -> Result<(), Failure> {
         let printed = match self.format {
-            Format::Human => for_people(&text(document), is_coloured()),
+            Format::Human => for_people(&text(document), colours()),
             Format::Json => {
                 let mut json = serde_json::to_string(document).map_err(machine)?;
                 json.push('\n');
@@ -225,6 +225,13 @@ impl Printer {
         to_stderr(&text);
     }
 
+    /// How one of several inputs has ended, for people, on standard error: the results follow in the order of the inputs.
+    pub(crate) fn ended(&self, input: &Path, word: &str) {
+        if self.format == Format::Human && self.verbosity != Verbosity::Quiet {
+            to_stderr(&format!("{}: {word}\n", shown(input)));
+        }
+    }
+
     /// Lines for a CI host, which reads them from standard error as well as from standard output.
     pub(crate) fn annotations(lines: &str) {
         // There is nothing to be done if standard error is closed.
@@ -248,7 +255,7 @@ fn machine(error: impl std::fmt::Display) -> Failure {
 
 fn to_stderr(text: &str) {
     // There is nothing to be done if standard error is closed.
-    let _ = io::stderr().lock().write_all(for_people(text, is_coloured()).as_bytes());
+    let _ = io::stderr().lock().write_all(for_people(text, colours()).as_bytes());
 }
 
 /// A finding below the name of the input that it belongs to.
@@ -277,6 +284,10 @@ fn is_coloured() -> bool {
             !is_forbidden() && io::stdout().is_terminal() && io::stderr().is_terminal()
         }
     }
+}
+
+fn colours() -> Colours {
+    if is_coloured() { Colours::Kept } else { Colours::Escaped }
 }
 
 /// A finding with the line it is about, as a compiler shows it.

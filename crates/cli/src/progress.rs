@@ -31,6 +31,14 @@ impl Progress {
         };
         RunProgress(self.0.as_ref().map(bar))
     }
+
+    /// Prints while the lines are away.
+    pub(crate) fn suspended(&self, print: impl FnOnce()) {
+        match &self.0 {
+            Some(bars) => bars.suspend(print),
+            None => print(),
+        }
+    }
 }
 
 impl RunProgress {

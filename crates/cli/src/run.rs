@@ -5,7 +5,10 @@ use std::{
     fmt::Write,
     fs,
     path::{Path, PathBuf},
-    sync::Mutex,
+    sync::{
+        Mutex,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
 use congruent::{
@@ -15,7 +18,7 @@ use congruent::{
         ExecuteError, Options, RecordingFormat, RunSetup,
         diagnosis::RunDiagnosis,
         execute,
-        report::{Reason, RunReport, TestCase, TestResult, TestSuite, lines},
+        report::{Reason, RunReport, TestCase, TestResult, TestSuite, lines, planned_suite},
         results::{FolderError, OutputFolder, write_whole},
         scenario::{CheckKind, Expectation, Override},
         source::ActuatorUse,
@@ -31,12 +34,16 @@ use crate::{
     ci::CiArguments,
     failure::{BROKEN, Failure, unwritable},
     input::AccessArguments,
+    interrupt::flag_of_signals,
     print::Printer,
     progress::Progress,
 };
 
 /// Runs scenario files and writes report, page, JUnit and recording of each to its own folder; of several an index of the
 /// pages besides.
+///
+/// Ctrl-C and SIGTERM end the runs in order: what was computed until then is written, and the exit code is 3. The second
+/// ends the call at once.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// Scenario files.
@@ -137,9 +144,12 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let recording = recording_format(arguments, printer)?;
     let batch = Batch::begin(&arguments.scenarios, &arguments.ci, printer)?;
     let loaded = load(arguments, &batch)?;
+    batch.plan(&loaded, planned_suite);
+    let interrupt = flag_of_signals();
     let progress = Progress::new(printer);
-    let options = Options { out: arguments.out.clone(), recordings: recordings(recording.as_deref()) };
-    let answers = run_all(loaded, arguments, &options, (&batch, &progress));
+    let recordings = recordings(recording.as_deref());
+    let options = Options { out: arguments.out.clone(), recordings, interrupt: Some(&interrupt) };
+    let answers = run_all(loaded, (arguments, &interrupt), &options, (&batch, &progress));
     let written = write_index(&answers, &arguments.out);
     batch.finish_with_page(answers, written)
 }
@@ -223,7 +233,7 @@ fn same_folder(folder: &Path, first: &Path, second: &Path) -> Diagnostic {
 /// Runs scenarios on `--jobs` threads; answers are in the order of the arguments.
 fn run_all(
     loaded: Vec<Answer<RunSetup>>,
-    arguments: &Arguments,
+    (arguments, interrupt): (&Arguments, &AtomicBool),
     options: &Options<'_>,
     (batch, progress): (&Batch<'_>, &Progress),
 ) -> Vec<Answer<Ran>> {
@@ -234,8 +244,14 @@ fn run_all(
         loop {
             let next = waiting.lock().expect("no thread panics while it takes a scenario").next();
             let Some((index, loaded)) = next else { return answers };
-            let answer = batch.go_on(loaded, |setup| run_one(&setup, options, progress));
+            let answer = batch.go_on(loaded, |setup| {
+                if interrupt.load(Ordering::Relaxed) {
+                    return Err(Failure::Machine("interrupted before it started".to_owned()));
+                }
+                run_one(&setup, options, progress)
+            });
             batch.keep(index, &answer);
+            progress.suspended(|| batch.tell(&answer));
             answers.push((index, answer));
         }
     };

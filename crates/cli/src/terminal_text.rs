@@ -5,12 +5,22 @@ use std::{borrow::Cow, fmt::Write, ops::Range, path::Path, sync::Arc};
 
 use congruent::description::{Diagnostic, SourceFile, is_hidden, visible, visible_lines};
 
+/// What becomes of the colours in a text.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Colours {
+    Kept,
+    Escaped,
+}
+
 /// Text for people. Of control characters only line breaks are left, and colours where they are the program's own.
-pub(crate) fn for_people(text: &str, is_coloured: bool) -> String {
+pub(crate) fn for_people(text: &str, colours: Colours) -> String {
     let mut written = String::with_capacity(text.len());
     for line in text.split_inclusive('\n') {
         let line = without_commands(line);
-        if is_coloured { coloured(&mut written, &line) } else { written += &visible_lines(&line) }
+        match colours {
+            Colours::Kept => coloured(&mut written, &line),
+            Colours::Escaped => written += &visible_lines(&line),
+        }
     }
     written
 }
@@ -41,7 +51,7 @@ pub(crate) fn shown(path: &Path) -> String {
 }
 
 /// A line that no CI host takes for a command: GitHub takes those that begin with `::` and those with `##[` anywhere,
-/// Azure `##vso[`, TeamCity `##teamcity[`.
+/// Azure `##vso[`, another one `##teamcity[`.
 fn without_commands(line: &str) -> Cow<'_, str> {
     let words = line.trim_start();
     let (indent, words) = match words.strip_prefix("::") {
@@ -145,7 +155,7 @@ mod tests {
 
     #[track_caller]
     fn check(text: &str, expected: &str) {
-        assert_eq!(for_people(text, false), expected);
+        assert_eq!(for_people(text, Colours::Escaped), expected);
     }
 
     #[test]
@@ -168,10 +178,10 @@ mod tests {
     fn colours_are_kept_but_hide_nothing() {
         let text = "\u{1b}[31mred\u{1b}[0m \u{1b}[38;2;1;2;3m \u{1b}[8mgone\u{1b}[1;08m\u{1b}[2J\u{1b}";
         assert_eq!(
-            for_people(text, true),
+            for_people(text, Colours::Kept),
             "\u{1b}[31mred\u{1b}[0m \u{1b}[38;2;1;2;3m \\u{1b}[8mgone\\u{1b}[1;08m\\u{1b}[2J\\u{1b}"
         );
-        assert!(!for_people(text, false).contains('\u{1b}'));
+        assert!(!for_people(text, Colours::Escaped).contains('\u{1b}'));
     }
 
     #[test]

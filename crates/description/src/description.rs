@@ -12,7 +12,7 @@ use crate::{
     chain::{ChainEnd, ChainEnds, ReportedChain, choose_tip},
     diagnostic::{Diagnostic, Use, known_names},
     files::InputFile,
-    model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance},
+    model::{DhTable, JointIndex, LinkIndex, Robot, Tolerance, ToleranceScale},
     robot_file::{DeclaredDynamics, InertialPlaces, RobotFilePlaces},
     urdf::UrdfPlaces,
 };
@@ -81,6 +81,11 @@ pub struct RobotDescription {
 }
 
 impl RobotDescription {
+    /// By what tolerances of its poses are judged.
+    pub fn tolerance_scale(&self) -> ToleranceScale {
+        ToleranceScale::of(&self.robot, self.tip, self.tip_from_tcp.as_ref())
+    }
+
     /// Whether the robot is fit for a use: whatever asks for more than kinematics asks here first.
     ///
     /// # Errors

@@ -38,7 +38,7 @@ pub use mesh::read_mesh;
 pub use model::{
     ArmQ, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
     JointLimit, JointParts, JointValues, Link, LinkIndex, Mesh, Mimic, Robot, RobotError, RobotQ, Shape,
-    Tolerance, principal_moments,
+    Tolerance, ToleranceScale, principal_moments,
 };
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces,

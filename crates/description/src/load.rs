@@ -15,7 +15,7 @@ use crate::{
     diagnostic::{Diagnostic, Diagnostics, SourceFile, Use},
     files::{FileAccess, Packages, folder_of, not_found},
     mesh::MeshStore,
-    model::{LinkIndex, Robot, Tolerance},
+    model::{LinkIndex, Robot, Tolerance, ToleranceScale},
     robot_file::{
         self, Declared, InertialPlaces, ROBOT_FILE, ROBOT_FILE_BYTES, RobotFilePlaces, WrittenRobot,
     },
@@ -241,6 +241,8 @@ fn declared(
 ) -> Option<RobotDescription> {
     let declared = robot_file::check(&written, &robot_file.text, &robot, diagnostics);
     let Declared { base, tip, chain_ends, dh, dynamics, accelerations, tip_from_tcp, tolerance } = declared?;
+    let scale = ToleranceScale::of(&robot, tip, tip_from_tcp.as_ref());
+    diagnostics.extend(written.tolerance.iter().flat_map(|tolerance| tolerance.examine(scale)));
     let inertials = dynamics
         .is_some()
         .then(|| Arc::new(InertialPlaces::new(Arc::clone(robot_file), written.dynamics, written.inertial)));

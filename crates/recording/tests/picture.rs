@@ -47,7 +47,8 @@ struct Recorded {
 impl Recorded {
     fn of(setup: &RunSetup) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let options = Options { out: folder.path().to_owned(), recordings: vec![&RerunFormat] };
+        let options =
+            Options { out: folder.path().to_owned(), recordings: vec![&RerunFormat], interrupt: None };
         let (report, results) = execute(setup, &options, |_| ()).unwrap();
         let file = results.file("recording.rrd");
         let cells = cells(&file);

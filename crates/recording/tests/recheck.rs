@@ -27,7 +27,8 @@ impl Bench {
         let overrides: Vec<Override> = overrides.iter().map(|text| text.parse().unwrap()).collect();
         let scenario = repository().join("scenarios").join(scenario);
         let setup = RunSetup::load(&scenario, &overrides).unwrap();
-        let options = Options { out: folder.path().to_owned(), recordings: vec![&RerunFormat] };
+        let options =
+            Options { out: folder.path().to_owned(), recordings: vec![&RerunFormat], interrupt: None };
         let (_, results) = execute(&setup, &options, |_| ()).unwrap();
         let (summary, scalars) = scalars(&results.file("recording.rrd")).unwrap();
         Self { scenario, overrides, summary, scalars, _folder: folder }

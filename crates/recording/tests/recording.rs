@@ -87,7 +87,7 @@ fn load(folder: &Folder, text: &str) -> RunSetup {
 
 /// Runs a scenario; returns its report and the path of its recording.
 fn recorded(folder: &Folder, out: &str, scenario: &RunSetup) -> (RunReport, PathBuf) {
-    let options = Options { out: folder.file(out), recordings: vec![&RerunFormat] };
+    let options = Options { out: folder.file(out), recordings: vec![&RerunFormat], interrupt: None };
     let (report, results) = execute(scenario, &options, |_| ()).unwrap();
     (report, results.file("recording.rrd"))
 }

@@ -1,6 +1,9 @@
 //! One scenario from its file to its results on disk.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::atomic::AtomicBool,
+};
 
 use crate::{
     recorder::{Recorder, Recorders, RecordingError},
@@ -20,6 +23,8 @@ pub struct Options<'a> {
     /// The files that take the samples of the run, such as a recording for a viewer and a page: each kind once. They are
     /// completed in this order.
     pub recordings: Vec<&'a dyn RecordingFormat>,
+    /// Ends the run in order if it is set: what was computed until then is written.
+    pub interrupt: Option<&'a AtomicBool>,
 }
 
 /// A recording in progress: it takes samples, and the report at the end.
@@ -99,7 +104,7 @@ pub fn execute(
     let mut checks = setup.checks();
     let cannot_run =
         |source: RunError| ExecuteError::CannotRun { scenario: setup.scenario.name.clone(), source };
-    let run = Run::new(setup).map_err(cannot_run)?;
+    let run = Run::new(setup).map_err(cannot_run)?.interrupted_by(options.interrupt);
     let sources = run.model().sources().to_vec();
     let mut recordings = Vec::new();
     for format in &options.recordings {

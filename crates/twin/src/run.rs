@@ -1,6 +1,8 @@
 //! The run loop: a source of joint states, comparison with the model, clearance, checks and recording, one
 //! sample after another. It does not know what the source is.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use congruent_agreement::{compare::Model, report::ReportedDiagnosis};
 use congruent_description::Robot;
 use congruent_kinematics::{KinematicsError, Pose, PoseError, UrdfTree};
@@ -37,6 +39,9 @@ pub enum RunError {
     /// The recording cannot be written.
     #[error(transparent)]
     Recording(#[from] RecordingError),
+    /// Somebody has ended the run.
+    #[error("interrupted")]
+    Interrupted,
 }
 
 /// What a finished run has found.
@@ -83,6 +88,8 @@ pub struct Run<'a> {
     store: SampleStore,
     /// The way to rest, from the first violation of a check that stops the run.
     stopping: Option<Stopping>,
+    /// Set by whoever wants the run to end.
+    interrupt: Option<&'a AtomicBool>,
 }
 
 impl std::fmt::Debug for Run<'_> {
@@ -133,7 +140,15 @@ impl<'a> Run<'a> {
             hash: Sha256::new(),
             store: SampleStore::new(robot.dof(), links, setup.clock.steps),
             stopping: None,
+            interrupt: None,
         })
+    }
+
+    /// The same run, which ends in order after the step in which `flag` is set, with [`RunError::Interrupted`].
+    #[must_use]
+    pub fn interrupted_by(mut self, flag: Option<&'a AtomicBool>) -> Self {
+        self.interrupt = flag;
+        self
     }
 
     /// What is run.
@@ -287,6 +302,9 @@ impl<'a> Run<'a> {
         let mut go = || -> Result<(), RunError> {
             self.compare()?;
             while !self.observe(checks, recorder)? {
+                if self.interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+                    return Err(RunError::Interrupted);
+                }
                 self.step()?;
                 self.compare()?;
                 progress(self.source.step_count());

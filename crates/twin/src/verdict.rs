@@ -135,6 +135,9 @@ pub struct CheckResult {
     pub check: CheckKind,
     /// Line of the check in the scenario file, from 1.
     pub line: Option<usize>,
+    /// Whether the scenario has no check of this kind, so that it was checked by default limits.
+    #[serde(rename = "default", skip_serializing_if = "std::ops::Not::not")]
+    pub is_default: bool,
     /// The outcome.
     pub status: Status,
     /// Number of instants that were checked.
@@ -251,8 +254,11 @@ impl Verdict {
 
 /// Judges the results of all checks by what the scenario expects.
 pub fn judge(expected: &Expectation, results: &[CheckResult]) -> Verdict {
-    let looked_at = |result: &&CheckResult| result.status != Status::Skipped;
-    if !results.iter().any(|result| looked_at(&result)) {
+    // A default check may fail a run, but a scenario that asks for nothing is no success because of it.
+    let looked_at = |result: &CheckResult| {
+        result.status != Status::Skipped && (!result.is_default || result.status != Status::Pass)
+    };
+    if !results.iter().any(looked_at) {
         return Verdict::NothingChecked;
     }
     if results.iter().any(|result| result.status == Status::Error) {
@@ -281,6 +287,7 @@ mod tests {
         CheckResult {
             check,
             line: Some(1),
+            is_default: false,
             status,
             samples: 1,
             measures: Vec::new(),
@@ -303,6 +310,21 @@ mod tests {
         judged(&Expectation::Pass, &[], Verdict::NothingChecked);
         judged(&Expectation::Pass, &[result(CheckKind::Limits, Status::Skipped)], Verdict::NothingChecked);
         judged(&fail(&[]), &[], Verdict::NothingChecked);
+    }
+
+    #[test]
+    fn a_default_check_can_fail_a_run_but_is_no_success() {
+        let by_default = |status| CheckResult { is_default: true, ..result(CheckKind::Limits, status) };
+        let agreement = |status| result(CheckKind::Agreement, status);
+        judged(&Expectation::Pass, &[by_default(Status::Pass)], Verdict::NothingChecked);
+        judged(&Expectation::Pass, &[by_default(Status::Fail)], Verdict::NotAsExpected);
+        let [passes, fails] = [Status::Pass, Status::Fail].map(by_default);
+        judged(&Expectation::Pass, &[agreement(Status::Pass), passes], Verdict::AsExpected);
+        judged(&Expectation::Pass, &[agreement(Status::Pass), fails.clone()], Verdict::NotAsExpected);
+        let expected = fail(&[CheckKind::Agreement]);
+        judged(&expected, &[agreement(Status::Fail), fails.clone()], Verdict::NotAsExpected);
+        let expected = fail(&[CheckKind::Agreement, CheckKind::Limits]);
+        judged(&expected, &[agreement(Status::Fail), fails], Verdict::AsExpected);
     }
 
     #[test]

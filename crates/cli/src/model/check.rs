@@ -152,11 +152,16 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         description.inputs.extend(read.input);
         configurations = read.entries;
     }
-    batch.warn(path, &description.warnings);
     let declared = description.tolerance;
     if let Some(tolerance) = arguments.tolerance {
+        let (wrong, wide) = tolerance.examine(description.tolerance_scale());
+        if !wrong.is_empty() {
+            return Err(wrong.into());
+        }
+        description.warnings.extend(wide);
         description.tolerance = tolerance.replace(declared);
     }
+    batch.warn(path, &description.warnings);
     let options = CheckOptions { seed: arguments.seed, configurations };
     let access = arguments.access.access()?;
     let other = arguments.against.as_ref().map(|other| load_robot_with(other, &access)).transpose()?;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use congruent::description::{Tolerance, units::Unit};
+use congruent::description::{Diagnostic, Severity, Tolerance, ToleranceScale, units::Unit};
 
 /// A tolerance that replaces the one of the robot file; a part that is not given is not replaced.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -18,6 +18,16 @@ impl ToleranceArgument {
             position_m: self.position_m.unwrap_or(declared.position_m),
             orientation_rad: self.orientation_rad.unwrap_or(declared.orientation_rad),
         }
+    }
+}
+
+impl ToleranceArgument {
+    /// What is wrong with it for a robot of this scale: errors, and warnings.
+    pub(super) fn examine(self, scale: ToleranceScale) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
+        let parts = [(Unit::Length, self.position_m), (Unit::Angle, self.orientation_rad)];
+        let examined =
+            parts.into_iter().filter_map(|(unit, value)| scale.examine(unit, "--tolerance", value?));
+        examined.partition(|found| found.severity == Severity::Error)
     }
 }
 

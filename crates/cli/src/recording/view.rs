@@ -112,7 +112,8 @@ fn scenario(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
         .and_then(RunSetup::for_simulation)?;
     printer.warnings(&setup.description.warnings);
     printer.warnings(&setup.warnings);
-    let options = Options { out: arguments.out.clone(), recordings: vec![&RerunFormat, &PageFormat] };
+    let options =
+        Options { out: arguments.out.clone(), recordings: vec![&RerunFormat, &PageFormat], interrupt: None };
     let ran = run_one(&setup, &options, &Progress::new(printer))?;
     printer.result(&ran, BatchReport::text)?;
     let code = ran.exit_code();

@@ -21,4 +21,4 @@ pub use joint_values::JointValues;
 pub use link::{Link, LinkIndex};
 pub use positions::{ArmQ, ChainQ, RobotQ};
 pub use robot::Robot;
-pub use tolerance::Tolerance;
+pub use tolerance::{Tolerance, ToleranceScale};

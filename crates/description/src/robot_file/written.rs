@@ -12,8 +12,9 @@ use super::{
     limits::WrittenLimits,
 };
 use crate::{
-    diagnostic::SourceFile,
-    model::{DhConvention, DhRowKind},
+    diagnostic::{Diagnostic, SourceFile},
+    model::{DhConvention, DhRowKind, ToleranceScale},
+    units::{Unit, UnitSystem},
     urdf::Repairs,
     written::transform::WrittenTransform,
 };
@@ -197,4 +198,25 @@ pub(crate) struct WrittenTolerance {
     #[serde(default)]
     #[schemars(with = "f64")]
     pub(crate) orientation_deg: Option<Spanned<f64>>,
+}
+
+impl WrittenTolerance {
+    /// What is wrong with its values for a robot of this scale, each at its value.
+    pub(crate) fn examine(&self, scale: ToleranceScale) -> Vec<Diagnostic> {
+        let written = [
+            (Unit::Length, "position_m", UnitSystem::Si, &self.position_m),
+            (Unit::Length, "position_mm", UnitSystem::Engineering, &self.position_mm),
+            (Unit::Angle, "orientation_rad", UnitSystem::Si, &self.orientation_rad),
+            (Unit::Angle, "orientation_deg", UnitSystem::Engineering, &self.orientation_deg),
+        ];
+        let examined = written.into_iter().filter_map(|(unit, key, system, value)| {
+            let written = value.as_ref()?;
+            let value = match system {
+                UnitSystem::Si => *written.get_ref(),
+                UnitSystem::Engineering => unit.convert(*written.get_ref()),
+            };
+            Some(scale.examine(unit, key, value)?.at(written.span()))
+        });
+        examined.collect()
+    }
 }

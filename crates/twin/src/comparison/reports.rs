@@ -14,6 +14,8 @@ use crate::trajectory_file::Value;
 const LEFT_OUT: [&str; 4] = ["scenario_file", "inputs", "overrides", "warnings"];
 /// The key of the line of a check or of a finding.
 const LINE: &str = "line";
+/// The key of a check that the scenario does not have.
+const DEFAULT: &str = "default";
 /// The key of the trajectory's hash.
 const HASH: &str = "trajectory_sha256";
 
@@ -79,7 +81,7 @@ fn gather<'a>(value: &'a Json, keys: String, time_s: Option<f64>, leaves: &mut V
     match value {
         Json::Object(entries) if !entries.is_empty() => {
             let time_s = entries.get("time_s").and_then(Json::as_f64).or(time_s);
-            for (key, value) in entries.iter().filter(|(key, _)| *key != LINE) {
+            for (key, value) in entries.iter().filter(|(key, value)| !is_of_file(key, value)) {
                 gather(value, format!("{keys}.{key}"), time_s, leaves);
             }
         }
@@ -125,4 +127,9 @@ fn statements(a: &Map<String, Json>, b: &Map<String, Json>, tolerance: f64) -> V
         statements.push("the trajectories differ: their hashes are not equal".to_owned());
     }
     statements
+}
+
+/// Whether a value tells how a check is written: its line, or that it is written nowhere, as a default one.
+fn is_of_file(key: &str, value: &Json) -> bool {
+    key == LINE || key == DEFAULT && value.is_boolean()
 }

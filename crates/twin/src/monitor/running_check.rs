@@ -29,6 +29,8 @@ pub struct RunningCheck<'a> {
     pub kind: CheckKind,
     /// Line of its section in the scenario file, from 1.
     pub line: Option<usize>,
+    /// Whether the scenario has no check of this kind, so that it is checked by default limits.
+    pub is_default: bool,
     /// What follows its first violation.
     pub on_violation: OnViolation,
     /// The check itself.
@@ -95,7 +97,12 @@ impl<'a> RunningCheck<'a> {
             Check::Twist(check) => Box::new(TwistMonitor::new(check, context)),
             Check::Zone(_) => Box::new(ZoneMonitor::new(description)),
         };
-        Self { kind: check.kind(), line, on_violation: check.on_violation(), monitor }
+        Self { kind: check.kind(), line, is_default: false, on_violation: check.on_violation(), monitor }
+    }
+
+    /// A check that the scenario does not have, before the first sample.
+    pub(crate) fn by_default(check: &Check, context: &CheckContext<'a>) -> Self {
+        Self { is_default: true, ..Self::new(check, None, context) }
     }
 
     /// Whether the check has failed and ends the run with that.
@@ -117,7 +124,8 @@ impl<'a> RunningCheck<'a> {
             _ if measures.iter().all(|measure| measure.worst.is_none()) => Status::Skipped,
             _ => Status::Pass,
         };
-        CheckResult { check: self.kind, line: self.line, status, samples, measures, contacts, notes }
+        let Self { kind: check, line, is_default, .. } = *self;
+        CheckResult { check, line, is_default, status, samples, measures, contacts, notes }
     }
 }
 

@@ -19,3 +19,4 @@ pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Version
 pub use sentence::{limit_words, lines, margin_words, quantity_words, sentence_at};
 pub use step_summary::step_summary;
 pub use suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
+pub use test_suite::planned_suite;

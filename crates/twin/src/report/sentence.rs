@@ -4,11 +4,25 @@ use congruent_description::display::{quantity, quantity_in_full};
 
 use crate::{
     monitor::{ANGLE_BEYOND_LIMIT, SHIFT_BEYOND_LIMIT},
-    verdict::{Bound, CheckResult, Contact, Measure, Moment},
+    verdict::{Bound, CheckResult, Contact, Measure, Moment, Status},
 };
 
-/// A check in lines: what was violated first, with the remarks on it.
+/// A check in lines: what was violated first, with the remarks on it. The first line says if it is a default check.
 pub fn lines(check: &CheckResult) -> Vec<String> {
+    let mut lines = all_lines(check);
+    if let Some(first) = lines.first_mut().filter(|_| check.is_default) {
+        first.push_str(" (default)");
+    }
+    if check.is_default && check.status == Status::Fail {
+        let kind = check.check;
+        lines.push(format!(
+            "the scenario has no check {kind}: a [[check]] with kind = \"{kind}\" takes the place of this one"
+        ));
+    }
+    lines
+}
+
+fn all_lines(check: &CheckResult) -> Vec<String> {
     let is_violated = |measure: &&Measure| measure.first_violation.is_some();
     let (violated, others): (Vec<_>, Vec<_>) = check.measures.iter().partition(is_violated);
     let notes: Vec<String> = contacts(&check.contacts).chain(check.notes.iter().cloned()).collect();

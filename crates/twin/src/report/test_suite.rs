@@ -9,7 +9,8 @@ use super::{
 };
 use crate::{
     diagnosis::RunDiagnosis,
-    scenario::Expectation,
+    scenario::{CheckKind, Expectation},
+    setup::RunSetup,
     verdict::{CheckResult, Status, Verdict},
 };
 
@@ -34,6 +35,33 @@ impl RunReport {
             clock: Clock::Simulated,
         }
     }
+}
+
+/// The suite of a scenario before its run: every check as not run, an error.
+pub fn planned_suite(setup: &RunSetup) -> TestSuite {
+    let file = setup.path.as_ref().map(|path| path.display().to_string());
+    let cases = setup.checks().into_iter().enumerate().map(|(index, check)| {
+        let message = "the call ended before this check did".to_owned();
+        TestCase {
+            name: case_name(index, (check.kind, check.is_default)),
+            result: TestResult::Error(Reason { kind: "unfinished".to_owned(), message }),
+            output: String::new(),
+            place: CasePlace::of(file.as_deref(), check.line),
+        }
+    });
+    let mut cases: Vec<TestCase> = cases.collect();
+    if cases.is_empty() {
+        let message = "the call ended before this run did".to_owned();
+        let reason = Reason { kind: "unfinished".to_owned(), message };
+        cases = TestSuite::of_case("", "run", TestResult::Error(reason)).cases;
+    }
+    TestSuite { name: setup.scenario.name.clone(), cases, time_s: 0.0, clock: Clock::Wall }
+}
+
+/// The name of a case: the number of the check in the scenario, from 1, and its kind.
+fn case_name(index: usize, (kind, is_default): (CheckKind, bool)) -> String {
+    let by_default = if is_default { "_default" } else { "" };
+    format!("{}_{kind}{by_default}", index + 1)
 }
 
 /// When a broken run has ended.
@@ -65,5 +93,5 @@ fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
         Status::Fail => TestResult::Failed(reason(output.clone())),
     };
     let place = CasePlace::of(report.scenario_file.as_deref(), check.line);
-    TestCase { name: format!("{}_{}", index + 1, check.check.word()), result, output, place }
+    TestCase { name: case_name(index, (check.check, check.is_default)), result, output, place }
 }

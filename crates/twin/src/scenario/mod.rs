@@ -18,6 +18,7 @@ mod spaces;
 mod text;
 
 pub use bodies::{GraspSettings, PathPoseSettings};
+pub(crate) use checks::UnitKeys;
 pub use checks::{
     AgreementCheck, Check, CheckKind, ClearanceCheck, ContactCheck, CycleTimeCheck, DynamicsCheck, GoalCheck,
     InvariantsCheck, LimitsCheck, OnViolation, PowerCheck, TrackingCheck, TwistCheck, ZoneCheck,

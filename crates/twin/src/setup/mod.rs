@@ -1,6 +1,7 @@
 //! A scenario checked against its robot: nothing later validates again.
 
 pub(crate) mod actuation;
+mod checks;
 mod clock;
 mod declared_dynamics;
 mod joint_targets;

@@ -11,12 +11,13 @@ use congruent_simulation::Obstacle;
 
 use super::{
     actuation::{Actuation, ActuatorLimits, ControllerSetup, SensorSetup},
+    checks::{default_checks, examine_checks},
     clock::RunClock,
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
     motion_limits, numbers, output,
     payload::{Payload, taken_too_late},
-    surroundings::{FirstStep, Surroundings, Zone, mobility, overlaps, paired_with_checks, zones},
+    surroundings::{FirstStep, Surroundings, Zone, mobility, overlaps, zones},
     written_out::write_out,
 };
 use crate::{
@@ -25,10 +26,7 @@ use crate::{
     monitor::{CheckContext, RunningCheck},
     motion::{MotionInput, Trajectory},
     proximity::ObstacleMobility,
-    scenario::{
-        Check, CheckKind, Expectation, FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile,
-        ScenarioFolder, StartSettings,
-    },
+    scenario::{FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile, ScenarioFolder, StartSettings},
 };
 
 /// A scenario checked against its robot. It is plain data: each run builds its own physics, controller and
@@ -72,6 +70,7 @@ pub struct RunSetup {
     pub warnings: Vec<Diagnostic>,
     /// Obstacles that the physics would throw away from the robot.
     overlaps: Vec<Diagnostic>,
+    /// Lines of the scenario's own checks; the default ones follow them.
     check_lines: Vec<Option<usize>>,
 }
 
@@ -149,6 +148,8 @@ impl RunSetup {
         (place, folder): (FilePlace<'_>, ScenarioFolder<'_>),
     ) -> Result<Self, Vec<Diagnostic>> {
         let (mut found, mut warnings) = (Diagnostics::default(), Vec::new());
+        let own_checks = scenario.check.len();
+        scenario.check.extend(default_checks(&scenario, &description.robot));
         let robot = &description.robot;
         found.keep(check_head(&scenario, place));
         let written = keep_all(&mut found, start(&scenario.start, place.key("start"), robot));
@@ -167,7 +168,7 @@ impl RunSetup {
             Surroundings::new(&scenario, (place, folder), planned, &mut found);
         let mobility = mobility(&moving, scenario.obstacle.len());
         let zones = keep_all(&mut found, zones(&scenario.zone, place.key("zone"), robot));
-        examine_checks(&scenario, place, (&description, &mobility), &mut found);
+        warnings.extend(examine_checks(&scenario, place, (&description, &mobility), &mut found));
         let faults = clock.as_ref().and_then(|clock| {
             let written = (scenario.fault.as_slice(), place.key("fault"));
             keep_all(&mut found, resolve(written, &description, clock, &scenario.controller.kind))
@@ -181,7 +182,7 @@ impl RunSetup {
             return Err(found.into_vec());
         }
         write_out(&mut scenario, &description, (&clock, &start, folder));
-        let check_lines = (0..scenario.check.len()).map(|at| place.key("check").item(at).line()).collect();
+        let check_lines = (0..own_checks).map(|at| place.key("check").item(at).line()).collect();
         let Actuation { controller, resistances, sensors, mut payloads } = actuation;
         payloads.extend(held);
         Ok(Self {
@@ -236,14 +237,17 @@ impl RunSetup {
 
     /// The checks, each before its first sample.
     pub fn checks(&self) -> Vec<RunningCheck<'_>> {
-        let checks = self.scenario.check.iter().zip(&self.check_lines);
         let context = CheckContext {
             description: &self.description,
             clock: &self.clock,
             payloads: &self.payloads,
             dynamics: self.declared_dynamics(),
         };
-        checks.map(|(check, &line)| RunningCheck::new(check, line, &context)).collect()
+        let running = |(at, check)| match self.check_lines.get(at) {
+            Some(&line) => RunningCheck::new(check, line, &context),
+            None => RunningCheck::by_default(check, &context),
+        };
+        self.scenario.check.iter().enumerate().map(running).collect()
     }
 
     /// How each obstacle moves.
@@ -280,31 +284,6 @@ fn trajectory(
 /// The time of the motions as far as the scenario says it; a second for each that does not.
 fn written_s(scenario: &Scenario) -> f64 {
     scenario.motion.iter().map(|motion| motion.duration_s().unwrap_or(1.0)).sum()
-}
-
-/// Keeps what is wrong with the checks, and with what the scenario expects of them, in `found`.
-fn examine_checks(
-    scenario: &Scenario,
-    place: FilePlace<'_>,
-    (description, mobility): (&RobotDescription, &[ObstacleMobility]),
-    found: &mut Diagnostics,
-) {
-    found.keep(paired_with_checks(&scenario.zone, &scenario.check, place));
-    for (index, check) in scenario.check.iter().enumerate() {
-        let around = (description, scenario.obstacle.as_slice(), mobility);
-        found.keep(RunningCheck::examine(check, place.key("check").item(index), around));
-    }
-    found.extend(unexpected(scenario, place.key("expect")));
-    if needs_shapes(scenario) {
-        keep_all(found, description.for_use(Use::Clearance));
-    }
-}
-
-/// Whether distances or contacts decide something: without obstacles nothing can be touched.
-fn needs_shapes(scenario: &Scenario) -> bool {
-    let measures =
-        |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Contact | CheckKind::Zone);
-    !scenario.obstacle.is_empty() || scenario.check.iter().any(measures)
 }
 
 /// The value of `result`; its faults are kept in `findings`.
@@ -377,23 +356,5 @@ fn start_warnings<'a>(start: &'a RobotQ, robot: &'a Robot) -> impl Iterator<Item
                 )
                 .with_help("name it under [start]")
         })
-    })
-}
-
-/// Checks that are expected to fail must be the scenario's.
-fn unexpected<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator<Item = Diagnostic> + 'a {
-    let named: &[CheckKind] = match &scenario.expect {
-        Expectation::Pass => &[],
-        Expectation::Fail { checks } => checks,
-    };
-    named.iter().enumerate().filter_map(move |(index, &kind)| {
-        if scenario.check.iter().any(|check| check.kind() == kind) {
-            return None;
-        }
-        let word = kind.word();
-        let message = format!("check \"{word}\" is expected to fail, but the scenario has none");
-        let error = Diagnostic::error("scenario::expect", message)
-            .with_help(format!("add a [[check]] with kind = \"{word}\""));
-        Some(place.key("checks").item(index).mark(error))
     })
 }

@@ -299,6 +299,8 @@ impl Context<'_> {
         let results = checks.iter().map(|check| CheckResult {
             check: check.check,
             line: check.line,
+            // The checks of a scenario file have lines.
+            is_default: check.line.is_none(),
             status: check.status,
             samples: 0,
             measures: Vec::new(),

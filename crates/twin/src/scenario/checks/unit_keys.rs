@@ -1,6 +1,6 @@
 //! Values of a check that a file gives in one of two units.
 
-use congruent_description::{Diagnostic, units::Unit};
+use congruent_description::{Diagnostic, ToleranceScale, units::Unit};
 
 use crate::scenario::place::FilePlace;
 
@@ -50,6 +50,17 @@ impl UnitKeys {
         let message = format!("the check has no `{si}`");
         let error = Diagnostic::error("scenario::no_limit", message);
         Err(place.mark(error.with_help(format!("give `{si}` or `{engineering}`"))))
+    }
+
+    /// What is wrong with a tolerance for a robot of this scale, at its place.
+    pub(crate) fn examine_tolerance(
+        &self,
+        place: FilePlace<'_>,
+        scale: ToleranceScale,
+    ) -> Option<Diagnostic> {
+        let [si, engineering] = self.keys;
+        let key = if self.written[0].is_some() { si } else { engineering };
+        Some(place.key(key).mark(scale.examine(self.unit, key, self.value()?)?))
     }
 
     /// Refuses a value that is given in both units.

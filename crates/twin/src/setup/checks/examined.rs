@@ -1,0 +1,62 @@
+//! Whether the checks of a scenario, and what it expects of them, are consistent with its robot.
+
+use congruent_description::{Diagnostic, Diagnostics, RobotDescription, Use};
+
+use super::tolerances::tolerances;
+use crate::{
+    monitor::RunningCheck,
+    proximity::ObstacleMobility,
+    scenario::{Check, CheckKind, Expectation, FilePlace, Scenario},
+    setup::surroundings::paired_with_checks,
+};
+
+/// Keeps what is wrong with the checks, and with what the scenario expects of them, in `found`; returns warnings.
+pub(in crate::setup) fn examine_checks(
+    scenario: &Scenario,
+    place: FilePlace<'_>,
+    (description, mobility): (&RobotDescription, &[ObstacleMobility]),
+    found: &mut Diagnostics,
+) -> Vec<Diagnostic> {
+    found.keep(paired_with_checks(&scenario.zone, &scenario.check, place));
+    for (index, check) in scenario.check.iter().enumerate() {
+        let around = (description, scenario.obstacle.as_slice(), mobility);
+        found.keep(RunningCheck::examine(check, place.key("check").item(index), around));
+    }
+    let scale = description.tolerance_scale();
+    let mut warnings = Vec::new();
+    for (index, check) in scenario.check.iter().enumerate() {
+        let (wrong, wide) = tolerances(check, place.key("check").item(index), scale);
+        found.extend(wrong);
+        warnings.extend(wide);
+    }
+    found.extend(unexpected(scenario, place.key("expect")));
+    if needs_shapes(scenario) {
+        found.extend(description.for_use(Use::Clearance).err().into_iter().flatten());
+    }
+    warnings
+}
+
+/// Whether distances or contacts decide something: without obstacles nothing can be touched.
+fn needs_shapes(scenario: &Scenario) -> bool {
+    let measures =
+        |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Contact | CheckKind::Zone);
+    !scenario.obstacle.is_empty() || scenario.check.iter().any(measures)
+}
+
+/// Checks that are expected to fail must be the scenario's.
+fn unexpected<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator<Item = Diagnostic> + 'a {
+    let named: &[CheckKind] = match &scenario.expect {
+        Expectation::Pass => &[],
+        Expectation::Fail { checks } => checks,
+    };
+    named.iter().enumerate().filter_map(move |(index, &kind)| {
+        if scenario.check.iter().any(|check| check.kind() == kind) {
+            return None;
+        }
+        let word = kind.word();
+        let message = format!("check \"{word}\" is expected to fail, but the scenario has none");
+        let error = Diagnostic::error("scenario::expect", message)
+            .with_help(format!("add a [[check]] with kind = \"{word}\""));
+        Some(place.key("checks").item(index).mark(error))
+    })
+}
