@@ -63,7 +63,11 @@ fn a_check_of_the_scenario_takes_the_place_of_a_default_one() {
     let wide = "[[check]]\nkind = \"tracking\"\npath_deg = 170.0\n";
     let answer = run(&bench, &[STIFF, TURN, AGREEMENT, wide]);
     assert_eq!((answer.code, check(&answer, "tracking")), (0, Some((false, "pass".to_owned()))));
-    assert!(answer.stderr.is_empty() || answer.stderr.contains("tolerance::wide"), "{}", answer.stderr);
+    assert!(
+        answer.stderr.is_empty() || answer.stderr.contains("is more than a tenth of half a turn"),
+        "{}",
+        answer.stderr
+    );
     let kinds = |answer: &Answer| answer.json()["checks"].as_array().unwrap().len();
     assert_eq!(kinds(&answer), 3, "agreement, tracking, and limits by default");
     // What was checked by default is written, and checked again.

@@ -88,7 +88,7 @@ fn run(servo: &Servo<'_>) -> Reached {
          [[motion]]\nservo_tcp = {target}\nmethod = {method:?}\ngain_per_s = {gain:?}\nduration_s = {duration:?}\n\
          [[check]]\nkind = \"agreement\"\nposition_m = 1e-9\norientation_rad = 1e-9\n\
          [[check]]\nkind = \"limits\"\n\
-         [[check]]\nkind = \"goal\"\ntcp = {{ xyz_m = [0, 0, 0] }}\nposition_m = 100\n",
+         [[check]]\nkind = \"goal\"\ntcp = {{ xyz_m = [0, 0, 0] }}\nposition_m = 1.28\n",
         robot = text(&workspace().join("robots/rrr_arm")),
         joints = joints.collect::<Vec<_>>().join(", "),
         controller = servo.controller,

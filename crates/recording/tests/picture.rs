@@ -259,7 +259,13 @@ fn lanes_of_failed_checks_come_first() {
     lanes.dedup();
     assert_eq!(
         lanes,
-        ["/status/fail/tracking", "/status/pass/agreement", "/status/pass/dynamics", "/status/pass/power"],
+        [
+            "/status/fail/tracking",
+            "/status/pass/agreement",
+            "/status/pass/dynamics",
+            "/status/pass/limits",
+            "/status/pass/power"
+        ],
         "the viewer orders lanes by path"
     );
     let summary = &run.texts("/summary", "TextDocument:text")[0];

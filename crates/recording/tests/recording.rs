@@ -8,6 +8,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use congruent_description::{FileAccess, RosPackages};
 use congruent_recording::{
     EntitySummary, InspectError, RecordingSummary, RerunFormat, RerunRecorder, ScalarSummary, inspect,
 };
@@ -82,7 +83,8 @@ fn scenario(folder: &Folder, robot: &str) -> RunSetup {
 fn load(folder: &Folder, text: &str) -> RunSetup {
     let path = folder.file("scenario.toml");
     fs::write(&path, text).unwrap();
-    RunSetup::load(&path, &[]).unwrap()
+    let access = FileAccess::new(RosPackages::default(), &[repository()]).unwrap();
+    RunSetup::load_with(&path, &[], &access).unwrap()
 }
 
 /// Runs a scenario; returns its report and the path of its recording.

@@ -1,10 +1,8 @@
-//! Distances between links, from links to obstacles, and from links to forbidden zones, as they
-//! change along a run.
+//! Distances between links, from links to obstacles, and from links to forbidden zones, as they change along a run.
 //!
-//! An exact distance costs more than a physics step, so each pair keeps a lower bound, and is measured again only if
-//! that does not decide the question. The bound shrinks by how far the two bodies have moved: first by the way that
-//! each has gone, which costs nothing for each pair, and if that does not suffice by how far they have moved against
-//! each other since the last exact distance.
+//! An exact distance costs more than a physics step, so each pair keeps a lower bound, and is measured again only if that
+//! does not decide the question. The bound shrinks by how far the two bodies have moved: first by the way that each has gone,
+//! which costs nothing for each pair, and if need be by how far they have moved against each other since the last distance.
 
 use congruent_description::{Link, RobotDescription, Shape};
 use congruent_simulation::Obstacle;
