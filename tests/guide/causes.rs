@@ -49,7 +49,9 @@ fn examples(name: &str, first_of: impl Fn(&Value) -> Value) -> BTreeSet<String> 
                 continue;
             }
             let answer = sandbox.run(&format!("{} --format json", command.text.trim()));
-            let report: Value = serde_json::from_str(&answer.printed).unwrap();
+            // Warnings follow the document.
+            let mut documents = serde_json::Deserializer::from_str(&answer.printed).into_iter::<Value>();
+            let report = documents.next().unwrap().unwrap();
             let mut found = BTreeSet::new();
             named(&first_of(&report), &mut found);
             let heading = heading.clone().unwrap_or_default();

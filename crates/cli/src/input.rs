@@ -49,7 +49,7 @@ pub(crate) struct AccessArguments {
     ros_packages: bool,
     /// Open files in this folder as well if a scenario, a robot file or a URDF names them. Without it these are files of
     /// the project: the nearest folder at or above the given file with package.xml or .git, or else the folder above
-    /// its own. May be given several times.
+    /// its own, or the current folder if that is higher. May be given several times.
     #[arg(long, value_name = "DIR")]
     allow: Vec<PathBuf>,
 }

@@ -24,8 +24,8 @@ const MARKS: [&str; 2] = ["package.xml", ".git"];
 ///
 /// What a person names, on the command line or in a call, is opened wherever it is. What a scenario or a robot file names
 /// is opened only inside the project of the first file, with symbolic links resolved: the nearest folder at or above it
-/// that holds `package.xml` or `.git`, or else the folder above its own, but never `/` or the home folder. Other folders are
-/// opened if a person allows them.
+/// that holds `package.xml` or `.git`, or else the folder above its own, or the current folder if that is higher above it, but
+/// never `/` or the home folder. Other folders are opened if a person allows them.
 #[derive(Debug, Clone, Default)]
 pub struct FileAccess {
     ros: RosPackages,
@@ -79,7 +79,10 @@ impl FileAccess {
     pub fn of_file(&self, file: &Path) -> Result<Self, Diagnostic> {
         let project = match &self.project {
             Some(project) => project.clone(),
-            None => project_folder(&real_folder(file)?, &MARKS),
+            None => {
+                let current = std::env::current_dir().and_then(|current| current.canonicalize()).ok();
+                project_folder(&real_folder(file)?, &MARKS, current.as_deref())
+            }
         };
         Ok(Self { project: Some(project), ..self.clone() })
     }

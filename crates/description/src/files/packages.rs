@@ -50,7 +50,7 @@ impl Packages {
         access: &FileAccess,
     ) -> io::Result<Self> {
         let urdf_folder = urdf_folder.canonicalize()?;
-        let own = project_folder(&urdf_folder, &MARKS);
+        let own = project_folder(&urdf_folder, &MARKS, None);
         // Never wider than the project of the file that names the URDF.
         let around = access.project().filter(|project| project.starts_with(&own));
         let project_folder = around.map_or(own, Path::to_owned);
