@@ -77,12 +77,11 @@ impl FileAccess {
     /// # Errors
     /// Its folder cannot be read.
     pub fn of_file(&self, file: &Path) -> Result<Self, Diagnostic> {
-        let project = match &self.project {
-            Some(project) => project.clone(),
-            None => {
-                let current = std::env::current_dir().and_then(|current| current.canonicalize()).ok();
-                project_folder(&real_folder(file)?, &MARKS, current.as_deref())
-            }
+        let project = if let Some(project) = &self.project {
+            project.clone()
+        } else {
+            let current = std::env::current_dir().and_then(|current| current.canonicalize()).ok();
+            project_folder(&real_folder(file)?, &MARKS, current.as_deref())
         };
         Ok(Self { project: Some(project), ..self.clone() })
     }
