@@ -190,3 +190,25 @@ fn every_robot_says_where_its_figures_come_from() {
         }
     }
 }
+
+/// Each statement of SECURITY.md names tests, which are somewhere in the workspace.
+#[test]
+fn statements_on_security_are_tested() {
+    let sources: Vec<String> = all_sources().into_iter().map(|(_, text)| text).collect();
+    let is_test = |name: &str| {
+        let start = format!("fn {name}()");
+        sources.iter().any(|text| text.contains(&start))
+    };
+    let text = read(&root().join("SECURITY.md"));
+    let is_statement = |line: &&str| line.starts_with("| ") && !line.ends_with("| Test |");
+    let mut statements = text.lines().filter(is_statement).peekable();
+    assert!(statements.peek().is_some());
+    for statement in statements {
+        let (_, column) = statement.trim_end_matches(['|', ' ']).rsplit_once('|').expect("two columns");
+        let names: Vec<&str> = column.split('`').skip(1).step_by(2).collect();
+        assert!(!names.is_empty(), "no test: {statement}");
+        for name in names {
+            assert!(is_test(name), "{name} is no test: {statement}");
+        }
+    }
+}

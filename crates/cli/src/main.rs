@@ -23,6 +23,7 @@ mod progress;
 mod recording;
 mod run;
 mod schema;
+mod status_colour;
 mod table;
 mod terminal_text;
 

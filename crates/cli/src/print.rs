@@ -16,6 +16,7 @@ use serde::Serialize;
 use crate::{
     failure::Failure,
     layout::{columns, fitted},
+    status_colour::with_coloured_status,
     terminal_text::{Colours, for_people, for_programs, shown, with_visible_lines},
 };
 
@@ -139,7 +140,8 @@ impl Printer {
             Some(columns) => fitted(&text, columns),
             None => text,
         };
-        self.verbatim(document, |document| within(text(document)))
+        let in_colour = |text: String| if is_coloured() { with_coloured_status(&text) } else { text };
+        self.verbatim(document, |document| in_colour(within(text(document))))
     }
 
     /// The same for a text that is a file, of which no line is broken.

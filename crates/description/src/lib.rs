@@ -43,7 +43,7 @@ pub use model::{
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces,
     InertialPoint, RobotFilePlaces, RowKey, ValuePlace, dh_section, relative_path, robot_file_schema,
-    robot_file_text, robot_file_values, toml_string,
+    robot_file_text, robot_file_values, toml_key, toml_string,
 };
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use visible::{hidden_character, is_hidden, visible, visible_lines};

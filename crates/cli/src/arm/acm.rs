@@ -3,7 +3,10 @@
 use std::{fmt::Write, path::PathBuf};
 
 use congruent::{
-    description::{Diagnostic, Use, display::length},
+    description::{
+        Diagnostic, Use,
+        display::{counted, length},
+    },
     kinematics::Sampling,
     twin::proximity::{DisableReason, DisabledPairs, srdf_text, suggest_disabled},
 };
@@ -87,7 +90,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
 /// How many pairs have which reason, and what to look at before the SRDF is used.
 fn summary(pairs: &DisabledPairs) -> String {
     let mut text = String::new();
-    let _ = writeln!(text, "{}: {} pairs of {} links with a shape", pairs.robot, pairs.pairs, pairs.links);
+    let (of_links, links) = (counted(pairs.pairs, "pair"), counted(pairs.links, "link"));
+    let _ = writeln!(text, "{}: {of_links} of {links} with a shape", pairs.robot);
     if pairs.pairs == 0 {
         return text + "  nothing to look at: no SRDF is made\n";
     }

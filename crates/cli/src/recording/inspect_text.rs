@@ -8,7 +8,7 @@ use congruent::{
         Basis, CheckSummary, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity, RecordingSummary,
         TimelineSummary,
     },
-    twin::verdict::Status,
+    twin::{report::share_in_full, verdict::Status},
 };
 
 use crate::table::paragraph;
@@ -60,7 +60,7 @@ fn push_check(text: &mut String, check: &CheckSummary) {
     for of in &check.quantities {
         let (worst, time) = (shown(of.worst, &of.unit), quantity(of.worst_s, "s"));
         let subject = of.subject.as_ref().map(|subject| format!(" at {subject}")).unwrap_or_default();
-        let (bound, limit) = (of.bound.words(), quantity(of.limit, &of.unit));
+        let (bound, limit) = (of.bound.words(), share_in_full(of.limit, &of.unit));
         let line = format!("{} {worst}{subject} ({time}), {bound} {limit}", words(&of.quantity));
         let _ = writeln!(text, "    {line}");
     }
@@ -127,7 +127,7 @@ fn push_rechecked(text: &mut String, check: &RecheckedCheck) {
 
 /// The limit, and that of the run if it was another.
 fn limit(of: &RecheckedQuantity) -> String {
-    let shown = |limit: f64| quantity(limit, &of.unit);
+    let shown = |limit: f64| share_in_full(limit, &of.unit);
     let is_same = of.limit.to_bits() == of.recorded_limit.to_bits();
     let before = if is_same { String::new() } else { format!(" (in the run {})", shown(of.recorded_limit)) };
     format!("{} {}{before}", of.bound.words(), shown(of.limit))

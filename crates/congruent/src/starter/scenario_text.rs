@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, fmt::Write};
 
-use congruent_description::{RobotDescription, toml_string};
+use congruent_description::{RobotDescription, toml_key, toml_string};
 use congruent_twin::scenario::{Check, JointMotion, MotionSettings, Scenario, TrackingCheck};
 
 use super::written::comment;
@@ -79,19 +79,12 @@ fn joint_motion(text: &mut String, description: &RobotDescription, (motion, abou
 fn by_name(text: &mut String, description: &RobotDescription, keys: [(&str, &BTreeMap<String, f64>); 2]) {
     for (key, values) in keys {
         let names = description.robot.movable_joint_names();
-        let entries: Vec<String> = names
-            .filter_map(|name| Some(format!("{} = {:?}", bare_or_quoted(name), values.get(name)?)))
-            .collect();
+        let entries: Vec<String> =
+            names.filter_map(|name| Some(format!("{} = {:?}", toml_key(name), values.get(name)?))).collect();
         if !entries.is_empty() {
             let _ = writeln!(text, "{key} = {{ {} }}", entries.join(", "));
         }
     }
-}
-
-/// A key of TOML.
-fn bare_or_quoted(name: &str) -> String {
-    let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
-    if !name.is_empty() && name.chars().all(is_bare) { name.to_owned() } else { toml_string(name) }
 }
 
 /// The keys of a check, and what it is for.

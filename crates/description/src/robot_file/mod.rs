@@ -12,7 +12,7 @@ mod written;
 pub(crate) use check::{Declared, check};
 pub use inertials::{DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces, InertialPoint};
 pub use places::{ConstantKey, ConstantPart, RobotFilePlaces, RowKey, ValuePlace};
-pub use write::{dh_section, relative_path, robot_file_text, robot_file_values, toml_string};
+pub use write::{dh_section, relative_path, robot_file_text, robot_file_values, toml_key, toml_string};
 pub(crate) use written::WrittenRobot;
 pub use written::robot_file_schema;
 

@@ -69,7 +69,7 @@ pub fn robot_file_values(
     values.extend(description.tip_from_tcp.as_ref().map(|tip_from_tcp| ("tcp", transform(tip_from_tcp))));
     let packages = description.named_files.packages.iter();
     let packages: Vec<String> =
-        packages.map(|(name, path)| format!("{} = {}", toml_string(name), named(path))).collect();
+        packages.map(|(name, path)| format!("{} = {}", toml_key(name), named(path))).collect();
     if !packages.is_empty() {
         values.push(("packages", format!("{{ {} }}", packages.join(", "))));
     }
@@ -95,6 +95,12 @@ pub fn relative_path(folder: &Path, path: &Path) -> String {
 /// A string as TOML.
 pub fn toml_string(text: &str) -> String {
     toml::Value::from(text).to_string()
+}
+
+/// A name as a key of TOML: quoted if need be, and in one line, which strings with quotes are not.
+pub fn toml_key(name: &str) -> String {
+    let line = toml::Table::from_iter([(name.to_owned(), toml::Value::from(0))]).to_string();
+    line.trim_end().trim_end_matches("= 0").trim_end().to_owned()
 }
 
 fn angle(quantity: &str, angle_rad: f64) -> String {
@@ -126,6 +132,19 @@ fn is_identity(pose: &Isometry3<f64>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn keys_are_bare_or_in_one_line() {
+        let names =
+            ["a-1", "", "a b", "q\"'2", "\\", "line\nbreak", "\u{7f}", "'''\"\"\"", "gr\u{f6}\u{df}e = 0"];
+        for name in names {
+            let key = toml_key(name);
+            assert!(!key.contains('\n'), "{key}");
+            let table: toml::Table = format!("{key} = 1").parse().unwrap();
+            assert_eq!(table.keys().next().unwrap(), name);
+        }
+        assert_eq!(toml_key("a-1"), "a-1");
+    }
 
     #[test]
     fn paths_lead_from_the_folder_to_the_file() {

@@ -75,9 +75,9 @@ fn cells(measure: &Measure, at: &Pointer) -> Markup {
     };
     let at_worst = at.key("worst");
     html! {
-        td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown(measure, worst))) }
+        td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown(measure, worst))) (bar(measure, worst.value)) }
         td data-label="limit" { (limit(measure, at)) }
-        td data-label="margin" { (margin_words(measure, worst.value)) (bar(measure, worst.value)) }
+        td data-label="margin" { (margin_words(measure, worst.value)) }
         td data-label="where" { (worst.subject) }
         td data-label="when" {
             (value(&at_worst.key("time_s"), worst.time_s, &quantity(worst.time_s, "s")))

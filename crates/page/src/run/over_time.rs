@@ -1,9 +1,8 @@
 //! Errors of the links, distances and tracking over time.
 
 use congruent_agreement::compare::PoseSource;
-use congruent_description::display::quantity;
 use congruent_twin::{
-    report::RunReport,
+    report::{RunReport, share_in_full},
     scenario::CheckKind,
     verdict::{CheckResult, Measure, Status},
 };
@@ -118,7 +117,7 @@ fn limits(report: &RunReport, is_chosen: impl Fn(CheckKind, &Measure) -> bool) -
     let mut limits: Vec<Limit> = Vec::new();
     for check in &report.checks {
         for measure in check.measures.iter().filter(|measure| is_chosen(check.check, measure)) {
-            let name = format!("{} {}", measure.bound.words(), quantity(measure.limit, measure.unit));
+            let name = format!("{} {}", measure.bound.words(), share_in_full(measure.limit, measure.unit));
             if !limits.iter().any(|limit| limit.name == name) {
                 limits.push(Limit { name, value: measure.limit });
             }

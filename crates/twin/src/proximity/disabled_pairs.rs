@@ -145,7 +145,8 @@ pub fn suggest_disabled(
             shapes.approach(robot, candidate)?;
         }
     }
-    Ok(report(description, sampling, &candidates))
+    let links = shapes.hulls.iter().filter(|hulls| !hulls.is_empty()).count();
+    Ok(report(description, sampling, (links, &candidates)))
 }
 
 /// The links with their shapes at one configuration.
@@ -316,7 +317,11 @@ fn default_position(robot: &Robot) -> RobotQ {
     q
 }
 
-fn report(description: &RobotDescription, sampling: Sampling, candidates: &[Candidate]) -> DisabledPairs {
+fn report(
+    description: &RobotDescription,
+    sampling: Sampling,
+    (links, candidates): (usize, &[Candidate]),
+) -> DisabledPairs {
     let robot = &description.robot;
     let names = |pair: [LinkIndex; 2]| pair.map(|link| robot.link(link).name.clone());
     let suggested = candidates.iter().filter_map(|candidate| {
@@ -327,13 +332,12 @@ fn report(description: &RobotDescription, sampling: Sampling, candidates: &[Cand
             least_m: Some(candidate.least_m).filter(|least_m| least_m.is_finite()),
         })
     });
-    let links: BTreeSet<LinkIndex> = candidates.iter().flat_map(|candidate| candidate.pair).collect();
     DisabledPairs {
         robot: robot.name().to_owned(),
         urdf: description.urdf_path.display().to_string(),
         samples: sampling.samples,
         seed: sampling.seed,
-        links: links.len(),
+        links,
         pairs: candidates.len(),
         suggested: suggested.collect(),
         declared: declared(description, candidates),

@@ -132,7 +132,7 @@ fn beside_limit(value: f64, Measure { limit, unit, .. }: &Measure) -> String {
 }
 
 /// A value; one without unit, of which three digits would lose more than rounding, in full: 1.001.
-fn share_in_full(value: f64, unit: &str) -> String {
+pub fn share_in_full(value: f64, unit: &str) -> String {
     /// As a part of the value. Kind: rounding of products.
     const LOST: f64 = 1e-9;
     let shown = quantity(value, unit);

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use congruent_description::visible;
+use congruent_description::{display::counted, visible};
 
 use super::suite::{TestCase, TestResult, TestSuite};
 
@@ -23,7 +23,7 @@ pub fn step_summary(suites: &[TestSuite]) -> String {
             let _ = write!(text, ", {number} {word}");
         }
     }
-    let _ = writeln!(text, " in {} inputs\n", suites.len());
+    let _ = writeln!(text, " in {}\n", counted(suites.len(), "input"));
     if errors + failures > 0 {
         text.push_str("| input | check | result | what was found | line |\n|---|---|---|---|---|\n");
         rows(&mut text, suites, |result| matches!(result, TestResult::Error(_)));

@@ -8,7 +8,7 @@ use congruent::{
     },
     description::{
         JointKind,
-        display::{number, position, quantity},
+        display::{counted, number, position, quantity},
         serde_name,
     },
 };
@@ -185,10 +185,6 @@ fn of_use(text: &mut String, of: &UseSummary) {
         };
         *text += &paragraph(&format!("{}{names}", missing.what), 4, 6);
     }
-}
-
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 #[cfg(test)]

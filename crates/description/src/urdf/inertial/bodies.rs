@@ -14,6 +14,7 @@ use crate::{
     diagnostic::{Diagnostic, Diagnostics, Use, known_names},
     display::quantity,
     model::{Inertia, LinkIndex, Robot, principal_moments},
+    robot_file::toml_key,
     urdf::node::{element, elements, place, tag},
 };
 
@@ -230,12 +231,7 @@ fn how_to_mend<'a>(links: impl Iterator<Item = (&'a str, bool)>) -> String {
         help.push_str(", or take the nearest possible inertia by these lines of robot.toml:\n[inertia]");
     }
     for name in repairable {
-        let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        let _ = if name.chars().all(is_bare) {
-            write!(help, "\n{name} = \"repair\"")
-        } else {
-            write!(help, "\n{} = \"repair\"", toml::Value::from(name))
-        };
+        let _ = write!(help, "\n{} = \"repair\"", toml_key(name));
     }
     help
 }
