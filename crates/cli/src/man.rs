@@ -3,13 +3,10 @@
 use std::{fs, path::PathBuf};
 
 use clap_mangen::Man;
-use congruent::{description::Diagnostic, twin::results::write_whole};
+use congruent::description::Diagnostic;
 use serde::Serialize;
 
-use crate::{
-    failure::{Failure, unwritable},
-    print::Printer,
-};
+use crate::{failure::Failure, output_file::replace, print::Printer};
 
 /// Manual pages: that of `congruent` on standard output, or one for each command in a folder.
 ///
@@ -56,8 +53,7 @@ pub(crate) fn run(
     let mut files = Vec::new();
     for Page { name, text } in pages(&command)? {
         let file = folder.join(format!("{name}.1"));
-        write_whole(&file, &text)
-            .map_err(|error| unwritable(&error, "choose a folder that can be written with --out"))?;
+        replace("--out", &file, &text, &[])?;
         files.push(file);
     }
     printer.result(&Pages { files, page: None }, |pages| {

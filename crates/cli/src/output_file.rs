@@ -109,8 +109,13 @@ pub(crate) fn refuse_inputs(option: &str, path: &Path, inputs: &[PathBuf]) -> Re
 }
 
 /// Writes what an option asks for, whole; it replaces any file but those of `inputs`.
-pub(crate) fn replace(option: &str, path: &Path, contents: &str, inputs: &[PathBuf]) -> Result<(), Failure> {
+pub(crate) fn replace(
+    option: &str,
+    path: &Path,
+    contents: impl AsRef<[u8]>,
+    inputs: &[PathBuf],
+) -> Result<(), Failure> {
     refuse_inputs(option, path, inputs)?;
     let help = format!("choose a file that can be written with {option}");
-    write_whole(path, contents.as_bytes()).map_err(|error| failure::unwritable(&error, &help))
+    write_whole(path, contents.as_ref()).map_err(|error| failure::unwritable(&error, &help))
 }

@@ -8,7 +8,6 @@ use congruent::{
     twin::{
         RunSetup,
         report::{Reason, TestResult, TestSuite},
-        results::write_whole,
         scenario::Override,
     },
 };
@@ -18,9 +17,9 @@ use super::inspect_text::{sentence, text};
 use crate::{
     batch::{Batch, BatchReport},
     ci::CiArguments,
-    failure::{BAD_INPUT, BROKEN, FAILED, Failure, unwritable, worse},
+    failure::{BAD_INPUT, BROKEN, FAILED, Failure, worse},
     input::AccessArguments,
-    output_file::refuse_inputs,
+    output_file::{refuse_inputs, replace},
     print::Printer,
 };
 
@@ -100,8 +99,7 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
     }
     let (mut summary, scalars) = scalars(path).map_err(unreadable)?;
     if let Some(file) = &arguments.csv {
-        write_whole(file, &scalars_csv(&summary, &scalars))
-            .map_err(|error| unwritable(&error, "choose a file that can be written with --csv"))?;
+        replace("--csv", file, scalars_csv(&summary, &scalars), &[])?;
     }
     let Some(scenario) = &arguments.check else { return Ok(summary) };
     // A file that is damaged or has no verdict shows nothing about its checks.
