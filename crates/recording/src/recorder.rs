@@ -18,7 +18,11 @@ use re_log_types::{StoreId, StoreKind};
 use crate::{
     blueprint::layout::ViewerLayout,
     outcome::{joint_limits, limit_lines::LimitLines, summary, timeline},
-    rrd::{identity, times::SampleTime, writer::RrdWriter},
+    rrd::{
+        identity,
+        times::{SampleTime, stride},
+        writer::RrdWriter,
+    },
     scene::{
         camera::{BoundingBox, Camera, ThinnedPath},
         frames,
@@ -36,9 +40,6 @@ use crate::{
         zones::ZoneSeries,
     },
 };
-
-/// Simulated time between two recorded samples; every step is recorded if steps are longer.
-const PERIOD_S: f64 = 0.01;
 
 /// Writes a recording for the rerun viewer in batches. [`Recording::finish`] completes the file; without it
 /// the recording has neither verdict nor layout, but the samples in it can be read.
@@ -252,25 +253,4 @@ impl RecordingFormat for RerunFormat {
 /// Names of the obstacles that move.
 fn moving_names(setup: &RunSetup) -> Vec<String> {
     setup.bodies.iter().map(|body| setup.obstacles[body.obstacle].name.clone()).collect()
-}
-
-/// Steps between two recorded samples.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a step is positive, and the cast of floats saturates"
-)]
-fn stride(step_s: f64) -> u64 {
-    ((PERIOD_S / step_s).round() as u64).max(1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_hundred_samples_a_second_at_most() {
-        assert_eq!([0.001, 0.002, 0.01, 0.0004, 0.005].map(stride), [10, 5, 1, 25, 2]);
-        assert_eq!(stride(1e-9), 10_000_000);
-    }
 }

@@ -122,6 +122,8 @@ fn take(summary: &mut RecordingSummary, result: Recheck) {
     summary.exit_code = if result.same_limits || before == BROKEN { worse(before, code) } else { code };
     if let Some(first) = result.disagreements.first() {
         summary.reason = format!("the series do not show what the report says: {}", sentence(first));
+    } else if let Some(first) = result.samples.first() {
+        summary.reason = format!("the recording does not have the samples of its run: {first}");
     } else if !result.same_verdict {
         "the limits of this scenario change the verdict".clone_into(&mut summary.reason);
     }

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use congruent::{
     description::{display::quantity, serde_name},
     recording::{
-        Basis, CheckSummary, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity, RecordingSummary,
-        TimelineSummary,
+        Basis, CheckSummary, CheckSums, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity,
+        RecordingSummary, TimelineSummary,
     },
     twin::{report::share_in_full, verdict::Status},
 };
@@ -15,6 +15,8 @@ use crate::table::paragraph;
 
 /// The property that is printed as the verdict.
 const VERDICT: &str = "congruent/verdict";
+/// Of files of other programs.
+const NO_CHECK_SUMS: &str = "none: whether values were damaged cannot be told";
 /// The widest first column; a longer path has a line of its own.
 const PATH_WIDTH: usize = 35;
 
@@ -25,10 +27,12 @@ pub(super) fn text(summary: &RecordingSummary) -> String {
     let duration = summary.duration_s.map_or_else(|| "none".to_owned(), |seconds| quantity(seconds, "s"));
     let verdict = summary.verdict.as_deref().unwrap_or("none");
     let file = format!("{} bytes, {state}", summary.bytes);
-    let heading: [(&str, &str); 6] = [
+    let check_sums = summary.check_sums.as_ref().map_or_else(|| NO_CHECK_SUMS.to_owned(), check_sums);
+    let heading: [(&str, &str); 7] = [
         ("application", &summary.application_id),
         ("recording", &summary.recording_id),
         ("file", &file),
+        ("check sums", &check_sums),
         ("duration", &duration),
         ("verdict", verdict),
         ("reason", &summary.reason),
@@ -53,6 +57,14 @@ pub(super) fn text(summary: &RecordingSummary) -> String {
     push_entities(&mut text, summary);
     push_scalars(&mut text, summary);
     text
+}
+
+/// How many messages are as they were written.
+fn check_sums(of: &CheckSums) -> String {
+    match of.damaged.len() {
+        0 => format!("all {} match", of.intact),
+        damaged => format!("{} match, {damaged} do not", of.intact),
+    }
 }
 
 fn push_check(text: &mut String, check: &CheckSummary) {
@@ -100,8 +112,12 @@ fn push_recheck(text: &mut String, recheck: &Recheck) {
     for disagreement in &recheck.disagreements {
         let _ = writeln!(text, "  DISAGREES: {}", sentence(disagreement));
     }
+    for sample in &recheck.samples {
+        let _ = writeln!(text, "  DISAGREES: {sample}");
+    }
     let verdict = serde_name(&recheck.verdict);
-    let compared = match (recheck.same_verdict, recheck.disagreements.is_empty()) {
+    let agrees = recheck.disagreements.is_empty() && recheck.samples.is_empty();
+    let compared = match (recheck.same_verdict, agrees) {
         (true, true) => "as in the run".to_owned(),
         (true, false) => "as in the run, but the series and the report disagree".to_owned(),
         (false, _) => format!("in the run {}", recheck.recorded_verdict),

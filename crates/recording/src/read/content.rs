@@ -201,6 +201,7 @@ impl RecordingContent {
             recording_id,
             bytes: 0,
             complete: false,
+            check_sums: None,
             problems: std::mem::take(&mut self.problems),
             verdict,
             exit_code: 0,
@@ -249,7 +250,7 @@ impl RecordingContent {
 }
 
 #[expect(clippy::cast_precision_loss, reason = "2^53 nanoseconds are 104 days")]
-fn seconds(nanoseconds: i64) -> f64 {
+pub(super) fn seconds(nanoseconds: i64) -> f64 {
     nanoseconds as f64 / 1e9
 }
 

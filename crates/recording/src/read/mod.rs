@@ -2,6 +2,7 @@
 //! program, complete or cut off. Draws nothing and repairs nothing.
 
 mod content;
+mod damage;
 mod evidence;
 mod frames;
 mod judgement;
@@ -15,7 +16,7 @@ mod table;
 use std::{
     collections::BTreeMap,
     fs::File,
-    io::{self, BufReader, Read, Seek, SeekFrom},
+    io::{self, BufRead, BufReader},
     path::{Path, PathBuf},
 };
 
@@ -23,6 +24,7 @@ use re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHea
 use re_log_types::LogMsg;
 
 use congruent_twin::comparison::Scalars;
+pub use damage::{CheckSums, Damage};
 pub use recheck::{RecheckError, recheck};
 pub use rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity};
 pub use summary::{
@@ -30,7 +32,11 @@ pub use summary::{
 };
 pub use table::scalars_csv;
 
-use self::{content::RecordingContent, frames::Extent, panics::catch_panic};
+use self::{
+    content::RecordingContent,
+    frames::{Frames, Parts},
+    panics::catch_panic,
+};
 
 /// Why a file cannot be read as a recording.
 #[derive(Debug, thiserror::Error)]
@@ -72,13 +78,13 @@ pub enum InspectError {
     },
 }
 
-/// The most unreadable messages that are reported one by one; a corrupt file can have thousands.
+/// The most parts of a file that are reported one by one; a corrupt file can have thousands.
 const MAX_PROBLEMS: usize = 20;
 
 /// The summary of a recording.
 ///
-/// A file that is cut off is read up to its last complete message, which [`RecordingSummary::problems`]
-/// reports.
+/// A file that is cut off is read up to its last complete message, one that is damaged except for what is; both is
+/// reported in [`RecordingSummary::problems`].
 ///
 /// # Errors
 /// [`InspectError`] if there is no recording to read.
@@ -114,26 +120,30 @@ fn read(path: &Path, content: &mut RecordingContent) -> Result<RecordingSummary,
         return Err(InspectError::Empty { path: path.to_owned() });
     }
     let mut file = BufReader::new(File::open(path).map_err(refused)?);
-    let extent = Extent::of(&mut file, metadata.len())
+    let length = metadata.len();
+    let mut frames = Frames::of(&mut file, length)
         .map_err(refused)?
         .map_err(|reason| InspectError::NotARecording { path: path.to_owned(), reason })?;
-    file.seek(SeekFrom::Start(0)).map_err(refused)?;
-    read_messages(file.take(extent.readable), content);
+    let damaged = frames.damaged.iter().map(|range| Damage::of(&mut file, range.clone()));
+    let damaged: Vec<Damage> = damaged.collect::<io::Result<_>>().map_err(refused)?;
+    let problems = frames.problem(length).into_iter().chain(damage::problems(&damaged)).collect::<Vec<_>>();
+    // Each message has a header, which bounds their number.
+    let most = usize::try_from(length).unwrap_or(usize::MAX) / MessageHeader::ENCODED_SIZE_BYTES;
+    let parts = Parts::new(file.into_inner(), std::mem::take(&mut frames.readable));
+    read_messages(BufReader::new(parts), most, content);
     let mut summary = content.summary().ok_or_else(|| InspectError::NoRecording { path: path.to_owned() })?;
-    summary.bytes = metadata.len();
-    summary.complete = extent.is_complete();
-    summary.problems.splice(0..0, extent.problem(metadata.len()));
+    summary.bytes = length;
+    summary.complete = frames.is_complete();
+    summary.check_sums = frames.intact.map(|intact| CheckSums { intact, damaged });
+    summary.problems.splice(0..0, problems);
     (summary.exit_code, summary.reason) = judgement::judge(&summary);
     Ok(summary)
 }
 
-fn read_messages(file: io::Take<BufReader<File>>, content: &mut RecordingContent) {
+fn read_messages(file: impl BufRead, most: usize, content: &mut RecordingContent) {
     let mut applications = CachingApplicationIdInjector::default();
     let mut unreadable = 0_usize;
-    // Each message has a header, which bounds their number.
-    let max_messages = file.limit() / MessageHeader::ENCODED_SIZE_BYTES as u64;
-    let max_messages = usize::try_from(max_messages).unwrap_or(usize::MAX);
-    for message in DecoderTransport::decode_lazy(file).take(max_messages) {
+    for message in DecoderTransport::decode_lazy(file).take(most) {
         let taken = message.map_err(|error| error.to_string()).and_then(|message| {
             lengths::check(&message)?;
             catch_panic(|| {

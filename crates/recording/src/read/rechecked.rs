@@ -33,6 +33,8 @@ pub struct Recheck {
     pub checks: Vec<RecheckedCheck>,
     /// Where the recorded series contradict the recorded report.
     pub disagreements: Vec<Disagreement>,
+    /// Samples that are missing, or at a time at which the run has none: the first of each series.
+    pub samples: Vec<String>,
 }
 
 /// From what a check was evaluated.
@@ -138,7 +140,12 @@ impl Recheck {
     /// of a run that broke or checked nothing.
     pub fn exit_code(&self) -> u8 {
         match self.verdict {
-            _ if !self.disagreements.is_empty() || self.same_limits && !self.same_verdict => 1,
+            _ if !self.disagreements.is_empty()
+                || !self.samples.is_empty()
+                || self.same_limits && !self.same_verdict =>
+            {
+                1
+            }
             verdict => verdict.exit_code(),
         }
     }

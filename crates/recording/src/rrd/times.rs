@@ -8,6 +8,19 @@ pub(crate) const SIM_TIME: &str = "sim_time";
 /// Name of the timeline of steps.
 const STEP: &str = "step";
 
+/// Simulated time between two recorded samples; every step is recorded if steps are longer.
+const PERIOD_S: f64 = 0.01;
+
+/// Steps between two recorded samples.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a step is positive, and the cast of floats saturates"
+)]
+pub(crate) fn stride(step_s: f64) -> u64 {
+    ((PERIOD_S / step_s).round() as u64).max(1)
+}
+
 /// The time of one sample on both timelines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct SampleTime {
@@ -90,5 +103,11 @@ mod tests {
         for step in [0_u32, 1, 3, 999, 1234, 86_400_000] {
             assert_eq!(nanoseconds(f64::from(step) * 0.001), i64::from(step) * 1_000_000);
         }
+    }
+
+    #[test]
+    fn a_hundred_samples_a_second_at_most() {
+        assert_eq!([0.001, 0.002, 0.01, 0.0004, 0.005].map(stride), [10, 5, 1, 25, 2]);
+        assert_eq!(stride(1e-9), 10_000_000);
     }
 }

@@ -9,7 +9,7 @@ use super::scalars::write_scalars;
 use crate::rrd::{paths, writer::RrdWriter};
 
 /// What is recorded of each joint besides its position.
-const QUANTITIES: [&str; 6] =
+pub(crate) const QUANTITIES: [&str; 6] =
     ["velocity", "effort", "reference_position", "reference_velocity", "measured_position", "deviation"];
 /// The coordinates of a recorded pose.
 pub(crate) const COORDINATES: [&str; 7] =

@@ -5,6 +5,7 @@
 //! at the recorded samples, which the checks of the scenario see again (nothing of the run is believed, but steps
 //! between are missing); and the report in the recording, which decides alone only where the others are silent.
 
+mod instants;
 mod replay;
 mod states;
 
@@ -95,6 +96,7 @@ pub fn recheck(
         recorded_verdict,
         checks,
         disagreements,
+        samples: instants::problems(scalars, report, &setup),
     })
 }
 

@@ -136,7 +136,7 @@ fn pose(coordinates: &[f64]) -> Option<Isometry3<f64>> {
     clippy::cast_sign_loss,
     reason = "the cast of floats saturates, and times are not negative"
 )]
-fn steps(time_s: f64, step_s: f64) -> u64 {
+pub(super) fn steps(time_s: f64, step_s: f64) -> u64 {
     (time_s / step_s).round() as u64
 }
 
