@@ -34,7 +34,7 @@ pub use diagnostic::{
 pub use edits::{ChangedLines, TextEdit, changed_lines};
 pub use files::{FileAccess, InputFile, RosPackages, is_standard_input, read_text};
 pub use load::{load_robot, load_robot_with, parse_robot};
-pub use mesh::read_mesh;
+pub use mesh::{HullPoints, read_mesh};
 pub use model::{
     ArmQ, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
     JointLimit, JointParts, JointValues, Link, LinkIndex, Mesh, Mimic, Robot, RobotError, RobotQ, Shape,

@@ -48,7 +48,7 @@ impl AffineMotion {
         Self { constant: identity, first: zeros, second: zeros, origin_displacement: 0.0 }
     }
 
-    fn at(&self, [x, y]: [f64; 2]) -> Matrix4<f64> {
+    pub(super) fn at(&self, [x, y]: [f64; 2]) -> Matrix4<f64> {
         self.constant + self.first * x + self.second * y
     }
 }
@@ -80,19 +80,19 @@ impl FeatureSlot {
             _ => false,
         };
         let fixed = AffineMotion::none();
-        let apart = self.motions.iter().zip(&other.motions).all(|(one, two)| *one == fixed || *two == fixed);
-        self.joint == other.joint && same_rate && apart
+        let mut pairs = self.motions.iter().zip(&other.motions);
+        self.joint == other.joint && same_rate && pairs.all(|(one, two)| *one == fixed || *two == fixed)
     }
 
     fn motions_at(&self, corners: &[Corner]) -> [[Matrix4<f64>; 2]; MAX_CORNERS] {
         let mut motions = [[Matrix4::zeros(); 2]; MAX_CORNERS];
         for (motion, corner) in motions.iter_mut().zip(corners) {
-            *motion = [self.motions[0].at(corner.features), self.motions[1].at(corner.features)];
+            *motion = self.motions.each_ref().map(|motion| motion.at(corner.features));
         }
         motions
     }
 
-    fn corner(&self, position: f64) -> Corner {
+    pub(super) fn corner(&self, position: f64) -> Corner {
         self.rate.map_or_else(|| on_line(position), |rate| on_circle(rate, position, 1.0))
     }
 
@@ -137,9 +137,9 @@ impl FeatureSlot {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct DifferenceNorm {
     /// Base to tip.
-    slots: Vec<FeatureSlot>,
+    pub(super) slots: Vec<FeatureSlot>,
     /// The vectors at the end of the two chains.
-    tips: [Vector4<f64>; 2],
+    pub(super) tips: [Vector4<f64>; 2],
 }
 
 /// The bound over a box, and which joint to split.
@@ -173,7 +173,7 @@ impl DifferenceNorm {
             let taken = |later: usize| {
                 slots[later].corner_of.is_some() || slots.iter().any(|it| it.corner_of == Some(later))
             };
-            let free = |&later: &usize| !taken(later) && slots[index].can_share_corners(&slots[later]);
+            let free = |&later: &usize| slots[index].can_share_corners(&slots[later]) && !taken(later);
             slots[index].corner_of = if taken(index) { None } else { (index + 1..slots.len()).find(free) };
         }
         Self { slots, tips }

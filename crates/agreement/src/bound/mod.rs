@@ -10,6 +10,7 @@ mod common_order;
 mod corner;
 mod difference_norm;
 mod intermediate_chains;
+mod joint_sweep;
 mod search;
 mod simplify;
 mod telescoping;

@@ -1,10 +1,15 @@
 //! The bound from below: a configuration with a large difference, by local search from many starts. Nothing
 //! is random: the starts are a lattice, so the same chains give the same configuration.
 
-use super::{corner::Interval, difference_norm::DifferenceNorm};
+use super::{corner::Interval, difference_norm::DifferenceNorm, joint_sweep::JointSweep};
 
 /// Number of starts besides the middle of the ranges.
-const STARTS: u32 = 16;
+const STARTS: usize = 16;
+/// Fewer of them, but at least [`FEWEST_STARTS`], if starts times joints are more: a start costs as much as its joints.
+/// Kind: speed; chains of so many joints have no bound by corners that a better start would meet.
+const STARTS_TIMES_JOINTS: usize = 640;
+/// See [`STARTS_TIMES_JOINTS`].
+const FEWEST_STARTS: usize = 4;
 /// A local search starts with steps of this part of a range and ends below [`LAST_STEP`].
 const FIRST_STEP: f64 = 0.25;
 /// Smallest step, as part of a range: the difference is flat near a maximum, so its error is the square of
@@ -53,44 +58,35 @@ impl Incumbent {
         if two.norm > one.norm { two } else { one }
     }
 
-    /// Moves one joint at a time as long as that enlarges the difference, in ever smaller steps.
+    /// Moves one joint at a time as long as that enlarges the difference, in ever smaller steps. A round costs as much
+    /// as some evaluations of the difference, whatever the number of joints.
     pub(super) fn ascend(&mut self, difference: &DifferenceNorm, ranges: &[Interval]) {
         let mut step = FIRST_STEP;
         let rounding = difference.rounding(&self.at.iter().map(|&q| (q, q)).collect::<Vec<_>>());
+        let mut sweep = JointSweep::new(difference, &self.at);
         for _ in 0..MAX_ROUNDS {
             if step < LAST_STEP {
-                return;
+                break;
             }
-            let mut improved = false;
-            for (joint, &(lower, upper)) in ranges.iter().enumerate() {
+            let norm = self.norm;
+            sweep.round(&mut self.at, |joint, before, difference_at| {
+                let (lower, upper) = ranges[joint];
                 let reach = step * (upper - lower);
-                let before = self.at[joint];
-                improved |= [reach, -reach].iter().any(|by| {
-                    self.try_move(difference, (joint, (before + by).clamp(lower, upper)), rounding)
-                });
-            }
-            if !improved {
+                let further = [reach, -reach].map(|by| (before + by).clamp(lower, upper));
+                further.into_iter().find(|&position| {
+                    let moved = difference_at(position);
+                    let improves = moved > self.norm * (1.0 + MIN_GAIN) + rounding;
+                    if improves {
+                        self.norm = moved;
+                    }
+                    improves
+                })
+            });
+            if self.norm <= norm {
                 step /= 2.0;
             }
         }
-    }
-
-    /// Moves one joint to `position` if that enlarges the difference by more than rounding.
-    fn try_move(
-        &mut self,
-        difference: &DifferenceNorm,
-        (joint, position): (usize, f64),
-        rounding: f64,
-    ) -> bool {
-        let before = std::mem::replace(&mut self.at[joint], position);
-        let moved = difference.at(&self.at);
-        let improves = moved > self.norm * (1.0 + MIN_GAIN) + rounding;
-        if improves {
-            self.norm = moved;
-        } else {
-            self.at[joint] = before;
-        }
-        improves
+        self.norm = difference.at(&self.at);
     }
 
     /// Bisects towards the middle of the ranges until the difference is `max_norm`: it is continuous, larger
@@ -122,7 +118,8 @@ fn starts(ranges: &[Interval]) -> impl Iterator<Item = Vec<f64>> {
     const ITERATIONS: u32 = 60;
     let root_power = 1.0 / f64::from(u32::try_from(ranges.len()).unwrap_or(u32::MAX).saturating_add(1));
     let root = (0..ITERATIONS).fold(2.0_f64, |x, _| (1.0 + x).powf(root_power));
-    (1..=STARTS).map(move |start| {
+    let count = (STARTS_TIMES_JOINTS / ranges.len().max(1)).clamp(FEWEST_STARTS, STARTS);
+    (1_u32..).take(count).map(move |start| {
         let mut step = 1.0;
         let coordinate = |&(lower, upper): &Interval| {
             step /= root;

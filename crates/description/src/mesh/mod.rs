@@ -3,10 +3,12 @@
 
 mod dae;
 mod format;
+mod hull;
 mod mesh_file;
 mod obj;
 mod stl;
 mod store;
 
+pub use hull::HullPoints;
 pub use store::read_mesh;
 pub(crate) use store::{FindMesh, FoundMesh, MeshStore};

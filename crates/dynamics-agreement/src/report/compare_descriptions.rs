@@ -14,7 +14,7 @@ use crate::{
     compare::{hidden, invariants::invariants, limits},
     diagnosis::{Expected, FaultySide, Setting},
     side::{Inertial, JointTerm, Side},
-    thresholds::{Precision, STATES},
+    thresholds::{MOST_JOINTS, Precision, STATES},
     torque::{
         compressed::{Compressed, torques},
         states::random_states,
@@ -34,6 +34,14 @@ pub enum CompareError {
     /// Nothing moves.
     #[error("no joint moves: there is no joint torque to compare")]
     NoJoint,
+    /// The comparison would take too long.
+    #[error(
+        "{joints} joints move, and what joint torques tell is compared for at most {MOST_JOINTS}: it takes a time that grows with their cube"
+    )]
+    TooManyJoints {
+        /// How many.
+        joints: usize,
+    },
     /// A parameter is no number, or so large that torques overflow.
     #[error(
         "{what} = {value:e} is not finite, or beyond what torques can be computed with ({LARGEST_NUMBER:e})"
@@ -178,11 +186,18 @@ pub fn certify(
 /// For each joint of the candidate the reference's of that name, if torques can be computed at all.
 fn comparable(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareError> {
     let joints = matched(candidate, reference)?;
-    if joints.is_empty() {
-        return Err(CompareError::NoJoint);
-    }
+    check_count(joints.len())?;
     [candidate, reference].into_iter().try_for_each(check_numbers)?;
     Ok(joints)
+}
+
+/// Refuses a robot on which nothing moves, or too much.
+pub(super) fn check_count(joints: usize) -> Result<(), CompareError> {
+    match joints {
+        0 => Err(CompareError::NoJoint),
+        1..=MOST_JOINTS => Ok(()),
+        _ => Err(CompareError::TooManyJoints { joints }),
+    }
 }
 
 fn matched(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareError> {

@@ -1,7 +1,7 @@
 //! A description against a source of accelerations that was built from it, such as a physics engine.
 
 use super::{
-    compare_descriptions::{CompareError, check_numbers},
+    compare_descriptions::{CompareError, check_count, check_numbers},
     content::{DynamicsPremise, DynamicsReport, Sides},
     places::Files,
     told::{NamedSide, Told},
@@ -29,9 +29,7 @@ pub fn compare_with_source(
     (name, source): (&str, &mut dyn AccelerationSource),
     probing: Probing,
 ) -> Result<DynamicsReport, CompareError> {
-    if candidate.side.frames.dof() == 0 {
-        return Err(CompareError::NoJoint);
-    }
+    check_count(candidate.side.frames.dof())?;
     check_numbers(candidate.side)?;
     let states = random_states(&candidate.side.frames, probing.seed, STATES);
     let (states, torques) = probed(candidate.side, source, states, probing.step_s)

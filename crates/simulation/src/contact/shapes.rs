@@ -1,7 +1,7 @@
 //! Contacts: links against obstacles, never links against links. Shapes have no mass; mass comes from the
 //! description's inertias only.
 
-use congruent_description::{Geometry, Robot};
+use congruent_description::{Geometry, HullPoints, Robot};
 use rapier3d_f64::prelude::{
     Collider, ColliderBuilder, Group, InteractionGroups, InteractionTestMode, Pose, Rotation, SharedShape,
 };
@@ -67,7 +67,7 @@ fn shaped(
         }
         Geometry::Mesh(mesh) if mesh.vertices_m.is_empty() => return Ok(None),
         Geometry::Mesh(mesh) => {
-            let hull = SharedShape::convex_hull(&adapter::points(&mesh.vertices_m));
+            let hull = SharedShape::convex_hull(&adapter::points(&HullPoints::of(&mesh.vertices_m).points_m));
             (hull.ok_or_else(|| SimulationError::Shape { owner: owner() })?, pose)
         }
     };

@@ -1,9 +1,10 @@
 //! The one file that names parry: convex hulls and exact distances between them.
 //!
 //! Meshes are taken as their convex hulls, which contain them: a distance between hulls is never
-//! larger than the distance between the meshes.
+//! larger than the distance between the meshes. A hull of very many points is a little smaller than its mesh
+//! ([`HullPoints`]); what it leaves out is taken off every distance.
 
-use congruent_description::{Geometry, Shape};
+use congruent_description::{Geometry, HullPoints, Mesh, Shape};
 use nalgebra::{Isometry3, Point3};
 use parry3d_f64::{
     math::{Pose, Rotation, Vector},
@@ -38,6 +39,8 @@ struct Hull {
     form: SharedShape,
     /// Radius of a ball about its own origin that contains it.
     radius_m: f64,
+    /// How far the shape may reach out of the form.
+    left_out_m: f64,
 }
 
 /// Why a query never fails.
@@ -60,12 +63,12 @@ impl Hulls {
     pub fn new(subject: &str, shapes: &[Shape]) -> Result<Self, ProximityError> {
         let mut hulls = Self { shapes: Vec::with_capacity(shapes.len()), radius_m: 0.0 };
         for shape in shapes {
-            let Some(Convex { shape_from_local, form, radius_m }) = convex(subject, &shape.geometry)? else {
+            let Some(mut hull) = convex(subject, &shape.geometry)? else {
                 continue;
             };
-            let link_from_local = pose(&shape.link_from_shape) * shape_from_local;
-            hulls.radius_m = hulls.radius_m.max(link_from_local.translation.length() + radius_m);
-            hulls.shapes.push(Hull { link_from_local, form, radius_m });
+            hull.link_from_local = pose(&shape.link_from_shape) * hull.link_from_local;
+            hulls.radius_m = hulls.radius_m.max(hull.link_from_local.translation.length() + hull.radius_m);
+            hulls.shapes.push(hull);
         }
         Ok(hulls)
     }
@@ -78,6 +81,11 @@ impl Hulls {
     /// Radius of a ball about the link's origin that contains every shape.
     pub fn radius_m(&self) -> f64 {
         self.radius_m
+    }
+
+    /// How far the meshes may reach out of their hulls, which is taken off every distance: 0 for hulls of few points.
+    pub fn left_out_m(&self) -> f64 {
+        self.shapes.iter().map(|shape| shape.left_out_m).fold(0.0, f64::max)
     }
 
     /// Distance to other hulls that stand at pose `self_from_other`; 0 if they touch or overlap.
@@ -96,6 +104,7 @@ impl Hulls {
         self.smallest(other, self_from_other, most_m, |between, a, b| {
             query::distance(&Pose::IDENTITY, a, between, b).map(|nearest| nearest.distance)
         })
+        .max(0.0)
     }
 
     /// Like [`Hulls::distance_m`], but negative if they overlap: minus the depth.
@@ -146,7 +155,7 @@ impl Hulls {
                     continue;
                 }
                 let apart = distance(&a_from_b, &*a.form, &*b.form).expect(ANSWERS);
-                smallest = smallest.min(apart);
+                smallest = smallest.min(apart - a.left_out_m - b.left_out_m);
             }
         }
         smallest
@@ -179,15 +188,10 @@ fn nearest_points(a: &Hull, a_from_b: &Pose, b: &Hull) -> Option<NearestPoints> 
     Some(NearestPoints { distance_m: contact.dist, points })
 }
 
-/// A convex shape with the radius of a ball about its own origin that contains it.
-struct Convex {
-    shape_from_local: Pose,
-    form: SharedShape,
-    radius_m: f64,
-}
-
-fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Convex>, ProximityError> {
-    let mut shape_from_local = Pose::IDENTITY;
+/// A convex shape in the frame of the given one; `None` for a mesh that is empty.
+fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Hull>, ProximityError> {
+    let mut link_from_local = Pose::IDENTITY;
+    let mut left_out_m = 0.0;
     let (form, radius_m) = match geometry {
         Geometry::Box { size_m } => {
             let half = Vector::new(size_m.x / 2.0, size_m.y / 2.0, size_m.z / 2.0);
@@ -195,7 +199,7 @@ fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Convex>, Proximit
         }
         Geometry::Cylinder { radius_m, length_m } => {
             // parry's cylinder stands along y, the description's along z.
-            shape_from_local =
+            link_from_local =
                 Pose::from_parts(Vector::ZERO, Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2));
             let upright = SharedShape::new(Cylinder::new(length_m / 2.0, *radius_m));
             (upright, radius_m.hypot(length_m / 2.0))
@@ -203,14 +207,21 @@ fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Convex>, Proximit
         Geometry::Sphere { radius_m } => (SharedShape::new(Ball::new(*radius_m)), *radius_m),
         Geometry::Mesh(mesh) if mesh.triangles.is_empty() => return Ok(None),
         Geometry::Mesh(mesh) => {
-            let no_hull = || ProximityError::NoHull { subject: subject.to_owned() };
-            let points: Vec<Vector> = mesh.vertices_m.iter().map(vector).collect();
-            let hull = ConvexPolyhedron::from_convex_hull(&points).ok_or_else(no_hull)?;
+            let (hull, error_m) =
+                hull_of(mesh).ok_or_else(|| ProximityError::NoHull { subject: subject.to_owned() })?;
             let radius_m = hull.points().iter().map(|point| point.length()).fold(0.0, f64::max);
-            (SharedShape::new(hull), radius_m)
+            left_out_m = error_m;
+            (SharedShape::new(hull), radius_m + error_m)
         }
     };
-    Ok(Some(Convex { shape_from_local, form, radius_m }))
+    Ok(Some(Hull { link_from_local, form, radius_m, left_out_m }))
+}
+
+/// The hull of a mesh, and how far the mesh may reach out of it.
+fn hull_of(mesh: &Mesh) -> Option<(ConvexPolyhedron, f64)> {
+    let HullPoints { points_m, error_m } = HullPoints::of(&mesh.vertices_m);
+    let points: Vec<Vector> = points_m.iter().map(vector).collect();
+    Some((ConvexPolyhedron::from_convex_hull(&points)?, error_m))
 }
 
 fn vector(point: &Point3<f64>) -> Vector {
