@@ -141,6 +141,8 @@ fn on_a_terminal_every_command_fits_its_columns() {
         "describe robots/panda",
         "schema",
         "fk robots/ur5e --at elbow=1.2",
+        "run --help",
+        "calibrate --help",
     ] {
         let Some(text) = on_a_terminal(arguments) else { return };
         assert!(text.lines().count() > 2, "{arguments}: {text}");

@@ -15,7 +15,7 @@ use congruent::{
 use serde::Serialize;
 
 use crate::{
-    ci::CiArguments,
+    ci::{CiArguments, in_repository},
     failure::{BAD_INPUT, BROKEN, FAILED, Failure, NOTHING, worse},
     print::{MOST_FINDINGS, Printer, Refusal},
     terminal_text::shown,
@@ -237,7 +237,7 @@ impl<R: BatchReport> Answer<R> {
             Ok(report) => report.test_suite(&shown(&self.input)),
             Err(failure) => refused_suite(&self.input, failure),
         };
-        suite.measured(self.wall_s)
+        in_repository(suite.measured(self.wall_s))
     }
 
     /// The report, or the first reason why there is none, for people.

@@ -18,6 +18,9 @@ use crate::{
     print::Printer,
 };
 
+/// Names of the folder that a CI host has cloned the repository to.
+const CLONES: [&str; 3] = ["GITHUB_WORKSPACE", "CI_PROJECT_DIR", "WORKSPACE"];
+
 /// In so many bytes a JUnit file begins.
 const HEAD_BYTES: u64 = 4096;
 
@@ -99,6 +102,28 @@ impl CiArguments {
         let summary = summary.and_then(append);
         junit.map(|error| error.to_string()).into_iter().chain(summary).map(Failure::Machine).collect()
     }
+}
+
+/// The suite with its files named from the top of the repository, by which code hosts find them: the folder that the host
+/// says, else the nearest with `.git` at or above the current one. Files elsewhere keep their names.
+pub(crate) fn in_repository(mut suite: TestSuite) -> TestSuite {
+    let Some(top) = top_of_repository() else { return suite };
+    for place in suite.cases.iter_mut().filter_map(|case| case.place.as_mut()) {
+        let file = Path::new(&place.file).canonicalize();
+        if let Some(inside) = file.as_deref().ok().and_then(|file| file.strip_prefix(&top).ok()) {
+            let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
+            place.file = parts.join("/");
+        }
+    }
+    suite
+}
+
+fn top_of_repository() -> Option<PathBuf> {
+    let stated = CLONES.into_iter().filter_map(std::env::var_os).map(PathBuf::from);
+    let current = std::env::current_dir().ok()?;
+    let above = current.ancestors().find(|folder| folder.join(".git").exists()).map(Path::to_owned);
+    let is_here = |top: &PathBuf| current.starts_with(top);
+    stated.filter_map(|top| top.canonicalize().ok()).find(is_here).or_else(|| above?.canonicalize().ok())
 }
 
 /// Appends to a file; makes it and its folder.

@@ -29,19 +29,22 @@ mod terminal_text;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::{
     failure::BAD_INPUT,
     print::{Color, Format, Printer, Verbosity},
 };
 
+/// Columns of help, unless the terminal has fewer.
+const WIDEST_HELP: usize = 100;
+
 /// Is a robot's analytical model the same robot as its URDF? With the difference and its cause.
 ///
 /// Exit codes: 0 all as expected, 1 a check failed, 2 bad input, 3 the simulation or the machine
 /// failed, 4 nothing was checked.
 #[derive(Debug, Parser)]
-#[command(name = "congruent", version, max_term_width = 100)]
+#[command(name = "congruent", version, max_term_width = WIDEST_HELP)]
 struct Arguments {
     /// Print for people, or one JSON document.
     #[arg(long, value_enum, default_value_t = Format::Human, global = true)]
@@ -98,8 +101,19 @@ impl Arguments {
     }
 }
 
+/// The arguments; help is as wide as the terminal, up to what is read with ease.
+fn parse() -> Result<Arguments, clap::Error> {
+    let command = Arguments::command();
+    let mut command = match layout::columns() {
+        Some(columns) => command.term_width(columns.min(WIDEST_HELP)),
+        None => command,
+    };
+    let matches = command.try_get_matches_from_mut(std::env::args_os())?;
+    Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
+}
+
 fn main() -> ExitCode {
-    let arguments = match input::shown_arguments().map(|()| Arguments::try_parse()) {
+    let arguments = match input::shown_arguments().map(|()| parse()) {
         Ok(Ok(arguments)) => arguments,
         Ok(Err(error)) if error.use_stderr() => {
             Printer::usage(&error);

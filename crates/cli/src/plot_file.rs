@@ -23,9 +23,17 @@ impl PlotArgument {
         self.plot.is_some()
     }
 
-    /// The plot replaces none of these files, which are read.
+    /// The plot replaces none of these files, which are read, and its name says what it is.
     pub(crate) fn is_none_of(&self, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
-        self.plot.as_ref().map_or(Ok(()), |path| refuse_inputs("--plot", path, inputs))
+        let Some(path) = &self.plot else { return Ok(()) };
+        let extension = path.extension().unwrap_or_default();
+        if !extension.is_empty() && !extension.eq_ignore_ascii_case("svg") {
+            let message = format!("--plot {} is no name of a plot, which is an SVG", path.display());
+            return Err(
+                Diagnostic::error("output::refused", message).with_help("give a file that ends in .svg")
+            );
+        }
+        refuse_inputs("--plot", path, inputs)
     }
 
     /// Draws and writes the plot if the argument is given.

@@ -65,12 +65,20 @@
       return [10 ** Math.floor(Math.log10(Math.min(...all))), 10 ** Math.ceil(Math.log10(Math.max(...all) * 1.01))];
     }
     const span = Math.max(high - low, Math.abs(high) * 0.03, 1e-9);
-    for (const limit of limits) {
+    const beyond = (limit) => Math.max(low - limit, limit - high, 0);
+    for (const limit of limits.sort((a, b) => beyond(a) - beyond(b))) {
       const [lower, upper] = [Math.min(low, limit), Math.max(high, limit)];
       if (upper - lower <= WIDEST * span) [low, high] = [lower, upper];
     }
     const free = Math.max(0.06 * (high - low), 0.5 * (span - (high - low)));
     return [low - free, high + free];
+  };
+
+  // So many decimals that ticks of this distance are told apart.
+  const decimals = (distance) => {
+    const isWhole = (count) => Math.abs(distance * 10 ** count - Math.round(distance * 10 ** count)) < 1e-6;
+    const enough = [0, 1, 2, 3, 4, 5, 6].find((count) => distance * 10 ** count >= 1 && isWhole(count));
+    return (tick) => (enough === undefined ? digits(tick) : tick.toFixed(enough));
   };
 
   // At most seven powers of ten.
@@ -98,6 +106,13 @@
       ctx.stroke();
     };
     ctx.font = 11 * ratio + "px system-ui, sans-serif";
+    ctx.textBaseline = "alphabetic";
+    // Where the words in each row end: words that would meet are below each other.
+    const rows = [];
+    const free = (from) => {
+      const row = rows.findIndex((end) => end < from);
+      return row < 0 ? rows.length : row;
+    };
     for (const mark of data.marks) {
       const x = Math.round(plot.valToPos(mark.time_s, "x", true));
       const strong = mark.kind !== "motion";
@@ -106,7 +121,11 @@
         const left = x > bbox.left + bbox.width - 90 * ratio;
         ctx.fillStyle = css("--bad");
         ctx.textAlign = left ? "right" : "left";
-        ctx.fillText(mark.text, x + (left ? -5 : 5) * ratio, bbox.top + 12 * ratio);
+        const length = ctx.measureText(mark.text).width + 10 * ratio;
+        const from = left ? x - length : x;
+        const row = free(from);
+        rows[row] = from + length;
+        ctx.fillText(mark.text, x + (left ? -5 : 5) * ratio, bbox.top + (12 + 13 * row) * ratio);
       }
     }
     for (const limit of chart.limits) {
@@ -155,10 +174,15 @@
         { ...axis, size: small ? 28 : 34, values: (plot, ticks) => ticks.map((tick) => digits(tick) + " s") },
         {
           ...axis,
-          size: chart.log ? 70 : 58,
+          size: chart.log ? 82 : 58,
+          space: small ? 18 : 30,
           filter: (plot, ticks) => ticks,
           splits: chart.log ? (plot, _, low, high) => decades(low, high) : undefined,
-          values: (plot, ticks) => ticks.map((tick) => (tick == null ? "" : chart.log ? withUnit(tick, chart.unit, chart.unit === "rad" ? " on an axis" : "") : digits(tick))),
+          values: (plot, ticks, axis, space, distance) => {
+            const onLog = (tick) => withUnit(tick, chart.unit, chart.unit === "rad" ? " on an axis" : "");
+            const written = chart.log ? onLog : decimals(distance);
+            return ticks.map((tick) => (tick == null ? "" : written(tick)));
+          },
           label: chart.log ? undefined : chart.unit,
           labelSize: 16,
           labelFont: "11px system-ui, sans-serif",

@@ -10,7 +10,7 @@ use congruent_calibration::{
 };
 use congruent_description::{
     Robot,
-    display::{angle, length, number},
+    display::{angle, counted, length, number},
 };
 use maud::{Markup, html};
 
@@ -99,7 +99,7 @@ fn corrections(report: &CalibrationReport) -> Markup {
         }
         @if !report.fixed.is_empty() {
             details {
-                summary { (report.fixed.len()) " corrections held at nominal, since the measurements do not identify them" }
+                summary { (counted(report.fixed.len(), "correction")) " held at nominal, since the measurements do not identify them" }
                 ul { @for each in &report.fixed { li { b { (each.name) } ": " (each.reason) } } }
             }
         }
@@ -124,13 +124,18 @@ fn correction(each: &EstimatedCorrection, report: &CalibrationReport, at: &Point
             td data-label="significant" { @if each.significant { "yes" } @else { "no" } }
             td data-label="in the file" {
                 @if let Some(table) = each.in_table.as_ref().filter(|_| is_recommended) {
-                    "line " (table.line) ": " (table.entry) " "
-                    (value(&at.keys(&["in_table", "nominal"]), table.nominal, &shown(each.unit, table.nominal))) " to "
-                    (value(&at.keys(&["in_table", "corrected"]), table.corrected, &shown(each.unit, table.corrected)))
+                    "line " (table.line) ": " code { (table.entry) "_" (each.unit.name_for_people()) } " "
+                    (value(&at.keys(&["in_table", "nominal"]), table.nominal, &to_write(each.unit, table.nominal))) " to "
+                    (value(&at.keys(&["in_table", "corrected"]), table.corrected, &to_write(each.unit, table.corrected)))
                 }
             }
         }
     }
+}
+
+/// A value of the robot file in the unit of its key, with digits beyond those that a measurement tells.
+fn to_write(unit: ParameterUnit, value: f64) -> String {
+    format!("{:.4}", unit.for_people(value))
 }
 
 fn shown(unit: ParameterUnit, value: f64) -> String {
@@ -203,7 +208,7 @@ fn rows(report: &CalibrationReport) -> Markup {
         details {
             summary {
                 "residual of each measurement"
-                @if !report.outliers.is_empty() { ", " (report.outliers.len()) " outliers" }
+                @if !report.outliers.is_empty() { ", " (counted(report.outliers.len(), "outlier")) }
             }
             table {
                 thead { tr { th { "measurement" } th { "nominal" } th { "least squares" } th { (report.loss) } th { "weight" } } }

@@ -82,7 +82,7 @@ fn row(entry: &IndexEntry<'_>) -> Markup {
                 Ok(report) => {
                     td data-label="what happened" { (happened(report)) }
                     td data-label="nearest to its limit" { (nearest(report)) }
-                    td data-label="robot" { (report.robot) span.small { ", " (quantity(report.simulation.duration_s, "s")) } }
+                    td data-label="robot" { bdi { (report.robot) } span.small { ", " (quantity(report.simulation.duration_s, "s")) } }
                 }
                 Err(reason) => { td colspan="3" { (reason) } }
             }
@@ -101,9 +101,11 @@ fn happened(report: &RunReport) -> Markup {
     }
 }
 
+/// How near to a limit a run came that violated none.
 fn nearest(report: &RunReport) -> Markup {
+    let has_failed = report.checks.iter().any(|check| check.status == Status::Fail);
     html! {
-        @if let Some((check, measure, share)) = tightest(report) {
+        @if let Some((check, measure, share)) = tightest(report).filter(|_| !has_failed) {
             (check) ": " (format!("{:.0} % of the limit", 100.0 * share))
             @if let Some(worst) = &measure.worst { p.small { (worst.subject) } }
         }

@@ -34,7 +34,8 @@ pub struct Moment {
     pub time_s: f64,
     /// The link, joint or pair that it is about.
     pub subject: String,
-    /// The value, in the unit of its [`Measure`].
+    /// The value, in the unit of its [`Measure`]; `null` in JSON if it is infinite, as a time that has not come.
+    #[schemars(with = "Option<f64>")]
     pub value: f64,
     /// Position of every movable joint, rad or m.
     pub q: JointValues,

@@ -94,6 +94,17 @@ fn cells<'a>(text: &'a str, record: &ByteRecord, end: usize, lines: &mut LineCou
     Record { line: lines.line_column(start).0, span, cells }
 }
 
+/// What to do about two columns of one quantity. Of a gantry they may be a joint and a coordinate.
+fn repeated_help(robot: &Robot, column: &str) -> String {
+    match column.rsplit_once('_') {
+        Some((stem, _)) if robot.find_joint(stem).is_some() && ["x", "y", "z"].contains(&stem) => format!(
+            "\"{stem}\" is a joint of the robot and a coordinate of what was measured, which a table cannot tell apart: \
+             write the rows as JSON, where the joints are in \"q\""
+        ),
+        _ => "leave one of them out".to_owned(),
+    }
+}
+
 fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<Column>, Vec<Diagnostic>> {
     let (mut columns, mut faults) = (Vec::new(), Vec::new());
     let mut places: BTreeMap<MeasuredQuantity, usize> = BTreeMap::new();
@@ -102,7 +113,8 @@ fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<C
             Ok(column) => {
                 if let Some(first) = places.insert(column.quantity, at) {
                     let message = format!("columns {} and {} give the same quantity", first + 1, at + 1);
-                    faults.push(Diagnostic::error("measurements::repeated_column", message).at(span.clone()));
+                    let fault = Diagnostic::error("measurements::repeated_column", message).at(span.clone());
+                    faults.push(fault.with_help(repeated_help(robot, name)));
                 }
                 columns.push(column);
             }

@@ -129,9 +129,9 @@ fn picture(robot: &CheckedRobot<'_>) -> Markup {
     let bodies = shapes(&description.robot, &urdf).into_iter();
     let bodies = bodies.map(|(_, points)| Body::shape(points)).collect();
     let two = TwoArms { figure: Figure { bodies, arms, path: Vec::new() }, tips_apart_m };
+    let at = JointValues::of_robot(&description.robot, q).for_people(&description.robot);
     let caption = html! {
-        (what) " (" (pair.title()) "): " (JointValues::of_robot(&description.robot, q).for_people(&description.robot))
-        ". The tips are " (length(tips_apart_m)) " apart."
+        (what) " (" (pair.title()) ")" @if !at.is_empty() { ": " (at) } ". The tips are " (length(tips_apart_m)) " apart."
     };
     two.markup(&caption)
 }

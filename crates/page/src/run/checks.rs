@@ -2,7 +2,7 @@
 
 use congruent_description::display::quantity;
 use congruent_twin::{
-    report::{RunReport, limit_words, margin_words, quantity_words},
+    report::{RunReport, limit_words, margin_words, quantity_words, worst_moment},
     verdict::{Bound, CheckResult, Measure, Moment, Status},
 };
 use maud::{Markup, html};
@@ -63,17 +63,18 @@ fn name(check: &CheckResult) -> Markup {
         Status::Skipped => Outcome::Unclear,
     };
     html! {
-        th scope="row" { (check.check) @if let Some(line) = check.line { span.small { " line " (line) } } }
+        th scope="row" { (check.check) @if check.is_default { span.small { " (default)" } } @if let Some(line) = check.line { span.small { " line " (line) } } }
         td { (badge(outcome, check.status.word())) }
     }
 }
 
 fn cells(measure: &Measure, at: &Pointer) -> Markup {
     let what = quantity_words(measure.quantity);
-    let Some(worst) = &measure.worst else {
+    let Some(worst) = worst_moment(measure) else {
         return html! { td data-label="worst value" { (what) ": no value" } td data-label="limit" { (limit(measure, at)) } td {} td {} td {} };
     };
-    let at_worst = at.key("worst");
+    let is_first = measure.first_violation.as_ref().is_some_and(|first| std::ptr::eq(first, worst));
+    let at_worst = at.key(if is_first { "first_violation" } else { "worst" });
     html! {
         td data-label="worst value" { (what) " " (value(&at_worst.key("value"), worst.value, &shown(measure, worst))) (bar(measure, worst.value)) }
         td data-label="limit" { (limit(measure, at)) }

@@ -90,6 +90,9 @@ pub(super) fn joints(run: &RunContent, plots: &Plots) -> Markup {
         range.is_some_and(|(low, high)| high - low > STANDSTILL)
     };
     let (moving, still): (Vec<usize>, Vec<usize>) = (0..run.names.joints.len()).partition(moves);
+    if run.names.joints.is_empty() {
+        return html! {};
+    }
     html! {
         section {
             h2 { "Joints" }

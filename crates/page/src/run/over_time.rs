@@ -55,6 +55,10 @@ pub(super) fn over_time(plots: &Plots) -> Markup {
 /// Errors of all links; those of links that the table does not move follow from the URDF and are hidden.
 fn errors(quantity: &str, report: &RunReport, run: &RunContent) -> Chart {
     let is_position = quantity == "position";
+    let agreement = report.checks.iter().filter(|check| check.check == CheckKind::Agreement);
+    let measures = agreement.flat_map(|check| &check.measures).filter(|of| of.quantity == quantity);
+    let worst: Vec<&str> = measures.filter_map(|of| Some(of.worst.as_ref()?.subject.as_str())).collect();
+    let is_worst = |name: &str| worst.contains(&name);
     let mut lines: Vec<(f32, Line)> = Vec::new();
     for (link, name) in run.names.links.iter().enumerate() {
         let error =
@@ -63,7 +67,7 @@ fn errors(quantity: &str, report: &RunReport, run: &RunContent) -> Chart {
         // Two computations of one chain: the table is not asked there.
         let is_urdf = report.links.get(link).is_some_and(|of| of.source == PoseSource::Urdf);
         let has_table = report.links.iter().any(|of| of.source != PoseSource::Urdf);
-        let hidden = largest == 0.0 || (is_urdf && has_table);
+        let hidden = largest == 0.0 || (is_urdf && has_table && !is_worst(name));
         lines.push((largest, Line { name: name.clone(), values, hidden, ..Line::default() }));
     }
     // The largest first; of equal ones in the order of the robot.

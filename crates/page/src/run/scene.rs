@@ -1,4 +1,4 @@
-//! The picture of a run: model and twin where they differ most, or the twin where another check was first violated; with
+//! The picture of a run: model and twin where they differ most, or the twin at the worst of another check that failed; with
 //! what stands around and the path of the TCP.
 
 use congruent_description::{
@@ -8,7 +8,7 @@ use congruent_description::{
 use congruent_kinematics::{Pose, UrdfTree};
 use congruent_simulation::Obstacle;
 use congruent_twin::{
-    report::{RunReport, sentence_at},
+    report::{RunReport, sentence_at, worst_moment},
     scenario::CheckKind,
     verdict::{CheckResult, Measure, Moment, Status},
 };
@@ -28,17 +28,17 @@ pub(super) fn scene(report: &RunReport, run: &RunContent) -> Markup {
     html! { section { h2 { "The arm" } (picture) } }
 }
 
-/// Where the check that failed first was first violated; `None` if model and twin differ, which is shown instead.
+/// The worst of the quantity that was violated first; `None` if model and twin differ, which is shown instead.
 fn violation(report: &RunReport) -> Option<(&CheckResult, &Measure, &Moment)> {
     let mut failed = report.checks.iter().filter(|check| check.status == Status::Fail);
     if failed.any(|check| check.check == CheckKind::Agreement) {
         return None;
     }
     let check = report.checks_failed_first().into_iter().find(|check| check.status == Status::Fail)?;
-    let first =
+    let violated =
         check.measures.iter().filter_map(|measure| Some((measure, measure.first_violation.as_ref()?)));
-    let (measure, moment) = first.min_by(|(_, a), (_, b)| a.time_s.total_cmp(&b.time_s))?;
-    Some((check, measure, moment))
+    let (measure, _) = violated.min_by(|(_, a), (_, b)| a.time_s.total_cmp(&b.time_s))?;
+    Some((check, measure, worst_moment(measure)?))
 }
 
 /// Poses of the twin at the configuration of a moment.
@@ -62,7 +62,7 @@ fn at_violation(
     let arms = vec![arm("twin", "twin (physics)", poses, run)];
     let figure = Figure { bodies: bodies(poses, run, &subjects), arms, path: run.series.tcp_path.points() };
     let caption = html! {
-        "At " (quantity(moment.time_s, "s")) ", where check " (check.check) " was first violated: "
+        "At " (quantity(moment.time_s, "s")) ", the worst of check " (check.check) ": "
         (sentence_at(measure, moment)) "." (moving(run))
     };
     TwoArms { figure, tips_apart_m: 0.0 }.markup(&caption)

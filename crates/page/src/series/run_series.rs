@@ -55,8 +55,9 @@ impl JointQuantity {
 /// Poses of all links by model and by twin, where they differ most.
 #[derive(Debug)]
 pub(crate) struct LargestDifference {
-    /// The larger of both errors divided by their limits.
-    ratio: f64,
+    /// Which of two differences is larger: the position error that is beyond its limit, then the larger of both errors, each
+    /// divided by its limit.
+    rank: [f64; 2],
     pub(crate) time_s: f64,
     pub(crate) link: usize,
     pub(crate) error: PoseError,
@@ -98,7 +99,7 @@ impl RunSeries {
             nearest: NearestOverTime::new(step_s, steps),
             tcp_path: ThinnedPath::default(),
             largest: LargestDifference {
-                ratio: f64::NEG_INFINITY,
+                rank: [f64::NEG_INFINITY; 2],
                 time_s: 0.0,
                 link: 0,
                 error: PoseError::default(),
@@ -126,12 +127,15 @@ impl RunSeries {
 
     fn keep_largest(&mut self, sample: &Sample<'_>) {
         let Tolerance { position_m, orientation_rad } = self.tolerance;
-        let ratio =
-            |error: &PoseError| (error.position_m / position_m).max(error.orientation_rad / orientation_rad);
+        let rank = |error: &PoseError| {
+            let [position, orientation] =
+                [error.position_m / position_m, error.orientation_rad / orientation_rad];
+            [position.max(1.0), position.max(orientation)]
+        };
         for (link, error) in sample.errors.iter().enumerate() {
-            if ratio(error) > self.largest.ratio {
+            if rank(error) > self.largest.rank {
                 let largest = &mut self.largest;
-                (largest.ratio, largest.time_s) = (ratio(error), sample.time_s);
+                (largest.rank, largest.time_s) = (rank(error), sample.time_s);
                 (largest.link, largest.error) = (link, *error);
                 largest.model.copy_from_slice(sample.model);
                 largest.twin.copy_from_slice(sample.twin);

@@ -13,7 +13,8 @@ use super::{
     monitor::{Monitor, Observed},
     names::Names,
     pose::{
-        AgreementMonitor, GoalMonitor, InvariantsMonitor, ROTATION, TwistMonitor, examine_goal, twist_limits,
+        AgreementMonitor, GoalMonitor, InvariantsMonitor, TwistMonitor, default_rotation, examine_goal,
+        twist_limits,
     },
     space::{ClearanceMonitor, ContactMonitor, ZoneMonitor, examine_pairs},
 };
@@ -149,7 +150,7 @@ pub(crate) fn write_out_limits(check: &mut Check, description: &RobotDescription
             check.relative.get_or_insert(DYNAMICS_RELATIVE_PER_S * step_s);
         }
         Check::Invariants(check) => {
-            check.rotation.get_or_insert(ROTATION);
+            check.rotation.get_or_insert_with(|| default_rotation(&description.robot));
         }
         Check::Limits(check) => {
             fill(&mut check.tolerance_rad, check.tolerance_deg, AT_THE_LIMIT);

@@ -8,7 +8,7 @@ use congruent_description::{Geometry, HullPoints, Mesh, Shape};
 use nalgebra::{Isometry3, Point3};
 use parry3d_f64::{
     math::{Pose, Rotation, Vector},
-    query::{self, ClosestPoints, Unsupported},
+    query::{self, ClosestPoints, Unsupported, details::distance_support_map_support_map},
     shape::{Ball, ConvexPolyhedron, Cuboid, Cylinder, SharedShape},
 };
 
@@ -101,16 +101,13 @@ impl Hulls {
         self_from_other: &Isometry3<f64>,
         most_m: f64,
     ) -> f64 {
-        self.smallest(other, self_from_other, most_m, |between, a, b| {
-            query::distance(&Pose::IDENTITY, a, between, b).map(|nearest| nearest.distance)
-        })
-        .max(0.0)
+        self.smallest(other, self_from_other, most_m, |between, a, b| distance_apart(between, a, b)).max(0.0)
     }
 
     /// Like [`Hulls::distance_m`], but negative if they overlap: minus the depth.
     pub fn signed_distance_m(&self, other: &Self, self_from_other: &Isometry3<f64>) -> f64 {
         self.smallest(other, self_from_other, f64::INFINITY, |between, a, b| {
-            let apart = query::distance(&Pose::IDENTITY, a, between, b)?.distance;
+            let apart = distance_apart(between, a, b)?;
             if apart > 0.0 {
                 return Ok(apart);
             }
@@ -159,6 +156,21 @@ impl Hulls {
             }
         }
         smallest
+    }
+}
+
+/// The distance of two shapes; 0 if they touch or overlap.
+///
+/// Of two boxes parry measures between points that it projects twice along the axis of largest separation, which are not
+/// always the nearest ones: near edges and corners they are farther apart. So boxes are measured as all other shapes.
+fn distance_apart(
+    a_from_b: &Pose,
+    a: &dyn parry3d_f64::shape::Shape,
+    b: &dyn parry3d_f64::shape::Shape,
+) -> Result<f64, Unsupported> {
+    match (a.as_cuboid(), b.as_cuboid()) {
+        (Some(a), Some(b)) => Ok(distance_support_map_support_map(a_from_b, a, b)),
+        _ => query::distance(&Pose::IDENTITY, a, a_from_b, b).map(|nearest| nearest.distance),
     }
 }
 
@@ -317,6 +329,45 @@ mod tests {
         apart(&can(0.2, 1.0), &can(0.3, 1.0), at(0.0, 0.0, 1.25), 0.25);
         apart(&can(0.2, 1.0), &can(0.3, 1.0), at(0.8, 0.0, 1.4), 0.5);
         apart(&ball(0.1), &can(0.2, 1.0), at(0.0, 0.7, 0.4), 0.4);
+    }
+
+    /// The nearest points of two boxes by projections onto one and the other in turn, which is von Neumann's method for
+    /// convex sets, and what the plane between them proves: the distance is between both numbers.
+    fn bounds_of_boxes(half: [Vector3<f64>; 2], a_from_b: &Isometry3<f64>) -> [f64; 2] {
+        let clamped = |point: Point3<f64>, half: &Vector3<f64>| {
+            Point3::from(point.coords.zip_map(half, |coordinate, half| coordinate.clamp(-half, half)))
+        };
+        let (mut on_a, mut on_b) = (Point3::origin(), a_from_b * Point3::origin());
+        for _ in 0..100_000 {
+            on_a = clamped(on_b, &half[0]);
+            on_b = a_from_b * clamped(a_from_b.inverse() * on_a, &half[1]);
+        }
+        let along = (on_b - on_a).normalize();
+        let in_b = a_from_b.rotation.inverse() * along;
+        let end_of_a = along.abs().dot(&half[0]);
+        let start_of_b = a_from_b.translation.vector.dot(&along) - in_b.abs().dot(&half[1]);
+        [start_of_b - end_of_a, (on_b - on_a).norm()]
+    }
+
+    #[test]
+    fn boxes_are_as_far_apart_as_their_nearest_points() {
+        let halves = [[0.02, 0.02, 0.025], [0.15, 0.15, 0.025], [0.4, 0.01, 0.1]].map(Vector3::from);
+        let turns =
+            [[0.0, -0.6, 0.0], [0.59, 0.0, 0.0], [0.3, -0.4, 1.1], [2.0, 0.1, 0.5]].map(Vector3::from);
+        let shifts =
+            [[0.0, 0.1, 0.3], [0.6, 0.0, 0.1], [0.2, -0.5, 0.3], [0.9, 0.1, -0.2]].map(Vector3::from);
+        for (one, other) in [(0, 1), (1, 1), (1, 2), (2, 0)] {
+            let (of_a, of_b) = (halves[one], halves[other]);
+            let boxes = [of_a, of_b].map(|half| cuboid(2.0 * half.x, 2.0 * half.y, 2.0 * half.z));
+            for (turn, shift) in turns.iter().flat_map(|turn| shifts.iter().map(move |shift| (turn, shift))) {
+                let a_from_b = turned(*turn, at(shift.x, shift.y, shift.z));
+                let [least_m, most_m] = bounds_of_boxes([of_a, of_b], &a_from_b);
+                if least_m > 0.0 {
+                    assert!(most_m - least_m < DISTANCE_M, "the oracle is not sure: {least_m} to {most_m}");
+                    apart(&boxes[0], &boxes[1], a_from_b, most_m);
+                }
+            }
+        }
     }
 
     #[test]

@@ -16,7 +16,9 @@ pub(crate) use causes::explain;
 pub use fault_table::{FaultRow, FaultTable, SeenBy};
 pub use junit::write_junit;
 pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
-pub use sentence::{limit_words, lines, margin_words, quantity_words, sentence_at, share_in_full};
+pub use sentence::{
+    limit_words, lines, margin_words, quantity_words, sentence_at, share_in_full, worst_moment,
+};
 pub use step_summary::step_summary;
 pub use suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 pub use test_suite::planned_suite;

@@ -50,18 +50,22 @@ fn contacts(contacts: &[Contact]) -> impl Iterator<Item = String> + '_ {
 /// The worst value of a measure beside its limit: `distance 33.8 mm at forearm--table (1.2 s), at least 20 mm: 13.8 mm
 /// left`. A violation that began at another time is told with that time.
 fn sentence(measure: &Measure) -> String {
-    let Some(worst) = &measure.worst else {
+    let Some(worst) = worst_moment(measure) else {
         return format!("{}: no value, {}", quantity_words(measure.quantity), limit_words(measure));
     };
-    let shown = |moment: &Moment| quantity(moment.value, measure.unit);
     match &measure.first_violation {
-        // Rounding decides when a constant value is the worst: its start tells more.
-        Some(first) if shown(first) == shown(worst) => sentence_at(measure, first),
         Some(first) if first.time_s < worst.time_s => {
             format!("{}, first at {}", sentence_at(measure, worst), quantity(first.time_s, "s"))
         }
         _ => sentence_at(measure, worst),
     }
+}
+
+/// The moment that is told as the worst: rounding decides when a constant value is the worst, so its start is.
+pub fn worst_moment(measure: &Measure) -> Option<&Moment> {
+    let shown = |moment: &Moment| quantity(moment.value, measure.unit);
+    let worst = measure.worst.as_ref()?;
+    measure.first_violation.as_ref().filter(|first| shown(first) == shown(worst)).or(Some(worst))
 }
 
 /// The same for the value of one instant.

@@ -1,6 +1,7 @@
 //! What holds in every state: rotations of links, of model and twin, are orthonormal with determinant 1, links stand as
 //! the joints between them allow, and joint states are finite numbers.
 
+use congruent_description::{LinkIndex, Robot};
 use congruent_kinematics::Pose;
 use nalgebra::Isometry3;
 
@@ -12,9 +13,25 @@ use crate::{
     verdict::{Bound, InstantValue},
 };
 
-/// Largest error of a rotation if a check gives none. No unit; kind: rounding of products along a chain. Worst seen in the
-/// scenarios: 1.4e-14 (seven joints, 24,000 steps); x3.
-pub(crate) const ROTATION: f64 = 4e-14;
+/// Largest error of a rotation if a check gives none, for each joint of the longest chain, of which there are at least
+/// eight: 4e-14 for arms. No unit; kind: rounding of products along a chain. Worst seen: 2.0e-15 for each joint (seven joints,
+/// 24,000 steps), 1.9e-15 (45 joints); x2.5.
+const ROTATION_OF_JOINT: f64 = 5e-15;
+const FEWEST_JOINTS: usize = 8;
+
+/// The default of a robot.
+pub(crate) fn default_rotation(robot: &Robot) -> f64 {
+    let joints_to = |link: LinkIndex| {
+        let above = std::iter::successors(robot.parent_joint(link), |&joint| {
+            robot.parent_joint(robot.joint(joint).parent)
+        });
+        above.filter(|&joint| robot.joint(joint).kind.is_movable()).count()
+    };
+    let longest = robot.link_indices().map(joints_to).max().unwrap_or(0);
+    #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53 joints")]
+    let joints = longest.max(FEWEST_JOINTS) as f64;
+    joints * ROTATION_OF_JOINT
+}
 
 /// Largest error of the joints of the twin, m and rad. Kind: rounding of products along a chain and of its angles; worst
 /// seen in the scenarios: see `docs/checks.md`.
@@ -32,7 +49,7 @@ pub(crate) struct InvariantsMonitor {
 
 impl InvariantsMonitor {
     pub(crate) fn new(check: &InvariantsCheck, context: &CheckContext<'_>) -> Self {
-        let limit = check.rotation.unwrap_or(ROTATION);
+        let limit = check.rotation.unwrap_or_else(|| default_rotation(&context.description.robot));
         let watch = |quantity, limit| Watch::new(quantity, "", Bound::AtMost, limit, context.dof());
         let of_joints =
             |quantity, unit| Watch::new(quantity, unit, Bound::AtMost, JOINT_ERROR, context.dof());

@@ -8,5 +8,5 @@ mod twist;
 
 pub(super) use agreement::AgreementMonitor;
 pub(super) use goal::{GoalMonitor, examine as examine_goal};
-pub(super) use invariants::{InvariantsMonitor, ROTATION};
+pub(super) use invariants::{InvariantsMonitor, default_rotation};
 pub(super) use twist::{TwistMonitor, twist_limits};
