@@ -1,10 +1,11 @@
 //! `lint`: everything that is wrong or suspicious in a file, whatever its kind, as one report.
 
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 
 use congruent_description::{
-    Diagnostic, FileAccess, FileKind, Finding, IgnoredFinding, Ignores, RobotDescription, SRDF_BYTES,
-    Severity, SourceFile, Use, examine_srdf, load_robot_with, unit_slips,
+    ChangedLines, Code, Diagnostic, FileAccess, FileKind, Finding, IgnoredFinding, Ignores, RobotDescription,
+    SRDF_BYTES, SafeFix, Severity, SourceFile, TextEdit, Use, changed_lines, examine_srdf, load_robot_with,
+    safe_fixes, unit_slips,
 };
 use congruent_twin::RunSetup;
 use schemars::JsonSchema;
@@ -28,9 +29,33 @@ pub struct LintReport {
     /// What the robot file ignores.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub ignored: Vec<IgnoredFinding>,
+    /// Corrections that are safe.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub fixes: Vec<LintFix>,
     /// The findings with the texts of their files, for printing.
     #[serde(skip)]
     pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A correction that is safe: the file means the same after it, or what was refused has the one meaning that was left.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct LintFix {
+    /// Number of the finding that it answers.
+    pub id: String,
+    /// Its name.
+    pub code: &'static str,
+    /// What it does.
+    pub about: String,
+    /// The file.
+    pub file: String,
+    /// The lines that change.
+    pub changed: Vec<ChangedLines>,
+    /// The file with its text.
+    #[serde(skip)]
+    pub source: Arc<SourceFile>,
+    /// The changes of the text.
+    #[serde(skip)]
+    pub edits: Vec<TextEdit>,
 }
 
 /// What findings come to.
@@ -53,7 +78,7 @@ pub struct LintFinding {
     /// The finding.
     #[serde(flatten)]
     pub finding: Finding,
-    /// What the robot cannot be used for because of it: all of it, if it is an error.
+    /// What the robot cannot be used for because of it; an error without a use of its own stops all.
     pub stopped_uses: Vec<Use>,
 }
 
@@ -80,7 +105,8 @@ struct Examined {
 pub fn lint(path: &Path, access: &FileAccess) -> LintReport {
     let Examined { kind, found, ignores } = examined(path, access);
     let is_unreadable = found.iter().any(|found| found.source.is_none() && is_about_the_file(found));
-    let (diagnostics, ignored) = ignores.apply(found);
+    let (kept, ignored) = ignores.apply(found);
+    let diagnostics: Vec<Diagnostic> = kept.into_iter().map(judged).collect();
     let of = |severity| diagnostics.iter().filter(|found| found.severity == severity).count();
     let (errors, warnings) = (of(Severity::Error), of(Severity::Warning));
     let findings: Vec<LintFinding> = diagnostics
@@ -95,15 +121,58 @@ pub fn lint(path: &Path, access: &FileAccess) -> LintReport {
         _ => LintVerdict::Errors,
     };
     let stops = ALL_USES.into_iter().filter(is_stopped).collect();
-    LintReport { kind, verdict, errors, warnings, stops, findings, ignored, diagnostics }
+    let fixes = fixes(&diagnostics);
+    LintReport { kind, verdict, errors, warnings, stops, findings, ignored, fixes, diagnostics }
+}
+
+/// The safe corrections of each URDF that has findings.
+fn fixes(found: &[Diagnostic]) -> Vec<LintFix> {
+    let mut sources: Vec<&Arc<SourceFile>> = Vec::new();
+    for source in found.iter().filter_map(|found| found.source.as_ref()) {
+        if sources.iter().all(|known| known.path != source.path) {
+            sources.push(source);
+        }
+    }
+    let of = |source: &Arc<SourceFile>| {
+        let found = |fix: &SafeFix| {
+            found.iter().any(|found| {
+                let path = found.source.as_ref().map(|source| &source.path);
+                found.code == fix.code && path == Some(&source.path)
+            })
+        };
+        let fixes = safe_fixes(&source.text).into_iter().filter(found);
+        fixes.map(|fix| LintFix::of(fix, source)).collect::<Vec<_>>()
+    };
+    sources.into_iter().flat_map(of).collect()
+}
+
+impl LintFix {
+    fn of(fix: SafeFix, source: &Arc<SourceFile>) -> Self {
+        Self {
+            id: Code::find(fix.code).map_or_else(String::new, |code| code.to_string()),
+            code: fix.code,
+            about: fix.about,
+            file: source.path.display().to_string(),
+            changed: changed_lines(&source.text, &fix.edits),
+            source: Arc::clone(source),
+            edits: fix.edits,
+        }
+    }
+}
+
+/// A finding that stops a use is an error of the file, although the other uses go on.
+fn judged(found: Diagnostic) -> Diagnostic {
+    let severity = if found.stops.is_some() { Severity::Error } else { found.severity };
+    Diagnostic { severity, ..found }
 }
 
 const ALL_USES: [Use; 3] = [Use::Kinematics, Use::Clearance, Use::Physics];
 
 fn stopped_uses(found: &Diagnostic, kind: Option<FileKind>) -> Vec<Use> {
-    match (found.severity, kind) {
-        (Severity::Error, Some(FileKind::Urdf | FileKind::RobotFile)) => ALL_USES.to_vec(),
-        _ => found.stops.into_iter().collect(),
+    match (found.severity, found.stops, kind) {
+        (_, Some(stopped), _) => vec![stopped],
+        (Severity::Error, None, Some(FileKind::Urdf | FileKind::RobotFile)) => ALL_USES.to_vec(),
+        _ => Vec::new(),
     }
 }
 
@@ -168,5 +237,5 @@ fn ignores_of(robot: &Path, access: &FileAccess) -> Ignores {
     let file = if robot.is_dir() { robot.join("robot.toml") } else { robot.to_owned() };
     let is_robot_file = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
     let source = is_robot_file.then(|| access.fresh().read_named_text(&file, SRDF_BYTES).ok()).flatten();
-    source.map_or_else(Ignores::default, |source: std::sync::Arc<SourceFile>| Ignores::of(&source))
+    source.map_or_else(Ignores::default, |source| Ignores::of(&source))
 }

@@ -34,9 +34,9 @@ pub use diagnostic::{
     Diagnostic, Diagnostics, Finding, FindingPlace, Kind, LineCounter, Occurrence, Severity, SourceFile, Use,
     known_names, line_column, nearest,
 };
-pub use edits::{ChangedLines, TextEdit, changed_lines};
+pub use edits::{ChangedLines, TextEdit, changed_lines, edited};
 pub use files::{FileAccess, InputFile, RosPackages, is_standard_input, read_text};
-pub use lint::{FileKind, IgnoredFinding, Ignores, unit_slips};
+pub use lint::{FileKind, IgnoredFinding, Ignores, SafeFix, safe_fixes, unit_slips};
 pub use load::{load_robot, load_robot_with, parse_robot};
 pub use mesh::read_mesh;
 pub use model::{

@@ -17,7 +17,7 @@ use super::{
 pub struct Finding {
     /// `error` or `warning`.
     pub severity: Severity,
-    /// Of a warning: the use of the robot that cannot go on because of it.
+    /// The use of the robot that cannot go on because of it, while the others can.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub stops: Option<Use>,
     /// Stable name.

@@ -32,6 +32,7 @@ use std::{fmt::Write, ops::Range};
 use nalgebra::Vector3;
 use roxmltree::Node;
 
+pub(crate) use grammar::{Misspelt, misspellings};
 pub(crate) use inertial::Repairs;
 pub(crate) use pose::{CENTER_OF_MASS, LARGEST_PLAUSIBLE_M, TOO_FAR};
 

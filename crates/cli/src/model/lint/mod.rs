@@ -1,15 +1,15 @@
 //! `congruent lint`: what is wrong or suspicious in files.
 
+mod diff;
 mod explain;
+mod fix;
 mod sarif;
 mod text;
 
 use std::path::{Path, PathBuf};
 
 use congruent::{
-    LintReport, LintVerdict,
-    description::Diagnostic,
-    lint,
+    LintReport, LintVerdict, lint,
     twin::report::{CasePlace, Reason, TestResult, TestSuite},
 };
 use serde::Serialize;
@@ -35,6 +35,13 @@ pub(crate) struct Arguments {
     /// Explain a finding, by its number (CGR-URDF-005) or its name (`urdf::tree`).
     #[arg(long, value_name = "CODE", conflicts_with = "files")]
     explain: Option<String>,
+    /// Write the corrections that are safe, and show the difference: the file means the same after them, or what was
+    /// refused has the one meaning that was left. The findings are those that stay.
+    #[arg(long)]
+    fix: bool,
+    /// Show the difference alone, and write nothing.
+    #[arg(long, requires = "fix")]
+    dry_run: bool,
     /// Warnings fail as errors do.
     #[arg(long)]
     strict: bool,
@@ -51,6 +58,9 @@ struct Linted {
     report: LintReport,
     #[serde(skip)]
     strict: bool,
+    /// What `--fix` has changed, or would change.
+    #[serde(skip)]
+    difference: String,
 }
 
 impl BatchReport for Linted {
@@ -64,7 +74,7 @@ impl BatchReport for Linted {
     }
 
     fn text(&self) -> String {
-        text::text(&self.report)
+        text::text(&self.report, &self.difference)
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -94,18 +104,25 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let access = arguments.access.access()?;
     let linted = |path: &Path| {
         let own = access.fresh();
-        let report = lint(path, &own);
+        let mut report = lint(path, &own);
+        let mut difference = String::new();
+        if arguments.fix {
+            difference = fix::difference(&report.fixes);
+            if !arguments.dry_run && fix::write(&report.fixes)? {
+                report = LintReport { fixes: report.fixes, ..lint(path, &own) };
+            }
+        }
         let read: Vec<PathBuf> = own.files().into_iter().map(|file| file.path).collect();
         batch.reads(&read).map_err(Failure::from)?;
-        Ok(Linted { report, strict: arguments.strict })
+        Ok(Linted { report, strict: arguments.strict, difference })
     };
     let files = arguments.files.iter();
     let answers: Vec<Answer<Linted>> = files.map(|path| batch.answer(path, || linted(path))).collect();
     if printer.format() == Format::Sarif {
         return batch.finish_as(answers, |answers| {
             let found = answers.iter().filter_map(|answer| answer.report().ok());
-            let found: Vec<&Diagnostic> = found.flat_map(|linted| &linted.report.diagnostics).collect();
-            sarif::document(&found)
+            let reports: Vec<&LintReport> = found.map(|linted| &linted.report).collect();
+            sarif::document(&reports)
         });
     }
     batch.finish(answers)

@@ -3,7 +3,10 @@
 
 use std::{collections::BTreeMap, fmt::Write, ops::Range, path::Path};
 
-use congruent::description::{Code, Diagnostic, Severity, line_column};
+use congruent::{
+    LintFix, LintReport,
+    description::{Code, Diagnostic, Severity, TextEdit, line_column},
+};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -16,13 +19,15 @@ pub(super) struct Sarif {
     runs: [Value; 1],
 }
 
-pub(super) fn document(found: &[&Diagnostic]) -> Sarif {
+pub(super) fn document(reports: &[&LintReport]) -> Sarif {
+    let found = || reports.iter().flat_map(|report| report.diagnostics.iter().map(|found| (*report, found)));
     let codes: BTreeMap<&str, Option<Code>> =
-        found.iter().map(|found| (found.code, Code::find(found.code))).collect();
+        found().map(|(_, found)| (found.code, Code::find(found.code))).collect();
     let rules: Vec<Value> = codes.iter().map(|(name, code)| rule(name, *code)).collect();
     let index = |name: &str| codes.keys().position(|known| *known == name);
-    let results: Vec<Value> =
-        found.iter().flat_map(|found| results(found, index(found.code), codes[found.code])).collect();
+    let results: Vec<Value> = found()
+        .flat_map(|(report, found)| results(found, &report.fixes, (index(found.code), codes[found.code])))
+        .collect();
     let driver = json!({
         "name": "congruent",
         "semanticVersion": env!("CARGO_PKG_VERSION"),
@@ -49,7 +54,7 @@ fn rule(name: &str, code: Option<Code>) -> Value {
     })
 }
 
-fn results(found: &Diagnostic, rule: Option<usize>, code: Option<Code>) -> Vec<Value> {
+fn results(found: &Diagnostic, fixes: &[LintFix], (rule, code): (Option<usize>, Option<Code>)) -> Vec<Value> {
     let id = code.map_or_else(|| found.code.to_owned(), |code| code.to_string());
     let level = match found.severity {
         Severity::Error => "error",
@@ -68,12 +73,38 @@ fn results(found: &Diagnostic, rule: Option<usize>, code: Option<Code>) -> Vec<V
         if let Some(location) = location(found, span) {
             result["locations"] = json!([{ "physicalLocation": location }]);
         }
+        let fixes = fixes.iter().filter(|fix| answers(fix, found, span)).map(fix);
+        let fixes: Vec<Value> = fixes.collect();
+        if !fixes.is_empty() {
+            result["fixes"] = json!(fixes);
+        }
         result
     };
     match &found.kind.occurrences[..] {
         [] => vec![one(&found.message, found.span.as_ref())],
         several => several.iter().map(|each| one(&each.message, each.span.as_ref())).collect(),
     }
+}
+
+/// Whether a correction is of what stands at a place: of the same file, in the same line.
+fn answers(fix: &LintFix, found: &Diagnostic, span: Option<&Range<usize>>) -> bool {
+    let (Some(source), Some(span)) = (&found.source, span) else { return false };
+    let line = |at| line_column(&source.text, at).0;
+    let is_here = |edit: &TextEdit| line(edit.span.start) == line(span.start);
+    fix.code == found.code && fix.source.path == source.path && fix.edits.first().is_some_and(is_here)
+}
+
+fn fix(fix: &LintFix) -> Value {
+    let replacement = |edit: &TextEdit| {
+        let inserted = json!({ "text": edit.text });
+        json!({ "deletedRegion": region(&fix.source.text, &edit.span), "insertedContent": inserted })
+    };
+    let replacements: Vec<Value> = fix.edits.iter().map(replacement).collect();
+    let uri = uri(&fix.source.path);
+    json!({
+        "description": { "text": fix.about },
+        "artifactChanges": [{ "artifactLocation": { "uri": uri }, "replacements": replacements }],
+    })
 }
 
 fn location(found: &Diagnostic, span: Option<&Range<usize>>) -> Option<Value> {
@@ -131,8 +162,8 @@ mod tests {
             found.push(warning.one_of("links have no mass", name).at(span));
         }
         let found = found.in_file(&source);
-        let document = serde_json::to_value(document(&found.iter().collect::<Vec<_>>())).unwrap();
-        let results = document["runs"][0]["results"].as_array().unwrap();
+        let code = Code::find("urdf::massless");
+        let results = results(&found[0], &[], (Some(0), code));
         assert_eq!(results.len(), 2);
         let location = &results[0]["locations"][0]["physicalLocation"];
         assert_eq!(location["artifactLocation"]["uri"], "my%20robot/a.urdf");
@@ -141,7 +172,7 @@ mod tests {
             json!({ "startLine": 2, "startColumn": 2, "endLine": 2, "endColumn": 4 })
         );
         assert_eq!(results[1]["locations"][0]["physicalLocation"]["region"]["startLine"], 3);
-        assert_eq!(results[0]["ruleId"], document["runs"][0]["tool"]["driver"]["rules"][0]["id"]);
+        assert_eq!(results[0]["ruleId"], "CGR-URDF-028");
         assert_eq!(results[0]["ruleIndex"], 0);
     }
 }

@@ -6,8 +6,9 @@ use congruent::{LintReport, description::serde_name};
 
 use crate::print::rendered;
 
-pub(super) fn text(report: &LintReport) -> String {
+pub(super) fn text(report: &LintReport, difference: &str) -> String {
     let mut text: String = report.diagnostics.iter().map(rendered).collect();
+    text += difference;
     for ignored in &report.ignored {
         let _ = writeln!(
             text,
@@ -27,6 +28,9 @@ pub(super) fn text(report: &LintReport) -> String {
     let stops: Vec<&str> = report.stops.iter().map(serde_name).collect();
     if !stops.is_empty() {
         let _ = write!(text, "; the robot cannot be used for {}", stops.join(", "));
+    }
+    if !report.fixes.is_empty() && difference.is_empty() {
+        let _ = write!(text, "; --fix corrects {}", counted(report.fixes.len(), "place"));
     }
     text.push('\n');
     text

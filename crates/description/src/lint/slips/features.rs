@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::thresholds::LARGEST_MARKER_M;
 use crate::model::{Geometry, Inertia, LinkIndex, Robot, Shape};
 
 /// An axis-aligned box in the frame of a link.
@@ -71,6 +72,12 @@ impl Extent {
     }
 }
 
+/// Whether a shape only marks a place, such as a ball of a millimetre: it says nothing of the size of its link.
+fn is_marker(shape: &Shape) -> bool {
+    let is_mesh = matches!(shape.geometry, Geometry::Mesh(_));
+    !is_mesh && diagonal_m(shape).is_some_and(|diagonal| diagonal < LARGEST_MARKER_M)
+}
+
 /// The diagonal of one shape.
 pub(super) fn diagonal_m(shape: &Shape) -> Option<f64> {
     Extent::of_geometry(&shape.geometry).map(|extent| extent.diagonal_m())
@@ -92,7 +99,8 @@ impl Sizes {
     pub(super) fn of(robot: &Robot) -> Self {
         let around = |link: LinkIndex| {
             let link = robot.link(link);
-            link.visuals.iter().chain(&link.collisions).filter_map(Extent::of_shape).reduce(Extent::with)
+            let shapes = link.visuals.iter().chain(&link.collisions).filter(|shape| !is_marker(shape));
+            shapes.filter_map(Extent::of_shape).reduce(Extent::with)
         };
         let shapes: Vec<Option<Extent>> = robot.link_indices().map(around).collect();
         let lengths = || robot.joints().iter().map(|joint| joint.parent_from_joint.translation.vector.norm());
@@ -139,7 +147,9 @@ impl Body {
         let gyration_m = (trace / 3.0 / inertia.mass_kg).sqrt();
         let radius_m = gyration_m * 2.5_f64.sqrt();
         let sphere_density = inertia.mass_kg / (4.0 / 3.0 * std::f64::consts::PI * radius_m.powi(3));
-        let is_placeholder = inertia.tensor_kg_m2.iter().all(|entry| has_one_digit(*entry));
+        let tensor = &inertia.tensor_kg_m2;
+        let is_ball = *tensor == nalgebra::Matrix3::from_diagonal_element(tensor[(0, 0)]);
+        let is_placeholder = is_ball || tensor.iter().all(|entry| has_one_digit(*entry));
         let shapes = shapes.filter(|shapes| shapes.diagonal_m() > 0.0);
         Some(Self { link, mass_kg: inertia.mass_kg, gyration_m, sphere_density, is_placeholder, shapes })
     }

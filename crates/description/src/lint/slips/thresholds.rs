@@ -4,9 +4,10 @@
 //! extreme that was seen. A slip is a factor of 57.3, 100 or more, so that bounds lie between the extreme and the extreme of
 //! a slip. No bound is on one value alone where another value of the file belongs to it.
 
-/// Radius of gyration against the diagonal of the link's shapes. Seen: 0.14 to 1.17; placeholders aside.
+/// Radius of gyration against the diagonal of the link's shapes. Seen: 0.14 to 1.17; placeholders aside, which are tensors of
+/// one digit or of a ball.
 pub(super) const GYRATION_TO_DIAGONAL: [f64; 2] = [0.02, 5.0];
-/// The same of placeholders, which are tensors of one digit. Seen: 0.0026 to 29.
+/// The same of placeholders. Seen: 0.0026 to 29.
 pub(super) const PLACEHOLDER_GYRATION_TO_DIAGONAL: [f64; 2] = [5e-4, 200.0];
 /// Density of the solid sphere with the mass and the mean moment of a link, kg/m^3: any body's own density is above it, by
 /// a factor that is small for compact bodies. Seen: 6.8 to 7.3e3; steel has 7.9e3.
@@ -20,6 +21,9 @@ pub(super) const MOST_BOX_DENSITY: f64 = 4e4;
 pub(super) const MEDIAN_BOX_DENSITY: [f64; 2] = [0.5, 2e4];
 /// Lighter links are markers and frames, whose mass means nothing. Seen: 1 g on a box of 1 mm.
 pub(super) const LEAST_MASS_KG: f64 = 0.05;
+
+/// Diagonal of boxes, cylinders and balls that only mark a place, m. Seen: balls of 1 mm on a head.
+pub(super) const LARGEST_MARKER_M: f64 = 5e-3;
 
 /// Distance of a centre of mass from what belongs to its link, in diagonals of that. Seen: up to 1.1.
 pub(super) const FARTHEST_COM: f64 = 2.5;
