@@ -17,7 +17,6 @@ pub(super) const AREAS: &[Area] = &[Area {
         (6, "cli::velocities", "Joint velocities are read from a file of configurations, and none is given."),
         (7, "cli::format", "Only `lint` prints SARIF."),
         (8, "lint::code", "No finding has this code. The help names the one that is most like it."),
-        (9, "lint::files", "No file is given to `lint`."),
         (10, "run::cannot_run", "The scenario cannot be run; the message has the reason."),
         (11, "run::output", "A result cannot be written to its place."),
         (12, "run::same_output", "Two scenarios would write to the same folder."),

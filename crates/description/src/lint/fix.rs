@@ -12,7 +12,6 @@ use crate::{
         Misspelt, misspellings,
         node::{element, elements, label},
     },
-    written::number::number,
     xml,
 };
 
@@ -62,7 +61,8 @@ fn names(text: &str, place: &Misspelt<'_>, written: &str) -> Vec<Range<usize>> {
             let start = range.start + 1..range.start + 1 + written.len();
             let closing = text[range.clone()].rfind("</").map(|at| range.start + at + 2);
             // Without a closing tag of its own, the last one inside is a child's.
-            let end = closing.map(|at| at..at + written.len()).filter(|end| &text[end.clone()] == written);
+            let end =
+                closing.map(|at| at..at + written.len()).filter(|end| text.get(end.clone()) == Some(written));
             let is_closed = !text[range].trim_end().ends_with("/>");
             match (end, is_closed) {
                 (Some(end), true) => vec![start, end],
@@ -89,7 +89,7 @@ fn unit_axis(joint: Node<'_, '_>) -> Option<SafeFix> {
         return None;
     }
     let unit = vector / length;
-    let text = unit.iter().map(|entry| number(*entry)).collect::<Vec<_>>().join(" ");
+    let text = unit.iter().map(|entry| (entry + 0.0).to_string()).collect::<Vec<_>>().join(" ");
     Some(SafeFix {
         code: "urdf::axis",
         about: format!("{}: the axis has length 1", label(joint)),

@@ -14,7 +14,7 @@ pub(super) fn unified(name: &str, text: &str, changed: &[ChangedLines]) -> Strin
     if changed.is_empty() {
         return diff;
     }
-    let _ = write!(diff, "--- {name}\n+++ {name}\n");
+    let _ = writeln!(diff, "--- {name}\n+++ {name}");
     let mut grown = 0_isize;
     for hunk in hunks(changed, lines.len()) {
         let before = hunk.lines.len();

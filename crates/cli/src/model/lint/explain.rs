@@ -33,7 +33,7 @@ fn text(code: &Explanation) -> String {
     let mut text = format!("{} {}\n\n", code.id, code.code);
     text += &paragraph(lines.next().unwrap_or_default(), 2, 2);
     for (at, example) in lines.enumerate() {
-        let _ = write!(text, "{}{example}\n", if at == 0 { "\n" } else { "" });
+        let _ = writeln!(text, "{}{example}", if at == 0 { "\n" } else { "" });
     }
     text
 }

@@ -4,7 +4,7 @@ use super::{
     Judge, Kind,
     thresholds::{
         FARTHEST_JOINT, FASTEST_SLIDE_M_S, LEAST_ORIGIN_M, LEAST_TRAVEL_M, LONGEST_ORIGIN, LONGEST_TRAVEL_M,
-        TRAVEL_TO_SHAPES, TRAVEL_TO_SIZE,
+        TRACK_TO_SIZE, TRAVEL_TO_SHAPES, TRAVEL_TO_SIZE,
     },
 };
 use crate::{
@@ -53,6 +53,9 @@ impl Judge<'_> {
                     length(diagonal_m)
                 ));
             }
+        }
+        if self.sizes.shapes[joint.parent.get()].is_some_and(|shapes| shapes.diagonal_m() > length_m) {
+            return None; // as long as the link itself
         }
         let others = self.robot.joints().iter().filter(|other| {
             other.name != joint.name
@@ -106,8 +109,16 @@ impl Judge<'_> {
             return what(format!("and the shapes of both links are {} large", length(shapes_m)));
         }
         let robot_m = self.sizes.robot_m();
-        (travel_m > TRAVEL_TO_SIZE * robot_m && robot_m > 0.0)
+        let most = if self.is_first_to_move(joint) { TRACK_TO_SIZE } else { TRAVEL_TO_SIZE };
+        (travel_m > most * robot_m && robot_m > 0.0)
             .then(|| what(format!("and the robot is {} large", length(robot_m))))?
+    }
+}
+
+impl Judge<'_> {
+    /// Whether no moving joint carries a joint.
+    fn is_first_to_move(&self, joint: &Joint) -> bool {
+        self.robot.body(joint.parent) == self.robot.root()
     }
 }
 

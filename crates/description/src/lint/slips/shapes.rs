@@ -3,10 +3,12 @@
 use super::{
     Judge, Kind,
     features::{diagonal_m, median},
-    thresholds::{LEAST_LARGE_SHAPE_M, LEAST_MESH_M, LEAST_MESH_TO_MEDIAN, MOST_SHAPE_TO_MEDIAN},
+    thresholds::{
+        LEAST_LARGE_SHAPE_M, LEAST_MESH_M, LEAST_MESH_TO_MEDIAN, MOST_SHAPE_TO_MEDIAN, MOST_SHAPE_TO_ORIGINS,
+    },
 };
 use crate::{
-    display::{length, number},
+    display::length,
     model::{Geometry, Shape},
     urdf::LARGEST_PLAUSIBLE_M,
 };
@@ -18,6 +20,7 @@ const LARGE: Kind = Kind { code: "units::large_shape", words: "links have a shap
 struct Measured<'a> {
     link: &'a str,
     is_mesh: bool,
+    is_root: bool,
     diagonal_m: f64,
 }
 
@@ -29,13 +32,14 @@ impl Judge<'_> {
     pub(super) fn shapes(&mut self) {
         let robot = self.robot;
         let measured: Vec<Measured<'_>> = robot
-            .links()
-            .iter()
-            .flat_map(|link| {
+            .link_indices()
+            .flat_map(|index| {
+                let link = robot.link(index);
                 let shapes = link.visuals.iter().chain(&link.collisions);
-                shapes.filter_map(|shape| {
+                shapes.filter_map(move |shape| {
                     let diagonal_m = diagonal_m(shape).filter(|diagonal| *diagonal > 0.0)?;
-                    Some(Measured { link: &link.name, is_mesh: is_mesh(shape), diagonal_m })
+                    let is_root = index == robot.root();
+                    Some(Measured { link: &link.name, is_mesh: is_mesh(shape), is_root, diagonal_m })
                 })
             })
             .collect();
@@ -48,10 +52,14 @@ impl Judge<'_> {
             let size_m = shape.diagonal_m;
             let is_small = shape.is_mesh
                 && (size_m < LEAST_MESH_M || (has_several && size_m < LEAST_MESH_TO_MEDIAN * middle_mesh_m));
-            let is_large = measured.len() >= 3
-                && size_m > LEAST_LARGE_SHAPE_M
-                && size_m <= LARGEST_PLAUSIBLE_M
-                && size_m > MOST_SHAPE_TO_MEDIAN * middle_m;
+            // Larger meshes are told when they are read.
+            let is_told = shape.is_mesh && size_m > LARGEST_PLAUSIBLE_M;
+            let against_shapes = measured.len() >= 3 && size_m > MOST_SHAPE_TO_MEDIAN * middle_m;
+            // A floor hangs on the root.
+            let against_origins = !shape.is_root
+                && self.sizes.origins_m > 0.0
+                && size_m > MOST_SHAPE_TO_ORIGINS * self.sizes.origins_m;
+            let is_large = size_m > LEAST_LARGE_SHAPE_M && !is_told && (against_shapes || against_origins);
             if told == shape.link {
                 continue;
             }
@@ -61,9 +69,12 @@ impl Judge<'_> {
                 self.warn_link(&SMALL, shape.link, &what, ("", help));
                 told = shape.link;
             } else if is_large {
-                let times = number((size_m / middle_m).round());
-                let what =
-                    format!("a shape of it is {} large, {times} times the robot's usual one", length(size_m));
+                let what = format!(
+                    "a shape of it is {} large, the middle one of the robot {}, and its joint origins {} together",
+                    length(size_m),
+                    length(middle_m),
+                    length(self.sizes.origins_m)
+                );
                 let help = "sizes are in metres: is it in centimetres or millimetres?".to_owned();
                 self.warn_link(&LARGE, shape.link, &what, ("", help));
                 told = shape.link;

@@ -4,9 +4,9 @@
 //! extreme that was seen. A slip is a factor of 57.3, 100 or more, so that bounds lie between the extreme and the extreme of
 //! a slip. No bound is on one value alone where another value of the file belongs to it.
 
-/// Radius of gyration against the diagonal of the link's shapes. Seen: 0.14 to 1.17; placeholders aside, which are tensors of
+/// Radius of gyration against the diagonal of the link's shapes, of a solid box 0.29. Seen: 0.11 to 0.96; placeholders aside, which are tensors of
 /// one digit or of a ball.
-pub(super) const GYRATION_TO_DIAGONAL: [f64; 2] = [0.02, 5.0];
+pub(super) const GYRATION_TO_DIAGONAL: [f64; 2] = [0.035, 2.5];
 /// The same of placeholders. Seen: 0.0026 to 29.
 pub(super) const PLACEHOLDER_GYRATION_TO_DIAGONAL: [f64; 2] = [5e-4, 200.0];
 /// Density of the solid sphere with the mass and the mean moment of a link, kg/m^3: any body's own density is above it, by
@@ -35,16 +35,17 @@ pub(super) const LEAST_COM_M: f64 = 0.3;
 /// Distance of a joint from the shapes of the link that carries it, in their diagonals. Seen: up to 2.2.
 pub(super) const FARTHEST_JOINT: f64 = 6.0;
 /// Length of a joint origin against the sum of all others. Seen: up to 1.
-pub(super) const LONGEST_ORIGIN: f64 = 4.0;
+pub(super) const LONGEST_ORIGIN: f64 = 2.5;
 /// Shorter origins are not told.
 pub(super) const LEAST_ORIGIN_M: f64 = 0.5;
 
 /// Travel of a sliding joint, m; linear axes of robots are shorter than this.
 pub(super) const LONGEST_TRAVEL_M: f64 = 10.0;
-/// Travel against the size of the robot. Seen: up to 0.9.
-pub(super) const TRAVEL_TO_SIZE: f64 = 4.0;
+/// Travel against the size of the robot, of the first moving joint, which may be a track, and of all others. Seen: up to 0.9.
+pub(super) const TRACK_TO_SIZE: f64 = 4.0;
+pub(super) const TRAVEL_TO_SIZE: f64 = 2.0;
 /// Travel against the diagonals of the two links that slide. Seen: up to 1.
-pub(super) const TRAVEL_TO_SHAPES: f64 = 10.0;
+pub(super) const TRAVEL_TO_SHAPES: f64 = 6.0;
 /// Shorter travels are not told.
 pub(super) const LEAST_TRAVEL_M: f64 = 1.0;
 /// Speed of a sliding joint, m/s. Seen: up to 5.
@@ -69,5 +70,7 @@ pub(super) const LEAST_MESH_M: f64 = 3e-3;
 pub(super) const LEAST_MESH_TO_MEDIAN: f64 = 1.0 / 40.0;
 /// Diagonal of a shape against the median of the robot's other shapes. Seen: up to 8.
 pub(super) const MOST_SHAPE_TO_MEDIAN: f64 = 20.0;
+/// Diagonal of a shape against the sum of all joint origins, of robots with few shapes. Seen: up to 2.2.
+pub(super) const MOST_SHAPE_TO_ORIGINS: f64 = 8.0;
 /// Smaller shapes are not too large.
 pub(super) const LEAST_LARGE_SHAPE_M: f64 = 2.0;
