@@ -148,7 +148,6 @@ pub(super) const AREAS: &[Area] = &[
                 "mesh::empty",
                 "The mesh file is valid and has no triangles, so its link has no shape there.",
             ),
-            (4, "mesh::none", "The address of the mesh is empty."),
             (
                 5,
                 "mesh::network",
