@@ -35,6 +35,8 @@ mod frames;
 mod golden;
 mod interruptions;
 mod jacobian_goldens;
+mod lint;
+mod lint_broken;
 mod mimics;
 mod new_files;
 mod pages;

@@ -183,6 +183,32 @@ impl<'a> Batch<'a> {
         mut answers: Vec<Answer<R>>,
         written: Result<(), Failure>,
     ) -> Result<u8, Failure> {
+        let code = self.conclude(&answers, written);
+        if answers.len() > 1 {
+            let entries: Vec<Entry<'_, R>> = answers.iter().map(Answer::entry).collect();
+            self.printer.result(&entries, |_| text(&answers))?;
+        } else if let Some(Answer { result, .. }) = answers.pop() {
+            self.printer.result(&result?, R::text)?;
+        }
+        Ok(code)
+    }
+
+    /// The same with one document for all answers in the place of theirs.
+    pub(crate) fn finish_as<R: BatchReport, T: Serialize>(
+        &self,
+        answers: Vec<Answer<R>>,
+        document: impl FnOnce(&[Answer<R>]) -> T,
+    ) -> Result<u8, Failure> {
+        let code = self.conclude(&answers, Ok(()));
+        self.printer.verbatim(&document(&answers), |_| String::new())?;
+        match <[Answer<R>; 1]>::try_from(answers) {
+            Ok([Answer { result: Err(failure), .. }]) => Err(failure),
+            _ => Ok(code),
+        }
+    }
+
+    /// Writes the files for CI; the worst exit code.
+    fn conclude<R: BatchReport>(&self, answers: &[Answer<R>], written: Result<(), Failure>) -> u8 {
         let mut code = answers.iter().map(Answer::exit_code).fold(0, worse);
         if let Err(failure) = written {
             Printer::explain(None, &failure);
@@ -195,13 +221,7 @@ impl<'a> Batch<'a> {
                 code = BROKEN;
             }
         }
-        if answers.len() > 1 {
-            let entries: Vec<Entry<'_, R>> = answers.iter().map(Answer::entry).collect();
-            self.printer.result(&entries, |_| text(&answers))?;
-        } else if let Some(Answer { result, .. }) = answers.pop() {
-            self.printer.result(&result?, R::text)?;
-        }
-        Ok(code)
+        code
     }
 }
 

@@ -30,9 +30,10 @@ mod terminal_text;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use congruent::description::Diagnostic;
 
 use crate::{
-    failure::BAD_INPUT,
+    failure::{BAD_INPUT, Failure},
     print::{Color, Format, Printer, Verbosity},
 };
 
@@ -67,6 +68,7 @@ enum Command {
     Run(run::Arguments),
     Faults(faults::Arguments),
     Check(model::check::Arguments),
+    Lint(model::lint::Arguments),
     Describe(model::describe::Arguments),
     Fk(arm::fk::Arguments),
     Jacobian(arm::jacobian::Arguments),
@@ -128,10 +130,16 @@ fn main() -> ExitCode {
     };
     arguments.color.apply();
     let printer = Printer::new(arguments.format, arguments.verbosity());
+    if arguments.format == Format::Sarif && !matches!(arguments.command, Command::Lint(_)) {
+        let only = Diagnostic::error("cli::format", "--format sarif is of `lint` alone");
+        Printer::explain(None, &Failure::from(only.with_help("use --format json")));
+        return ExitCode::from(BAD_INPUT);
+    }
     let result = match arguments.command {
         Command::Run(arguments) => run::run(&arguments, &printer),
         Command::Faults(arguments) => faults::run(&arguments, &printer),
         Command::Check(arguments) => model::check::run(&arguments, &printer),
+        Command::Lint(arguments) => model::lint::run(&arguments, &printer),
         Command::Describe(arguments) => model::describe::run(&arguments, &printer),
         Command::Fk(arguments) => arm::fk::run(&arguments, &printer),
         Command::Jacobian(arguments) => arm::jacobian::run(&arguments, &printer),

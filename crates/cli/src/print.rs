@@ -24,9 +24,12 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// For people.
+    #[value(alias = "text")]
     Human,
     /// One JSON document on standard output.
     Json,
+    /// One SARIF document on standard output, which code hosts show: of `lint` alone.
+    Sarif,
 }
 
 /// When what people read is coloured.
@@ -130,6 +133,11 @@ impl Printer {
         Self { format, verbosity }
     }
 
+    /// How results are printed.
+    pub(crate) fn format(&self) -> Format {
+        self.format
+    }
+
     /// The result of a command: the document as JSON, or the text for people, in the columns of their terminal.
     pub(crate) fn result<T: Serialize>(
         &self,
@@ -152,7 +160,7 @@ impl Printer {
     ) -> Result<(), Failure> {
         let printed = match self.format {
             Format::Human => for_people(&text(document), colours()),
-            Format::Json => {
+            Format::Json | Format::Sarif => {
                 let mut json = serde_json::to_string(document).map_err(machine)?;
                 json.push('\n');
                 for_programs(&json).into_owned()
@@ -178,7 +186,7 @@ impl Printer {
         }
         let shown = |warning: &Diagnostic| match self.format {
             Format::Human => labelled(input, warning),
-            Format::Json => in_one_line(input, warning),
+            Format::Json | Format::Sarif => in_one_line(input, warning),
         };
         to_stderr(&warnings.iter().map(shown).collect::<String>());
     }
@@ -317,6 +325,9 @@ pub(crate) fn rendered(finding: &Diagnostic) -> String {
 /// are cut.
 fn shortened(finding: &Diagnostic) -> Diagnostic {
     let mut shortened = finding.clone();
+    // Beside the sign, which not everybody sees or knows.
+    shortened.message.insert_str(0, ": ");
+    shortened.message.insert_str(0, serde_name(&finding.severity));
     if let Some(stopped) = finding.stops {
         let _ = write!(shortened.message, " (stops {} alone)", serde_name(&stopped));
     }

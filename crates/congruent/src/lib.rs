@@ -20,6 +20,7 @@ pub use nalgebra;
 mod check;
 #[cfg(feature = "recording")]
 mod joint_sweep;
+mod lint;
 mod run_comparison;
 pub mod schema;
 pub mod starter;
@@ -30,6 +31,7 @@ pub use check::{
 };
 #[cfg(feature = "recording")]
 pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};
+pub use lint::{LintFinding, LintFix, LintReport, LintVerdict, lint};
 pub use run_comparison::{NotComparable, RunComparison, compare_runs};
 pub use with_physics::{forward, joint_dynamics};
 

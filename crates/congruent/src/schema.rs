@@ -26,6 +26,7 @@ use serde_json::Value;
 
 use crate::{
     check::RobotCheck,
+    lint::LintReport,
     run_comparison::RunComparison,
     starter::{NewRobot, NewScenario},
 };
@@ -49,6 +50,7 @@ impl Document {
         Self::new("report", "report.json of a run, printed by `run`", written::<RunReport>),
         Self::new("faults", "table of faults against checks, printed by `faults`", written::<FaultTable>),
         Self::new("check", "report of one robot, printed by `check`", written::<RobotCheck>),
+        Self::new("lint", "findings about one file, printed by `lint`", written::<LintReport>),
         Self::new(
             "describe",
             "what a robot's files say, printed by `describe`",

@@ -71,6 +71,21 @@ pub fn changed_lines(text: &str, edits: &[TextEdit]) -> Vec<ChangedLines> {
         .collect()
 }
 
+/// The text after edits; of edits that overlap the first counts.
+pub fn edited(text: &str, edits: &[TextEdit]) -> String {
+    let mut edits: Vec<&TextEdit> = edits.iter().collect();
+    edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
+    let (mut edited, mut at) = (String::with_capacity(text.len()), 0);
+    for edit in edits {
+        if edit.span.start >= at {
+            edited += &text[at..edit.span.start];
+            edited += &edit.text;
+            at = edit.span.end;
+        }
+    }
+    edited + &text[at..]
+}
+
 /// Where the line of a place ends.
 pub(crate) fn line_end(text: &str, from: usize) -> usize {
     let rest = &text[from..];

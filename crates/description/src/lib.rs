@@ -4,12 +4,14 @@
 //! Parsers take text and give a value or diagnostics; only `files/` opens files.
 
 mod chain;
+mod codes;
 mod configuration_file;
 mod description;
 mod diagnostic;
 pub mod display;
 mod edits;
 mod files;
+mod lint;
 mod load;
 mod mesh;
 mod model;
@@ -22,6 +24,7 @@ mod written;
 mod xml;
 
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
+pub use codes::Code;
 pub use configuration_file::{
     Configurations, JointState, JsonList, configuration, configurations_schema, outside_limits,
     outside_limits_warning, read_configurations, read_states, unique_names,
@@ -31,8 +34,9 @@ pub use diagnostic::{
     Diagnostic, Diagnostics, Finding, FindingPlace, Kind, LineCounter, Occurrence, Severity, SourceFile, Use,
     known_names, line_column, nearest,
 };
-pub use edits::{ChangedLines, TextEdit, changed_lines};
+pub use edits::{ChangedLines, TextEdit, changed_lines, edited};
 pub use files::{FileAccess, InputFile, RosPackages, is_standard_input, read_text};
+pub use lint::{FileKind, IgnoredFinding, Ignores, SafeFix, safe_fixes, unit_slips};
 pub use load::{load_robot, load_robot_with, parse_robot};
 pub use mesh::{HullPoints, read_mesh};
 pub use model::{
@@ -45,6 +49,7 @@ pub use robot_file::{
     InertialPoint, RobotFilePlaces, RowKey, ValuePlace, dh_section, relative_path, robot_file_schema,
     robot_file_text, robot_file_values, toml_key, toml_string,
 };
+pub use srdf::{SRDF_BYTES, examine as examine_srdf};
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use visible::{hidden_character, is_hidden, visible, visible_lines};
 pub use written::{

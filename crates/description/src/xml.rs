@@ -11,6 +11,9 @@ use crate::diagnostic::Diagnostic;
 /// The code of an element whose prefix is not declared.
 pub(crate) const UNKNOWN_PREFIX: &str = "xml::prefix";
 
+/// With what a file begins that Git LFS has put in the place of another.
+pub(crate) const LFS_POINTER: &str = "version https://git-lfs";
+
 /// URDF needs six levels, vendor blocks a few more, COLLADA one for each node of a limb.
 const DEEPEST: usize = 64;
 
@@ -51,9 +54,17 @@ fn unbuilt(error: &roxmltree::Error, text: &str) -> Diagnostic {
 
 /// Refuses DTDs, too deep nesting and text that ends early.
 fn check(text: &str) -> Result<(), Diagnostic> {
+    no_xml(text)?;
     let mut open: Vec<OpenElement<'_>> = Vec::new();
+    let mut has_root = false;
     for token in Tokenizer::from(text) {
-        let token = token.map_err(|error| malformed(&error, text, &open))?;
+        let token = token.map_err(|error| {
+            if has_root && open.is_empty() {
+                after_root(&error, text)
+            } else {
+                malformed(&error, text, &open)
+            }
+        })?;
         match token {
             Token::DtdStart { span, .. } | Token::EmptyDtd { span, .. } => {
                 let message = "DTD (<!DOCTYPE ...>) and entity declarations are refused";
@@ -62,6 +73,7 @@ fn check(text: &str) -> Result<(), Diagnostic> {
                     .with_help("write the values out; no entity is ever expanded or fetched"));
             }
             Token::ElementStart { span, local, .. } => {
+                has_root = true;
                 open.push(OpenElement {
                     tag: local.as_str(),
                     name: None,
@@ -94,7 +106,59 @@ fn check(text: &str) -> Result<(), Diagnostic> {
     if open.is_empty() { Ok(()) } else { Err(unclosed(&open)) }
 }
 
+/// Files that are no XML at all, by how they begin.
+fn no_xml(text: &str) -> Result<(), Diagnostic> {
+    let begin = text.trim_start_matches('\u{feff}').trim_start();
+    let at = text.len() - begin.len();
+    if begin.starts_with(LFS_POINTER) {
+        return Err(Diagnostic::error(
+            "xml::malformed",
+            "the file is a Git LFS pointer, not the file itself",
+        )
+        .at(at..at)
+        .with_help("`git lfs pull` fetches it"));
+    }
+    if begin.is_empty() || begin.starts_with('<') {
+        return Ok(());
+    }
+    let first: String = begin.lines().next().unwrap_or_default().chars().take(40).collect();
+    let message = format!("the file is no XML: it begins with \"{first}\"");
+    Err(Diagnostic::error("xml::malformed", message).at(at..at))
+}
+
+/// What follows the root element.
+fn after_root(error: &xmlparser::Error, text: &str) -> Diagnostic {
+    let at = offset(text, error.pos().row, error.pos().col);
+    let rest = text[at..].trim_start();
+    let at = text.len() - rest.len();
+    let message = if rest.starts_with("</") {
+        "a closing tag after the end of the root element: nothing is open there"
+    } else if rest.starts_with('<') {
+        "a second root element after the end of the first: a file has one"
+    } else {
+        "text after the end of the root element"
+    };
+    Diagnostic::error("xml::malformed", message)
+        .at(at..at)
+        .with_help("the file ends with the closing tag of its first element; a second robot is another file")
+}
+
+/// The first line that a merge has left.
+fn conflict(text: &str) -> Option<Diagnostic> {
+    let marker = "<<<<<<< ";
+    let at = if text.starts_with(marker) { 0 } else { text.find(&format!("\n{marker}"))? + 1 };
+    let message = "the file has the marks of a merge conflict: both versions stand in it";
+    Some(
+        Diagnostic::error("xml::malformed", message)
+            .at(at..at + marker.len() - 1)
+            .with_help("resolve the conflict, and remove the lines <<<<<<<, ======= and >>>>>>>"),
+    )
+}
+
 fn malformed(error: &xmlparser::Error, text: &str, open: &[OpenElement<'_>]) -> Diagnostic {
+    if let Some(conflict) = conflict(text) {
+        return conflict;
+    }
     let at = offset(text, error.pos().row, error.pos().col);
     if !open.is_empty() && !text[at..].contains('>') {
         return unclosed(open);
@@ -170,6 +234,16 @@ mod tests {
         refused("<r><joint name=\"j\">\n", "xml::truncated", "<joint> \"j\" is not closed");
         refused("<r>", "xml::truncated", "<r> is not closed");
         refused("<r><a b=></a></r>", "xml::malformed", "invalid attribute");
+    }
+
+    #[test]
+    fn what_else_is_in_the_file_is_named() {
+        refused("<r/>\n<r/>", "xml::malformed", "a second root element");
+        refused("<r></r></r>", "xml::malformed", "a closing tag after the end");
+        refused("<r/> words", "xml::malformed", "text after the end");
+        refused("version https://git-lfs.github.com/spec/v1", "xml::malformed", "Git LFS pointer");
+        refused("robot: x", "xml::malformed", "begins with \"robot: x\"");
+        refused("<r>\n<<<<<<< HEAD\n<a/>\n=======\n>>>>>>> x\n</r>", "xml::malformed", "merge conflict");
     }
 
     #[test]

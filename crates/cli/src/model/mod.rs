@@ -9,5 +9,6 @@ pub(crate) mod describe;
 mod diagnosis_text;
 mod dynamics_text;
 mod errors_at;
+pub(crate) mod lint;
 mod tolerance;
 mod written_model;

@@ -7,7 +7,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::line_counter::LineCounter;
-use crate::visible::{visible, visible_lines};
+use crate::{
+    codes::Code,
+    visible::{visible, visible_lines},
+};
 
 /// A file that was read, kept so that a diagnostic can show the line.
 #[derive(Debug, PartialEq, Eq)]
@@ -191,7 +194,10 @@ impl std::error::Error for Diagnostic {}
 
 impl miette::Diagnostic for Diagnostic {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(Box::new(self.code))
+        Some(match Code::find(self.code) {
+            Some(code) => Box::new(format!("{code} {}", self.code)),
+            None => Box::new(self.code),
+        })
     }
 
     fn severity(&self) -> Option<miette::Severity> {

@@ -44,6 +44,11 @@ impl Diagnostics {
         self.0.iter().any(|found| found.stops == Some(Use::Physics) && within(found))
     }
 
+    /// How many there are so far.
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
+    }
+
     /// Whether any of them stops the work.
     pub fn has_error(&self) -> bool {
         self.0.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
@@ -85,6 +90,29 @@ fn joined(diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
         several.message = headline(several);
     }
     told
+}
+
+impl Diagnostic {
+    /// The same without those of its occurrences that are about something of this name; `None` if none is left.
+    #[must_use]
+    pub fn without(mut self, name: &str) -> Option<Self> {
+        if self.kind.occurrences.is_empty() {
+            let own = self.kind.words.as_ref().map(|(_, name)| name.as_str());
+            return (own != Some(name)).then_some(self);
+        }
+        self.kind.occurrences.retain(|found| found.name.as_deref() != Some(name));
+        let first = self.kind.occurrences.first()?.clone();
+        self.span.clone_from(&first.span);
+        if self.kind.occurrences.len() == 1 {
+            self.kind.occurrences.clear();
+            if let (Some((_, own)), Some(name)) = (&mut self.kind.words, first.name) {
+                *own = name;
+            }
+            return Some(Self { message: first.message, ..self });
+        }
+        self.message = headline(&self);
+        Some(self)
+    }
 }
 
 /// By file, first the one that is being read, then by place in it.

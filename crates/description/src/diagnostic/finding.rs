@@ -5,7 +5,7 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::visible::visible;
+use crate::{codes::Code, visible::visible};
 
 use super::{
     diagnostic::{Diagnostic, Occurrence, Severity, Use},
@@ -17,11 +17,14 @@ use super::{
 pub struct Finding {
     /// `error` or `warning`.
     pub severity: Severity,
-    /// Of a warning: the use of the robot that cannot go on because of it.
+    /// The use of the robot that cannot go on because of it, while the others can.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub stops: Option<Use>,
     /// Stable name.
     pub code: &'static str,
+    /// Stable number, as in `CGR-URDF-017`; the causes of disagreements have none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub id: Option<String>,
     /// What is wrong.
     pub message: String,
     /// The file, if it is known.
@@ -58,6 +61,7 @@ impl From<&Diagnostic> for Finding {
             severity: diagnostic.severity,
             stops: diagnostic.stops,
             code: diagnostic.code,
+            id: Code::find(diagnostic.code).map(|code| code.to_string()),
             message: diagnostic.message.clone(),
             file: diagnostic.source.as_ref().map(|source| source.path.display().to_string()),
             line: place.map(|(line, _)| line),

@@ -1,5 +1,7 @@
 //! The formats of mesh files: a new one is a file beside this one and a line in each match.
 
+use crate::xml::LFS_POINTER;
+
 use super::{
     dae,
     mesh_file::{MeshError, MeshFile},
@@ -30,6 +32,12 @@ impl MeshFormat {
     /// An empty result is an empty COLLADA scene, which real robots hold; every other mesh without a
     /// triangle that has area is refused.
     pub(super) fn parse(self, bytes: &[u8]) -> Result<MeshFile, MeshError> {
+        if bytes.starts_with(LFS_POINTER.as_bytes()) {
+            return Err(MeshError::LfsPointer);
+        }
+        if bytes.iter().all(u8::is_ascii_whitespace) {
+            return Err(MeshError::Empty);
+        }
         let mesh = match self {
             Self::Stl => stl::parse(bytes)?,
             Self::Obj => obj::parse(bytes)?,
@@ -54,5 +62,8 @@ mod tests {
     fn other_formats_are_refused_by_name() {
         let message = MeshFormat::of("step").unwrap_err().to_string();
         assert_eq!(message, "mesh format \".step\" is not supported (use STL, OBJ or DAE)");
+        let pointer = MeshFormat::Stl.parse(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+        assert_eq!(pointer, Err(MeshError::LfsPointer));
+        assert_eq!(MeshFormat::Obj.parse(b"\n"), Err(MeshError::Empty));
     }
 }

@@ -21,6 +21,12 @@ pub(crate) enum MeshError {
     /// The file name's extension is none of the three.
     #[error("mesh format \"{extension}\" is not supported (use STL, OBJ or DAE)")]
     Unsupported { extension: String },
+    /// The file is in the place of one that is stored elsewhere.
+    #[error("it is a Git LFS pointer, not the mesh itself: `git lfs pull` fetches it")]
+    LfsPointer,
+    /// There is nothing in the file.
+    #[error("the file is empty")]
+    Empty,
     /// Fewer bytes than any STL has.
     #[error("{bytes} bytes are too short for an STL file, whose header alone is 84")]
     TooShort { bytes: usize },

@@ -9,6 +9,7 @@ use super::{
     inertials::{self, DeclaredDynamics, InertialContext},
     limits,
     rows::{self, ChainContext, first_line},
+    unit_slips,
     written::{WrittenDh, WrittenRobot, WrittenTolerance},
 };
 use crate::{
@@ -44,9 +45,12 @@ pub(crate) fn check(
     let tcp = written.tcp.as_ref().map(Spanned::get_ref);
     let tip_from_tcp = tcp.and_then(|tcp| diagnostics.keep(tcp.isometry()));
     let (base, tip, chain) = chain(written, robot, diagnostics)?;
+    let size_m = unit_slips::size_m(robot);
     if let (Some(tcp), Some(_)) = (&written.tcp, tip_from_tcp) {
         diagnostics.extend(tcp_is_a_link(tcp.span(), robot, tip));
+        diagnostics.extend(unit_slips::transform("the tool centre point", tcp.get_ref(), size_m));
     }
+    diagnostics.extend(written.dh.iter().flat_map(|dh| unit_slips::table(dh.get_ref(), size_m)));
     let context = ChainContext { robot, chain: &chain, text };
     let dh = match &written.dh {
         Some(dh) => Some(table(dh, &context, diagnostics)?),

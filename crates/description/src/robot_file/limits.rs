@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::unit_slips;
 use crate::{
     diagnostic::{Diagnostic, Diagnostics, known_names},
     model::{Joint, Robot},
@@ -56,6 +57,7 @@ pub(super) fn accelerations(
         let mut given_by: Vec<Option<&str>> = vec![None; robot.dof()];
         for (key, by_joint) in written.keys() {
             for entry in by_joint.iter().filter(|(name, _)| (name.get_ref() == EVERY) == is_every) {
+                diagnostics.extend(unit_slips::acceleration(key.name, key.system, entry));
                 let Some((joints, acceleration)) = diagnostics.keep(read(&key, entry, robot)) else {
                     continue;
                 };

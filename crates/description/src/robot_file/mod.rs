@@ -6,6 +6,7 @@ mod inertials;
 mod limits;
 mod places;
 mod rows;
+mod unit_slips;
 mod write;
 mod written;
 

@@ -13,6 +13,7 @@ use super::{
 };
 use crate::{
     diagnostic::{Diagnostic, SourceFile},
+    lint::WrittenLint,
     model::{DhConvention, DhRowKind, ToleranceScale},
     units::{Unit, UnitSystem},
     urdf::Repairs,
@@ -80,6 +81,10 @@ pub(crate) struct WrittenRobot {
     #[serde(default)]
     #[schemars(with = "WrittenTolerance")]
     pub(crate) tolerance: Option<WrittenTolerance>,
+    /// What `lint` does not tell; [`Ignores`](crate::lint::Ignores) reads it.
+    #[serde(default, rename = "lint")]
+    #[schemars(with = "WrittenLint")]
+    pub(crate) _lint: Option<WrittenLint>,
 }
 
 impl WrittenRobot {

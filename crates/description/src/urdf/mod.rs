@@ -18,7 +18,7 @@ mod grammar;
 mod inertial;
 mod joint;
 mod link;
-mod node;
+pub(crate) mod node;
 mod places;
 mod pose;
 mod shape;
@@ -32,7 +32,9 @@ use std::{fmt::Write, ops::Range};
 use nalgebra::Vector3;
 use roxmltree::Node;
 
+pub(crate) use grammar::{Misspelt, misspellings};
 pub(crate) use inertial::Repairs;
+pub(crate) use pose::{CENTER_OF_MASS, LARGEST_PLAUSIBLE_M, TOO_FAR};
 
 use self::node::{elements, last, place, tag};
 

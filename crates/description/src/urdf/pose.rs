@@ -2,17 +2,22 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
 use super::node::{element, label, place, tag};
 use crate::{
     diagnostic::{Diagnostic, Diagnostics, Use},
+    display,
     written::rpy::rotation_from_rpy_fixed_xyz,
 };
 
 /// Longer offsets between the parts of one robot are taken for millimetres.
-pub(super) const LARGEST_PLAUSIBLE_M: f64 = 10.0;
+pub(crate) const LARGEST_PLAUSIBLE_M: f64 = 10.0;
+
+/// The code of lengths beyond that, and of centres of mass.
+pub(crate) const TOO_FAR: &str = "urdf::millimetres";
+pub(crate) const CENTER_OF_MASS: &str = "urdf::center_of_mass";
 
 /// Where an `<origin>` is.
 #[derive(Clone, Copy)]
@@ -33,10 +38,17 @@ pub(super) fn read(
 ) -> Isometry3<f64> {
     let (xyz, rpy) = (pose.xyz.0, pose.rpy.0);
     if let Some(length) = xyz.into_iter().find(|length| length.abs() > LARGEST_PLAUSIBLE_M) {
-        let message = format!("{}: origin {length} is more than {LARGEST_PLAUSIBLE_M} m away", label(owner));
+        let (code, what, kind) = if parent.has_tag_name("inertial") {
+            let far = display::length(Vector3::from(xyz).norm());
+            let what = format!("its centre of mass is {far} away from it");
+            (CENTER_OF_MASS, what, "links have a centre of mass that is far away, of")
+        } else {
+            let what = format!("origin {length} is more than {LARGEST_PLAUSIBLE_M} m away");
+            (TOO_FAR, what, "origins are more than 10 m away, of")
+        };
         diagnostics.push(
-            Diagnostic::warning("urdf::millimetres", message)
-                .one_of(format!("origins are more than {LARGEST_PLAUSIBLE_M} m away, of"), label(owner))
+            Diagnostic::warning(code, format!("{}: {what}", label(owner)))
+                .one_of(kind, label(owner))
                 .at(place(parent, "origin"))
                 .with_help("millimetres instead of metres?"),
         );

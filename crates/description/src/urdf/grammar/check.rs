@@ -8,6 +8,7 @@ use std::ops::Range;
 use roxmltree::{Attribute as XmlAttribute, Node};
 
 use super::{
+    misspelt::misspelt,
     number,
     rules::{Attribute, AttributeValue, Child, Element, Needed, Occurs, ROBOT},
 };
@@ -239,43 +240,5 @@ impl GrammarCheck<'_> {
         };
         self.diagnostics
             .push(Diagnostic::warning("urdf::name", format!("{}: {what}", self.owner)).at(tag(node)));
-    }
-}
-
-/// The known thing whose name `name` is a misspelling of: other case, or at most one letter in three wrong.
-fn misspelt<'a, T>(name: &str, known: &'a [T], name_of: impl Fn(&T) -> &'static str) -> Option<&'a T> {
-    const MOST_WRONG: usize = 2;
-    let wrong = |known: &T| strsim::damerau_levenshtein(&name.to_lowercase(), name_of(known));
-    known
-        .iter()
-        .map(|known| (wrong(known), known))
-        .filter(|(wrong, known)| *wrong <= MOST_WRONG && wrong * 3 <= name_of(known).len())
-        .min_by_key(|(wrong, _)| *wrong)
-        .map(|(_, known)| known)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::misspelt;
-
-    #[track_caller]
-    fn check(name: &str, expected: Option<&str>) {
-        let known = ["origin", "limit", "axis", "xyz", "collision", "joint", "safety_controller"];
-        assert_eq!(misspelt(name, &known, |known| known).copied(), expected, "{name}");
-    }
-
-    #[test]
-    fn misspellings_are_told_from_vendor_names() {
-        check("limits", Some("limit"));
-        check("Limit", Some("limit"));
-        check("orgin", Some("origin"));
-        check("axes", Some("axis"));
-        check("xzy", Some("xyz"));
-        check("colission", Some("collision"));
-        check("K", None);
-        check("mu1", None);
-        check("self_collision_checking", None);
-        check("gazebo", None);
-        check("sensor", None);
     }
 }

@@ -1,7 +1,9 @@
 //! The XML of a document against the grammar of URDF.
 
 mod check;
+mod misspelt;
 mod number;
 mod rules;
 
 pub(super) use check::check;
+pub(crate) use misspelt::{Misspelt, misspellings};

@@ -1,0 +1,129 @@
+//! `congruent lint`: what is wrong or suspicious in files.
+
+mod diff;
+mod explain;
+mod fix;
+mod sarif;
+mod text;
+
+use std::path::{Path, PathBuf};
+
+use congruent::{
+    LintReport, LintVerdict, lint,
+    twin::report::{CasePlace, Reason, TestResult, TestSuite},
+};
+use serde::Serialize;
+
+use crate::{
+    batch::{Answer, Batch, BatchReport},
+    ci::CiArguments,
+    failure::{BAD_INPUT, FAILED, Failure},
+    input::AccessArguments,
+    print::{Format, Printer},
+};
+
+/// What is wrong or suspicious in URDFs, SRDFs, robot files and scenarios, with the files that they name.
+///
+/// Each finding has its place, a code that never changes, what to do, and what it stops: kinematics, clearance or physics.
+/// Warnings that are meant are ignored by [[lint.ignore]] in robot.toml, with a reason. Exit codes: 0 no error, 1 errors
+/// (with --strict also warnings), 2 a file cannot be read.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// URDF, SRDF, robot file, folder with robot.toml, scenario, or - for a URDF on standard input.
+    #[arg(required_unless_present = "explain")]
+    files: Vec<PathBuf>,
+    /// Explain a finding, by its number (CGR-URDF-005) or its name (`urdf::tree`).
+    #[arg(long, value_name = "CODE", conflicts_with = "files")]
+    explain: Option<String>,
+    /// Write the corrections that are safe, and show the difference: the file means the same after them, or what was
+    /// refused has the one meaning that was left. The findings are those that stay.
+    #[arg(long)]
+    fix: bool,
+    /// Show the difference alone, and write nothing.
+    #[arg(long, requires = "fix")]
+    dry_run: bool,
+    /// Warnings fail as errors do.
+    #[arg(long)]
+    strict: bool,
+    #[command(flatten)]
+    ci: CiArguments,
+    #[command(flatten)]
+    access: AccessArguments,
+}
+
+/// The report of one file, judged as the call asks.
+#[derive(Serialize)]
+struct Linted {
+    #[serde(flatten)]
+    report: LintReport,
+    #[serde(skip)]
+    strict: bool,
+    /// What `--fix` has changed, or would change.
+    #[serde(skip)]
+    difference: String,
+}
+
+impl BatchReport for Linted {
+    fn exit_code(&self) -> u8 {
+        match self.report.verdict {
+            LintVerdict::Clean => 0,
+            LintVerdict::Warnings if !self.strict => 0,
+            LintVerdict::Warnings | LintVerdict::Errors => FAILED,
+            LintVerdict::Unreadable => BAD_INPUT,
+        }
+    }
+
+    fn text(&self) -> String {
+        text::text(&self.report, &self.difference)
+    }
+
+    fn test_suite(&self, input: &str) -> TestSuite {
+        let said = self.report.findings.iter().map(|found| found.finding.to_string());
+        let first = self.report.findings.first().map(|found| &found.finding);
+        let reason = Reason {
+            kind: first.map_or("lint", |found| found.code).to_owned(),
+            message: said.collect::<Vec<_>>().join("\n"),
+        };
+        let result = match self.exit_code() {
+            0 => TestResult::Passed,
+            FAILED => TestResult::Failed(reason),
+            _ => TestResult::Error(reason),
+        };
+        let mut suite = TestSuite::of_case(input, "lint", result);
+        let place = first.and_then(|found| CasePlace::of(found.file.as_deref(), found.line));
+        suite.cases.iter_mut().for_each(|case| case.place.clone_from(&place));
+        suite
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
+    if let Some(code) = &arguments.explain {
+        return explain::run(code, printer);
+    }
+    let batch = Batch::begin(&arguments.files, &arguments.ci, printer)?;
+    let access = arguments.access.access()?;
+    let linted = |path: &Path| {
+        let own = access.fresh();
+        let mut report = lint(path, &own);
+        let mut difference = String::new();
+        if arguments.fix {
+            difference = fix::difference(&report.fixes);
+            if !arguments.dry_run && fix::write(&report.fixes)? {
+                report = LintReport { fixes: report.fixes, ..lint(path, &own) };
+            }
+        }
+        let read: Vec<PathBuf> = own.files().into_iter().map(|file| file.path).collect();
+        batch.reads(&read).map_err(Failure::from)?;
+        Ok(Linted { report, strict: arguments.strict, difference })
+    };
+    let files = arguments.files.iter();
+    let answers: Vec<Answer<Linted>> = files.map(|path| batch.answer(path, || linted(path))).collect();
+    if printer.format() == Format::Sarif {
+        return batch.finish_as(answers, |answers| {
+            let found = answers.iter().filter_map(|answer| answer.report().ok());
+            let reports: Vec<&LintReport> = found.map(|linted| &linted.report).collect();
+            sarif::document(&reports)
+        });
+    }
+    batch.finish(answers)
+}

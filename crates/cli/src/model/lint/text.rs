@@ -1,0 +1,41 @@
+//! The findings of one file for people.
+
+use std::fmt::Write;
+
+use congruent::{LintReport, description::serde_name};
+
+use crate::print::rendered;
+
+pub(super) fn text(report: &LintReport, difference: &str) -> String {
+    let mut text: String = report.diagnostics.iter().map(rendered).collect();
+    text += difference;
+    for ignored in &report.ignored {
+        let _ = writeln!(
+            text,
+            "ignored: {} {} ({}): {}",
+            ignored.id,
+            ignored.code,
+            counted(ignored.places, "place"),
+            ignored.reason
+        );
+    }
+    let _ = match (report.errors, report.warnings) {
+        (0, 0) => write!(text, "no findings"),
+        (0, warnings) => write!(text, "{}", counted(warnings, "warning")),
+        (errors, 0) => write!(text, "{}", counted(errors, "error")),
+        (errors, warnings) => write!(text, "{}, {}", counted(errors, "error"), counted(warnings, "warning")),
+    };
+    let stops: Vec<&str> = report.stops.iter().map(serde_name).collect();
+    if !stops.is_empty() {
+        let _ = write!(text, "; the robot cannot be used for {}", stops.join(", "));
+    }
+    if !report.fixes.is_empty() && difference.is_empty() {
+        let _ = write!(text, "; --fix corrects {}", counted(report.fixes.len(), "place"));
+    }
+    text.push('\n');
+    text
+}
+
+pub(super) fn counted(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}

@@ -1,0 +1,179 @@
+//! Masses, tensors and centres of mass against each other and against shapes.
+
+use super::{
+    Judge, Kind,
+    features::{Body, median},
+    thresholds::{
+        FARTHEST_COM, FARTHEST_COM_IN_ORIGINS, GYRATION_TO_DIAGONAL, LEAST_COM_M, LEAST_MASS_KG,
+        MEDIAN_BOX_DENSITY, MOST_BOX_DENSITY, PLACEHOLDER_GYRATION_TO_DIAGONAL, PLACEHOLDER_SPHERE_DENSITY,
+        SPHERE_DENSITY,
+    },
+};
+use crate::{
+    display::{length, quantity},
+    model::{Inertia, LinkIndex},
+    urdf::{CENTER_OF_MASS, LARGEST_PLAUSIBLE_M},
+};
+
+const MASS: Kind = Kind { code: "units::mass", words: "links have a mass that no body of their size has" };
+const INERTIA: Kind = Kind {
+    code: "units::inertia",
+    words: "links have an inertia that does not belong to their mass and size",
+};
+const COM: Kind = Kind {
+    code: CENTER_OF_MASS,
+    words: "links have a centre of mass far from everything that belongs to them",
+};
+
+fn is_within([least, most]: [f64; 2], value: f64) -> bool {
+    (least..=most).contains(&value)
+}
+
+/// Whether the robot as a whole is off: then placeholders are judged as all others.
+struct Whole {
+    gyration: bool,
+    sphere: bool,
+    density: bool,
+}
+
+impl Whole {
+    fn of(bodies: &[Body]) -> Self {
+        let is_off = |values: Vec<f64>, range: [f64; 2]| {
+            let count = values.len();
+            count >= 2 && median(values.into_iter()).is_some_and(|middle| !is_within(range, middle))
+        };
+        let bare = bodies.iter().filter(|body| body.shapes.is_none() && !body.is_placeholder);
+        Self {
+            gyration: is_off(bodies.iter().filter_map(Body::to_diagonal).collect(), GYRATION_TO_DIAGONAL),
+            sphere: is_off(bare.map(|body| body.sphere_density).collect(), SPHERE_DENSITY),
+            density: is_off(bodies.iter().filter_map(Body::box_density).collect(), MEDIAN_BOX_DENSITY),
+        }
+    }
+}
+
+impl Judge<'_> {
+    pub(super) fn bodies(&mut self) {
+        let robot = self.robot;
+        let bodies: Vec<Body> = robot
+            .link_indices()
+            .filter_map(|link| {
+                Body::of(link, robot.link(link).inertia.as_ref()?, self.sizes.shapes[link.get()])
+            })
+            .collect();
+        let whole = Whole::of(&bodies);
+        for body in &bodies {
+            self.body(body, &whole);
+        }
+        for link in robot.link_indices() {
+            if let Some(inertia) = &robot.link(link).inertia {
+                self.center_of_mass(link, inertia);
+            }
+        }
+    }
+
+    fn body(&mut self, body: &Body, whole: &Whole) {
+        let name = &self.robot.link(body.link).name;
+        let density = body.box_density();
+        let is_heavy =
+            density.is_some_and(|density| density > MOST_BOX_DENSITY) && body.mass_kg > LEAST_MASS_KG;
+        let is_off = whole.density && density.is_some_and(|density| !is_within(MEDIAN_BOX_DENSITY, density));
+        if let (Some(density), true) = (density, is_heavy || is_off) {
+            let what = format!(
+                "its mass of {} in the box around its shapes is {}",
+                quantity(body.mass_kg, "kg"),
+                quantity(density, "kg/m^3")
+            );
+            let help =
+                "steel has 7900 kg/m^3: is the mass in grams, or are the shapes in another unit?".to_owned();
+            self.warn_link(&MASS, name, &what, ("mass", help));
+            return;
+        }
+        if belongs(body, whole) {
+            return;
+        }
+        let what = match body.shapes {
+            Some(shapes) => format!(
+                "its radius of gyration is {}, and its shapes are {} large",
+                length(body.gyration_m),
+                length(shapes.diagonal_m())
+            ),
+            None => format!(
+                "its radius of gyration is {}, that of a ball of {} with {}",
+                length(body.gyration_m),
+                quantity(body.mass_kg, "kg"),
+                quantity(body.sphere_density, "kg/m^3")
+            ),
+        };
+        self.warn_link(&INERTIA, name, &what, ("inertia", guess(body)));
+    }
+
+    fn center_of_mass(&mut self, link: LinkIndex, inertia: &Inertia) {
+        let (robot, com) = (self.robot, inertia.link_from_inertial.translation.vector);
+        // Larger ones are told when they are read.
+        if inertia.mass_kg <= 0.0 || com.norm() < LEAST_COM_M || com.amax() > LARGEST_PLAUSIBLE_M {
+            return;
+        }
+        let what = if let Some(shapes) = self.sizes.shapes[link.get()] {
+            let joints = robot.joints().iter().filter(|joint| joint.parent == link);
+            let all = joints.fold(shapes.including(nalgebra::Vector3::zeros()), |all, joint| {
+                all.including(joint.parent_from_joint.translation.vector)
+            });
+            let (away_m, size_m) = (all.distance_m(com), all.diagonal_m());
+            (away_m > FARTHEST_COM * size_m).then(|| {
+                format!(
+                    "its centre of mass is {} outside of what belongs to it, which is {} large",
+                    length(away_m),
+                    length(size_m)
+                )
+            })
+        } else {
+            let longest_m = self.sizes.longest_origin_m;
+            (longest_m > 0.0 && com.norm() > FARTHEST_COM_IN_ORIGINS * longest_m).then(|| {
+                format!(
+                    "its centre of mass is {} away, and no joint is farther than {} from the one before",
+                    length(com.norm()),
+                    length(longest_m)
+                )
+            })
+        };
+        if let Some(what) = what {
+            let help = "its origin is in metres: is it in centimetres or millimetres?".to_owned();
+            self.warn_link(&COM, &robot.link(link).name, &what, ("origin", help));
+        }
+    }
+}
+
+/// Whether mass, tensor and shapes can belong to one body.
+fn belongs(body: &Body, whole: &Whole) -> bool {
+    match body.to_diagonal() {
+        Some(ratio) if body.is_placeholder && !whole.gyration => {
+            is_within(PLACEHOLDER_GYRATION_TO_DIAGONAL, ratio)
+        }
+        Some(ratio) => is_within(GYRATION_TO_DIAGONAL, ratio),
+        None if body.is_placeholder && !whole.sphere => {
+            is_within(PLACEHOLDER_SPHERE_DENSITY, body.sphere_density)
+        }
+        None => is_within(SPHERE_DENSITY, body.sphere_density),
+    }
+}
+
+/// The unit that is most likely, by the density that would follow.
+fn guess(body: &Body) -> String {
+    // As plastics and hollow castings of aluminium.
+    const USUAL_DENSITY: f64 = 800.0;
+    let after = [
+        (1e-3, 1.0, "the mass is in kg: is it in grams?"),
+        (1.0, 1e3, "the inertia is in kg m^2: is it a thousandth of that?"),
+        (1.0, 1e6, "the inertia is in kg m^2: is it a millionth of that, converted twice?"),
+        (1.0, 1e-3, "the inertia is in kg m^2: is it in g m^2?"),
+        (1.0, 1e-4, "the inertia is in kg m^2: is it in kg cm^2?"),
+        (1.0, 1e-6, "the inertia is in kg m^2: is it in kg mm^2?"),
+        (1.0, 1e-9, "the inertia is in kg m^2: is it in g mm^2?"),
+    ];
+    let off = |(mass, inertia, _): &(f64, f64, &str)| {
+        let density = body.sphere_density * mass * (mass / inertia).powf(1.5);
+        (density / USUAL_DENSITY).ln().abs()
+    };
+    let best = after.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+    best.map_or_else(String::new, |(_, _, words)| (*words).to_owned())
+}

@@ -1,0 +1,179 @@
+//! What the judgements compare: how large links are, and which values are placeholders.
+
+use nalgebra::{Point3, Vector3};
+
+use super::thresholds::LARGEST_MARKER_M;
+use crate::model::{Geometry, Inertia, LinkIndex, Robot, Shape};
+
+/// An axis-aligned box in the frame of a link.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Extent {
+    least: Vector3<f64>,
+    most: Vector3<f64>,
+}
+
+impl Extent {
+    fn of_point(point: Vector3<f64>) -> Self {
+        Self { least: point, most: point }
+    }
+
+    fn with(self, other: Self) -> Self {
+        Self { least: self.least.inf(&other.least), most: self.most.sup(&other.most) }
+    }
+
+    /// The same with a point in it.
+    pub(super) fn including(self, point: Vector3<f64>) -> Self {
+        self.with(Self::of_point(point))
+    }
+
+    /// Around a shape in its own frame; `None` if it has no vertices.
+    fn of_geometry(geometry: &Geometry) -> Option<Self> {
+        let half = match geometry {
+            Geometry::Box { size_m } => size_m / 2.0,
+            Geometry::Cylinder { radius_m, length_m } => Vector3::new(*radius_m, *radius_m, length_m / 2.0),
+            Geometry::Sphere { radius_m } => Vector3::repeat(*radius_m),
+            Geometry::Mesh(mesh) => {
+                let points = mesh.vertices_m.iter().map(|vertex| Self::of_point(vertex.coords));
+                return points.reduce(Self::with);
+            }
+        };
+        Some(Self { least: -half, most: half })
+    }
+
+    /// Around a shape in the frame of its link.
+    fn of_shape(shape: &Shape) -> Option<Self> {
+        let own = Self::of_geometry(&shape.geometry)?;
+        let corner = |at: usize| {
+            let pick = |axis: usize| if at >> axis & 1 == 0 { own.least[axis] } else { own.most[axis] };
+            let corner = shape.link_from_shape * Point3::new(pick(0), pick(1), pick(2));
+            Self::of_point(corner.coords)
+        };
+        (0..8).map(corner).reduce(Self::with)
+    }
+
+    /// Length of the diagonal.
+    pub(super) fn diagonal_m(&self) -> f64 {
+        (self.most - self.least).norm()
+    }
+
+    /// Volume, no side less than a tenth of a millimetre.
+    pub(super) fn volume_m3(&self) -> f64 {
+        (self.most - self.least).map(|side| side.max(1e-4)).product()
+    }
+
+    /// Distance of a point from the box, 0 inside.
+    pub(super) fn distance_m(&self, point: Vector3<f64>) -> f64 {
+        (self.least - point).sup(&(point - self.most)).map(|beyond| beyond.max(0.0)).norm()
+    }
+
+    /// The largest distance of a point of the box from the origin.
+    fn farthest_m(&self) -> f64 {
+        self.least.abs().sup(&self.most.abs()).norm()
+    }
+}
+
+/// Whether a shape only marks a place, such as a ball of a millimetre: it says nothing of the size of its link.
+fn is_marker(shape: &Shape) -> bool {
+    let is_mesh = matches!(shape.geometry, Geometry::Mesh(_));
+    !is_mesh && diagonal_m(shape).is_some_and(|diagonal| diagonal < LARGEST_MARKER_M)
+}
+
+/// The diagonal of one shape.
+pub(super) fn diagonal_m(shape: &Shape) -> Option<f64> {
+    Extent::of_geometry(&shape.geometry).map(|extent| extent.diagonal_m())
+}
+
+/// The sizes of a robot and of its links.
+pub(super) struct Sizes {
+    /// Around the shapes of each link; `None` without shapes.
+    pub(super) shapes: Vec<Option<Extent>>,
+    /// Sum of the lengths of all joint origins.
+    pub(super) origins_m: f64,
+    /// The longest joint origin.
+    pub(super) longest_origin_m: f64,
+    /// An upper bound of how far what hangs on each link is from the link's origin.
+    pub(super) below_m: Vec<f64>,
+}
+
+impl Sizes {
+    pub(super) fn of(robot: &Robot) -> Self {
+        let around = |link: LinkIndex| {
+            let link = robot.link(link);
+            let shapes = link.visuals.iter().chain(&link.collisions).filter(|shape| !is_marker(shape));
+            shapes.filter_map(Extent::of_shape).reduce(Extent::with)
+        };
+        let shapes: Vec<Option<Extent>> = robot.link_indices().map(around).collect();
+        let lengths = || robot.joints().iter().map(|joint| joint.parent_from_joint.translation.vector.norm());
+        let mut below_m: Vec<f64> =
+            shapes.iter().map(|shapes| shapes.map_or(0.0, |shapes| shapes.farthest_m())).collect();
+        // Parents come first, so children are complete when they are reached backwards.
+        for (joint, length) in robot.joints().iter().zip(lengths()).rev() {
+            let child = below_m[joint.child.get()];
+            let parent = &mut below_m[joint.parent.get()];
+            *parent = parent.max(length + child);
+        }
+        Self { shapes, origins_m: lengths().sum(), longest_origin_m: lengths().fold(0.0, f64::max), below_m }
+    }
+
+    /// The size of the robot: what all joint origins make in a row, or its largest link.
+    pub(super) fn robot_m(&self) -> f64 {
+        let shapes = self.shapes.iter().flatten().map(Extent::diagonal_m);
+        shapes.fold(self.origins_m, f64::max)
+    }
+}
+
+/// What the mass and the tensor of a link imply.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Body {
+    pub(super) link: LinkIndex,
+    pub(super) mass_kg: f64,
+    /// Of the mean principal moment.
+    pub(super) gyration_m: f64,
+    /// Of the solid sphere with this mass and this mean moment.
+    pub(super) sphere_density: f64,
+    /// Whether the tensor is one that people write when they know none.
+    pub(super) is_placeholder: bool,
+    /// The box around its shapes.
+    pub(super) shapes: Option<Extent>,
+}
+
+impl Body {
+    /// `None` without a mass above zero or a tensor other than zero.
+    pub(super) fn of(link: LinkIndex, inertia: &Inertia, shapes: Option<Extent>) -> Option<Self> {
+        let trace = inertia.tensor_kg_m2.trace();
+        if !(inertia.mass_kg > 0.0 && trace > 0.0) {
+            return None;
+        }
+        let gyration_m = (trace / 3.0 / inertia.mass_kg).sqrt();
+        let radius_m = gyration_m * 2.5_f64.sqrt();
+        let sphere_density = inertia.mass_kg / (4.0 / 3.0 * std::f64::consts::PI * radius_m.powi(3));
+        let tensor = &inertia.tensor_kg_m2;
+        let is_ball = *tensor == nalgebra::Matrix3::from_diagonal_element(tensor[(0, 0)]);
+        let is_placeholder = is_ball || tensor.iter().all(|entry| has_one_digit(*entry));
+        let shapes = shapes.filter(|shapes| shapes.diagonal_m() > 0.0);
+        Some(Self { link, mass_kg: inertia.mass_kg, gyration_m, sphere_density, is_placeholder, shapes })
+    }
+
+    /// Radius of gyration against the diagonal of the shapes.
+    pub(super) fn to_diagonal(&self) -> Option<f64> {
+        Some(self.gyration_m / self.shapes?.diagonal_m())
+    }
+
+    /// Mass over the volume of the box around the shapes.
+    pub(super) fn box_density(&self) -> Option<f64> {
+        Some(self.mass_kg / self.shapes?.volume_m3())
+    }
+}
+
+/// Whether a value is zero or has one significant digit, as in 0.001.
+fn has_one_digit(value: f64) -> bool {
+    let text = format!("{:e}", value.abs());
+    value == 0.0 || text.split('e').next().is_some_and(|digits| digits.len() == 1)
+}
+
+/// The middle value; of an even number the lower one.
+pub(super) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len().checked_sub(1)? / 2).copied()
+}

@@ -1,0 +1,63 @@
+//! Speeds of turning joints against what they carry and what drives them.
+
+use super::{
+    Judge, Kind,
+    features::median,
+    lengths::is_real,
+    thresholds::{
+        FASTEST_CONTINUOUS_RAD_S, FASTEST_TIP_M_S, FASTEST_TURN_RAD_S, LEAST_FAST_RAD_S, LEAST_MASS_KG,
+        MEDIAN_TURN_RAD_S, MOST_POWER_W_KG,
+    },
+};
+use crate::{
+    display::quantity,
+    model::{Joint, JointKind},
+};
+
+const SPEED: Kind = Kind { code: "units::speed", words: "joints turn faster than any joint does" };
+
+fn speed(joint: &Joint) -> Option<f64> {
+    let speed = joint.limit.filter(|_| joint.kind.is_angular())?.velocity?;
+    (is_real(speed) && speed > 0.0).then_some(speed)
+}
+
+impl Judge<'_> {
+    /// `with_lengths`: lengths are as they should be, so that speeds of points are judged as well.
+    pub(super) fn speeds(&mut self, with_lengths: bool) {
+        let robot = self.robot;
+        let speeds = || robot.joints().iter().filter_map(speed);
+        let all_are_fast = speeds().count() >= 4 && median(speeds()) > Some(MEDIAN_TURN_RAD_S);
+        let mass_kg: f64 = robot.links().iter().filter_map(|link| Some(link.inertia?.mass_kg)).sum();
+        for joint in robot.joints() {
+            let Some(speed) = speed(joint).filter(|speed| *speed > LEAST_FAST_RAD_S) else { continue };
+            let most = if joint.kind == JointKind::Continuous {
+                FASTEST_CONTINUOUS_RAD_S
+            } else {
+                FASTEST_TURN_RAD_S
+            };
+            let carried_m_s = speed * self.sizes.below_m[joint.child.get()];
+            let effort = joint.limit.and_then(|limit| limit.effort).filter(|effort| is_real(*effort));
+            let power_w = effort.map_or(0.0, |effort| effort * speed);
+            let why = if speed > most || (all_are_fast && speed > MEDIAN_TURN_RAD_S) {
+                String::new()
+            } else if with_lengths && carried_m_s > FASTEST_TIP_M_S {
+                format!(": what it carries would reach {}", quantity(carried_m_s, "m/s"))
+            } else if mass_kg > LEAST_MASS_KG && power_w > MOST_POWER_W_KG * mass_kg {
+                format!(
+                    ": with its torque that is {}, of a robot of {}",
+                    quantity(power_w, "W"),
+                    quantity(mass_kg, "kg")
+                )
+            } else {
+                continue;
+            };
+            let what = format!("its velocity is {}{why}", quantity(speed, "rad/s"));
+            let help = format!(
+                "the velocity is in rad/s: {} deg/s are {}",
+                speed,
+                quantity(speed.to_radians(), "rad/s")
+            );
+            self.warn_joint(&SPEED, &joint.name, &what, ("limit", help));
+        }
+    }
+}

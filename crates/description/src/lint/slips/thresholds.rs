@@ -1,0 +1,76 @@
+//! What a robot is like, in numbers: the bounds beyond which a value is taken for one in another unit.
+//!
+//! Measured on 21 published robots (arms of 0.4 m to 2.6 m, grippers, a torso with two arms); each constant names the
+//! extreme that was seen. A slip is a factor of 57.3, 100 or more, so that bounds lie between the extreme and the extreme of
+//! a slip. No bound is on one value alone where another value of the file belongs to it.
+
+/// Radius of gyration against the diagonal of the link's shapes, of a solid box 0.29. Seen: 0.11 to 0.96; placeholders aside, which are tensors of
+/// one digit or of a ball.
+pub(super) const GYRATION_TO_DIAGONAL: [f64; 2] = [0.035, 2.5];
+/// The same of placeholders. Seen: 0.0026 to 29.
+pub(super) const PLACEHOLDER_GYRATION_TO_DIAGONAL: [f64; 2] = [5e-4, 200.0];
+/// Density of the solid sphere with the mass and the mean moment of a link, kg/m^3: any body's own density is above it, by
+/// a factor that is small for compact bodies. Seen: 6.8 to 7.3e3; steel has 7.9e3.
+pub(super) const SPHERE_DENSITY: [f64; 2] = [0.5, 3e5];
+/// The same of placeholders. Seen: 6e-5 to 8e8.
+pub(super) const PLACEHOLDER_SPHERE_DENSITY: [f64; 2] = [1e-7, 3e10];
+/// Mass over the volume of the box around the shapes, kg/m^3. Osmium, the densest material, has 2.26e4; simplified shapes
+/// are smaller than their bodies. Seen: up to 2.9e4.
+pub(super) const MOST_BOX_DENSITY: f64 = 4e4;
+/// The same for the median of all links of a robot, which no single simplified shape moves. Seen: 30 to 2e3.
+pub(super) const MEDIAN_BOX_DENSITY: [f64; 2] = [0.5, 2e4];
+/// Lighter links are markers and frames, whose mass means nothing. Seen: 1 g on a box of 1 mm.
+pub(super) const LEAST_MASS_KG: f64 = 0.05;
+
+/// Diagonal of boxes, cylinders and balls that only mark a place, m. Seen: balls of 1 mm on a head.
+pub(super) const LARGEST_MARKER_M: f64 = 5e-3;
+
+/// Distance of a centre of mass from what belongs to its link, in diagonals of that. Seen: up to 1.1.
+pub(super) const FARTHEST_COM: f64 = 2.5;
+/// The same without shapes, in lengths of the longest joint origin of the robot. Seen: up to 0.6.
+pub(super) const FARTHEST_COM_IN_ORIGINS: f64 = 2.5;
+/// Nearer ones are not told: nothing distinguishes them.
+pub(super) const LEAST_COM_M: f64 = 0.3;
+
+/// Distance of a joint from the shapes of the link that carries it, in their diagonals. Seen: up to 2.2.
+pub(super) const FARTHEST_JOINT: f64 = 6.0;
+/// Length of a joint origin against the sum of all others. Seen: up to 1.
+pub(super) const LONGEST_ORIGIN: f64 = 2.5;
+/// Shorter origins are not told.
+pub(super) const LEAST_ORIGIN_M: f64 = 0.5;
+
+/// Travel of a sliding joint, m; linear axes of robots are shorter than this.
+pub(super) const LONGEST_TRAVEL_M: f64 = 10.0;
+/// Travel against the size of the robot, of the first moving joint, which may be a track, and of all others. Seen: up to 0.9.
+pub(super) const TRACK_TO_SIZE: f64 = 4.0;
+pub(super) const TRAVEL_TO_SIZE: f64 = 2.0;
+/// Travel against the diagonals of the two links that slide. Seen: up to 1.
+pub(super) const TRAVEL_TO_SHAPES: f64 = 6.0;
+/// Shorter travels are not told.
+pub(super) const LEAST_TRAVEL_M: f64 = 1.0;
+/// Speed of a sliding joint, m/s. Seen: up to 5.
+pub(super) const FASTEST_SLIDE_M_S: f64 = 20.0;
+
+/// Speed of a turning joint, rad/s: 430 revolutions a minute. Seen: up to 25; joints of legs reach 40.
+pub(super) const FASTEST_TURN_RAD_S: f64 = 45.0;
+/// The same of joints without limits, among them wheels and rotors.
+pub(super) const FASTEST_CONTINUOUS_RAD_S: f64 = 120.0;
+/// The same for the median of the turning joints of a robot, of any kind.
+pub(super) const MEDIAN_TURN_RAD_S: f64 = 45.0;
+/// Slower joints are judged by no other value.
+pub(super) const LEAST_FAST_RAD_S: f64 = 20.0;
+/// Speed of what a joint carries, m/s: the fastest industrial robots reach 10. Seen: up to 13.
+pub(super) const FASTEST_TIP_M_S: f64 = 25.0;
+/// Torque times speed of one joint over the mass of the robot, W/kg. Seen: up to 133; motors alone reach 1000.
+pub(super) const MOST_POWER_W_KG: f64 = 250.0;
+
+/// Diagonal of a mesh, m: a smaller one is dust. Seen: from 24 mm.
+pub(super) const LEAST_MESH_M: f64 = 3e-3;
+/// Diagonal of a mesh against the median of the robot's meshes. Seen: from 1/12.
+pub(super) const LEAST_MESH_TO_MEDIAN: f64 = 1.0 / 40.0;
+/// Diagonal of a shape against the median of the robot's other shapes. Seen: up to 8.
+pub(super) const MOST_SHAPE_TO_MEDIAN: f64 = 20.0;
+/// Diagonal of a shape against the sum of all joint origins, of robots with few shapes. Seen: up to 2.2.
+pub(super) const MOST_SHAPE_TO_ORIGINS: f64 = 8.0;
+/// Smaller shapes are not too large.
+pub(super) const LEAST_LARGE_SHAPE_M: f64 = 2.0;

@@ -1,0 +1,169 @@
+//! Values of a robot file that are probably in another unit than their key says, judged by the size of the robot.
+
+use std::{
+    f64::consts::{FRAC_PI_2, TAU},
+    ops::Range,
+};
+
+use toml::Spanned;
+
+use super::written::{WrittenDh, WrittenRow};
+use crate::{
+    diagnostic::Diagnostic,
+    display::{length, number},
+    model::{JointKind, Robot},
+    units::UnitSystem,
+    written::transform::WrittenTransform,
+};
+
+/// Lengths up to this many sizes of the robot are plausible; a tool that is as long as its arm is rare.
+const MOST_SIZES: f64 = 1.5;
+/// Shorter lengths are not told.
+const LEAST_M: f64 = 0.3;
+/// How near to a quarter turn in radians a value in degrees is taken for radians: four digits.
+const QUARTER_DEG: f64 = 1e-3;
+/// Joints of arms accelerate with up to 100 rad/s^2, those of legs with up to some hundred.
+const FASTEST_RAD_S2: f64 = 500.0;
+
+/// What all joint origins make in a row, with what sliding joints add.
+pub(super) fn size_m(robot: &Robot) -> f64 {
+    let travel = |joint: &crate::model::Joint| {
+        let range = joint.position_range().filter(|_| joint.kind == JointKind::Prismatic)?;
+        Some(range.0.abs().max(range.1.abs())).filter(|travel| travel.is_finite())
+    };
+    let lengths = robot
+        .joints()
+        .iter()
+        .map(|joint| joint.parent_from_joint.translation.vector.norm() + travel(joint).unwrap_or_default());
+    lengths.sum()
+}
+
+/// A declared transform.
+pub(super) fn transform(name: &str, written: &WrittenTransform, size_m: f64) -> Vec<Diagnostic> {
+    let WrittenTransform { xyz_m, rpy_rad, rpy_deg, .. } = written;
+    let far = xyz_m.as_ref().and_then(|xyz| {
+        let length_m = nalgebra::Vector3::from(*xyz.get_ref()).norm();
+        too_long(&format!("{name} is"), length_m, (size_m, xyz.span(), "xyz"))
+    });
+    let degrees = rpy_rad.as_ref().and_then(|rpy| {
+        let turn = rpy.get_ref().iter().find(|turn| turn.abs() > TAU)?;
+        Some(degrees(&format!("{name}: rpy_rad has {}", number(*turn)), "rpy", rpy.span()))
+    });
+    let radians = rpy_deg.as_ref().and_then(|rpy| {
+        let turn = rpy.get_ref().iter().find(|turn| is_quarter_turn_in_rad(**turn))?;
+        Some(radians(&format!("{name}: rpy_deg has {turn}"), "rpy", rpy.span()))
+    });
+    [far, degrees, radians].into_iter().flatten().collect()
+}
+
+/// The values of a table.
+pub(super) fn table(dh: &WrittenDh, size_m: f64) -> Vec<Diagnostic> {
+    let of = |name: &str, written: &Option<Spanned<WrittenTransform>>| {
+        written.as_ref().map_or_else(Vec::new, |written| transform(name, written.get_ref(), size_m))
+    };
+    let mut found = of("base_from_dh0", &dh.base_from_dh0);
+    found.extend(of("dhn_from_tip", &dh.dhn_from_tip));
+    found.extend(dh.row.iter().flat_map(|written| row(written.get_ref(), size_m)));
+    found
+}
+
+fn row(row: &WrittenRow, size_m: f64) -> Vec<Diagnostic> {
+    let joint = row.joint.get_ref();
+    let lengths = [("a", &row.a_m), ("d", &row.d_m)].into_iter().filter_map(|(key, written)| {
+        let written = written.as_ref()?;
+        let what = format!("row of joint \"{joint}\": {key} is");
+        too_long(&what, written.get_ref().abs(), (size_m, written.span(), key))
+    });
+    let angles =
+        [("alpha", &row.alpha_deg), ("theta", &row.theta_deg)].into_iter().filter_map(|(key, written)| {
+            let written = written.as_ref().filter(|written| is_quarter_turn_in_rad(*written.get_ref()))?;
+            let what = format!("row of joint \"{joint}\": {key}_deg = {}", written.get_ref());
+            Some(radians(&what, key, written.span()))
+        });
+    lengths.chain(angles).collect()
+}
+
+fn too_long(what: &str, length_m: f64, (size_m, at, key): (f64, Range<usize>, &str)) -> Option<Diagnostic> {
+    (size_m > 0.0 && length_m > LEAST_M && length_m > MOST_SIZES * size_m).then(|| {
+        let message = format!(
+            "{what} {} long, and all links of the robot in a row are {}",
+            length(length_m),
+            length(size_m)
+        );
+        let warning = Diagnostic::warning("robot_file::length", message).at(at);
+        warning.with_help(format!("millimetres? then the key is {key}_mm"))
+    })
+}
+
+fn degrees(what: &str, key: &str, at: Range<usize>) -> Diagnostic {
+    Diagnostic::warning("robot_file::degrees", format!("{what}, which is more than a full turn"))
+        .at(at)
+        .with_help(format!("degrees? then the key is {key}_deg"))
+}
+
+fn radians(what: &str, key: &str, at: Range<usize>) -> Diagnostic {
+    Diagnostic::warning("robot_file::radians", format!("{what}, which is quarter turns in radians"))
+        .at(at)
+        .with_help(format!("radians? then the key is {key}_rad"))
+}
+
+fn is_quarter_turn_in_rad(degrees: f64) -> bool {
+    let quarters = (degrees / FRAC_PI_2).round();
+    (1.0..=4.0).contains(&quarters.abs()) && (degrees - quarters * FRAC_PI_2).abs() < QUARTER_DEG
+}
+
+/// An acceleration under a key in radians.
+pub(super) fn acceleration(
+    key: &str,
+    system: UnitSystem,
+    (name, value): (&Spanned<String>, &Spanned<f64>),
+) -> Option<Diagnostic> {
+    let is_fast =
+        key == "acceleration_rad_s2" && system == UnitSystem::Si && *value.get_ref() > FASTEST_RAD_S2;
+    is_fast.then(|| {
+        let message = format!("{key} of \"{}\" is {}", name.get_ref(), number(*value.get_ref()));
+        Diagnostic::warning("robot_file::fast", message)
+            .at(value.span())
+            .with_help("degrees? then the key is acceleration_deg_s2")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use crate::{diagnostic::SourceFile, load::parse_robot};
+
+    const URDF: &str = "<robot name='r'><link name='a'/><link name='b'><inertial><mass value='1'/>\
+        <inertia ixx='.1' ixy='0' ixz='0' iyy='.1' iyz='0' izz='.1'/></inertial></link>\
+        <joint name='j' type='continuous'><origin xyz='0 0 0.5'/><parent link='a'/><child link='b'/></joint></robot>";
+
+    fn codes(robot_file: &str) -> Vec<&'static str> {
+        let source =
+            |name: &str, text: &str| Arc::new(SourceFile { path: name.into(), text: text.to_owned() });
+        let description = parse_robot(Some(&source("robot.toml", robot_file)), &source("r.urdf", URDF));
+        description.unwrap().warnings.iter().map(|found| found.code).collect()
+    }
+
+    #[test]
+    fn slips_of_a_robot_file_are_told() {
+        for (robot_file, expected) in [
+            ("[tcp]\nxyz_m = [0, 0, 0.2]\nrpy_rad = [0, 1.5708, 0]", None),
+            ("[tcp]\nxyz_m = [0, 0, 50]", Some("robot_file::length")),
+            ("[tcp]\nxyz_m = [0, 0, 1]", Some("robot_file::length")),
+            ("[tcp]\nxyz_mm = [0, 0, 200]", None),
+            ("[tcp]\nrpy_rad = [0, 90, 0]", Some("robot_file::degrees")),
+            ("[tcp]\nrpy_deg = [0, 1.5708, 0]", Some("robot_file::radians")),
+            ("[limits]\nacceleration_rad_s2 = { j = 800 }", Some("robot_file::fast")),
+            ("[limits]\nacceleration_deg_s2 = { j = 800 }", None),
+        ] {
+            assert_eq!(codes(robot_file), Vec::from_iter(expected), "{robot_file}");
+        }
+        let row = |values: &str| {
+            format!("[dh]\nconvention = 'standard'\n[[dh.row]]\njoint = 'j'\nkind = 'revolute'\n{values}")
+        };
+        assert_eq!(codes(&row("a_m = 0\nd_m = 500\nalpha_deg = 0")), ["robot_file::length"]);
+        assert_eq!(codes(&row("a_m = 0\nd_m = 0.5\nalpha_deg = 1.5708")), ["robot_file::radians"]);
+        assert_eq!(codes(&row("a_m = 0\nd_mm = 500\nalpha_deg = 90")), [""; 0]);
+    }
+}
