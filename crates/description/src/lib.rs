@@ -3,6 +3,7 @@
 //!
 //! Parsers take text and give a value or diagnostics; only `files/` opens files.
 
+mod catch_panic;
 mod chain;
 mod configuration_file;
 mod description;
@@ -21,6 +22,7 @@ mod visible;
 mod written;
 mod xml;
 
+pub use catch_panic::catch_panic;
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use configuration_file::{
     Configurations, JointState, JsonList, configuration, configurations_schema, outside_limits,

@@ -6,7 +6,6 @@ mod evidence;
 mod frames;
 mod judgement;
 mod lengths;
-mod panics;
 mod recheck;
 mod rechecked;
 mod summary;
@@ -22,6 +21,7 @@ use std::{
 use re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHeader, ToApplication};
 use re_log_types::LogMsg;
 
+use congruent_description::catch_panic;
 use congruent_twin::comparison::Scalars;
 pub use recheck::{RecheckError, recheck};
 pub use rechecked::{Basis, Disagreement, Recheck, RecheckedCheck, RecheckedQuantity};
@@ -30,7 +30,7 @@ pub use summary::{
 };
 pub use table::scalars_csv;
 
-use self::{content::RecordingContent, frames::Extent, panics::catch_panic};
+use self::{content::RecordingContent, frames::Extent};
 
 /// Why a file cannot be read as a recording.
 #[derive(Debug, thiserror::Error)]
