@@ -112,6 +112,13 @@ fn a_tolerance_as_large_as_the_robot_is_refused() {
     refused("[[check]]\nkind = \"limits\"\ntolerance_deg = 360\n", "tolerance_deg");
     refused("[[check]]\nkind = \"contact\"\ndepth_m = 2\n", "depth_m");
     refused("[[check]]\nkind = \"goal\"\nposition_m = 2\ntcp = { xyz_m = [0, 0, 1] }\n", "position_m");
+    let message = refused("[[check]]\nkind = \"dynamics\"\nrelative = 30\n", "relative");
+    assert!(message.contains("is above 1"), "{message}");
+    refused("[[check]]\nkind = \"power\"\nrelative = 1.1\n", "relative");
+    refused("[[check]]\nkind = \"invariants\"\nrotation = 1e3\n", "rotation");
+    let message = refused("[[check]]\nkind = \"twist\"\nlinear_m_s = 1e6\n", "linear_m_s");
+    assert!(message.contains("what the joints can do"), "{message}");
+    refused("[[check]]\nkind = \"twist\"\nangular_deg_s = 1e6\n", "angular_deg_s");
     let out = text(&bench.path().join("out"));
     let wide = scenario(&bench, &[STIFF, TURN, "[[check]]\nkind = \"agreement\"\nposition_m = 0.2\n"]);
     let answer = congruent(&["run", &wide, "--no-recording", "--out", &out]);

@@ -7,8 +7,8 @@ use congruent::{
     analysis::inverse::read_targets,
     calibration::measurements::read_measurements,
     description::{
-        Diagnostic, FileAccess, RobotDescription, RobotQ, Use, load_robot, parse_urdf, read_configurations, read_mesh,
-        read_states, urdf_text,
+        Diagnostic, FileAccess, RobotDescription, RobotQ, Use, load_robot, parse_urdf, read_configurations,
+        read_mesh, read_states, urdf_text,
     },
     kinematics::UrdfTree,
     nalgebra::Vector3,

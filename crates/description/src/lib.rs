@@ -3,6 +3,7 @@
 //!
 //! Parsers take text and give a value or diagnostics; only `files/` opens files.
 
+mod catch_panic;
 mod chain;
 mod codes;
 mod configuration_file;
@@ -23,6 +24,7 @@ mod visible;
 mod written;
 mod xml;
 
+pub use catch_panic::catch_panic;
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use codes::Code;
 pub use configuration_file::{

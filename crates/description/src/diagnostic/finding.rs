@@ -35,9 +35,20 @@ pub struct Finding {
     pub column: Option<usize>,
     /// What to do.
     pub help: Option<String>,
-    /// If this finding stands for several of its kind: each of them.
+    /// If this finding stands for several of its kind: each of them, up to 1000.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub places: Vec<FindingPlace>,
+    /// How many more of them there are.
+    #[serde(skip_serializing_if = "is_none", default)]
+    pub places_left_out: usize,
+}
+
+/// Most places of a finding. Kind: choice; a hundred kilobytes of JSON.
+const MOST_PLACES: usize = 1000;
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands it over so")]
+fn is_none(left_out: &usize) -> bool {
+    *left_out == 0
 }
 
 /// One of several findings of a kind.
@@ -71,8 +82,10 @@ impl From<&Diagnostic> for Finding {
                 .kind
                 .occurrences
                 .iter()
+                .take(MOST_PLACES)
                 .map(|found| finding_place(places.as_mut(), found))
                 .collect(),
+            places_left_out: diagnostic.kind.occurrences.len().saturating_sub(MOST_PLACES),
         }
     }
 }
@@ -100,5 +113,24 @@ impl fmt::Display for Finding {
             Some(help) => write!(f, "; {help}"),
             None => Ok(()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::Diagnostics;
+
+    #[test]
+    fn a_finding_has_so_many_places_and_the_number_of_the_others() {
+        let found = |count: usize| {
+            let mut all = Diagnostics::default();
+            let one = |at: usize| Diagnostic::warning("a::b", "odd").one_of("odd things", at.to_string());
+            all.extend((0..count).map(one));
+            Finding::from(&all.into_vec()[0])
+        };
+        let (few, many) = (found(3), found(MOST_PLACES + 7));
+        assert_eq!((few.places.len(), few.places_left_out), (3, 0));
+        assert_eq!((many.places.len(), many.places_left_out), (MOST_PLACES, 7));
     }
 }

@@ -1,4 +1,6 @@
-//! Wavefront OBJ by `tobj`, which is given bytes and a material loader that opens nothing.
+//! Wavefront OBJ: vertices and faces, the rest is of no meaning for a shape.
+
+use std::collections::BTreeMap;
 
 use nalgebra::Point3;
 
@@ -6,23 +8,55 @@ use super::mesh_file::{MeshError, MeshFile};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<MeshFile, MeshError> {
     let text = String::from_utf8_lossy(bytes);
-    let options = tobj::LoadOptions {
-        triangulate: true,
-        ignore_points: true,
-        ignore_lines: true,
-        ..tobj::LoadOptions::default()
-    };
-    let no_materials = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
-    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_materials)
-        .map_err(|error| index_fault(&text).unwrap_or(MeshError::Format { what: error.to_string() }))?;
     let mut mesh = MeshFile { material_libraries: material_libraries(&text), ..MeshFile::default() };
-    for model in models {
-        let first = u32::try_from(mesh.vertices_m.len()).unwrap_or(u32::MAX);
-        let corners = model.mesh.indices.chunks_exact(3);
-        mesh.triangles.extend(corners.map(|c| [c[0], c[1], c[2]].map(|index| first.saturating_add(index))));
-        mesh.vertices_m.extend(model.mesh.positions.chunks_exact(3).map(Point3::from_slice));
+    let (mut vertices, mut places) = (Vec::new(), BTreeMap::new());
+    for (line, text) in (1..).zip(text.lines()) {
+        let refused = |what: String| MeshError::Line { line, what };
+        let mut words = text.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                vertices.push(vertex(words).ok_or_else(|| refused("a vertex has three numbers".to_owned()))?);
+            }
+            Some("f") => {
+                let corner = |word: &str| corner(word, vertices.len()).map_err(refused);
+                let corners = words.map(corner).collect::<Result<Vec<usize>, MeshError>>()?;
+                let mut place = |vertex: usize| {
+                    *places.entry(vertex).or_insert_with(|| {
+                        mesh.vertices_m.push(vertices[vertex]);
+                        u32::try_from(mesh.vertices_m.len() - 1).unwrap_or(u32::MAX)
+                    })
+                };
+                // A polygon is a fan, as all readers take it; a point or a line has no surface.
+                let corners: Vec<u32> = if corners.len() < 3 {
+                    Vec::new()
+                } else {
+                    corners.into_iter().map(&mut place).collect()
+                };
+                for edge in corners.get(1..).unwrap_or_default().windows(2) {
+                    mesh.triangles.push([corners[0], edge[0], edge[1]]);
+                }
+            }
+            _ => {}
+        }
     }
     Ok(mesh)
+}
+
+fn vertex<'a>(words: impl Iterator<Item = &'a str>) -> Option<Point3<f64>> {
+    let mut numbers = words.map(|word| word.parse::<f64>().ok());
+    let mut next = || numbers.next().flatten();
+    Some(Point3::new(next()?, next()?, next()?))
+}
+
+/// The vertex of a corner `vertex/texture/normal`: from 1, or from the last one back if it is negative.
+fn corner(word: &str, vertices: usize) -> Result<usize, String> {
+    let written = word.split('/').next().unwrap_or_default();
+    let index: i64 = written.parse().map_err(|_| format!("\"{word}\" is no corner of a face"))?;
+    let back = usize::try_from(index.unsigned_abs()).unwrap_or(usize::MAX);
+    let found = if index > 0 { back.checked_sub(1) } else { vertices.checked_sub(back) };
+    found
+        .filter(|&found| found < vertices)
+        .ok_or_else(|| format!("vertex index {index} is out of range: there are {vertices} vertices"))
 }
 
 fn material_libraries(text: &str) -> Vec<String> {
@@ -30,27 +64,6 @@ fn material_libraries(text: &str) -> Vec<String> {
         .filter_map(|line| line.trim().strip_prefix("mtllib "))
         .map(|name| name.trim().to_owned())
         .collect()
-}
-
-/// The first face that names a vertex that is not there: `tobj` does not say which.
-fn index_fault(text: &str) -> Option<MeshError> {
-    let mut vertices = 0;
-    for (line, words) in text.lines().enumerate().map(|(line, text)| (line + 1, text.split_whitespace())) {
-        let mut words = words;
-        match words.next() {
-            Some("v") => vertices += 1,
-            Some("f") => {
-                let index = |word: &str| word.split('/').next().and_then(|index| index.parse::<i64>().ok());
-                let out = |index: &i64| *index == 0 || index.abs() > vertices;
-                if let Some(index) = words.filter_map(index).find(out) {
-                    let what = format!("vertex index {index} is out of range: there are {vertices} vertices");
-                    return Some(MeshError::Line { line, what });
-                }
-            }
-            _ => {}
-        }
-    }
-    None
 }
 
 #[cfg(test)]
@@ -63,7 +76,7 @@ mod tests {
     fn polygons_become_triangles_with_all_digits() {
         let text = format!("{SQUARE}f 1 2 3 4\no second\nf -4 -3 -2\n");
         let mesh = parse(text.as_bytes()).unwrap();
-        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [4, 5, 6]]);
+        assert_eq!(mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 1, 2]]);
         assert_eq!(mesh.vertices_m[3], Point3::new(0.0, 1.0, 0.1));
         assert_eq!(mesh.material_libraries, ["a.mtl"]);
     }
@@ -74,6 +87,14 @@ mod tests {
         assert_eq!(message, "line 6: vertex index 999 is out of range: there are 4 vertices");
         assert!(parse(format!("{SQUARE}f 1 2 0").as_bytes()).is_err());
         assert!(parse(b"v a b c").is_err());
+        assert!(parse(format!("{SQUARE}f 1 2 x").as_bytes()).is_err());
+    }
+
+    #[test]
+    fn vertices_of_no_face_are_left_out_and_odd_textures_are_nothing() {
+        let mesh = parse(format!("{SQUARE}v 9 9 9\nf 1 2\nf 4/-101/1 3/x 2//\n").as_bytes()).unwrap();
+        assert_eq!((mesh.vertices_m.len(), mesh.triangles), (3, vec![[0, 1, 2]]));
+        assert_eq!(mesh.vertices_m[0], Point3::new(0.0, 1.0, 0.1));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::{
     ops::Range,
 };
 
-use congruent_description::display::quantity;
+use congruent_description::{catch_panic, display::quantity};
 use re_chunk::Chunk;
 use re_log_encoding::{
     CachingApplicationIdInjector, CrateVersion, Decodable, DecoderTransport, Encodable, EncodingOptions,
@@ -15,7 +15,7 @@ use re_log_types::LogMsg;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{MAX_PROBLEMS, content::seconds, lengths, panics::catch_panic};
+use super::{MAX_PROBLEMS, content::seconds, lengths};
 
 /// The largest part that is looked into.
 const MOST_BYTES: u64 = 1 << 26;

@@ -7,7 +7,6 @@ mod evidence;
 mod frames;
 mod judgement;
 mod lengths;
-mod panics;
 mod recheck;
 mod rechecked;
 mod summary;
@@ -23,6 +22,7 @@ use std::{
 use re_log_encoding::{CachingApplicationIdInjector, DecoderTransport, MessageHeader, ToApplication};
 use re_log_types::LogMsg;
 
+use congruent_description::catch_panic;
 use congruent_twin::comparison::Scalars;
 pub use damage::{CheckSums, Damage};
 pub use recheck::{RecheckError, recheck};
@@ -35,7 +35,6 @@ pub use table::scalars_csv;
 use self::{
     content::RecordingContent,
     frames::{Frames, Parts},
-    panics::catch_panic,
 };
 
 /// Why a file cannot be read as a recording.

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::{
     clearance::Clearance,
+    cut_hulls::cut_hulls,
     hulls::ProximityError,
     pair_names::{PairFault, PairNames},
     pairs::PairChoice,
@@ -150,7 +151,12 @@ pub fn distances(
         ignored,
         results,
         limit_m: options.limit_m,
-        warnings: description.warnings.iter().map(Finding::from).collect(),
+        warnings: description
+            .warnings
+            .iter()
+            .chain(&cut_hulls(description, obstacles))
+            .map(Finding::from)
+            .collect(),
     })
 }
 

@@ -406,6 +406,28 @@ mod tests {
     }
 
     #[test]
+    fn what_a_hull_leaves_out_is_taken_off() {
+        let on_ball = |at: u32| {
+            let height = 1.0 - (2.0 * f64::from(at) + 1.0) / 9000.0;
+            let (sin, cos) = (2.4 * f64::from(at)).sin_cos();
+            let radius = (1.0 - height * height).sqrt();
+            Point3::new(0.3 * radius * cos, 0.3 * radius * sin, 0.3 * height)
+        };
+        let vertices_m = (0..9000).map(on_ball).collect();
+        let mesh = Mesh { path: "ball".into(), vertices_m, triangles: vec![[0, 1, 2]] };
+        let cut = hulls(Geometry::Mesh(mesh.into()));
+        let left_out_m = cut.left_out_m();
+        assert!(left_out_m > 0.0 && left_out_m < 3e-4, "{left_out_m}");
+        // The points are 9 mm from each other: between them the mesh is up to 0.1 mm inside of the ball.
+        for place in [at(1.0, 0.0, 0.0), at(-0.5, 0.6, 0.3), at(0.1, 0.2, -0.9)] {
+            let exact_m = place.translation.vector.norm() - 0.3 - 0.1;
+            let off_m = exact_m - cut.distance_m(&ball(0.1), &place);
+            assert!(off_m > -1e-4 && off_m <= left_out_m + DISTANCE_M, "{off_m}");
+        }
+        assert_eq!(cut.distance_m(&ball(0.1), &at(0.3, 0.0, 0.0)), 0.0);
+    }
+
+    #[test]
     fn touching_and_overlapping() {
         apart(&ball(0.5), &ball(0.25), at(0.75, 0.0, 0.0), 0.0);
         apart(&cuboid(1.0, 1.0, 1.0), &cuboid(1.0, 1.0, 1.0), at(1.0, 0.25, 0.0), 0.0);

@@ -1,6 +1,7 @@
 //! How far links are apart from each other, from obstacles and from forbidden zones. Only `hulls.rs` names parry.
 
 mod clearance;
+mod cut_hulls;
 mod disabled_pairs;
 mod disabled_srdf;
 mod distances;
@@ -11,6 +12,7 @@ mod travel;
 mod waiting;
 
 pub use clearance::{Clearance, Nearest};
+pub(crate) use cut_hulls::cut_hulls;
 pub use disabled_pairs::{
     ALWAYS_SHARE, DeclaredPairs, DisableReason, DisabledPairs, SuggestedPair, suggest_disabled,
 };

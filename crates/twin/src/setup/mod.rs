@@ -3,6 +3,7 @@
 pub(crate) mod actuation;
 mod checks;
 mod clock;
+mod cost;
 mod declared_dynamics;
 mod joint_targets;
 mod motion_limits;

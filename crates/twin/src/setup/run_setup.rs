@@ -11,8 +11,9 @@ use congruent_simulation::Obstacle;
 
 use super::{
     actuation::{Actuation, ActuatorLimits, ControllerSetup, SensorSetup},
-    checks::{default_checks, examine_checks},
+    checks::{default_checks, examine_checks, needs_shapes},
     clock::RunClock,
+    cost::long_run,
     declared_dynamics::DeclaredDynamics,
     joint_targets::JointTargets,
     motion_limits, numbers, output,
@@ -25,7 +26,7 @@ use crate::{
     fault::{PlannedFault, resolve},
     monitor::{CheckContext, RunningCheck},
     motion::{MotionInput, Trajectory},
-    proximity::ObstacleMobility,
+    proximity::{ObstacleMobility, cut_hulls},
     scenario::{FilePlace, Override, SCHEMA_VERSION, Scenario, ScenarioFile, ScenarioFolder, StartSettings},
 };
 
@@ -206,7 +207,19 @@ impl RunSetup {
             overlaps: Vec::new(),
             check_lines,
         }
-        .with_overlaps(place.key("obstacle")))
+        .with_overlaps(place.key("obstacle"))
+        .with_costs())
+    }
+
+    /// Warns of what takes long, or is left out since it would.
+    fn with_costs(mut self) -> Self {
+        if self.scenario.controller.kind != "kinematic" {
+            self.warnings.extend(long_run(self.description.robot.dof(), &self.clock));
+        }
+        if needs_shapes(&self.scenario) {
+            self.warnings.extend(cut_hulls(&self.description, &self.obstacles));
+        }
+        self
     }
 
     /// Finds the obstacles that overlap the robot at the start; playback knows no forces.

@@ -3,6 +3,7 @@
 
 use std::{fs::File, path::Path, sync::Arc};
 
+use congruent_description::catch_panic;
 use parquet::{
     basic::{LogicalType, Repetition, Type as PhysicalType},
     data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type},
@@ -157,11 +158,13 @@ pub(super) struct ParquetRows {
 impl ParquetRows {
     pub(super) fn open(path: &Path) -> Result<Self, TableError> {
         let file = File::open(path).map_err(|error| TableError::new(path, error))?;
-        let refused = |error: ParquetError| TableError::new(path, error);
-        let reader = SerializedFileReader::new(file).map_err(refused)?;
-        let schema = reader.metadata().file_metadata().schema();
-        let columns = schema.get_fields().iter().map(|field| field.name().to_owned()).collect();
-        Ok(Self { rows: RowIter::from_file_into(Box::new(reader)), columns })
+        let opened = catch_panic(|| {
+            let reader = SerializedFileReader::new(file).map_err(|error| error.to_string())?;
+            let schema = reader.metadata().file_metadata().schema();
+            let columns = schema.get_fields().iter().map(|field| field.name().to_owned()).collect();
+            Ok(Self { rows: RowIter::from_file_into(Box::new(reader)), columns })
+        });
+        opened.map_err(|error| TableError::new(path, error))
     }
 }
 
@@ -171,8 +174,8 @@ impl RowReader for ParquetRows {
     }
 
     fn next_row(&mut self, row: &mut Vec<Value>) -> Result<bool, String> {
-        let Some(next) = self.rows.next() else { return Ok(false) };
-        let next = next.map_err(|error| error.to_string())?;
+        let next = catch_panic(|| self.rows.next().transpose().map_err(|error| error.to_string()))?;
+        let Some(next) = next else { return Ok(false) };
         row.clear();
         row.extend(next.get_column_iter().map(|(_, field)| value(field)));
         Ok(true)

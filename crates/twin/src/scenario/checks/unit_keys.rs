@@ -52,14 +52,19 @@ impl UnitKeys {
         Err(place.mark(error.with_help(format!("give `{si}` or `{engineering}`"))))
     }
 
+    /// The key that the file has.
+    pub(crate) fn written_key(&self) -> &'static str {
+        let [si, engineering] = self.keys;
+        if self.written[0].is_some() { si } else { engineering }
+    }
+
     /// What is wrong with a tolerance for a robot of this scale, at its place.
     pub(crate) fn examine_tolerance(
         &self,
         place: FilePlace<'_>,
         scale: ToleranceScale,
     ) -> Option<Diagnostic> {
-        let [si, engineering] = self.keys;
-        let key = if self.written[0].is_some() { si } else { engineering };
+        let key = self.written_key();
         Some(place.key(key).mark(scale.examine(self.unit, key, self.value()?)?))
     }
 

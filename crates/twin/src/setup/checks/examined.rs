@@ -2,7 +2,7 @@
 
 use congruent_description::{Diagnostic, Diagnostics, RobotDescription, Use};
 
-use super::tolerances::tolerances;
+use super::tolerances::{beyond_meaning, tolerances};
 use crate::{
     monitor::RunningCheck,
     proximity::ObstacleMobility,
@@ -27,6 +27,7 @@ pub(in crate::setup) fn examine_checks(
     for (index, check) in scenario.check.iter().enumerate() {
         let (wrong, wide) = tolerances(check, place.key("check").item(index), scale);
         found.extend(wrong);
+        found.extend(beyond_meaning(check, place.key("check").item(index), (&description.robot, scale)));
         warnings.extend(wide);
     }
     found.extend(unexpected(scenario, place.key("expect")));
@@ -37,7 +38,7 @@ pub(in crate::setup) fn examine_checks(
 }
 
 /// Whether distances or contacts decide something: without obstacles nothing can be touched.
-fn needs_shapes(scenario: &Scenario) -> bool {
+pub(in crate::setup) fn needs_shapes(scenario: &Scenario) -> bool {
     let measures =
         |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Contact | CheckKind::Zone);
     !scenario.obstacle.is_empty() || scenario.check.iter().any(measures)

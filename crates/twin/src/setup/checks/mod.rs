@@ -5,4 +5,4 @@ mod examined;
 mod tolerances;
 
 pub(super) use defaults::default_checks;
-pub(super) use examined::examine_checks;
+pub(super) use examined::{examine_checks, needs_shapes};
