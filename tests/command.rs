@@ -78,6 +78,7 @@ fn command<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
         .args(arguments)
         .current_dir(workspace())
         .env_remove("GITHUB_ACTIONS")
+        .env("GITHUB_WORKSPACE", workspace())
         .env_remove("NO_COLOR")
         .env_remove("COLUMNS"); // the width of help
     command

@@ -124,3 +124,35 @@ fn written_out(isometry: &Isometry3<f64>) -> Pose {
     let rotation = isometry.rotation.to_rotation_matrix().into_inner();
     Pose::from_parts(rotation, isometry.translation.vector)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write;
+
+    use congruent_description::parse_urdf;
+
+    use super::*;
+
+    /// A chain of so many turning joints, each followed by a fixed one.
+    fn chain(joints: usize) -> Robot {
+        let mut text = String::from("<robot name='chain'><link name='link0'/>");
+        for joint in 0..2 * joints {
+            let kind = ["continuous", "fixed"][joint % 2];
+            let child = joint + 1;
+            let _ = write!(
+                text,
+                "<link name='link{child}'/><joint name='joint{joint}' type='{kind}'><parent link='link{joint}'/>\
+                 <child link='link{child}'/><axis xyz='0 0 1'/></joint>"
+            );
+        }
+        parse_urdf(&(text + "</robot>")).unwrap()
+    }
+
+    #[test]
+    fn the_limit_of_rotations_grows_with_the_joints_in_a_row() {
+        for (joints, limit) in [(0, 4e-14), (6, 4e-14), (8, 4e-14), (45, 45.0 * 5e-15)] {
+            let found = default_rotation(&chain(joints));
+            assert!((found - limit).abs() < 1e-24, "{joints}: {found}");
+        }
+    }
+}
