@@ -160,6 +160,12 @@ fn malformed(error: &xmlparser::Error, text: &str, open: &[OpenElement<'_>]) -> 
         return conflict;
     }
     let at = offset(text, error.pos().row, error.pos().col);
+    if text[at..].starts_with("<?xml") {
+        let message = "the XML declaration <?xml ...?> is not the first thing in the file";
+        return Diagnostic::error("xml::malformed", message)
+            .at(at..at)
+            .with_help("remove what stands before it, be it an empty line");
+    }
     if !open.is_empty() && !text[at..].contains('>') {
         return unclosed(open);
     }
@@ -242,6 +248,7 @@ mod tests {
         refused("<r></r></r>", "xml::malformed", "a closing tag after the end");
         refused("<r/> words", "xml::malformed", "text after the end");
         refused("version https://git-lfs.github.com/spec/v1", "xml::malformed", "Git LFS pointer");
+        refused("\n<?xml version='1.0'?><r/>", "xml::malformed", "not the first thing");
         refused("robot: x", "xml::malformed", "begins with \"robot: x\"");
         refused("<r>\n<<<<<<< HEAD\n<a/>\n=======\n>>>>>>> x\n</r>", "xml::malformed", "merge conflict");
     }

@@ -70,6 +70,6 @@ fn no_number_and_no_name_is_given_twice() {
         assert!(names.insert(code.name), "{} is in the table twice", code.name);
         let form = regex_lite::Regex::new("^CGR-[A-Z]+-[0-9]{3}$").unwrap();
         assert!(form.is_match(&code.to_string()), "{code}");
-        assert!(code.about.len() > 20 && code.about.contains('.'), "{code}: {}", code.about);
+        assert!(code.about.len() > 15 && code.about.contains('.'), "{code}: {}", code.about);
     }
 }

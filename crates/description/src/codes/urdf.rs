@@ -102,6 +102,11 @@ pub(super) const AREAS: &[Area] = &[
                 "urdf::massless",
                 "A link moves and has no mass, nor has anything that is fixed to it, so its motion under forces is not defined. Poses and distances are. Give it an <inertial>, or make its joint fixed.",
             ),
+            (
+                29,
+                "urdf::zero_inertia",
+                "A link has a mass and an inertia of zero, so that it would be a point. Any torque about it would turn it at any speed.",
+            ),
         ],
     },
     Area {

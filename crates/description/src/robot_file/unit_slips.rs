@@ -118,8 +118,8 @@ pub(super) fn acceleration(
     system: UnitSystem,
     (name, value): (&Spanned<String>, &Spanned<f64>),
 ) -> Option<Diagnostic> {
-    let is_fast =
-        key == "acceleration_rad_s2" && system == UnitSystem::Si && *value.get_ref() > FASTEST_RAD_S2;
+    let is_large = value.get_ref().is_finite() && *value.get_ref() > FASTEST_RAD_S2;
+    let is_fast = key == "acceleration_rad_s2" && system == UnitSystem::Si && is_large;
     is_fast.then(|| {
         let message = format!("{key} of \"{}\" is {}", name.get_ref(), number(*value.get_ref()));
         Diagnostic::warning("robot_file::fast", message)

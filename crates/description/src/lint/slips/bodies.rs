@@ -20,6 +20,8 @@ const INERTIA: Kind = Kind {
     code: "units::inertia",
     words: "links have an inertia that does not belong to their mass and size",
 };
+const NO_TENSOR: Kind =
+    Kind { code: "urdf::zero_inertia", words: "links have a mass and an inertia of zero, which no body has" };
 const COM: Kind = Kind {
     code: CENTER_OF_MASS,
     words: "links have a centre of mass far from everything that belongs to them",
@@ -67,6 +69,7 @@ impl Judge<'_> {
         for link in robot.link_indices() {
             if let Some(inertia) = &robot.link(link).inertia {
                 self.center_of_mass(link, inertia);
+                self.tensor(link, inertia);
             }
         }
     }
@@ -105,6 +108,16 @@ impl Judge<'_> {
             ),
         };
         self.warn_link(&INERTIA, name, &what, ("inertia", guess(body)));
+    }
+
+    /// A mass without extent; markers have none either.
+    fn tensor(&mut self, link: LinkIndex, inertia: &Inertia) {
+        if inertia.mass_kg > LEAST_MASS_KG && inertia.tensor_kg_m2.amax() == 0.0 {
+            let what = format!("its inertia is zero, and its mass {}", quantity(inertia.mass_kg, "kg"));
+            let help = "a body with mass has an inertia: that of a box of its size, if nothing else is known"
+                .to_owned();
+            self.warn_link(&NO_TENSOR, &self.robot.link(link).name, &what, ("inertia", help));
+        }
     }
 
     fn center_of_mass(&mut self, link: LinkIndex, inertia: &Inertia) {

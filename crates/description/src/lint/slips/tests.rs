@@ -46,7 +46,7 @@ fn an_arm_as_it_should_be_is_not_told() {
 
 #[test]
 fn what_belongs_together_gives_a_slip_away() {
-    check("mass value='2'", "mass value='2000'", "units::mass", "781000 kg/m^3");
+    check("mass value='2'", "mass value='2000'", "units::mass", "781250 kg/m^3");
     check("mass value='0.06'", "mass value='60'", "units::mass", "link \"finger\"");
     check(
         "ixx='0.0009' ixy='0' ixz='0' iyy='0.0098' iyz='0' izz='0.0098'",
