@@ -183,13 +183,17 @@ fn no_table(error: &DeriveError, model: &ConvertedModel<'_>) -> Diagnostic {
 }
 
 fn unproved(report: &ConversionReport, proof: &Proof) -> Diagnostic {
-    let furthest = report.axes.iter().max_by(|a, b| a.normal_at_m.abs().total_cmp(&b.normal_at_m.abs()));
-    let why = furthest.map_or(String::new(), |pair| {
+    // Places of normals are relative: one that is far away makes the next one far, too. The axes that are nearest to
+    // parallel are the cause.
+    let furthest_m = report.axes.iter().map(|pair| pair.normal_at_m.abs()).fold(0.0, f64::max);
+    let far = report.axes.iter().filter(|pair| pair.normal_at_m.abs() >= furthest_m / 2.0);
+    let cause = far.min_by(|a, b| a.from_parallel_rad().total_cmp(&b.from_parallel_rad()));
+    let why = cause.map_or(String::new(), |pair| {
         format!(
             ": the axes of \"{}\" and \"{}\" are {} from parallel, so their common normal lies {} away",
             pair.joints[0],
             pair.joints[1],
-            angle(pair.angle_rad.min(std::f64::consts::PI - pair.angle_rad)),
+            angle(pair.from_parallel_rad()),
             length(pair.normal_at_m.abs())
         )
     });

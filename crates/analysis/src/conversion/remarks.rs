@@ -7,7 +7,7 @@ use congruent_description::{
 };
 use congruent_kinematics::Proof;
 
-use super::report::{ConversionReport, RoundedReport};
+use super::report::{AxisReport, ConversionReport, RoundedReport};
 
 /// A length of a table beyond this multiple of the reach is warned of: no arm is built so.
 const FAR_REACHES: f64 = 100.0;
@@ -48,13 +48,16 @@ pub(super) fn far(report: &ConversionReport, reach_m: f64) -> Option<Diagnostic>
         .filter(|(.., value)| is_far(*value))
         .map(|(row, entry, value)| format!("{entry} of {} is {}", row.joint, length(value)))
         .collect();
-    let pairs = report.axes.iter().filter(|pair| is_far(pair.normal_at_m)).map(|pair| {
-        let from_parallel = pair.angle_rad.min(std::f64::consts::PI - pair.angle_rad);
+    // Places of normals are relative: one that is far away makes the next one far, too, whatever its axes are.
+    let is_cause = |pair: &&AxisReport| {
+        is_far(pair.normal_at_m) && pair.from_parallel_rad() * pair.normal_at_m.abs() <= FAR_REACHES * reach_m
+    };
+    let pairs = report.axes.iter().filter(is_cause).map(|pair| {
         format!(
             "; the axes of {} and {} are {} from parallel",
             pair.joints[0],
             pair.joints[1],
-            angle(from_parallel)
+            angle(pair.from_parallel_rad())
         )
     });
     let message = format!(

@@ -134,6 +134,13 @@ pub struct AxisReport {
     pub normal_at_m: f64,
 }
 
+impl AxisReport {
+    /// The angle between the axes as lines.
+    pub(super) fn from_parallel_rad(&self) -> f64 {
+        self.angle_rad.min(std::f64::consts::PI - self.angle_rad)
+    }
+}
+
 /// Two consecutive axes that were taken as what they are but for rounding.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RoundedReport {

@@ -7,7 +7,7 @@
 
 mod robot;
 
-use std::sync::Arc;
+use std::{cell::Cell, sync::Arc};
 
 use congruent::{
     agreement::{
@@ -36,8 +36,8 @@ use self::robot::GeneratedRobot;
 /// seen 4e-15.
 const SAME_M_AND_RAD: f64 = 1e-12;
 
-/// Chains that have no table: a joint follows another, or none moves.
-const REFUSED: [&str; 1] = ["convert::no_table"];
+/// Chains that have no table: none moves, or axes are almost parallel, by the digits of files.
+const REFUSED: [&str; 2] = ["convert::no_table", "convert::unproved"];
 
 /// Runs a law on robots of the seed.
 #[track_caller]
@@ -104,7 +104,6 @@ fn converted(
     };
     match convert(description, &conversion) {
         Ok(report) => Ok(Some(report)),
-        // A chain with a joint that follows another, or without one that moves, has no table.
         Err(found) if REFUSED.contains(&found.code) => Ok(None),
         Err(found) => Err(failed(&[found], "")),
     }
@@ -126,12 +125,15 @@ const TABLES: [ConversionTarget; 2] = [ConversionTarget::Standard, ConversionTar
 
 #[test]
 fn every_model_that_it_is_converted_to_agrees() {
+    let [asked, made] = [Cell::new(0), Cell::new(0)];
     for_robots(40, |robot, _| {
         let urdf = robot.urdf();
         let description =
             parse_robot(None, &source("robot.urdf", &urdf)).map_err(|found| failed(&found, &urdf))?;
         for to in TABLES {
+            asked.set(asked.get() + 1);
             let Some(report) = converted(&description, to)? else { continue };
+            made.set(made.get() + 1);
             let section = report.robot_toml.clone().unwrap();
             let checked = check(&with_table(&urdf, &report, &section)?, &CheckOptions::default()).unwrap();
             prop_assert_eq!(
@@ -148,6 +150,7 @@ fn every_model_that_it_is_converted_to_agrees() {
         }
         Ok(())
     });
+    assert!(2 * made.get() > asked.get(), "{} tables of {}", made.get(), asked.get());
 }
 
 /// A value of a row, changed by a little: the section, the row's joint and what was changed.

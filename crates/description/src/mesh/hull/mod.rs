@@ -10,11 +10,11 @@ use nalgebra::Point3;
 use self::polytope::Polytope;
 
 /// Most points of a hull, and of a mesh that is not looked at. Kind: speed; a distance costs 10 ns for each point, and a
-/// ball with so many is 0.03 % of its diameter too small.
+/// ball with so many is 0.05 % of its diameter too small.
 const MOST_POINTS: usize = 4000;
 /// A hull that leaves out no more is exact enough, as a share of the size. No unit; kind: choice, below the digits of a mesh
-/// file.
-const NEGLIGIBLE: f64 = 1e-6;
+/// file and below what a distance of shapes of 10 m is off, 1e-7 m.
+const NEGLIGIBLE: f64 = 1e-8;
 /// Rounding of a distance from a triangle, as a share of the size. No unit; kind: rounding of some dozen operations.
 const ROUNDING: f64 = 1e-14;
 
