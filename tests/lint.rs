@@ -155,7 +155,8 @@ fn sarif_has_the_published_structure() {
     assert_eq!(answer.code, 2);
     let document = answer.json();
     let schema = jsonschema::draft202012::new(&sarif_schema()).unwrap();
-    let faults: Vec<String> = schema.iter_errors(&document).map(|error| error.to_string()).collect();
+    let faults: Vec<String> =
+        schema.iter_errors(&document).map(|error| format!("{}: {error}", error.instance_path())).collect();
     assert!(faults.is_empty(), "{faults:#?}");
     let run = &document["runs"][0];
     let results = run["results"].as_array().unwrap();

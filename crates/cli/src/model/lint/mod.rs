@@ -25,7 +25,7 @@ use crate::{
 /// What is wrong or suspicious in URDFs, SRDFs, robot files and scenarios, with the files that they name.
 ///
 /// Each finding has its place, a code that never changes, what to do, and what it stops: kinematics, clearance or physics.
-/// Warnings that are meant are ignored by [[lint.ignore]] in robot.toml, with a reason. Exit codes: 0 no error, 1 errors
+/// Warnings that are meant are ignored by `[[lint.ignore]]` in robot.toml, with a reason. Exit codes: 0 no error, 1 errors
 /// (with --strict also warnings), 2 a file cannot be read.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
