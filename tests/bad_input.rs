@@ -221,7 +221,7 @@ fn case_23_a_goal_that_cannot_be() {
         ),
         (
             "tcp = { xyz_m = [1, 0, 0] }\nposition_m = 1\norientation_rad = 1",
-            ["the goal has none", "neither for a position"],
+            ["the tolerance of a rotation", "neither for a position"],
         ),
     ] {
         let bench = Workbench::new();

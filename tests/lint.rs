@@ -141,6 +141,21 @@ fn codes_are_explained_by_number_and_by_name() {
     assert!(unknown.stderr.contains("did you mean CGR-URDF-028, urdf::massless?"), "{}", unknown.stderr);
 }
 
+#[test]
+fn safe_corrections_are_shown_and_written() {
+    let misspelt = URDF.replace("<origin", "<orgin");
+    let folder = Folder::new(&[("r.urdf", &misspelt)]);
+    let file = folder.text("r.urdf");
+    let dry = congruent(&["lint", &file, "--fix", "--dry-run"]);
+    assert!(dry.code == 1 && dry.stdout.contains("\n-    <orgin xyz='0 0 0.3'/>"), "{}", dry.stdout);
+    assert_eq!(fs::read_to_string(&file).unwrap(), misspelt);
+    let fixed = congruent(&["lint", &file, "--fix"]);
+    assert!(fixed.code == 0 && fixed.stdout.contains("\n+    <axis xyz='0 0 1'/>"), "{}", fixed.stdout);
+    assert_eq!(fs::read_to_string(&file).unwrap(), URDF.replace("'0 0 2'", "'0 0 1'"));
+    let sarif = congruent(&["lint", &folder.text("r.urdf"), "--format", "sarif"]).json();
+    assert!(sarif["runs"][0]["results"].as_array().is_some_and(|results| !results.is_empty()));
+}
+
 /// The parts of the published schema of SARIF 2.1.0 that these documents use, with its constraints.
 fn sarif_schema() -> Value {
     serde_json::from_str(include_str!("sarif_subset.json")).unwrap()
@@ -155,7 +170,8 @@ fn sarif_has_the_published_structure() {
     assert_eq!(answer.code, 2);
     let document = answer.json();
     let schema = jsonschema::draft202012::new(&sarif_schema()).unwrap();
-    let faults: Vec<String> = schema.iter_errors(&document).map(|error| error.to_string()).collect();
+    let faults: Vec<String> =
+        schema.iter_errors(&document).map(|error| format!("{}: {error}", error.instance_path())).collect();
     assert!(faults.is_empty(), "{faults:#?}");
     let run = &document["runs"][0];
     let results = run["results"].as_array().unwrap();

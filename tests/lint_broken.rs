@@ -213,7 +213,7 @@ fn broken_robots_of_many_kinds_are_told() {
         assert!(ARM.contains(from), "{from}");
         fs::write(&file, ARM.replacen(from, to, 1)).unwrap();
         let answer = congruent_json(&["lint", &text(&file)]);
-        let code = if severity.contains("error") { 1 } else { 0 };
+        let code = i32::from(severity.contains("error"));
         if !is_told(&answer, severity, pattern, *line) || answer.code != code {
             wrong.push(format!(
                 "{from} -> {to}, {pattern}, line {line}, code {}:\n{}",

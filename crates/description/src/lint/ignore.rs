@@ -81,7 +81,7 @@ impl Ignores {
     pub fn apply(&self, mut found: Vec<Diagnostic>) -> (Vec<Diagnostic>, Vec<IgnoredFinding>) {
         let (mut wrong, mut ignored) = (Vec::new(), Vec::new());
         for entry in &self.written.ignore {
-            match self.apply_one(entry.get_ref(), &mut found) {
+            match apply_one(entry.get_ref(), &mut found) {
                 Ok(done) => ignored.push(done),
                 Err(fault) => wrong.push(match &self.source {
                     Some(source) => fault.at(entry.get_ref().code.span()).in_file(source),
@@ -92,50 +92,45 @@ impl Ignores {
         found.extend(wrong);
         (found, ignored)
     }
+}
 
-    fn apply_one(
-        &self,
-        entry: &WrittenIgnore,
-        found: &mut Vec<Diagnostic>,
-    ) -> Result<IgnoredFinding, Diagnostic> {
-        let written = entry.code.get_ref();
-        let refused = |what: String| Diagnostic::error("lint::ignore", format!("\"{written}\" {what}"));
-        let Some(code) = Code::find(written) else {
-            let nearest = Code::nearest(written);
-            let help =
-                nearest.map_or_else(String::new, |near| format!("did you mean {near}, {}?", near.name));
-            return Err(refused("is no code".to_owned()).with_help(help));
-        };
-        if entry.reason.trim().is_empty() {
-            return Err(refused("is ignored without a reason".to_owned())
-                .with_help("reason = \"...\": who reads the file later must know why"));
-        }
-        if found.iter().any(|found| found.code == code.name && found.severity == Severity::Error) {
-            return Err(refused("is an error here, which cannot be ignored".to_owned())
-                .with_help("correct what is wrong, and remove the entry"));
-        }
-        let places = |found: &[Diagnostic]| -> usize {
-            let of_code = found.iter().filter(|found| found.code == code.name);
-            of_code.map(|found| found.kind.occurrences.len().max(1)).sum()
-        };
-        let before = places(found);
-        *found = std::mem::take(found)
-            .into_iter()
-            .filter_map(|found| match &entry.name {
-                _ if found.code != code.name => Some(found),
-                None => None,
-                Some(name) => found.without(name),
-            })
-            .collect();
-        let places = before - places(found);
-        if places == 0 {
-            let of = entry.name.as_ref().map_or_else(String::new, |name| format!(" of \"{name}\""));
-            let message = format!("{code} ({}){of} does not occur: nothing is ignored", code.name);
-            return Err(Diagnostic::warning("lint::ignored_nothing", message)
-                .with_help("remove the entry, so that it hides nothing later"));
-        }
-        Ok(IgnoredFinding { id: code.to_string(), code: code.name, reason: entry.reason.clone(), places })
+fn apply_one(entry: &WrittenIgnore, found: &mut Vec<Diagnostic>) -> Result<IgnoredFinding, Diagnostic> {
+    let written = entry.code.get_ref();
+    let refused = |what: String| Diagnostic::error("lint::ignore", format!("\"{written}\" {what}"));
+    let Some(code) = Code::find(written) else {
+        let nearest = Code::nearest(written);
+        let help = nearest.map_or_else(String::new, |near| format!("did you mean {near}, {}?", near.name));
+        return Err(refused("is no code".to_owned()).with_help(help));
+    };
+    if entry.reason.trim().is_empty() {
+        return Err(refused("is ignored without a reason".to_owned())
+            .with_help("reason = \"...\": who reads the file later must know why"));
     }
+    if found.iter().any(|found| found.code == code.name && found.severity == Severity::Error) {
+        return Err(refused("is an error here, which cannot be ignored".to_owned())
+            .with_help("correct what is wrong, and remove the entry"));
+    }
+    let places = |found: &[Diagnostic]| -> usize {
+        let of_code = found.iter().filter(|found| found.code == code.name);
+        of_code.map(|found| found.kind.occurrences.len().max(1)).sum()
+    };
+    let before = places(found);
+    *found = std::mem::take(found)
+        .into_iter()
+        .filter_map(|found| match &entry.name {
+            _ if found.code != code.name => Some(found),
+            None => None,
+            Some(name) => found.without(name),
+        })
+        .collect();
+    let places = before - places(found);
+    if places == 0 {
+        let of = entry.name.as_ref().map_or_else(String::new, |name| format!(" of \"{name}\""));
+        let message = format!("{code} ({}){of} does not occur: nothing is ignored", code.name);
+        return Err(Diagnostic::warning("lint::ignored_nothing", message)
+            .with_help("remove the entry, so that it hides nothing later"));
+    }
+    Ok(IgnoredFinding { id: code.to_string(), code: code.name, reason: entry.reason.clone(), places })
 }
 
 #[cfg(test)]

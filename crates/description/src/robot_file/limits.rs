@@ -6,9 +6,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::unit_slips;
 use crate::{
     diagnostic::{Diagnostic, Diagnostics, known_names},
+    display::number,
     model::{Joint, Robot},
     units::{Unit, UnitSystem, check_finite},
 };
@@ -18,6 +18,8 @@ type ByJoint = BTreeMap<Spanned<String>, Spanned<f64>>;
 
 /// The name that stands for every joint of a kind.
 const EVERY: &str = "*";
+/// Joints of arms accelerate with up to 100 rad/s^2, those of legs with up to some hundred.
+const FASTEST_RAD_S2: f64 = 500.0;
 
 /// The largest accelerations of joints: the certificates of `congruent check` cover them. Of a joint that is not named
 /// 10 rad/s^2 or m/s^2 is assumed.
@@ -57,7 +59,7 @@ pub(super) fn accelerations(
         let mut given_by: Vec<Option<&str>> = vec![None; robot.dof()];
         for (key, by_joint) in written.keys() {
             for entry in by_joint.iter().filter(|(name, _)| (name.get_ref() == EVERY) == is_every) {
-                diagnostics.extend(unit_slips::acceleration(key.name, key.system, entry));
+                diagnostics.extend(in_degrees(&key, entry));
                 let Some((joints, acceleration)) = diagnostics.keep(read(&key, entry, robot)) else {
                     continue;
                 };
@@ -94,6 +96,18 @@ impl WrittenLimits {
 fn twice(first: &str, name: &Spanned<String>) -> Diagnostic {
     let message = format!("the acceleration of \"{}\" is given by {first} already", name.get_ref());
     Diagnostic::error("robot_file::limits", message).at(name.span()).with_help("keep exactly one of the two")
+}
+
+/// An acceleration in radians of a size that only degrees have.
+fn in_degrees(key: &Key, (name, value): (&Spanned<String>, &Spanned<f64>)) -> Option<Diagnostic> {
+    let is_in_rad = matches!((key.unit, key.system), (Unit::Angle, UnitSystem::Si));
+    let is_fast = value.get_ref().is_finite() && *value.get_ref() > FASTEST_RAD_S2;
+    (is_in_rad && is_fast).then(|| {
+        let message = format!("{} of \"{}\" is {}", key.name, name.get_ref(), number(*value.get_ref()));
+        Diagnostic::warning("robot_file::fast", message)
+            .at(value.span())
+            .with_help("degrees? then the key is acceleration_deg_s2")
+    })
 }
 
 /// The joints of an entry, by number, and its value in SI units.

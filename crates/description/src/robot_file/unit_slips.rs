@@ -12,7 +12,6 @@ use crate::{
     diagnostic::Diagnostic,
     display::{length, number},
     model::{JointKind, Robot},
-    units::UnitSystem,
     written::transform::WrittenTransform,
 };
 
@@ -22,8 +21,6 @@ const MOST_SIZES: f64 = 1.5;
 const LEAST_M: f64 = 0.3;
 /// How near to a quarter turn in radians a value in degrees is taken for radians: four digits.
 const QUARTER_DEG: f64 = 1e-3;
-/// Joints of arms accelerate with up to 100 rad/s^2, those of legs with up to some hundred.
-const FASTEST_RAD_S2: f64 = 500.0;
 
 /// What all joint origins make in a row, with what sliding joints add.
 pub(super) fn size_m(robot: &Robot) -> f64 {
@@ -110,22 +107,6 @@ fn radians(what: &str, key: &str, at: Range<usize>) -> Diagnostic {
 fn is_quarter_turn_in_rad(degrees: f64) -> bool {
     let quarters = (degrees / FRAC_PI_2).round();
     (1.0..=4.0).contains(&quarters.abs()) && (degrees - quarters * FRAC_PI_2).abs() < QUARTER_DEG
-}
-
-/// An acceleration under a key in radians.
-pub(super) fn acceleration(
-    key: &str,
-    system: UnitSystem,
-    (name, value): (&Spanned<String>, &Spanned<f64>),
-) -> Option<Diagnostic> {
-    let is_large = value.get_ref().is_finite() && *value.get_ref() > FASTEST_RAD_S2;
-    let is_fast = key == "acceleration_rad_s2" && system == UnitSystem::Si && is_large;
-    is_fast.then(|| {
-        let message = format!("{key} of \"{}\" is {}", name.get_ref(), number(*value.get_ref()));
-        Diagnostic::warning("robot_file::fast", message)
-            .at(value.span())
-            .with_help("degrees? then the key is acceleration_deg_s2")
-    })
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! placeholder, the mass of a marker), is not planted.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
-#![expect(clippy::print_stderr, reason = "the figures of the benchmark")]
+#![allow(clippy::print_stderr, reason = "the figures of the benchmark")]
 
 #[path = "../../../../tests/corpus.rs"]
 mod corpus;

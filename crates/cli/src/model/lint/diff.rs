@@ -72,7 +72,8 @@ mod tests {
 
     #[test]
     fn near_changes_share_a_hunk_and_numbers_count_what_was_added() {
-        let text = (1..=20).map(|line| format!("l{line}\n")).collect::<String>();
+        let line = |line: usize| format!("l{line}\n");
+        let text: String = (1..=20).map(line).collect();
         let diff = unified("a", &text, &[change(2, 2, "x\ny"), change(4, 4, "z"), change(15, 16, "w")]);
         assert_eq!(
             diff,

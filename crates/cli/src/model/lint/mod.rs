@@ -25,7 +25,7 @@ use crate::{
 /// What is wrong or suspicious in URDFs, SRDFs, robot files and scenarios, with the files that they name.
 ///
 /// Each finding has its place, a code that never changes, what to do, and what it stops: kinematics, clearance or physics.
-/// Warnings that are meant are ignored by [[lint.ignore]] in robot.toml, with a reason. Exit codes: 0 no error, 1 errors
+/// Warnings that are meant are ignored by `[[lint.ignore]]` in robot.toml, with a reason. Exit codes: 0 no error, 1 errors
 /// (with --strict also warnings), 2 a file cannot be read.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
@@ -50,6 +50,9 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     access: AccessArguments,
 }
+
+/// How often a file is corrected in one call.
+const MOST_ROUNDS: usize = 4;
 
 /// The report of one file, judged as the call asks.
 #[derive(Serialize)]
@@ -105,13 +108,21 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let linted = |path: &Path| {
         let own = access.fresh();
         let mut report = lint(path, &own);
-        let mut difference = String::new();
-        if arguments.fix {
-            difference = fix::difference(&report.fixes);
-            if !arguments.dry_run && fix::write(&report.fixes)? {
-                report = LintReport { fixes: report.fixes, ..lint(path, &own) };
+        let (mut difference, mut fixed) = (String::new(), Vec::new());
+        // What was refused hides other findings, which the next round corrects.
+        for _ in 0..MOST_ROUNDS {
+            if !arguments.fix || report.fixes.is_empty() {
+                break;
             }
+            difference += &fix::difference(&report.fixes);
+            if arguments.dry_run || !fix::write(&report.fixes)? {
+                break;
+            }
+            fixed.append(&mut report.fixes);
+            report = lint(path, &own);
         }
+        fixed.append(&mut report.fixes);
+        report.fixes = fixed;
         let read: Vec<PathBuf> = own.files().into_iter().map(|file| file.path).collect();
         batch.reads(&read).map_err(Failure::from)?;
         Ok(Linted { report, strict: arguments.strict, difference })
