@@ -32,8 +32,8 @@ use proptest::{
 
 use self::robot::GeneratedRobot;
 
-/// Poses of what was written and read again: rounding of a rotation as roll, pitch and yaw, some eight joints deep. Worst
-/// seen 4e-15.
+/// Poses of what was written and read again. Unit: m and rad; kind: rounding of a rotation as roll, pitch and yaw, up to eight
+/// joints deep on an arm of some 8 m; 6,000 robots are within it.
 const SAME_M_AND_RAD: f64 = 1e-12;
 
 /// Chains that have no table: none moves, or axes are almost parallel, by the digits of files.
