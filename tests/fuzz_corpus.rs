@@ -1,8 +1,6 @@
 //! Every reader on the saved corpus of the fuzz targets in `fuzz/`: refused in words or read, never a panic. The corpus is
 //! bounded, and so is the time.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests end a test by panicking")]
-
 use std::{fs, path::Path};
 
 #[path = "../fuzz/src/readers.rs"]

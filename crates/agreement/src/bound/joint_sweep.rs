@@ -110,7 +110,7 @@ mod tests {
         FeatureSlot::new(joint, Some(rate), lengths_m.map(motion))
     }
 
-    /// Kind: rounding of products of a few matrices of size 1; worst seen 4e-16.
+    /// Kind: rounding of products of a few matrices of size 1: some dozen units in the last place, times ten.
     const ROUNDING: f64 = 1e-14;
 
     #[test]

@@ -425,7 +425,8 @@ mod tests {
             let off_m = exact_m - cut.distance_m(&ball(0.1), &place);
             assert!(off_m > -1e-4 && off_m <= left_out_m + DISTANCE_M, "{off_m}");
         }
-        assert_eq!(cut.distance_m(&ball(0.1), &at(0.3, 0.0, 0.0)), 0.0);
+        let inside = at(0.3, 0.0, 0.0);
+        assert_eq!((cut.distance_m(&ball(0.1), &inside), ball(0.1).distance_m(&cut, &inside)), (0.0, 0.0));
     }
 
     #[test]

@@ -145,7 +145,7 @@ mod tests {
         let line: Vec<_> = (0..500).map(|n| Point3::new(f64::from(n), 2.0 * f64::from(n), 0.0)).collect();
         assert_eq!(HullPoints::at_most(&line, 100).points_m.len(), 100);
         let point = vec![Point3::new(1.0, 2.0, 3.0); 500];
-        assert_eq!(HullPoints::at_most(&point, 100).error_m, 0.0);
+        assert_eq!(HullPoints::at_most(&point, 100).points_m.len(), 100);
     }
 
     #[test]
