@@ -55,7 +55,7 @@ pub fn safe_fixes(urdf: &str) -> Vec<SafeFix> {
 /// Where a name that is misspelt stands in an element: the name of an attribute, or both tags of an element.
 fn names(text: &str, place: &Misspelt<'_>, written: &str) -> Vec<Range<usize>> {
     match place {
-        Misspelt::Attribute(range) => vec![range.start..range.start + written.len()],
+        Misspelt::Attribute(range) => std::iter::once(range.start..range.start + written.len()).collect(),
         Misspelt::Element(node) => {
             let range = node.range();
             let start = range.start + 1..range.start + 1 + written.len();

@@ -31,24 +31,24 @@ fn is_within([least, most]: [f64; 2], value: f64) -> bool {
     (least..=most).contains(&value)
 }
 
-/// Whether the robot as a whole is off: then placeholders are judged as all others.
+/// Middle values of the robot that are outside of what is usual: then placeholders are judged as all others.
 struct Whole {
-    gyration: bool,
-    sphere: bool,
-    density: bool,
+    gyration: Option<f64>,
+    sphere: Option<f64>,
+    density: Option<f64>,
 }
 
 impl Whole {
     fn of(bodies: &[Body]) -> Self {
-        let is_off = |values: Vec<f64>, range: [f64; 2]| {
-            let count = values.len();
-            count >= 2 && median(values.into_iter()).is_some_and(|middle| !is_within(range, middle))
+        let unusual = |values: Vec<f64>, range: [f64; 2]| {
+            let middle = median(values.iter().copied()).filter(|_| values.len() >= 2);
+            middle.filter(|middle| !is_within(range, *middle))
         };
         let bare = bodies.iter().filter(|body| body.shapes.is_none() && !body.is_placeholder);
         Self {
-            gyration: is_off(bodies.iter().filter_map(Body::to_diagonal).collect(), GYRATION_TO_DIAGONAL),
-            sphere: is_off(bare.map(|body| body.sphere_density).collect(), SPHERE_DENSITY),
-            density: is_off(bodies.iter().filter_map(Body::box_density).collect(), MEDIAN_BOX_DENSITY),
+            gyration: unusual(bodies.iter().filter_map(Body::gyration_share).collect(), GYRATION_TO_DIAGONAL),
+            sphere: unusual(bare.map(|body| body.sphere_density).collect(), SPHERE_DENSITY),
+            density: unusual(bodies.iter().filter_map(Body::box_density).collect(), MEDIAN_BOX_DENSITY),
         }
     }
 }
@@ -79,7 +79,8 @@ impl Judge<'_> {
         let density = body.box_density();
         let is_heavy =
             density.is_some_and(|density| density > MOST_BOX_DENSITY) && body.mass_kg > LEAST_MASS_KG;
-        let is_off = whole.density && density.is_some_and(|density| !is_within(MEDIAN_BOX_DENSITY, density));
+        let is_off =
+            whole.density.is_some() && density.is_some_and(|density| !is_within(MEDIAN_BOX_DENSITY, density));
         if let (Some(density), true) = (density, is_heavy || is_off) {
             let what = format!(
                 "its mass of {} in the box around its shapes is {}",
@@ -158,12 +159,12 @@ impl Judge<'_> {
 
 /// Whether mass, tensor and shapes can belong to one body.
 fn belongs(body: &Body, whole: &Whole) -> bool {
-    match body.to_diagonal() {
-        Some(ratio) if body.is_placeholder && !whole.gyration => {
+    match body.gyration_share() {
+        Some(ratio) if body.is_placeholder && whole.gyration.is_none() => {
             is_within(PLACEHOLDER_GYRATION_TO_DIAGONAL, ratio)
         }
         Some(ratio) => is_within(GYRATION_TO_DIAGONAL, ratio),
-        None if body.is_placeholder && !whole.sphere => {
+        None if body.is_placeholder && whole.sphere.is_none() => {
             is_within(PLACEHOLDER_SPHERE_DENSITY, body.sphere_density)
         }
         None => is_within(SPHERE_DENSITY, body.sphere_density),

@@ -155,7 +155,7 @@ impl Body {
     }
 
     /// Radius of gyration against the diagonal of the shapes.
-    pub(super) fn to_diagonal(&self) -> Option<f64> {
+    pub(super) fn gyration_share(&self) -> Option<f64> {
         Some(self.gyration_m / self.shapes?.diagonal_m())
     }
 

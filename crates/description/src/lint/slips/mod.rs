@@ -14,7 +14,7 @@ use std::{collections::BTreeMap, ops::Range};
 
 use roxmltree::Node;
 
-use self::features::Sizes;
+use self::{features::Sizes, thresholds::FASTEST_TIP_M_S};
 use crate::{
     description::RobotDescription,
     diagnostic::{Diagnostic, Diagnostics},
@@ -61,7 +61,7 @@ pub fn unit_slips(description: &RobotDescription) -> Vec<Diagnostic> {
     judge.travels();
     judge.shapes();
     judge.bodies();
-    judge.speeds(!lengths_are_told);
+    judge.speeds((!lengths_are_told).then_some(FASTEST_TIP_M_S));
     judge.found.in_file(places.source())
 }
 

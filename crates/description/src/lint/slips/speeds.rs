@@ -5,8 +5,8 @@ use super::{
     features::median,
     lengths::is_real,
     thresholds::{
-        FASTEST_CONTINUOUS_RAD_S, FASTEST_TIP_M_S, FASTEST_TURN_RAD_S, LEAST_FAST_RAD_S, LEAST_MASS_KG,
-        MEDIAN_TURN_RAD_S, MOST_POWER_W_KG,
+        FASTEST_CONTINUOUS_RAD_S, FASTEST_TURN_RAD_S, LEAST_FAST_RAD_S, LEAST_MASS_KG, MEDIAN_TURN_RAD_S,
+        MOST_POWER_W_KG,
     },
 };
 use crate::{
@@ -22,8 +22,8 @@ fn speed(joint: &Joint) -> Option<f64> {
 }
 
 impl Judge<'_> {
-    /// `with_lengths`: lengths are as they should be, so that speeds of points are judged as well.
-    pub(super) fn speeds(&mut self, with_lengths: bool) {
+    /// With the fastest speed of a point, if lengths are as they should be.
+    pub(super) fn speeds(&mut self, fastest_tip_m_s: Option<f64>) {
         let robot = self.robot;
         let speeds = || robot.joints().iter().filter_map(speed);
         let all_are_fast = speeds().count() >= 4 && median(speeds()) > Some(MEDIAN_TURN_RAD_S);
@@ -40,7 +40,7 @@ impl Judge<'_> {
             let power_w = effort.map_or(0.0, |effort| effort * speed);
             let why = if speed > most || (all_are_fast && speed > MEDIAN_TURN_RAD_S) {
                 String::new()
-            } else if with_lengths && carried_m_s > FASTEST_TIP_M_S {
+            } else if fastest_tip_m_s.is_some_and(|fastest_m_s| carried_m_s > fastest_m_s) {
                 format!(": what it carries would reach {}", quantity(carried_m_s, "m/s"))
             } else if mass_kg > LEAST_MASS_KG && power_w > MOST_POWER_W_KG * mass_kg {
                 format!(

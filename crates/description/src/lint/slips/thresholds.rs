@@ -1,6 +1,6 @@
 //! What a robot is like, in numbers: the bounds beyond which a value is taken for one in another unit.
 //!
-//! Measured on 21 published robots (arms of 0.4 m to 2.6 m, grippers, a torso with two arms); each constant names the
+//! Measured on 39 URDFs of published robots (arms of 0.4 m to 2.6 m, grippers, a torso with two arms); each constant names the
 //! extreme that was seen. A slip is a factor of 57.3, 100 or more, so that bounds lie between the extreme and the extreme of
 //! a slip. No bound is on one value alone where another value of the file belongs to it.
 
