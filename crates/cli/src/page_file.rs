@@ -25,6 +25,6 @@ impl PageArgument {
 
     /// Makes and writes the page if the argument is given.
     pub(crate) fn write(&self, page: impl FnOnce() -> String, inputs: &[PathBuf]) -> Result<(), Failure> {
-        self.html.as_ref().map_or(Ok(()), |path| replace("--html", path, &page(), inputs))
+        self.html.as_ref().map_or(Ok(()), |path| replace("--html", path, page(), inputs))
     }
 }

@@ -1,7 +1,7 @@
 //! Colours of the words that say how something ended, where answers have them: the second word of a row, the first of a row
 //! that has no name, and what follows the name in a heading.
 
-use std::ops::Range;
+use std::{fmt::Write, ops::Range};
 
 const GREEN: u8 = 32;
 const RED: u8 = 31;
@@ -31,7 +31,7 @@ pub(crate) fn with_coloured_status(text: &str) -> String {
         match status(line) {
             Some((Range { start, end }, colour)) => {
                 let (before, word, after) = (&line[..start], &line[start..end], &line[end..]);
-                coloured += &format!("{before}\u{1b}[{colour}m{word}\u{1b}[0m{after}");
+                let _ = write!(coloured, "{before}\u{1b}[{colour}m{word}\u{1b}[0m{after}");
             }
             None => coloured += line,
         }

@@ -17,7 +17,7 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
             if !name.ends_with("tests") && name != "codes" {
                 sources(&path, found);
             }
-        } else if name.ends_with(".rs") && !name.ends_with("tests.rs") {
+        } else if path.extension().is_some_and(|it| it == "rs") && !name.ends_with("tests.rs") {
             found.push(path);
         }
     }
@@ -33,7 +33,7 @@ fn used() -> BTreeMap<String, PathBuf> {
             sources(&source, &mut files);
         }
     }
-    let literal = regex_lite::Regex::new(r#""([a-z_]+::[a-z_0-9]+)""#).unwrap();
+    let literal = regex_lite::Regex::new(r#""([a-z_]+::[a-z_0-9]+)""#).expect("a pattern");
     let mut used = BTreeMap::new();
     for file in files {
         let text = fs::read_to_string(&file).expect("a source");

@@ -133,11 +133,8 @@ mod tests {
                 assert_eq!(before.to_bits(), expected[joint].to_bits());
                 let to = before + 0.3 * (f64::from(round) + 1.0);
                 for position in [to, before - 0.2] {
-                    let other = {
-                        let mut other = expected.clone();
-                        other[joint] = position;
-                        other
-                    };
+                    let mut other = expected.clone();
+                    other[joint] = position;
                     assert!((difference_at(position) - difference.at(&other)).abs() < ROUNDING);
                 }
                 asked.push(joint);

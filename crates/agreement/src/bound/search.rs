@@ -73,14 +73,11 @@ impl Incumbent {
                 let (lower, upper) = ranges[joint];
                 let reach = step * (upper - lower);
                 let further = [reach, -reach].map(|by| (before + by).clamp(lower, upper));
-                further.into_iter().find(|&position| {
-                    let moved = difference_at(position);
-                    let improves = moved > self.norm * (1.0 + MIN_GAIN) + rounding;
-                    if improves {
-                        self.norm = moved;
-                    }
-                    improves
-                })
+                let least = self.norm * (1.0 + MIN_GAIN) + rounding;
+                let mut moved = further.into_iter().map(|position| (position, difference_at(position)));
+                let (position, norm) = moved.find(|(_, norm)| *norm > least)?;
+                self.norm = norm;
+                Some(position)
             });
             if self.norm <= norm {
                 step /= 2.0;

@@ -187,13 +187,13 @@ fn unproved(report: &ConversionReport, proof: &Proof) -> Diagnostic {
     // parallel are the cause.
     let furthest_m = report.axes.iter().map(|pair| pair.normal_at_m.abs()).fold(0.0, f64::max);
     let far = report.axes.iter().filter(|pair| pair.normal_at_m.abs() >= furthest_m / 2.0);
-    let cause = far.min_by(|a, b| a.from_parallel_rad().total_cmp(&b.from_parallel_rad()));
+    let cause = far.min_by(|a, b| a.off_parallel_rad().total_cmp(&b.off_parallel_rad()));
     let why = cause.map_or(String::new(), |pair| {
         format!(
             ": the axes of \"{}\" and \"{}\" are {} from parallel, so their common normal lies {} away",
             pair.joints[0],
             pair.joints[1],
-            angle(pair.from_parallel_rad()),
+            angle(pair.off_parallel_rad()),
             length(pair.normal_at_m.abs())
         )
     });

@@ -50,14 +50,14 @@ pub(super) fn far(report: &ConversionReport, reach_m: f64) -> Option<Diagnostic>
         .collect();
     // Places of normals are relative: one that is far away makes the next one far, too, whatever its axes are.
     let is_cause = |pair: &&AxisReport| {
-        is_far(pair.normal_at_m) && pair.from_parallel_rad() * pair.normal_at_m.abs() <= FAR_REACHES * reach_m
+        is_far(pair.normal_at_m) && pair.off_parallel_rad() * pair.normal_at_m.abs() <= FAR_REACHES * reach_m
     };
     let pairs = report.axes.iter().filter(is_cause).map(|pair| {
         format!(
             "; the axes of {} and {} are {} from parallel",
             pair.joints[0],
             pair.joints[1],
-            angle(pair.from_parallel_rad())
+            angle(pair.off_parallel_rad())
         )
     });
     let message = format!(

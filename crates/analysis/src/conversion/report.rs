@@ -136,7 +136,7 @@ pub struct AxisReport {
 
 impl AxisReport {
     /// The angle between the axes as lines.
-    pub(super) fn from_parallel_rad(&self) -> f64 {
+    pub(super) fn off_parallel_rad(&self) -> f64 {
         self.angle_rad.min(std::f64::consts::PI - self.angle_rad)
     }
 }

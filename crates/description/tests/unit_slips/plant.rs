@@ -69,34 +69,30 @@ fn in_joint(node: &Node<'_, '_>, child: &str, types: &[&str]) -> bool {
             .is_some_and(|joint| types.is_empty() || types.contains(&joint.attribute("type").unwrap_or("")))
 }
 
-fn pick(is: bool, attributes: &'static [&'static str]) -> &'static [&'static str] {
-    if is { attributes } else { &[] }
-}
-
 fn joint_xyz(node: &Node<'_, '_>) -> &'static [&'static str] {
-    pick(in_joint(node, "origin", &[]), &["xyz"])
+    if in_joint(node, "origin", &[]) { &["xyz"] } else { &[] }
 }
 
 fn joint_rpy(node: &Node<'_, '_>) -> &'static [&'static str] {
-    pick(in_joint(node, "origin", &[]), &["rpy"])
+    if in_joint(node, "origin", &[]) { &["rpy"] } else { &[] }
 }
 
 fn turn_range(node: &Node<'_, '_>) -> &'static [&'static str] {
-    pick(in_joint(node, "limit", &["revolute"]), &["lower", "upper"])
+    if in_joint(node, "limit", &["revolute"]) { &["lower", "upper"] } else { &[] }
 }
 
 fn turn_speed(node: &Node<'_, '_>) -> &'static [&'static str] {
     // 1000 and more is a placeholder.
     let speed: f64 = node.attribute("velocity").and_then(|speed| speed.parse().ok()).unwrap_or(0.0);
-    pick(in_joint(node, "limit", &["revolute", "continuous"]) && speed < 1000.0, &["velocity"])
+    if in_joint(node, "limit", &["revolute", "continuous"]) && speed < 1000.0 { &["velocity"] } else { &[] }
 }
 
 fn slide_range(node: &Node<'_, '_>) -> &'static [&'static str] {
-    pick(in_joint(node, "limit", &["prismatic"]), &["lower", "upper"])
+    if in_joint(node, "limit", &["prismatic"]) { &["lower", "upper"] } else { &[] }
 }
 
 fn slide_speed(node: &Node<'_, '_>) -> &'static [&'static str] {
-    pick(in_joint(node, "limit", &["prismatic"]), &["velocity"])
+    if in_joint(node, "limit", &["prismatic"]) { &["velocity"] } else { &[] }
 }
 
 /// Whether a link has more than the mass of a marker.
@@ -112,23 +108,23 @@ fn in_inertial(node: &Node<'_, '_>, child: &str) -> bool {
 }
 
 fn mass(node: &Node<'_, '_>) -> &'static [&'static str] {
-    pick(in_inertial(node, "mass"), &["value"])
+    if in_inertial(node, "mass") { &["value"] } else { &[] }
 }
 
 fn moments(node: &Node<'_, '_>) -> &'static [&'static str] {
-    pick(in_inertial(node, "inertia"), MOMENTS)
+    if in_inertial(node, "inertia") { MOMENTS } else { &[] }
 }
 
 fn com(node: &Node<'_, '_>) -> &'static [&'static str] {
-    pick(in_inertial(node, "origin"), &["xyz"])
+    if in_inertial(node, "origin") { &["xyz"] } else { &[] }
 }
 
 fn mesh_scale(node: &Node<'_, '_>) -> &'static [&'static str] {
-    pick(node.has_tag_name("mesh"), &["scale"])
+    if node.has_tag_name("mesh") { &["scale"] } else { &[] }
 }
 
 fn box_size(node: &Node<'_, '_>) -> &'static [&'static str] {
-    pick(node.has_tag_name("box"), &["size"])
+    if node.has_tag_name("box") { &["size"] } else { &[] }
 }
 
 /// The places of an element's values and what they become; `None` if none of them is large enough.
@@ -155,7 +151,7 @@ fn edits(node: Node<'_, '_>, class: &Class) -> Option<Vec<(Range<usize>, String)
 /// The file with a class of slips: everywhere, and in up to three elements.
 pub(crate) fn planted(class: &Class, text: &str) -> Vec<Planted> {
     let Ok(document) = Document::parse(text) else { return Vec::new() };
-    let mut places: Vec<(String, Vec<(Range<usize>, String)>)> = Vec::new();
+    let mut places = Vec::new();
     for node in document.descendants().filter(Node::is_element) {
         let owner = node.ancestors().find(|node| node.has_tag_name("link") || node.has_tag_name("joint"));
         let name = owner.and_then(|owner| owner.attribute("name"));

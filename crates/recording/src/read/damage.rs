@@ -55,7 +55,7 @@ impl Damage {
             let columns = chunk.timelines().values();
             let ranges =
                 columns.filter(|column| column.timeline().typ() == re_log_types::TimeType::DurationNs);
-            let mut times = ranges.flat_map(|column| column.times_raw());
+            let mut times = ranges.flat_map(re_chunk::TimeColumn::times_raw);
             damage.times_s = times.next().map(|&first| {
                 let (first, last) =
                     times.fold((first, first), |(from, to), &time| (from.min(time), to.max(time)));

@@ -321,7 +321,8 @@ mod tests {
         bytes.extend(u64::MAX.to_le_bytes());
         let found = frames(&bytes).unwrap();
         assert_eq!((found.position, found.end), (12, FileEnd::PartialFrame));
-        assert_eq!((found.readable, found.intact), (vec![0..12], None));
+        assert_eq!((found.readable.len(), found.intact), (1, None));
+        assert_eq!(found.readable[0], 0..12);
     }
 
     #[test]

@@ -101,7 +101,7 @@ impl Hulls {
         self_from_other: &Isometry3<f64>,
         most_m: f64,
     ) -> f64 {
-        self.smallest(other, self_from_other, most_m, |between, a, b| distance_apart(between, a, b)).max(0.0)
+        self.smallest(other, self_from_other, most_m, distance_apart).max(0.0)
     }
 
     /// Like [`Hulls::distance_m`], but negative if they overlap: minus the depth.

@@ -28,6 +28,7 @@ use crate::{
 /// Warnings that are meant are ignored by `[[lint.ignore]]` in robot.toml, with a reason. Exit codes: 0 no error, 1 errors
 /// (with --strict also warnings), 2 a file cannot be read.
 #[derive(Debug, clap::Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(crate) struct Arguments {
     /// URDF, SRDF, robot file, folder with robot.toml, scenario, or - for a URDF on standard input.
     #[arg(required_unless_present = "explain")]
