@@ -26,6 +26,7 @@ impl PlotArgument {
     /// The plot replaces none of these files, which are read, and its name says what it is.
     pub(crate) fn is_none_of(&self, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
         let Some(path) = &self.plot else { return Ok(()) };
+        refuse_inputs("--plot", path, inputs)?;
         let extension = path.extension().unwrap_or_default();
         if !extension.is_empty() && !extension.eq_ignore_ascii_case("svg") {
             let message = format!("--plot {} is no name of a plot, which is an SVG", path.display());
@@ -33,7 +34,7 @@ impl PlotArgument {
                 Diagnostic::error("output::refused", message).with_help("give a file that ends in .svg")
             );
         }
-        refuse_inputs("--plot", path, inputs)
+        Ok(())
     }
 
     /// Draws and writes the plot if the argument is given.

@@ -174,6 +174,11 @@ pub(super) const AREAS: &[Area] = &[
                 "An OBJ file names a material library outside of the project. Material libraries are never read.",
             ),
             (10, "mesh::no_folder", "The URDF was given as text without a folder, so no mesh can be found."),
+            (
+                11,
+                "mesh::cut_hull",
+                "The convex hull of a mesh has so many points that not all are taken. What is left out, at most, is taken off every distance.",
+            ),
         ],
     },
     Area {

@@ -159,5 +159,10 @@ pub(super) const AREAS: &[Area] = &[Area {
             "clearance::pair_not_measured",
             "The distance of a pair is not measured: the two cannot move against each other, or have no shape.",
         ),
+        (
+            87,
+            "scenario::long_run",
+            "The physics of so many joints takes minutes or more: the time of a step grows with the cube of the joints.",
+        ),
     ],
 }];

@@ -21,7 +21,7 @@ use super::{
         VERDICT,
     },
 };
-use crate::rrd::identity;
+use crate::rrd::{identity, times::seconds};
 
 /// The property that holds the whole report.
 const REPORT: &str = "congruent/report";
@@ -247,11 +247,6 @@ impl RecordingContent {
                 .push(format!("the file contains another recording, which is not summarised: {other}"));
         }
     }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "2^53 nanoseconds are 104 days")]
-pub(super) fn seconds(nanoseconds: i64) -> f64 {
-    nanoseconds as f64 / 1e9
 }
 
 /// The checks in a report.

@@ -15,8 +15,11 @@ use re_log_types::LogMsg;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{MAX_PROBLEMS, content::seconds, lengths};
+use super::lengths;
+use crate::rrd::times::seconds;
 
+/// The most parts of a file that are reported one by one; a corrupt file can have thousands.
+pub(super) const MAX_PROBLEMS: usize = 20;
 /// The largest part that is looked into.
 const MOST_BYTES: u64 = 1 << 26;
 

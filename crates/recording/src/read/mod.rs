@@ -34,8 +34,10 @@ pub use table::scalars_csv;
 
 use self::{
     content::RecordingContent,
+    damage::MAX_PROBLEMS,
     frames::{Frames, Parts},
 };
+use crate::rrd::times::seconds;
 
 /// Why a file cannot be read as a recording.
 #[derive(Debug, thiserror::Error)]
@@ -77,9 +79,6 @@ pub enum InspectError {
     },
 }
 
-/// The most parts of a file that are reported one by one; a corrupt file can have thousands.
-const MAX_PROBLEMS: usize = 20;
-
 /// The summary of a recording.
 ///
 /// A file that is cut off is read up to its last complete message, one that is damaged except for what is; both is
@@ -97,8 +96,7 @@ pub fn inspect(path: &Path) -> Result<RecordingSummary, InspectError> {
 /// # Errors
 /// [`InspectError`] if there is no recording to read.
 pub fn scalars(path: &Path) -> Result<(RecordingSummary, Scalars), InspectError> {
-    #[expect(clippy::cast_precision_loss, reason = "2^53 nanoseconds are 104 days")]
-    let in_seconds = |(nanoseconds, value): (i64, f64)| (nanoseconds as f64 / 1e9, value);
+    let in_seconds = |(nanoseconds, value): (i64, f64)| (seconds(nanoseconds), value);
     let mut content = RecordingContent::default();
     content.series = Some(BTreeMap::new());
     let summary = read(path, &mut content)?;

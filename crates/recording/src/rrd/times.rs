@@ -50,6 +50,12 @@ pub(crate) fn nanoseconds(time_s: f64) -> i64 {
     (time_s * 1e9).round() as i64
 }
 
+/// The reverse.
+#[expect(clippy::cast_precision_loss, reason = "2^53 nanoseconds are 104 days")]
+pub(crate) fn seconds(nanoseconds: i64) -> f64 {
+    nanoseconds as f64 / 1e9
+}
+
 /// The times of many rows.
 #[derive(Debug, Default)]
 pub(crate) struct SampleTimes {
