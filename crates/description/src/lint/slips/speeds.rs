@@ -10,7 +10,7 @@ use super::{
     },
 };
 use crate::{
-    display::quantity,
+    display::{number, quantity},
     model::{Joint, JointKind},
 };
 
@@ -51,11 +51,11 @@ impl Judge<'_> {
             } else {
                 continue;
             };
-            let what = format!("its velocity is {}{why}", quantity(speed, "rad/s"));
+            let what = format!("its velocity is {} rad/s{why}", number(speed));
             let help = format!(
-                "the velocity is in rad/s: {} deg/s are {}",
-                speed,
-                quantity(speed.to_radians(), "rad/s")
+                "the velocity is in rad/s: {} deg/s are {} rad/s",
+                number(speed),
+                number(speed.to_radians())
             );
             self.warn_joint(&SPEED, &joint.name, &what, ("limit", help));
         }

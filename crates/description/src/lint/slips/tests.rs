@@ -64,7 +64,7 @@ fn what_belongs_together_gives_a_slip_away() {
     );
     check("velocity='3.1'", "velocity='178'", "units::speed", "178 rad/s");
     check("upper='0.05'", "upper='50'", "units::travel", "over 50 m");
-    check("upper='0.05'", "upper='5'", "units::travel", "over 5 m");
+    check("upper='0.05'", "upper='5'", "units::travel", "over 5000 mm");
     check("velocity='0.2'", "velocity='200'", "units::slide_speed", "200 m/s");
     check("xyz='0.15 0 0'/><mass", "xyz='1.5 0 0'/><mass", CENTER, "outside of what belongs to it");
     check("xyz='0.3 0 0'/><parent", "xyz='5 0 0'/><parent", "units::origin", "joint \"grip\"");
