@@ -182,3 +182,20 @@ fn what_cannot_start_is_an_error_of_the_junit_file() {
     assert_eq!(errors(&["run", &short, "nowhere.toml", "--out", &out]), (2, 1, 2));
     assert_eq!(errors(&["run", &short, "--out", &out, "--allow", "/nowhere/at/all"]).0, 2);
 }
+
+/// The limit of a shell on the size of files, as a full disk.
+#[test]
+fn a_file_size_limit_is_an_error_and_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("page.html");
+    let limited = Command::new("sh")
+        .args(["-c", "ulimit -f 10; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_congruent")])
+        .args(["check", "robots/ur5e", "--html", page.to_str().unwrap()])
+        .current_dir(workspace())
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&limited.stderr);
+    assert_eq!(limited.status.code(), Some(3), "{told}");
+    assert!(told.contains("page.html"), "{told}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}

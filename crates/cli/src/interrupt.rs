@@ -10,6 +10,13 @@ use signal_hook::{
 
 use crate::failure::BROKEN;
 
+/// From now on a file that would be larger than `ulimit -f` allows is an error of the write, as on a full disk, and not the
+/// end of the call, which would leave unfinished files.
+pub(crate) fn survive_file_size_limit() {
+    #[cfg(unix)]
+    let _ = flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+}
+
 /// A flag that is set by the first of these signals from now on. SIGHUP keeps its meaning: `nohup` works.
 pub(crate) fn flag_of_signals() -> Arc<AtomicBool> {
     let flag = Arc::new(AtomicBool::new(false));

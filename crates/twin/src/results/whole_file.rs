@@ -17,9 +17,10 @@ pub struct OutputError {
 }
 
 impl OutputError {
-    /// Whether the disk is full, in which case another folder does not help.
+    /// Whether there is no room: a full disk or a limit of the user, in which case another folder does not help.
     pub fn is_full(&self) -> bool {
-        matches!(self.source.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
+        use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
+        matches!(self.source.kind(), StorageFull | QuotaExceeded | FileTooLarge)
     }
 }
 
