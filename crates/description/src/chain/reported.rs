@@ -5,6 +5,8 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::display::counted;
+
 /// Why an end of the chain is where it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -50,15 +52,14 @@ impl fmt::Display for ReportedChain {
             ChainEnd::Given => "given",
             ChainEnd::Chosen => chosen,
         };
-        let joints = self.joints.len();
         write!(
             f,
-            "chain from {} ({}) to {} ({}), {joints} moving joint{}",
+            "chain from {} ({}) to {} ({}), {}",
             self.base,
             why(self.base_is, "chosen: the root link"),
             self.tip,
             why(self.tip_is, "chosen: the end of the arm"),
-            if joints == 1 { "" } else { "s" }
+            counted(self.joints.len(), "moving joint")
         )
     }
 }

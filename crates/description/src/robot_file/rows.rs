@@ -7,6 +7,7 @@ use toml::Spanned;
 use super::written::{WrittenDh, WrittenRow};
 use crate::{
     diagnostic::{Diagnostic, Diagnostics, known_names, line_column},
+    display::counted,
     model::{DhRow, DhRowKind, JointIndex, Robot},
     units::Unit,
 };
@@ -154,11 +155,10 @@ fn every_joint_has_a_row(
     if missing.is_empty() && !rows.is_empty() {
         return;
     }
-    let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
     let message = format!(
         "table has {}, chain base -> tip has {}: no row for {}",
-        count(rows.len(), "row"),
-        count(context.chain.len(), "moving joint"),
+        counted(rows.len(), "row"),
+        counted(context.chain.len(), "moving joint"),
         if missing.is_empty() { "any".to_owned() } else { missing.join(", ") }
     );
     diagnostics

@@ -2,7 +2,10 @@
 
 use std::fmt::Write;
 
-use congruent::{LintReport, description::serde_name};
+use congruent::{
+    LintReport,
+    description::{display::counted, serde_name},
+};
 
 use crate::print::rendered;
 
@@ -34,8 +37,4 @@ pub(super) fn text(report: &LintReport, difference: &str) -> String {
     }
     text.push('\n');
     text
-}
-
-pub(super) fn counted(number: usize, what: &str) -> String {
-    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
