@@ -35,6 +35,7 @@ mod frames;
 mod golden;
 mod interruptions;
 mod jacobian_goldens;
+mod machine_faults;
 mod mimics;
 mod new_files;
 mod pages;
@@ -42,8 +43,10 @@ mod pairing;
 mod planted_dynamics;
 #[cfg(feature = "recording")]
 mod recordings;
+mod resuming;
 mod robots;
 mod safety;
+mod same_everywhere;
 mod scenarios;
 mod schemas;
 mod servo;

@@ -111,6 +111,7 @@ fn main() -> ExitCode {
             return ExitCode::from(failure.exit_code());
         }
     };
+    interrupt::watch_signals();
     arguments.color.apply();
     let printer = Printer::new(arguments.format, arguments.verbosity());
     let result = match arguments.command {

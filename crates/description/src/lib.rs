@@ -9,6 +9,7 @@ mod description;
 mod diagnostic;
 pub mod display;
 mod edits;
+mod elementary;
 mod files;
 mod load;
 mod mesh;
@@ -32,6 +33,7 @@ pub use diagnostic::{
     known_names, line_column, nearest,
 };
 pub use edits::{ChangedLines, TextEdit, changed_lines};
+pub use elementary::Elementary;
 pub use files::{FileAccess, InputFile, RosPackages, is_standard_input, read_text};
 pub use load::{load_robot, load_robot_with, parse_robot};
 pub use mesh::read_mesh;

@@ -3,7 +3,7 @@
 //! Meshes are taken as their convex hulls, which contain them: a distance between hulls is never
 //! larger than the distance between the meshes.
 
-use congruent_description::{Geometry, Shape};
+use congruent_description::{Elementary as _, Geometry, Shape};
 use nalgebra::{Isometry3, Point3};
 use parry3d_f64::{
     math::{Pose, Rotation, Vector},
@@ -198,7 +198,7 @@ fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Convex>, Proximit
             shape_from_local =
                 Pose::from_parts(Vector::ZERO, Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2));
             let upright = SharedShape::new(Cylinder::new(length_m / 2.0, *radius_m));
-            (upright, radius_m.hypot(length_m / 2.0))
+            (upright, radius_m.hypotenuse_with(length_m / 2.0))
         }
         Geometry::Sphere { radius_m } => (SharedShape::new(Ball::new(*radius_m)), *radius_m),
         Geometry::Mesh(mesh) if mesh.triangles.is_empty() => return Ok(None),
