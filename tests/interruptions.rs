@@ -124,7 +124,7 @@ fn a_call_that_is_killed_leaves_every_check_as_an_error_and_the_next_is_clean() 
     let (out, junit) = (bench.path().join("out"), bench.path().join("junit.xml"));
     let (out_text, junit_text) = (text(&out), text(&junit));
     // Moments that no one has chosen: multiples of the golden ratio, from the start of the call on.
-    for moment in 0..20_u32 {
+    for moment in 0..50_u32 {
         let _ = fs::remove_file(&junit);
         let call = Call::start(&["run", &long, "--out", &out_text, "--junit", &junit_text]);
         std::thread::sleep(Duration::from_secs_f64((f64::from(moment) * 0.618_034).fract() * 0.4));

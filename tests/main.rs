@@ -37,6 +37,7 @@ mod interruptions;
 mod jacobian_goldens;
 mod lint;
 mod lint_broken;
+mod machine_faults;
 mod mimics;
 mod new_files;
 mod pages;
@@ -44,8 +45,10 @@ mod pairing;
 mod planted_dynamics;
 #[cfg(feature = "recording")]
 mod recordings;
+mod resuming;
 mod robots;
 mod safety;
+mod same_everywhere;
 mod scenarios;
 mod schemas;
 mod servo;

@@ -3,7 +3,10 @@
 
 use std::{fs, path::Path};
 
-use crate::command::{congruent, congruent_in_path, congruent_json, text};
+use crate::{
+    calibration::Bench,
+    command::{congruent, congruent_in_path, congruent_json, text},
+};
 
 /// A run's recording and its exit code.
 fn recorded(folder: &Path, scenario: &str) -> String {
@@ -114,6 +117,95 @@ fn each_joint_of_a_robot_moves_over_its_range() {
             }
         }
     }
+}
+
+/// A robot and a scenario in a folder of their own, and the folder of its results.
+fn own_run(bench: &Bench) -> (String, String) {
+    let robot = bench.robot("planar_2r", &[]);
+    let scenario = bench.write(
+        "own.toml",
+        &format!(
+            "schema_version = 1\nname = \"own\"\nrobot = {robot:?}\n[simulation]\nduration_s = 0.05\n\
+             [controller]\nkind = \"kinematic\"\n[[check]]\nkind = \"agreement\"\n"
+        ),
+    );
+    let out = text(&bench.path().join("out"));
+    assert_eq!(congruent(&["run", &scenario, "--out", &out]).code, 0);
+    (scenario, text(&bench.path().join("out/own")))
+}
+
+#[test]
+fn what_has_changed_since_the_run_is_told() {
+    let bench = Bench::new();
+    let (scenario, folder) = own_run(&bench);
+    let inspect = || congruent_json(&["inspect", &folder]);
+    let inspected = inspect();
+    let summary = inspected.json();
+    assert_eq!(
+        (inspected.code, &summary["changed_inputs"]),
+        (0, &serde_json::json!([])),
+        "{}",
+        inspected.stderr
+    );
+    let urdf = bench.path().join("planar_2r/planar_2r.urdf");
+    let before = fs::read_to_string(&urdf).unwrap();
+    fs::write(&urdf, before.clone() + "<!-- edited -->\n").unwrap();
+    let inspected = inspect();
+    let summary = inspected.json();
+    assert_eq!(inspected.code, 4, "{summary}");
+    let changed = summary["changed_inputs"].as_array().unwrap();
+    assert!(
+        changed.len() == 1
+            && changed[0].as_str().unwrap().ends_with("planar_2r.urdf has changed since the run")
+    );
+    assert!(
+        summary["reason"]
+            .as_str()
+            .unwrap()
+            .contains("has changed since the run; in the run every check passes")
+    );
+    // A scenario is given to compare with: what has changed is told, and is not the answer.
+    assert_eq!(congruent(&["inspect", &folder, "--check", &scenario]).code, 0);
+    fs::write(&urdf, "<robot").unwrap();
+    let shown = congruent(&["inspect", &folder]);
+    assert!(shown.code == 4 && shown.stdout.contains("cannot be loaded as it is now"), "{}", shown.stdout);
+    fs::write(&urdf, before).unwrap();
+    fs::rename(&scenario, bench.path().join("elsewhere.toml")).unwrap();
+    let inspected = inspect();
+    assert_eq!((inspected.code, &inspected.json()["changed_inputs"]), (0, &serde_json::Value::Null));
+}
+
+#[test]
+fn a_report_of_another_run_beside_a_recording_is_told() {
+    let bench = Bench::new();
+    let (_, folder) = own_run(&bench);
+    let report = Path::new(&folder).join("report.json");
+    let edited = fs::read_to_string(&report).unwrap().replacen("\"exit_code\": 0", "\"exit_code\": 1", 1);
+    fs::write(&report, edited).unwrap();
+    let answer = congruent(&["inspect", &folder]);
+    assert_eq!(answer.code, 2, "{}", answer.stdout);
+    assert!(answer.stdout.contains("reason: report.json beside the recording is not the report of its run"));
+    fs::remove_file(&report).unwrap();
+    assert_eq!(congruent(&["inspect", &folder]).code, 0, "a recording may be alone");
+}
+
+#[test]
+fn damage_is_an_answer_in_words() {
+    let bench = Bench::new();
+    let (_, folder) = own_run(&bench);
+    let recording = Path::new(&folder).join("recording.rrd");
+    let mut bytes = fs::read(&recording).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle..middle + 40].fill(0);
+    fs::write(&recording, bytes).unwrap();
+    let answer = congruent(&["inspect", &folder]);
+    assert_eq!(answer.code, 2, "{}", answer.stdout);
+    assert!(
+        answer.stdout.contains("match, 1 do not") || answer.stdout.contains("match, 2 do not"),
+        "{}",
+        answer.stdout
+    );
+    assert!(answer.stdout.contains("do not match their check sum: damaged or not where they were written"));
 }
 
 #[cfg(unix)]

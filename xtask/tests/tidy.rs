@@ -62,6 +62,15 @@ const PLACES: &[(&str, &str)] = &[
 const NOT_IN_MATHEMATICS: &[&str] =
     &["std::fs", "std::io", "std::env", "std::time", "println!", "eprintln!", "rand::"];
 
+/// Functions of the standard library whose last bit depends on the processor, and the methods instead of them:
+/// `Elementary` of `description`.
+const NOT_THE_SAME_EVERYWHERE: &[&str] = &[
+    "sin", "cos", "sin_cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp_m1",
+    "exp2", "ln", "ln_1p", "log2", "log10", "powf", "cbrt", "hypot",
+];
+/// nalgebra's method of this name, which is compiled with the program.
+const OF_A_ROTATION: (&str, &str) = ("crates/twin/src/bodies/moving_body.rs", "powf");
+
 /// Longest file before its tests.
 const MOST_LINES: usize = 400;
 
@@ -157,6 +166,24 @@ fn mathematics_is_pure() {
 }
 
 #[test]
+fn elementary_functions_are_the_same_on_every_machine() {
+    let is_of_a_crate = |name: &str| name.starts_with("crates/") && name.contains("/src/");
+    let is_of_a_test = |name: &str| ["tests.rs", "_tests/", "/tests/"].iter().any(|part| name.contains(part));
+    let is_exempt = |name: &str| name.ends_with("description/src/elementary.rs") || is_of_a_test(name);
+    for (name, text) in all_sources().iter().filter(|(name, _)| is_of_a_crate(name) && !is_exempt(name)) {
+        let code = text.lines().take_while(|line| *line != "#[cfg(test)]");
+        for line in code.filter(|line| !line.trim_start().starts_with("//")) {
+            for function in NOT_THE_SAME_EVERYWHERE {
+                let is_used =
+                    line.contains(&format!(".{function}(")) || line.contains(&format!("f64::{function}"));
+                let is_known = OF_A_ROTATION == (name.as_str(), *function);
+                assert!(!is_used || is_known, "{name} uses `{function}`, take that of Elementary: {line}");
+            }
+        }
+    }
+}
+
+#[test]
 fn files_are_short_and_open_with_their_job() {
     for (name, text) in all_sources() {
         assert!(text.starts_with("//!"), "{name} does not open with //!");
@@ -172,6 +199,18 @@ fn the_engine_in_reports_is_the_one_of_the_manifest() {
     let version = line.split('"').nth(1).expect("a version").trim_start_matches('=');
     let source = read(&root().join("crates/simulation/src/lib.rs"));
     assert!(source.contains(&format!("\"rapier3d-f64 {version}\"")), "ENGINE is not {version}");
+}
+
+#[test]
+fn the_viewer_that_recordings_name_is_the_one_of_the_manifest() {
+    let manifest = read(&root().join("Cargo.toml"));
+    let line = manifest.lines().find(|line| line.starts_with("re_sdk_types = ")).expect("rerun is declared");
+    let version = line.split('"').nth(1).expect("a version").trim_start_matches('=');
+    let source = read(&root().join("crates/recording/src/lib.rs"));
+    assert!(
+        source.contains(&format!("RERUN_VERSION: &str = \"{version}\"")),
+        "RERUN_VERSION is not {version}"
+    );
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! `congruent manipulability`: how well the tool moves in each direction.
 
-use congruent_description::{Finding, JointValues, LinkIndex, ReportedChain, RobotDescription, RobotQ};
+use congruent_description::{
+    Elementary as _, Finding, JointValues, LinkIndex, ReportedChain, RobotDescription, RobotQ,
+};
 use congruent_kinematics::{
     Arm, Dexterity, KinematicsError, Manipulability, Pose, UrdfTree, VelocityEllipsoid,
 };
@@ -192,7 +194,7 @@ fn outline(
     });
     let eigen = (seen * seen.transpose()).symmetric_eigen();
     (0..=CORNERS).map(move |corner| {
-        let (sin, cos) = (std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS)).sin_cos();
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS)).sine_cosine();
         let lengths = eigen.eigenvalues.map(|square| square.max(0.0).sqrt());
         let point = eigen.eigenvectors.column(0) * (lengths.x * cos)
             + eigen.eigenvectors.column(1) * (lengths.y * sin);

@@ -1,30 +1,45 @@
-//! Signals: the first SIGTERM or Ctrl-C ends the runs of a call in order, so that what they have computed is kept; the
-//! second ends the call at once.
+//! Signals: SIGTERM and Ctrl-C end a call. The first ends the runs of a call in order, so that what they have computed is
+//! kept; any other ends the call at once, without its unfinished files.
 
-use std::sync::{Arc, atomic::AtomicBool};
+use std::sync::{
+    Arc, OnceLock,
+    atomic::{AtomicBool, Ordering},
+};
 
+use congruent::twin::results::remove_unfinished_files;
 use signal_hook::{
     consts::{SIGINT, SIGTERM},
     flag,
+    iterator::Signals,
 };
 
-use crate::failure::BROKEN;
+use crate::{
+    failure::{BROKEN, Failure},
+    print::Printer,
+};
 
-/// From now on a file that would be larger than `ulimit -f` allows is an error of the write, as on a full disk, and not the
-/// end of the call, which would leave unfinished files.
-pub(crate) fn survive_file_size_limit() {
+/// The flag of a call that ends its runs in order.
+static OF_RUNS: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+
+/// Watches signals until the program ends. SIGHUP keeps its meaning: `nohup` works.
+pub(crate) fn watch_signals() {
+    // A file that would be larger than allowed is an error of the write, like a full disk, and not the end.
     #[cfg(unix)]
     let _ = flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+    // Without a watcher a signal ends the call at once, as it would have.
+    let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+    std::thread::spawn(move || {
+        for _ in &mut signals {
+            if OF_RUNS.get().is_none_or(|flag| flag.swap(true, Ordering::Relaxed)) {
+                remove_unfinished_files();
+                Printer::explain(None, &Failure::Machine("interrupted".to_owned()));
+                std::process::exit(i32::from(BROKEN));
+            }
+        }
+    });
 }
 
-/// A flag that is set by the first of these signals from now on. SIGHUP keeps its meaning: `nohup` works.
+/// A flag that the first of these signals sets from now on, instead of ending the call.
 pub(crate) fn flag_of_signals() -> Arc<AtomicBool> {
-    let flag = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        // The order matters: the first signal finds the flag unset, and sets it. Without a handler a signal ends the call at
-        // once, as it would have.
-        let _ = flag::register_conditional_shutdown(signal, i32::from(BROKEN), Arc::clone(&flag));
-        let _ = flag::register(signal, Arc::clone(&flag));
-    }
-    flag
+    Arc::clone(OF_RUNS.get_or_init(Arc::default))
 }

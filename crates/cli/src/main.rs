@@ -128,7 +128,7 @@ fn main() -> ExitCode {
             return ExitCode::from(failure.exit_code());
         }
     };
-    interrupt::survive_file_size_limit();
+    interrupt::watch_signals();
     arguments.color.apply();
     let printer = Printer::new(arguments.format, arguments.verbosity());
     if arguments.format == Format::Sarif && !matches!(arguments.command, Command::Lint(_)) {

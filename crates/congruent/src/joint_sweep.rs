@@ -2,7 +2,7 @@
 
 use std::{f64::consts::PI, path::PathBuf};
 
-use congruent_description::{Diagnostic, JointKind, Robot, RobotDescription, RobotQ};
+use congruent_description::{Diagnostic, Elementary as _, JointKind, Robot, RobotDescription, RobotQ};
 use congruent_recording::RerunFormat;
 use congruent_twin::{
     RecordingFormat, Run, RunError, RunSetup,
@@ -170,7 +170,7 @@ fn range_of(kind: JointKind, range: Option<(f64, f64)>) -> ([f64; 2], Option<Str
 fn position(joint: &SweptJoint, time_s: f64) -> f64 {
     let [lower, upper] = joint.range;
     let quarter_s = JOINT_S / 4.0;
-    let ease = |share: f64| 0.5 - 0.5 * (PI * share.clamp(0.0, 1.0)).cos();
+    let ease = |share: f64| 0.5 - 0.5 * (PI * share.clamp(0.0, 1.0)).cosine();
     let between =
         |from: f64, to: f64, begins: f64, lasts: f64| from + (to - from) * ease((time_s - begins) / lasts);
     match time_s {

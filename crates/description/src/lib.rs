@@ -11,6 +11,7 @@ mod description;
 mod diagnostic;
 pub mod display;
 mod edits;
+mod elementary;
 mod files;
 mod lint;
 mod load;
@@ -37,6 +38,7 @@ pub use diagnostic::{
     known_names, line_column, nearest,
 };
 pub use edits::{ChangedLines, TextEdit, changed_lines, edited};
+pub use elementary::Elementary;
 pub use files::{FileAccess, InputFile, RosPackages, is_standard_input, read_text};
 pub use lint::{FileKind, IgnoredFinding, Ignores, SafeFix, safe_fixes, unit_slips};
 pub use load::{load_robot, load_robot_with, parse_robot};

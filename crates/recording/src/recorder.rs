@@ -244,6 +244,10 @@ impl RecordingFormat for RerunFormat {
         "recording.rrd"
     }
 
+    fn is_readable_in_part(&self) -> bool {
+        true
+    }
+
     fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
         let recorder = RerunRecorder::create(path, run.setup(), run.names(), run.model().sources())?;
         Ok(Box::new(recorder))

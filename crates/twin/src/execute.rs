@@ -1,14 +1,15 @@
 //! One scenario from its file to its results on disk.
 
 use std::{
+    fs,
     path::{Path, PathBuf},
     sync::atomic::AtomicBool,
 };
 
 use crate::{
     recorder::{Recorder, Recorders, RecordingError},
-    report::{RunReport, explain, write_junit},
-    results::{FolderError, OutputError, OutputFolder},
+    report::{RunReport, earlier_report, explain, write_junit},
+    results::{FolderError, OutputError, OutputFolder, REPORT},
     run::{Run, RunError},
     scenario::TrajectoryFormat,
     setup::RunSetup,
@@ -40,6 +41,10 @@ pub trait Recording: Recorder {
 pub trait RecordingFormat: Sync {
     /// Name of the file in the folder of the scenario.
     fn file_name(&self) -> &'static str;
+
+    /// Whether a file that could not be completed can be read as far as it goes. Then it is kept, under a name that ends in
+    /// `.partial`.
+    fn is_readable_in_part(&self) -> bool;
 
     /// Creates the file of a run that is about to start.
     ///
@@ -88,6 +93,21 @@ pub enum ExecuteError {
     },
 }
 
+/// The report of an earlier call that would be the same now, and its folder, if all results are there.
+///
+/// See [`earlier_report`] for what is the same.
+pub fn finished(setup: &RunSetup, options: &Options<'_>) -> Option<(RunReport, PathBuf)> {
+    let folder = OutputFolder::path_for(&options.out, &setup.scenario.name);
+    let trajectory = setup.scenario.output.trajectory.map(Trajectory::file_name);
+    let recordings = options.recordings.iter().map(|format| format.file_name());
+    let mut names = recordings.chain(trajectory).chain(["junit.xml", RESOLVED]);
+    let report = earlier_report(setup, &fs::read(folder.join(REPORT)).ok()?)?;
+    names.all(|name| folder.join(name).is_file()).then_some((report, folder))
+}
+
+/// The scenario with every default.
+const RESOLVED: &str = "scenario.resolved.toml";
+
 /// Runs a scenario, writes its results and returns the report.
 ///
 /// `progress` is called with the number of steps taken.
@@ -100,7 +120,7 @@ pub fn execute(
     progress: impl FnMut(u64),
 ) -> Result<(RunReport, OutputFolder), ExecuteError> {
     let folder = OutputFolder::create(&options.out, &setup.scenario.name, &setup.inputs)?;
-    folder.write("scenario.resolved.toml", setup.scenario.to_toml().as_bytes())?;
+    folder.write(RESOLVED, setup.scenario.to_toml().as_bytes())?;
     let mut checks = setup.checks();
     let cannot_run =
         |source: RunError| ExecuteError::CannotRun { scenario: setup.scenario.name.clone(), source };
@@ -108,7 +128,7 @@ pub fn execute(
     let sources = run.model().sources().to_vec();
     let mut recordings = Vec::new();
     for format in &options.recordings {
-        let file = StreamedFile::new(format.file_name());
+        let file = StreamedFile::new(format.file_name(), format.is_readable_in_part());
         recordings.push((format.begin(&folder.file(&file.partial), &run)?, file));
     }
     let mut trajectory = Trajectory::begin(&folder, &run)?;
@@ -117,32 +137,55 @@ pub fn execute(
     recorders.0.extend(trajectory.as_mut().map(|trajectory| &mut trajectory.recorder as &mut dyn Recorder));
     let (mut outcome, mut result) = run.finish(&mut checks, &mut recorders, progress);
     explain(setup, &mut outcome);
-    let mut settled = Vec::new();
+    let mut files = Vec::new();
     if let Some(Trajectory { file, recorder }) = trajectory {
         let closed = recorder.finish();
-        settled.push(file.settle(&folder, &closed));
+        files.push((file, closed.is_ok()));
         result = result.and(closed.map_err(RunError::from));
     }
     let mut report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
     for (recording, file) in recordings {
         let closed = recording.finish(&report);
-        settled.push(file.settle(&folder, &closed));
+        files.push((file, closed.is_ok()));
         if let Err(error) = closed {
             // The error of the run is reported before an error of the recording that follows from it.
             result = result.and(Err(error.into()));
             report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
         }
     }
-    // Each is tried, even if another has failed.
-    let written = [
-        settled.into_iter().collect(),
-        folder.write_json("report.json", &report),
-        write_junit(&folder.file("junit.xml"), &[report.test_suite()]),
-    ];
-    match written.into_iter().collect() {
+    match settle(&files, &folder, &report) {
         Ok(()) => Ok((report, folder)),
         Err(source) => Err(ExecuteError::Lost { report: Box::new(report), source }),
     }
+}
+
+/// Gives complete files their names and writes the report. Each is tried, even if another has failed.
+fn settle(
+    files: &[(StreamedFile, bool)],
+    folder: &OutputFolder,
+    report: &RunReport,
+) -> Result<(), OutputError> {
+    let settled = files.iter().map(|(file, is_complete)| file.settle(folder, *is_complete));
+    let settled: Result<(), OutputError> = settled.collect::<Vec<_>>().into_iter().collect();
+    let write = || {
+        let written = write_report(folder, report);
+        written.and(write_junit(&folder.file("junit.xml"), &[report.test_suite()]))
+    };
+    let written = write().or_else(|error| {
+        // On a full disk what is incomplete takes the space of the report, which matters more.
+        let mut incomplete = files.iter().filter(|(_, is_complete)| !is_complete).peekable();
+        if incomplete.peek().is_none() {
+            return Err(error);
+        }
+        incomplete.try_for_each(|(file, _)| folder.remove(&file.partial))?;
+        write()
+    });
+    settled.and(written)
+}
+
+fn write_report(folder: &OutputFolder, report: &RunReport) -> Result<(), OutputError> {
+    let refused = |error: serde_json::Error| OutputError { path: folder.file(REPORT), source: error.into() };
+    folder.write(REPORT, &report.to_json().map_err(refused)?)
 }
 
 /// A file that is written during the run, under a temporary name.
@@ -150,17 +193,21 @@ pub fn execute(
 struct StreamedFile {
     partial: String,
     name: &'static str,
+    is_readable_in_part: bool,
 }
 
 impl StreamedFile {
-    fn new(name: &'static str) -> Self {
-        Self { partial: format!("{name}.partial"), name }
+    fn new(name: &'static str, is_readable_in_part: bool) -> Self {
+        Self { partial: format!("{name}.partial"), name, is_readable_in_part }
     }
 
-    /// Gives the file its name if it is complete. Otherwise it is removed: on a full disk it takes the space of the
-    /// report, which matters more.
-    fn settle(&self, folder: &OutputFolder, closed: &Result<(), RecordingError>) -> Result<(), OutputError> {
-        if closed.is_ok() { folder.publish(&self.partial, self.name) } else { folder.remove(&self.partial) }
+    /// Gives the file its name if it is complete. Otherwise it keeps the other one, or is removed if it is of no use.
+    fn settle(&self, folder: &OutputFolder, is_complete: bool) -> Result<(), OutputError> {
+        match (is_complete, self.is_readable_in_part) {
+            (true, _) => folder.publish(&self.partial, self.name),
+            (false, true) => Ok(()),
+            (false, false) => folder.remove(&self.partial),
+        }
     }
 }
 
@@ -171,12 +218,17 @@ struct Trajectory {
 }
 
 impl Trajectory {
-    fn begin(folder: &OutputFolder, run: &Run<'_>) -> Result<Option<Self>, RecordingError> {
-        let Some(format) = run.setup().scenario.output.trajectory else { return Ok(None) };
-        let file = StreamedFile::new(match format {
+    fn file_name(format: TrajectoryFormat) -> &'static str {
+        match format {
             TrajectoryFormat::Csv => "trajectory.csv",
             TrajectoryFormat::Parquet => "trajectory.parquet",
-        });
+        }
+    }
+
+    fn begin(folder: &OutputFolder, run: &Run<'_>) -> Result<Option<Self>, RecordingError> {
+        let Some(format) = run.setup().scenario.output.trajectory else { return Ok(None) };
+        // Parquet has its index at its end.
+        let file = StreamedFile::new(Self::file_name(format), format == TrajectoryFormat::Csv);
         let recorder = TrajectoryRecorder::create(&folder.file(&file.partial), format, run)?;
         Ok(Some(Self { file, recorder }))
     }

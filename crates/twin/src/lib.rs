@@ -24,9 +24,10 @@ pub mod source;
 mod stopping;
 pub mod trajectory_file;
 pub mod verdict;
+mod words;
 
 pub use control::JointController;
-pub use execute::{ExecuteError, Options, Recording, RecordingFormat, execute};
+pub use execute::{ExecuteError, Options, Recording, RecordingFormat, execute, finished};
 pub use run::{Outcome, Run, RunError};
 pub use sample::Sample;
 pub use setup::RunSetup;

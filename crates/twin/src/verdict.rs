@@ -4,7 +4,10 @@ use congruent_description::{JointValues, serde_name};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scenario::{CheckKind, Expectation};
+use crate::{
+    scenario::{CheckKind, Expectation},
+    words::{Word, known_word},
+};
 
 /// The outcome of one check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -28,7 +31,7 @@ impl Status {
 }
 
 /// One value of a run, with its time and configuration.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Moment {
     /// Simulated time.
     pub time_s: f64,
@@ -42,12 +45,14 @@ pub struct Moment {
 }
 
 /// One quantity that a check holds against a limit.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Measure {
     /// What it is: `position`, `orientation`, `distance`.
-    pub quantity: &'static str,
+    #[serde(deserialize_with = "known_word")]
+    pub quantity: Word,
     /// Unit of limit and values.
-    pub unit: &'static str,
+    #[serde(deserialize_with = "known_word")]
+    pub unit: Word,
     /// The limit.
     pub limit: f64,
     /// Whether values must be at most the limit (`at_most`), at least the limit (`at_least`), or above it
@@ -88,7 +93,7 @@ pub struct CheckValue {
 }
 
 /// The side of a limit on which values must be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Bound {
     /// At most the limit.
@@ -130,14 +135,14 @@ impl Bound {
 }
 
 /// The result of one check of a scenario.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CheckResult {
     /// The kind of check, as the scenario names it.
     pub check: CheckKind,
     /// Line of the check in the scenario file, from 1.
     pub line: Option<usize>,
     /// Whether the scenario has no check of this kind, so that it was checked by default limits.
-    #[serde(rename = "default", skip_serializing_if = "std::ops::Not::not")]
+    #[serde(rename = "default", default, skip_serializing_if = "std::ops::Not::not")]
     pub is_default: bool,
     /// The outcome.
     pub status: Status,
@@ -146,15 +151,15 @@ pub struct CheckResult {
     /// The quantities with their limits.
     pub measures: Vec<Measure>,
     /// The pairs that touched, each from when to when, by a check `contact`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<Contact>,
     /// Remarks on the values.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
 /// Two shapes that touched for a time.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Contact {
     /// The link, and the link or obstacle that it touched.
     pub pair: [String; 2],
@@ -167,7 +172,7 @@ pub struct Contact {
 }
 
 /// The early end of a run by a check with `on_violation = "stop"`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Stop {
     /// The kind of check that was violated.
     pub check: CheckKind,
@@ -185,7 +190,7 @@ pub struct Stop {
 
 /// How an arm came to rest: its setpoint slowed down within the acceleration limits and stayed, and the run went on until
 /// the arm was at rest.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WayToRest {
     /// Whether every joint is slower than 1e-3 rad/s or m/s for the last 50 ms; the run does not wait for more than 5 s.
     pub is_at_rest: bool,
@@ -201,7 +206,7 @@ pub struct WayToRest {
 }
 
 /// The acceleration with which a joint may slow down in a stop.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StopAcceleration {
     /// The joint.
     pub joint: String,
@@ -216,7 +221,7 @@ pub struct StopAcceleration {
 }
 
 /// Where the acceleration of a stop is from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StopLimit {
     /// It is declared under `[limits]` of the scenario or of the robot file.

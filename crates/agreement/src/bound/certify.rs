@@ -13,6 +13,7 @@
 
 use std::f64::consts::PI;
 
+use congruent_description::Elementary as _;
 use congruent_kinematics::{KinematicsError, ScrewChain};
 
 use super::{
@@ -199,7 +200,7 @@ const ORIENTATION: BracketedMeasure = BracketedMeasure {
     conversion: NormConversion {
         // Two orientations differ by half a turn at most; their quaternions differ by sqrt(2) then.
         from_norm: |difference| {
-            if difference < std::f64::consts::SQRT_2 { 4.0 * (difference / 2.0).asin() } else { PI }
+            if difference < std::f64::consts::SQRT_2 { 4.0 * (difference / 2.0).arcsine() } else { PI }
         },
         max_norm: std::f64::consts::SQRT_2,
     },

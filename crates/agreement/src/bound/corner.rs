@@ -3,6 +3,8 @@
 
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2, TAU};
 
+use congruent_description::Elementary as _;
+
 /// One corner: a pair of features on the curve or outside of it.
 ///
 /// | field | unit | meaning |
@@ -20,7 +22,7 @@ pub(super) type Interval = (f64, f64);
 
 /// Features of the turn by `rate * position`, stretched by `radius`.
 pub(super) fn on_circle(rate: f64, position: f64, radius: f64) -> Corner {
-    let (sin, cos) = (rate * position).sin_cos();
+    let (sin, cos) = (rate * position).sine_cosine();
     Corner { features: [radius * cos, radius * sin], position }
 }
 
@@ -55,11 +57,11 @@ pub(super) fn corner_count(rate: f64, interval: Interval) -> usize {
 /// the square root of 2.
 pub(super) fn outermost_radius(rate: f64, (lower, upper): Interval) -> f64 {
     if wraps(rate, (lower, upper)) {
-        return (PI / f64::from(WRAPPED_CORNERS)).cos().recip();
+        return (PI / f64::from(WRAPPED_CORNERS)).cosine().recip();
     }
     let angle = rate * (upper - lower);
     let between_tangents = if angle <= 2.0 * FRAC_PI_4 { angle / 2.0 } else { angle / 4.0 };
-    if between_tangents < FRAC_PI_4 { between_tangents.cos().recip() } else { SQRT_2 }
+    if between_tangents < FRAC_PI_4 { between_tangents.cosine().recip() } else { SQRT_2 }
 }
 
 /// Corners around an arc. Up to a quarter of a turn: its ends and the point where the tangents at the ends

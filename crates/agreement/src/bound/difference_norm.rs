@@ -12,6 +12,7 @@
 //! that is, if each chain moves in only one of them. Otherwise the slots count as independent, which
 //! gives a wider bound that holds as well.
 
+use congruent_description::Elementary as _;
 use nalgebra::{Matrix4, Vector4};
 
 use super::corner::{
@@ -107,7 +108,7 @@ impl FeatureSlot {
             return self.corner(position);
         }
         let [x, y] = corner.features;
-        let radius = x.hypot(y);
+        let radius = x.hypotenuse_with(y);
         Corner { features: [x / radius, y / radius], ..corner }
     }
 
@@ -115,8 +116,8 @@ impl FeatureSlot {
     fn phase(&self, corner: &Corner, position: f64, (lower, upper): Interval) -> f64 {
         let rate = self.rate.unwrap_or(1.0);
         let [x, y] = corner.features;
-        let ahead = y.atan2(x) - rate * position;
-        (position + ahead.sin().atan2(ahead.cos()) / rate).clamp(lower, upper)
+        let ahead = y.arctangent_over(x) - rate * position;
+        (position + ahead.sine().arctangent_over(ahead.cosine()) / rate).clamp(lower, upper)
     }
 
     /// Largest factor on a vector's norm, largest factor on the displacement of the origin, and rounding

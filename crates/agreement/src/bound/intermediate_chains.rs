@@ -6,6 +6,7 @@
 //!
 //! Any chain can be an intermediate chain: the choice affects how tight the sum is, not whether it holds.
 
+use congruent_description::Elementary as _;
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 use nalgebra::{Matrix3, Vector3};
 
@@ -201,7 +202,7 @@ pub(super) fn bound_of_rigid_move(
     let turn_rad = by.angle_rad(&Pose::identity());
     let outward = 1.0 + ROUNDINGS * f64::EPSILON;
     Some([
-        (shift_m + 2.0 * (turn_rad / 2.0).sin() * reach_m) * outward + left.total_m() + LEAST_ALIKE,
+        (shift_m + 2.0 * (turn_rad / 2.0).sine() * reach_m) * outward + left.total_m() + LEAST_ALIKE,
         turn_rad * outward + left.total_rad() + LEAST_ALIKE,
     ])
 }

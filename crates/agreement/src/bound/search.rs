@@ -1,6 +1,8 @@
 //! The bound from below: a configuration with a large difference, by local search from many starts. Nothing
 //! is random: the starts are a lattice, so the same chains give the same configuration.
 
+use congruent_description::Elementary as _;
+
 use super::{corner::Interval, difference_norm::DifferenceNorm, joint_sweep::JointSweep};
 
 /// Number of starts besides the middle of the ranges.
@@ -114,7 +116,7 @@ impl Incumbent {
 fn starts(ranges: &[Interval]) -> impl Iterator<Item = Vec<f64>> {
     const ITERATIONS: u32 = 60;
     let root_power = 1.0 / f64::from(u32::try_from(ranges.len()).unwrap_or(u32::MAX).saturating_add(1));
-    let root = (0..ITERATIONS).fold(2.0_f64, |x, _| (1.0 + x).powf(root_power));
+    let root = (0..ITERATIONS).fold(2.0_f64, |x, _| (1.0 + x).to_power(root_power));
     let count = (STARTS_TIMES_JOINTS / ranges.len().max(1)).clamp(FEWEST_STARTS, STARTS);
     (1_u32..).take(count).map(move |start| {
         let mut step = 1.0;

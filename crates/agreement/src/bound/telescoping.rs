@@ -6,6 +6,7 @@
 //! The factors on the left only turn the difference, and those on the right only limit the distance of the
 //! tip. Nothing is sampled or iterated, and the bound is proportional to the difference.
 
+use congruent_description::Elementary as _;
 use congruent_kinematics::{Pose, ScrewChain, Twist};
 
 use super::corner::Interval;
@@ -79,5 +80,5 @@ fn radius_growth_m(twist: &Twist, furthest: f64) -> f64 {
 /// `|R_a - R_b| = 2 sqrt(2) sin(angle / 2)`; rounding of the entries counts as rotation.
 fn angle_at_most_rad(a: &Pose, b: &Pose) -> f64 {
     let half_sine = (a.rotation - b.rotation).norm() / 8.0_f64.sqrt();
-    if half_sine < 0.5 { 2.0 * half_sine.asin() } else { a.angle_rad(b) }
+    if half_sine < 0.5 { 2.0 * half_sine.arcsine() } else { a.angle_rad(b) }
 }

@@ -5,7 +5,7 @@ use congruent_description::{LinkIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{DhChain, KinematicsError, Pose, UrdfTree};
 
 /// The origin of the model's pose of a link.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PoseSource {
     /// The table and its declared transforms; nothing is fitted.

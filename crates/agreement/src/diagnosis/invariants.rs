@@ -3,6 +3,7 @@
 
 use std::fmt;
 
+use congruent_description::Elementary as _;
 use congruent_kinematics::{ScrewChain, Twist};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -70,7 +71,7 @@ pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
         let expected = value(&expected_here, joint, invariant).unwrap_or(f64::NAN);
         let off = if invariant == Invariant::Zero {
             let turn = found - expected;
-            turn.sin().atan2(turn.cos()).abs()
+            turn.sine().arctangent_over(turn.cosine()).abs()
         } else {
             (found - expected).abs()
         };
@@ -87,7 +88,9 @@ pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
     if let (Some(found), Some(expected)) =
         (candidate.twists_in_base.first(), reference.twists_in_base.first())
     {
-        let off = (found.angular - expected.angular).norm().hypot((found.linear - expected.linear).norm());
+        let off = (found.angular - expected.angular)
+            .norm()
+            .hypotenuse_with((found.linear - expected.linear).norm());
         if off > SAME_VALUE {
             differences.push(JointDifference {
                 invariant: Invariant::Base,
@@ -98,7 +101,7 @@ pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
         }
     }
     let (found, expected) = (candidate.base_from_tip_at_zero, reference.base_from_tip_at_zero);
-    let off = found.distance_m(&expected).hypot(found.angle_rad(&expected));
+    let off = found.distance_m(&expected).hypotenuse_with(found.angle_rad(&expected));
     if off > SAME_VALUE {
         let joint = joints.saturating_sub(1);
         differences.push(JointDifference { invariant: Invariant::Tool, joint, found: off, expected: 0.0 });
@@ -163,7 +166,7 @@ fn quantities(chain: &ScrewChain) -> Vec<JointQuantity> {
         let Some(Some(next)) = axes.get(joint + 1) else { continue };
         let (sine, cosine) =
             (axis.direction.cross(&next.direction).norm(), axis.direction.dot(&next.direction));
-        list.push((joint, (Invariant::AxisAngle, sine.atan2(cosine.abs()))));
+        list.push((joint, (Invariant::AxisAngle, sine.arctangent_over(cosine.abs()))));
         list.push((joint, (Invariant::Sign, if cosine.abs() < PARALLEL { 0.0 } else { cosine.signum() })));
         list.extend(axis.distance(next).map(|distance| (joint, (Invariant::AxisDistance, distance))));
         let Some(Some(last)) = axes.get(joint + 2) else { continue };
@@ -173,7 +176,7 @@ fn quantities(chain: &ScrewChain) -> Vec<JointQuantity> {
         let normals = (axis.direction.cross(&next.direction), next.direction.cross(&last.direction));
         if normals.0.norm() > PARALLEL && normals.1.norm() > PARALLEL {
             let sine = normals.0.cross(&normals.1).dot(&next.direction);
-            list.push((joint, (Invariant::Zero, sine.atan2(normals.0.dot(&normals.1)))));
+            list.push((joint, (Invariant::Zero, sine.arctangent_over(normals.0.dot(&normals.1)))));
         }
     }
     list

@@ -7,8 +7,8 @@ use std::{
 };
 
 use congruent_description::{
-    ChangedLines, ConstantKey, ConstantPart, DhConvention, DhRowKind, RobotFilePlaces, RowKey, Slack,
-    SourceFile,
+    ChangedLines, ConstantKey, ConstantPart, DhConvention, DhRowKind, Elementary as _, RobotFilePlaces,
+    RowKey, Slack, SourceFile,
     display::{angle, length, length_and_angle, number},
     fitted_number, fitted_transform, line_column,
     units::{Unit, UnitSystem},
@@ -358,7 +358,7 @@ fn off_by(shift_m: f64, turn_rad: f64) -> String {
 /// Found minus expected; of angles within half a turn.
 fn off(entry: DhEntry, found: f64, expected: f64) -> f64 {
     let off = found - expected;
-    if entry.is_angle() { off.sin().atan2(off.cos()) } else { off }
+    if entry.is_angle() { off.sine().arctangent_over(off.cosine()) } else { off }
 }
 
 pub(super) fn row_key(entry: DhEntry) -> RowKey {

@@ -1,7 +1,7 @@
 //! The given table beside the nearest one that agrees, value by value.
 
 use congruent_description::{
-    ConstantKey, RowKey, Slack, fitted_transform,
+    ConstantKey, Elementary as _, RowKey, Slack, fitted_transform,
     units::{Unit, UnitSystem},
 };
 
@@ -78,7 +78,7 @@ fn entries(
     let (key, units) =
         place.map_or_else(|| (entry.to_string(), UnitSystem::Si), |place| (place.key, place.units));
     let off = found - expected;
-    let off = if entry.is_angle() { off.sin().atan2(off.cos()) } else { off };
+    let off = if entry.is_angle() { off.sine().arctangent_over(off.cosine()) } else { off };
     let differs = off.abs() > most;
     let found = unit.fitted(found, units, Slack::default());
     Some(ComparedValue {

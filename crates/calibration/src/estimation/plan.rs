@@ -1,6 +1,6 @@
 //! Where to measure next: the configurations that would be most informative about the corrections.
 
-use congruent_description::ChainQ;
+use congruent_description::{ChainQ, Elementary as _};
 use congruent_kinematics::Pose;
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
@@ -128,5 +128,5 @@ fn prior(problem: &Problem<'_>) -> DMatrix<f64> {
 
 /// Half the logarithm of the determinant.
 fn log_volume(factor: &Cholesky<f64, Dyn>) -> f64 {
-    factor.l_dirty().diagonal().iter().map(|entry| entry.ln()).sum()
+    factor.l_dirty().diagonal().iter().map(|entry| entry.logarithm()).sum()
 }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use congruent_description::Elementary as _;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -74,7 +75,7 @@ impl Loss {
         let in_k = match self {
             Self::Huber if ratio <= 1.0 => ratio.powi(2),
             Self::Huber => 2.0 * ratio - 1.0,
-            Self::Cauchy => ratio.powi(2).ln_1p(),
+            Self::Cauchy => ratio.powi(2).logarithm_of_one_more(),
             Self::Tukey => (1.0 - (1.0 - ratio.powi(2)).max(0.0).powi(3)) / 3.0,
         };
         in_k * k * k
@@ -183,8 +184,8 @@ fn start_of_agreement(
     let size = |fit: &Fit| {
         let Noise { position_m, orientation_rad } = comparable_noise(problem, &fit.residuals).floored();
         let count = |of: fn(&Measurement) -> usize| as_f64(problem.measurements.iter().map(of).sum());
-        count(Measurement::position_count) * position_m.ln()
-            + count(Measurement::orientation_count) * orientation_rad.ln()
+        count(Measurement::position_count) * position_m.logarithm()
+            + count(Measurement::orientation_count) * orientation_rad.logarithm()
     };
     let [from_plain, from_nominal] = found;
     // Of two that agree alike the one from nominal, which moved less.

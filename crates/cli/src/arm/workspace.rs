@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use congruent::description::Elementary as _;
 use congruent::{
     analysis::workspace::{WorkspaceReport, plot, workspace},
     description::{
@@ -99,5 +100,5 @@ fn size(text: &mut String, report: &WorkspaceReport) {
 
 /// One unit of the third digit, of which half makes rounding go outwards.
 fn third_digit(value: f64) -> f64 {
-    if value > 0.0 { 10_f64.powf(value.log10().floor() - 2.0) } else { 0.0 }
+    if value > 0.0 { 10_f64.to_power(value.decimal_logarithm().floor() - 2.0) } else { 0.0 }
 }

@@ -4,16 +4,18 @@ use std::path::{Path, PathBuf};
 
 use congruent::{
     description::Diagnostic,
-    recording::{Recheck, RecordingSummary, inspect, recheck, scalars, scalars_csv},
+    recording::{Recheck, RecordingSummary, RerunFormat, inspect, recheck, scalars, scalars_csv},
     twin::{
-        RunSetup,
+        RecordingFormat, RunSetup,
         report::{Reason, TestResult, TestSuite},
-        scenario::Override,
     },
 };
 use serde_json::Value;
 
-use super::inspect_text::{sentence, text};
+use super::{
+    inspect_text::{sentence, text},
+    inspected_files::{compare_files, judge_inputs, overrides},
+};
 use crate::{
     batch::{Batch, BatchReport},
     ci::CiArguments,
@@ -26,11 +28,12 @@ use crate::{
 /// What recordings hold: verdict, worst values, duration, entities, statistics of their scalars, problems of the file.
 ///
 /// The exit code is that of the recorded run, so 1 if it went against expectation; 2 if a file is cut off, damaged or no
-/// recording, has no footer, values that are NaN or times that are not in order; 4 without a verdict. With --check it is 1
-/// as well if series and report disagree. Of several recordings it is the worst.
+/// recording, has no footer, values that are NaN or times that are not in order, or lies beside the report of another run; 4
+/// without a verdict, or with one about files that have changed since. With --check it is 1 as well if series and report
+/// disagree, and changed files are told alone. Of several recordings it is the worst.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Recordings (.rrd).
+    /// Recordings (.rrd), or folders of results.
     #[arg(required = true)]
     recordings: Vec<PathBuf>,
     /// Evaluate the checks of this scenario again, on the recordings alone, and compare with the report in each.
@@ -94,14 +97,24 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
     let unreadable = |error: congruent::recording::InspectError| {
         Diagnostic::error("inspect::recording", error.to_string())
     };
+    let in_folder = path.join(RerunFormat.file_name());
+    let path = if path.is_dir() { in_folder.as_path() } else { path };
+    let access = arguments.access.access()?;
     if arguments.check.is_none() && arguments.csv.is_none() {
-        return Ok(inspect(path).map_err(unreadable)?);
+        let mut summary = inspect(path).map_err(unreadable)?;
+        compare_files(&mut summary, path, &access);
+        judge_inputs(&mut summary);
+        return Ok(summary);
     }
     let (mut summary, scalars) = scalars(path).map_err(unreadable)?;
+    compare_files(&mut summary, path, &access);
     if let Some(file) = &arguments.csv {
         replace("--csv", file, scalars_csv(&summary, &scalars), &[])?;
     }
-    let Some(scenario) = &arguments.check else { return Ok(summary) };
+    let Some(scenario) = &arguments.check else {
+        judge_inputs(&mut summary);
+        return Ok(summary);
+    };
     // A file that is damaged or has no verdict shows nothing about its checks.
     if summary.exit_code == BAD_INPUT || summary.report.is_none() {
         summary.reason += "; its checks are not evaluated again";
@@ -132,8 +145,6 @@ fn take(summary: &mut RecordingSummary, result: Recheck) {
 
 /// The scenario with the values that replaced those of its file in the run.
 fn load(scenario: &Path, summary: &RecordingSummary, arguments: &Arguments) -> Result<RunSetup, Failure> {
-    let report = summary.report.as_ref().unwrap_or(&Value::Null);
-    let texts = report["overrides"].as_array().into_iter().flatten().filter_map(Value::as_str);
-    let overrides: Vec<Override> = texts.map(str::parse).collect::<Result<_, Diagnostic>>()?;
+    let overrides = overrides(summary.report.as_ref().unwrap_or(&Value::Null))?;
     Ok(RunSetup::load_with(scenario, &overrides, &arguments.access.access()?)?)
 }

@@ -28,11 +28,13 @@ pub(super) fn text(summary: &RecordingSummary) -> String {
     let verdict = summary.verdict.as_deref().unwrap_or("none");
     let file = format!("{} bytes, {state}", summary.bytes);
     let check_sums = summary.check_sums.as_ref().map_or_else(|| NO_CHECK_SUMS.to_owned(), check_sums);
-    let heading: [(&str, &str); 7] = [
+    let inputs = inputs(summary);
+    let heading: [(&str, &str); 8] = [
         ("application", &summary.application_id),
         ("recording", &summary.recording_id),
         ("file", &file),
         ("check sums", &check_sums),
+        ("inputs", &inputs),
         ("duration", &duration),
         ("verdict", verdict),
         ("reason", &summary.reason),
@@ -64,6 +66,16 @@ fn check_sums(of: &CheckSums) -> String {
     match of.damaged.len() {
         0 => format!("all {} match", of.intact),
         damaged => format!("{} match, {damaged} do not", of.intact),
+    }
+}
+
+/// Whether the files of the run are as they were.
+fn inputs(summary: &RecordingSummary) -> String {
+    match (&summary.changed_inputs, &summary.report) {
+        (Some(changed), _) if changed.is_empty() => "as in the run".to_owned(),
+        (Some(changed), _) => changed.join("; "),
+        (None, Some(_)) => "not compared, the scenario is not there, or needs --allow".to_owned(),
+        (None, None) => "unknown".to_owned(),
     }
 }
 

@@ -46,6 +46,10 @@ impl RecordingFormat for LiveFormat {
         RerunFormat.file_name()
     }
 
+    fn is_readable_in_part(&self) -> bool {
+        true
+    }
+
     fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
         let failed = |error: io::Error| RecordingError { message: format!("cannot show it: {error}") };
         let recording = RerunFormat.begin(path, run)?;

@@ -2,6 +2,7 @@
 
 pub(crate) mod inspect;
 mod inspect_text;
+mod inspected_files;
 pub(crate) mod live;
 pub(crate) mod view;
 pub(crate) mod viewer;

@@ -1,6 +1,6 @@
 //! A modest motion of a chain: where it starts, where it goes, how long it takes.
 
-use congruent_description::{Joint, JointKind, Robot, RobotDescription, RobotQ};
+use congruent_description::{Elementary as _, Joint, JointKind, Robot, RobotDescription, RobotQ};
 use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_kinematics::random_configurations;
 
@@ -162,6 +162,6 @@ fn least_s(joint: &Joint, way: f64) -> f64 {
     let (acceleration, jerk) = (velocity / 0.25, velocity / 0.025);
     let by_velocity = 1.875 * way / (EFFORT * velocity);
     let by_acceleration = (5.78 * way / (EFFORT * acceleration)).sqrt();
-    let by_jerk = (60.0 * way / (EFFORT * jerk)).cbrt();
+    let by_jerk = (60.0 * way / (EFFORT * jerk)).cube_root();
     by_velocity.max(by_acceleration).max(by_jerk)
 }

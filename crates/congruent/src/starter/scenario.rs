@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use congruent_description::{
-    Diagnostic, Finding, ReportedChain, RobotDescription, Use, display::quantity, relative_path,
+    Diagnostic, Elementary as _, Finding, ReportedChain, RobotDescription, Use, display::quantity,
+    relative_path,
 };
 use congruent_twin::{
     Outcome, Run, RunSetup,
@@ -259,8 +260,8 @@ fn description_path(description: &RobotDescription) -> PathBuf {
 
 /// The largest number with one digit that is not above `value`.
 fn one_digit_below(value: f64) -> f64 {
-    let power = value.log10().floor();
-    let digit = 10_f64.powf(power);
+    let power = value.decimal_logarithm().floor();
+    let digit = 10_f64.to_power(power);
     ((value / digit).floor() * digit * 1e9).round() / 1e9
 }
 

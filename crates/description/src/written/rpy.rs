@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
 
 use super::number::{FITTED, Slack};
+use crate::Elementary as _;
 
 /// The rotation that turns about the fixed axes x, then y, then z: `Rz(yaw) Ry(pitch) Rx(roll)`.
 pub(crate) fn rotation_from_rpy_fixed_xyz([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
@@ -15,7 +16,7 @@ pub(crate) fn rotation_from_rpy_fixed_xyz([roll, pitch, yaw]: [f64; 3]) -> UnitQ
 /// the sum of the other two counts, yaw is read from the matrix and roll follows, so that no digit is lost.
 pub(crate) fn rpy_fixed_xyz_rad(pose: &Isometry3<f64>) -> [f64; 3] {
     let matrix = pose.rotation.to_rotation_matrix();
-    rpy_at_yaw(&matrix, matrix[(1, 0)].atan2(matrix[(0, 0)]))
+    rpy_at_yaw(&matrix, matrix[(1, 0)].arctangent_over(matrix[(0, 0)]))
 }
 
 /// The same for a fitted rotation: without yaw if roll and a pitch within a quarter turn say the same.
@@ -31,9 +32,9 @@ pub(crate) fn fitted_rpy_fixed_xyz_rad(pose: &Isometry3<f64>, slack: Slack) -> [
 
 fn rpy_at_yaw(matrix: &Rotation3<f64>, yaw: f64) -> [f64; 3] {
     let m = |row: usize, column: usize| matrix[(row, column)];
-    let (sin, cos) = yaw.sin_cos();
-    let pitch = (-m(2, 0)).atan2(cos * m(0, 0) + sin * m(1, 0));
-    let roll = (sin * m(0, 2) - cos * m(1, 2)).atan2(cos * m(1, 1) - sin * m(0, 1));
+    let (sin, cos) = yaw.sine_cosine();
+    let pitch = (-m(2, 0)).arctangent_over(cos * m(0, 0) + sin * m(1, 0));
+    let roll = (sin * m(0, 2) - cos * m(1, 2)).arctangent_over(cos * m(1, 1) - sin * m(0, 1));
     [roll, pitch, yaw]
 }
 

@@ -1,5 +1,6 @@
 //! The explanations of a difference, in order.
 
+use congruent_description::Elementary as _;
 use congruent_dynamics::DynamicsError;
 
 use super::{
@@ -104,7 +105,7 @@ pub(crate) fn diagnose_in_stages(
 
 /// The same in one stage.
 fn diagnose(setting: &Setting<'_>, torque: &Compressed) -> Diagnosed {
-    let size = torque.difference.norm().hypot(torque.outside);
+    let size = torque.difference.norm().hypotenuse_with(torque.outside);
     let exact = setting.precision.exact(size, torque.torques);
     let target = Target { side: setting.candidate, torque, exact };
     if size <= setting.precision.same * torque.torques {

@@ -1,5 +1,6 @@
 //! Does a hypothesis leave nothing of the difference of torque, and with which parameters?
 
+use congruent_description::Elementary as _;
 use congruent_dynamics::JointResistance;
 use congruent_kinematics::rotation_exp;
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
@@ -80,7 +81,7 @@ impl Target<'_> {
             Change::Gravity(gravity) => self.gravity(*gravity),
             Change::FreeGravity(along) => self.free_gravity(along),
         };
-        let left = (&self.torque.difference - &torque).norm().hypot(self.torque.outside);
+        let left = (&self.torque.difference - &torque).norm().hypotenuse_with(self.torque.outside);
         (left <= self.exact).then(|| Fit { hypothesis: hypothesis.clone(), corrected, left, rank })
     }
 
@@ -134,7 +135,7 @@ impl Target<'_> {
             .map(|(free, start)| (free, self.descend(block, &target, (from, free), start)));
         // What torque does not show may be that of a body as well as anything else.
         let is_no_body = |(free, end): &(Free, Descent)| {
-            let is_exact = end.left.hypot(self.torque.outside) <= self.exact;
+            let is_exact = end.left.hypotenuse_with(self.torque.outside) <= self.exact;
             !is_exact
                 || free
                     .parameters(from, end.unknowns.as_slice())

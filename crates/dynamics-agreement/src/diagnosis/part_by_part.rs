@@ -1,6 +1,7 @@
 //! Several faults of one link at once, where the other description says what its parameters should be: mass, centre of
 //! mass and inertia each have a cause of their own.
 
+use congruent_description::Elementary as _;
 use congruent_dynamics::DynamicsError;
 
 use super::{
@@ -58,7 +59,7 @@ fn one_part(
     torque: &Compressed,
     (link, slips, (cause, free)): (usize, &[Slip<'_>], (DynamicsCause, Free)),
 ) -> Option<Fit> {
-    let size = torque.difference.norm().hypot(torque.outside);
+    let size = torque.difference.norm().hypotenuse_with(torque.outside);
     if size <= setting.precision.same * torque.torques {
         return None;
     }

@@ -5,7 +5,7 @@
 #[path = "../../../../tests/corpus.rs"]
 mod corpus;
 
-use congruent_description::load_robot;
+use congruent_description::{Elementary as _, load_robot};
 use nalgebra::{DVector, Vector3};
 
 use super::{
@@ -195,7 +195,7 @@ fn is_seen(original: &Side, planted: &Planted) -> bool {
     let states = random_states(&original.frames, 1, STATES);
     let torque = torques(&planted.side, &states).expect("the robot's own states");
     let torque = Compressed::new(original, &states, &torque).expect("the robot's own states");
-    torque.difference.norm().hypot(torque.outside) > Precision::EXACT.same * torque.torques
+    torque.difference.norm().hypotenuse_with(torque.outside) > Precision::EXACT.same * torque.torques
 }
 
 fn judged(original: &Side, planted: &Planted, faulty: FaultySide, counts: &mut Counts) {

@@ -1,5 +1,6 @@
 //! All hypotheses that leave nothing of the difference: single ones, and if there is none, pairs.
 
+use congruent_description::Elementary as _;
 use nalgebra::{DMatrix, DVector};
 
 use super::{
@@ -166,6 +167,6 @@ impl Target<'_> {
     /// Whether a part can explain the whole difference, with whatever numbers.
     pub(super) fn contains(&self, part: Part) -> bool {
         let span = basis(&part.columns(self.torque), self.torque.scale);
-        outside(&span, &self.torque.difference).norm().hypot(self.torque.outside) <= self.exact
+        outside(&span, &self.torque.difference).norm().hypotenuse_with(self.torque.outside) <= self.exact
     }
 }

@@ -1,6 +1,6 @@
 //! Explanations in names, parameters and places of the file.
 
-use congruent_description::{ChangedLines, TextEdit};
+use congruent_description::{ChangedLines, Elementary as _, TextEdit};
 
 use super::{
     content::{DynamicsExplanation, PlacedCause},
@@ -33,7 +33,7 @@ pub(super) struct Teller<'a> {
 
 impl<'a> Teller<'a> {
     pub(super) fn new(setting: &Setting<'a>, files: Files<'a>, torque: &'a Compressed) -> Self {
-        let difference = torque.difference.norm().hypot(torque.outside);
+        let difference = torque.difference.norm().hypotenuse_with(torque.outside);
         Self {
             candidate: setting.candidate,
             reference: setting.reference,
@@ -186,7 +186,7 @@ impl Teller<'_> {
                 left.axpy(-change, &self.torque.term(term).column(joint), 1.0);
             }
         }
-        (left.norm().hypot(self.torque.outside) <= self.exact).then_some(links)
+        (left.norm().hypotenuse_with(self.torque.outside) <= self.exact).then_some(links)
     }
 
     /// The parameters that a correction changes: found is what the faulty says.

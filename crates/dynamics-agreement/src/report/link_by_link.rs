@@ -1,5 +1,6 @@
 //! Where both sides are descriptions, the difference of each link has its own cause, whatever else differs.
 
+use congruent_description::Elementary as _;
 use congruent_dynamics::DynamicsError;
 
 use super::{content::DynamicsExplanation, explained::Teller, places::Files, unmatched::Unmatched};
@@ -115,6 +116,6 @@ pub(super) fn is_simpler(by_link: &[DynamicsExplanation], by_torque: &[DynamicsE
 /// Whether two sides have the same torques.
 fn is_same(a: &Side, b: &Side, setting: &Setting<'_>, states: &[State]) -> Result<bool, DynamicsError> {
     let torque = Compressed::new(a, states, &torques(b, states)?)?;
-    let size = torque.difference.norm().hypot(torque.outside);
+    let size = torque.difference.norm().hypotenuse_with(torque.outside);
     Ok(size <= setting.precision.same * torque.torques)
 }

@@ -3,6 +3,7 @@
 //! Rows are weighted by the torque of the reference at their joint, so that a wrist counts as much as a shoulder. What
 //! a change of one link's ten numbers does to all torques is then a small matrix times that change.
 
+use congruent_description::Elementary as _;
 use congruent_dynamics::{DynamicsError, JointMotion, JointResistance, PARAMETERS, SpatialInertia};
 use congruent_kinematics::Pose;
 use nalgebra::{DMatrix, DVector, SVector, Vector3};
@@ -105,7 +106,7 @@ impl Compressed {
 
     /// The whole difference as a share of both torques.
     pub(crate) fn relative_difference(&self) -> f64 {
-        let size = self.difference.norm().hypot(self.outside);
+        let size = self.difference.norm().hypotenuse_with(self.outside);
         if size > 0.0 { size / self.torques } else { 0.0 }
     }
 

@@ -2,7 +2,7 @@
 //! kinematics reaches, with an interval. Counting the cells that random configurations hit converges from
 //! below, and how slowly cannot be seen from the count; whether one point can be reached can be decided.
 
-use congruent_description::ArmQ;
+use congruent_description::{ArmQ, Elementary as _};
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
@@ -79,7 +79,7 @@ impl Cells {
         let mut left = count;
         for (at, &axis) in axes.iter().enumerate() {
             let size: f64 = axes[at..].iter().map(|&axis| extents[axis]).product();
-            let edge = (size / left as f64).powf(1.0 / (axes.len() - at) as f64);
+            let edge = (size / left as f64).to_power(1.0 / (axes.len() - at) as f64);
             counts[axis] = ((extents[axis] / edge).round() as usize).clamp(1, left);
             left = (left / counts[axis]).max(1);
         }
@@ -137,7 +137,7 @@ pub(super) fn size(arm: &Arm, known: &KnownWorkspace<'_>, sampling: Sampling) ->
     let half_width = of_cell * STANDARD_ERRORS / 2.0 * (f64::from(mixed) + STANDARD_ERRORS.powi(2)).sqrt();
     let estimate = of_cell * f64::from(reached) / 2.0;
     #[expect(clippy::cast_precision_loss, reason = "2 or 3 axes")]
-    let cell_m = of_cell.powf(1.0 / moving().count() as f64);
+    let cell_m = of_cell.to_power(1.0 / moving().count() as f64);
     WorkspaceSize {
         estimate,
         lower: (estimate - half_width).max(0.0),

@@ -1,19 +1,20 @@
 //! Sine and cosine together, in line and without a branch on the value.
 //!
-//! A call to the platform's function costs more than the products of a row (`benches/forward.rs`),
-//! keeps the compiler from overlapping joints, and gives other last bits on another platform. The
-//! screws (`screw_tree.rs`) keep to the platform's, and so does the physics: a fault here cannot
+//! A call to a function of another crate costs more than the products of a row (`benches/forward.rs`)
+//! and keeps the compiler from overlapping joints. The screws (`screw_tree.rs`) keep to those of
+//! [`Elementary`](congruent_description::Elementary), and so does the physics: a fault here cannot
 //! hide in all.
 
 #![expect(clippy::inline_always, reason = "what is not inlined is compiled for the narrowest vectors")]
 
+use congruent_description::Elementary as _;
 use pulp::{Arch, Simd, WithSimd};
 
 /// Angles whose sines a chain computes together: joints of one arm.
 pub(crate) const BLOCK: usize = 8;
 
-/// Up to here the angle's multiple of pi/2 is found exactly: 2^20 pi/2. Beyond, the standard
-/// library answers.
+/// Up to here the angle's multiple of pi/2 is found exactly: 2^20 pi/2. Beyond, `Elementary`
+/// answers.
 const LARGEST_RAD: f64 = 1.6e6;
 
 /// 1.5 * 2^52: adding it rounds to an integer, which then stands in the lowest bits.
@@ -64,7 +65,7 @@ impl SinCos {
         if angle_rad.abs() <= LARGEST_RAD {
             Self::of_moderate(angle_rad)
         } else {
-            let (sin, cos) = angle_rad.sin_cos();
+            let (sin, cos) = angle_rad.sine_cosine();
             Self { sin, cos }
         }
     }

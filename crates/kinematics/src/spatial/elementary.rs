@@ -1,5 +1,6 @@
 //! Elementary transforms: a turn about one axis, a shift along one axis, and what their order means.
 
+use congruent_description::Elementary as _;
 use nalgebra::{Matrix3, Vector3};
 
 use super::pose::Pose;
@@ -62,7 +63,7 @@ impl Pose {
 /// The turn about axis 0, 1 or 2 (x, y, z) of the frame.
 #[inline]
 pub(crate) fn turn(axis: usize, angle_rad: f64) -> Matrix3<f64> {
-    let (sin, cos) = angle_rad.sin_cos();
+    let (sin, cos) = angle_rad.sine_cosine();
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
     let mut turn = Matrix3::identity();
     (turn[(next, next)], turn[(last, last)]) = (cos, cos);

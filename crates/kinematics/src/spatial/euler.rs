@@ -2,6 +2,7 @@
 
 use std::{f64::consts::PI, fmt, str::FromStr};
 
+use congruent_description::Elementary as _;
 use nalgebra::Matrix3;
 
 use schemars::JsonSchema;
@@ -205,18 +206,18 @@ impl EulerSet {
         } else {
             (-handed * m(j, last), m(k, last))
         };
-        let from_singular_rad = across.hypot(up).atan2(m(i, last).abs());
+        let from_singular_rad = across.hypotenuse_with(up).arctangent_over(m(i, last).abs());
         let determined = match (from_singular_rad < singular_below_rad, m(i, last) > 0.0) {
             (false, _) => DeterminedAngles::Both,
             (true, true) => DeterminedAngles::Sum,
             (true, false) => DeterminedAngles::Difference,
         };
         let (first, sine) = match determined {
-            DeterminedAngles::Both => (angle(across, up), across.hypot(up)),
+            DeterminedAngles::Both => (angle(across, up), across.hypotenuse_with(up)),
             DeterminedAngles::Sum | DeterminedAngles::Difference => (0.0, 0.0),
         };
         // Row j of what remains when the first turn is undone.
-        let (sin, cos) = first.sin_cos();
+        let (sin, cos) = first.sine_cosine();
         let remains = |column| cos * m(j, column) + handed * sin * m(k, column);
         let (middle, last) = if self.is_proper() {
             (angle(sine, m(i, i)), angle(-handed * remains(k), remains(j)))
@@ -241,7 +242,7 @@ impl EulerSet {
 
 /// The angle of a sine and a cosine of any common length, in `-pi..=pi`; a negative zero counts as zero.
 fn angle(sine: f64, cosine: f64) -> f64 {
-    (sine + 0.0).atan2(cosine)
+    (sine + 0.0).arctangent_over(cosine)
 }
 
 /// Half a turn further, in `-pi..=pi`.

@@ -2,6 +2,7 @@
 
 use std::{cmp::Ordering, ops::Mul};
 
+use congruent_description::Elementary as _;
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use super::rotation::{quaternion_of, vee};
@@ -128,7 +129,7 @@ impl Pose {
     pub fn angle_rad(&self, other: &Self) -> f64 {
         let between = self.rotation.transpose() * other.rotation;
         let sine = vee(&(between - between.transpose())).norm() / 2.0;
-        sine.atan2((between.trace() - 1.0) / 2.0)
+        sine.arctangent_over((between.trace() - 1.0) / 2.0)
     }
 
     /// How far the matrix is from orthonormal: the Frobenius norm of `R^T R - I`.

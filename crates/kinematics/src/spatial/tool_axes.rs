@@ -1,5 +1,6 @@
 //! Poses of tools by the directions of a hand: normal, sliding, approach.
 
+use congruent_description::Elementary as _;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use super::pose::Pose;
@@ -108,7 +109,7 @@ impl ToolAxes {
     ) -> Result<Self, ToolAxesError> {
         let (approach, sliding) = (direction("approach", &approach)?, direction("sliding", &sliding)?);
         let across = sliding.cross(&approach);
-        let angle_rad = across.norm().asin();
+        let angle_rad = across.norm().arcsine();
         if angle_rad < PARALLEL_RAD {
             return Err(ToolAxesError::Parallel { angle_rad });
         }
@@ -136,7 +137,7 @@ impl ToolAxes {
         }
         for (one, other) in [(0, 1), (1, 2), (2, 0)] {
             let ((first, a), (second, b)) = (named[one], named[other]);
-            let off_rad = a.dot(&b).atan2(a.cross(&b).norm());
+            let off_rad = a.dot(&b).arctangent_over(a.cross(&b).norm());
             if off_rad.abs() > PERPENDICULAR_RAD {
                 return Err(ToolAxesError::NotPerpendicular { first, second, off_rad });
             }

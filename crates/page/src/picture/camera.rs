@@ -1,5 +1,6 @@
 //! From where a picture is seen: a parallel projection from above, from the side that shows most.
 
+use congruent_description::Elementary as _;
 use nalgebra::{Point2, Point3, Vector3};
 
 /// Angle of the view above the horizon.
@@ -16,8 +17,8 @@ pub(crate) struct Camera {
 
 impl Camera {
     fn from_azimuth(azimuth_rad: f64) -> Self {
-        let (sin, cos) = azimuth_rad.sin_cos();
-        let (sin_up, cos_up) = ELEVATION_RAD.sin_cos();
+        let (sin, cos) = azimuth_rad.sine_cosine();
+        let (sin_up, cos_up) = ELEVATION_RAD.sine_cosine();
         Self { right: Vector3::new(-sin, cos, 0.0), up: Vector3::new(-cos * sin_up, -sin * sin_up, cos_up) }
     }
 

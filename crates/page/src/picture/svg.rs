@@ -1,6 +1,6 @@
 //! SVG of a part of a plane: metres to the right and up become points to the right and down.
 
-use congruent_description::display::length;
+use congruent_description::{Elementary as _, display::length};
 use maud::{Markup, html};
 use nalgebra::{Point2, Vector2};
 
@@ -63,7 +63,7 @@ impl Canvas {
         let points: Vec<Point2<f64>> = points.map(|point| self.at(&point)).collect();
         let directions = (0..CORNERS).map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(CORNERS));
         let farthest = |angle: f64| {
-            let along = Vector2::new(angle.cos(), angle.sin());
+            let along = Vector2::new(angle.cosine(), angle.sine());
             points.iter().copied().max_by(|a, b| a.coords.dot(&along).total_cmp(&b.coords.dot(&along)))
         };
         let mut corners: Vec<Point2<f64>> = directions.filter_map(farthest).collect();
@@ -142,7 +142,7 @@ fn tenths(value: f64) -> f64 {
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above a length.
 fn round_length(at_most_m: f64) -> f64 {
-    let power = 10_f64.powf(at_most_m.log10().floor());
+    let power = 10_f64.to_power(at_most_m.decimal_logarithm().floor());
     let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= at_most_m).unwrap_or(1.0);
     factor * power
 }

@@ -25,6 +25,10 @@ impl RecordingFormat for PageFormat {
         "report.html"
     }
 
+    fn is_readable_in_part(&self) -> bool {
+        false
+    }
+
     fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {
         let setup = run.setup();
         let clock = (setup.clock.step_s, setup.clock.steps);

@@ -208,6 +208,7 @@ impl RecordingContent {
             reason: String::new(),
             duration_s: self.duration_s(),
             checks,
+            changed_inputs: None,
             recheck: None,
             has_layout: self.has_layout,
             timelines: std::mem::take(&mut self.timelines).into_values().collect(),

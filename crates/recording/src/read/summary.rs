@@ -39,6 +39,9 @@ pub struct RecordingSummary {
     pub duration_s: Option<f64>,
     /// The checks of the run with their worst values, if this program made the recording.
     pub checks: Vec<CheckSummary>,
+    /// What has changed since the run of the files that it was made from: the scenario, the robot's files, meshes. `null` if
+    /// they are not there to be compared, or may not be opened.
+    pub changed_inputs: Option<Vec<String>>,
     /// The checks of a scenario, evaluated once more, if that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recheck: Option<Recheck>,

@@ -1,6 +1,6 @@
 //! The camera of the three-dimensional view, so that this robot fills the picture.
 
-use congruent_description::Geometry;
+use congruent_description::{Elementary as _, Geometry};
 use congruent_simulation::Obstacle;
 use nalgebra::{Isometry3, Point3, Vector3};
 
@@ -138,10 +138,10 @@ impl Camera {
         let all = robot.with_obstacles(obstacles);
         let target_in_world = nalgebra::center(&all.low, &all.high);
         let sum = path_in_world.iter().fold(Vector3::zeros(), |sum: Vector3<f64>, point| sum + point.coords);
-        let path_rad = if sum.xy().norm() > 0.0 { sum.y.atan2(sum.x) } else { 0.0 };
-        let (up, level) = ELEVATION_RAD.sin_cos();
+        let path_rad = if sum.xy().norm() > 0.0 { sum.y.arctangent_over(sum.x) } else { 0.0 };
+        let (up, level) = ELEVATION_RAD.sine_cosine();
         let from = |azimuth_rad: f64| {
-            let (sin, cos) = (path_rad + azimuth_rad).sin_cos();
+            let (sin, cos) = (path_rad + azimuth_rad).sine_cosine();
             let to_eye = Vector3::new(cos * level, sin * level, up);
             target_in_world + to_eye * distance_m(&all, &to_eye)
         };

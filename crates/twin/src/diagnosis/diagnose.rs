@@ -2,7 +2,7 @@
 
 use congruent_dynamics::DynamicsError;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{
     actuator,
@@ -24,17 +24,17 @@ use crate::{
 };
 
 /// What is wrong with the twin, from the samples of the run alone.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RunDiagnosis {
     /// The faults that explain what the samples show, the one that began first foremost.
     pub faults: Vec<FoundFault>,
     /// What no known fault explains.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unexplained: Vec<String>,
 }
 
 /// A fault with how well it explains the samples.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FoundFault {
     /// The fault.
     #[serde(flatten)]

@@ -1,6 +1,6 @@
 //! Where the joints of the twin are, as the poses of its links show it, against what the encoders read.
 
-use congruent_description::{Joint, JointKind, Robot};
+use congruent_description::{Elementary as _, Joint, JointKind, Robot};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
 use super::{
@@ -220,7 +220,7 @@ fn shown(joint: &Joint, motion: &Isometry3<f64>) -> f64 {
     if joint.kind == JointKind::Prismatic {
         return motion.translation.vector.dot(&axis);
     }
-    let half = motion.rotation.imag().dot(&axis).atan2(motion.rotation.scalar());
+    let half = motion.rotation.imag().dot(&axis).arctangent_over(motion.rotation.scalar());
     nearest_turn(2.0 * half, 0.0)
 }
 

@@ -3,23 +3,26 @@
 use congruent_description::display::{number, position, quantity};
 use nalgebra::{Isometry3, Vector3};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::scenario::FaultKind;
+use crate::{
+    scenario::FaultKind,
+    words::{Word, known_word},
+};
 
 /// One fault.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RunFault {
     /// What is wrong.
     pub kind: FaultKind,
     /// The joints that it is about.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<String>,
     /// The link that it is about.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub link: Option<String>,
     /// How large it is.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<FaultQuantity>,
     /// The time of the first sample that has it.
     pub from_s: f64,
@@ -28,14 +31,16 @@ pub struct RunFault {
 }
 
 /// A value of a fault.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FaultQuantity {
     /// What it is.
-    pub quantity: &'static str,
+    #[serde(deserialize_with = "known_word")]
+    pub quantity: Word,
     /// The value.
     pub value: f64,
     /// Its unit; empty for a share.
-    pub unit: &'static str,
+    #[serde(deserialize_with = "known_word")]
+    pub unit: Word,
 }
 
 impl FaultQuantity {

@@ -1,6 +1,8 @@
 //! Where a planned move goes furthest beyond the limits of its joints: velocity, and acceleration and jerk where they are
 //! declared.
 
+use congruent_description::Elementary as _;
+
 use super::{
     course::{PlannedMove, SetpointMut, Way},
     timing::MotionLimits,
@@ -48,7 +50,7 @@ impl Rate {
         match self {
             Self::Velocity => times,
             Self::Acceleration => times.sqrt(),
-            Self::Jerk => times.cbrt(),
+            Self::Jerk => times.cube_root(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The inputs of planning a motion, and what every planned move is held against.
 
 use congruent_description::{
-    Diagnostic, RobotDescription, RobotQ,
+    Diagnostic, Elementary as _, RobotDescription, RobotQ,
     display::{quantity, quantity_in_full},
 };
 
@@ -109,7 +109,7 @@ impl Planning<'_> {
 /// Up to the next value of four digits, as people read and write it.
 fn rounded_up(duration_s: f64) -> f64 {
     // Divided by a power of ten, a whole number has the digits that it is written with.
-    let per_s = 10.0_f64.powf(3.0 - duration_s.log10().floor());
+    let per_s = 10.0_f64.to_power(3.0 - duration_s.decimal_logarithm().floor());
     (duration_s * per_s - ROUNDING).ceil() / per_s
 }
 

@@ -4,7 +4,7 @@
 //! larger than the distance between the meshes. A hull of very many points is a little smaller than its mesh
 //! ([`HullPoints`]); what it leaves out is taken off every distance.
 
-use congruent_description::{Geometry, HullPoints, Mesh, Shape};
+use congruent_description::{Elementary as _, Geometry, HullPoints, Mesh, Shape};
 use nalgebra::{Isometry3, Point3};
 use parry3d_f64::{
     math::{Pose, Rotation, Vector},
@@ -214,7 +214,7 @@ fn convex(subject: &str, geometry: &Geometry) -> Result<Option<Hull>, ProximityE
             link_from_local =
                 Pose::from_parts(Vector::ZERO, Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2));
             let upright = SharedShape::new(Cylinder::new(length_m / 2.0, *radius_m));
-            (upright, radius_m.hypot(length_m / 2.0))
+            (upright, radius_m.hypotenuse_with(length_m / 2.0))
         }
         Geometry::Sphere { radius_m } => (SharedShape::new(Ball::new(*radius_m)), *radius_m),
         Geometry::Mesh(mesh) if mesh.triangles.is_empty() => return Ok(None),

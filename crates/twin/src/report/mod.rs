@@ -3,6 +3,7 @@
 
 mod annotations;
 mod causes;
+mod earlier;
 mod fault_table;
 mod junit;
 mod run_report;
@@ -13,6 +14,7 @@ mod test_suite;
 
 pub use annotations::github_annotations;
 pub(crate) use causes::explain;
+pub use earlier::earlier_report;
 pub use fault_table::{FaultRow, FaultTable, SeenBy};
 pub use junit::write_junit;
 pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};

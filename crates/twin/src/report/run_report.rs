@@ -3,7 +3,7 @@
 use congruent_agreement::{compare::PoseSource, report::ReportedDiagnosis};
 use congruent_description::{Finding, InputFile};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     diagnosis::RunDiagnosis,
@@ -105,7 +105,7 @@ pub struct MotionTimes {
 }
 
 /// A link with the origin of its pose in the model.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LinkSource {
     /// The link.
     pub link: String,
@@ -184,6 +184,16 @@ impl RunReport {
             },
             warnings: warnings.map(Finding::from).collect(),
         }
+    }
+
+    /// The file `report.json`.
+    ///
+    /// # Errors
+    /// A value is no JSON, which none is.
+    pub fn to_json(&self) -> serde_json::Result<Vec<u8>> {
+        let mut json = serde_json::to_vec_pretty(self)?;
+        json.push(b'\n');
+        Ok(json)
     }
 
     /// The verdict as a sentence.

@@ -6,7 +6,6 @@ use std::{
 };
 
 use congruent_description::InputFile;
-use serde::Serialize;
 
 use super::{
     lock::{FolderLock, LockError},
@@ -43,9 +42,12 @@ pub enum FolderError {
     },
 }
 
+/// The file with everything that a run has found.
+pub const REPORT: &str = "report.json";
+
 /// All files that a run may write.
 const RESULTS: [&str; 11] = [
-    "report.json",
+    REPORT,
     "report.html",
     "report.html.partial",
     "junit.xml",
@@ -104,17 +106,6 @@ impl OutputFolder {
     /// [`OutputError`] where it cannot be written; the name then does not exist.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), OutputError> {
         write_whole(&self.file(name), contents)
-    }
-
-    /// Writes a document whole, as JSON.
-    ///
-    /// # Errors
-    /// [`OutputError`] where it cannot be written; the name then does not exist.
-    pub fn write_json<T: Serialize>(&self, name: &str, document: &T) -> Result<(), OutputError> {
-        let mut json =
-            serde_json::to_vec_pretty(document).map_err(|error| self.refused(name, error.into()))?;
-        json.push(b'\n');
-        self.write(name, &json)
     }
 
     /// Removes a file, unless there is none.

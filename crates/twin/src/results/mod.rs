@@ -4,5 +4,5 @@ mod folder;
 mod lock;
 mod whole_file;
 
-pub use folder::{FolderError, OutputFolder};
-pub use whole_file::{OutputError, is_same_file, write_whole};
+pub use folder::{FolderError, OutputFolder, REPORT};
+pub use whole_file::{OutputError, is_same_file, remove_unfinished_files, write_whole};

@@ -1,9 +1,11 @@
 //! Files that appear whole or not at all: each is written under a temporary name and renamed.
 
 use std::{
+    collections::BTreeSet,
     fs,
     io::{self, Write},
     path::{Path, PathBuf},
+    sync::{Mutex, MutexGuard, PoisonError},
 };
 
 /// Why a result cannot be written.
@@ -47,12 +49,31 @@ fn write_beside(path: &Path, contents: &[u8]) -> io::Result<()> {
     let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
     // A process of the same number may have been killed while it wrote.
     let _ = fs::remove_file(&temporary);
-    let mut file = fs::File::create_new(&temporary)?;
-    let written = file.write_all(contents).and_then(|()| fs::rename(&temporary, path));
-    written.inspect_err(|_| {
+    unfinished().insert(temporary.clone());
+    let written = fs::File::create_new(&temporary)
+        .and_then(|mut file| file.write_all(contents))
+        .and_then(|()| fs::rename(&temporary, path));
+    if written.is_err() {
         // The remainder is of no use; the first error is the one to report.
         let _ = fs::remove_file(&temporary);
-    })
+    }
+    unfinished().remove(&temporary);
+    written
+}
+
+/// The temporary files of this process.
+fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    static FILES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    FILES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes the temporary files of this process, which is about to end. No other is begun.
+pub fn remove_unfinished_files() {
+    let files = unfinished();
+    for file in files.iter() {
+        let _ = fs::remove_file(file);
+    }
+    std::mem::forget(files);
 }
 
 /// Whether two paths lead to one file, by links of either kind.

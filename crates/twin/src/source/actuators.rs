@@ -3,12 +3,15 @@
 use congruent_description::{Robot, display::quantity};
 use congruent_simulation::World;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::setup::ActuatorLimits;
+use crate::{
+    setup::ActuatorLimits,
+    words::{Word, known_word},
+};
 
 /// The use of one joint's actuator in a run.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ActuatorUse {
     /// The joint.
     pub joint: String,
@@ -17,7 +20,8 @@ pub struct ActuatorUse {
     /// The largest that it is allowed; `None` if it has no limit.
     pub effort_limit: Option<f64>,
     /// `N m` or `N`.
-    pub unit: &'static str,
+    #[serde(deserialize_with = "known_word")]
+    pub unit: Word,
     /// Share of the steps in which it asked for more than its largest effort.
     pub at_effort_limit: f64,
     /// Share of the steps in which it would have driven the joint faster than its largest velocity.

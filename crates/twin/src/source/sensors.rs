@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use congruent_description::RobotQ;
+use congruent_description::{Elementary as _, RobotQ};
 use congruent_simulation::MeasuredState;
 use rand_chacha::{
     ChaCha8Rng,
@@ -93,8 +93,8 @@ impl JointSensors {
 fn normal(random: &mut ChaCha8Rng) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "the upper 53 bits fit")]
     let mut uniform = || ((random.next_u64() >> 11) as f64 + 0.5) / 2.0_f64.powi(53);
-    let (radius, turn) = ((-2.0 * uniform().ln()).sqrt(), TAU * uniform());
-    radius * turn.cos()
+    let (radius, turn) = ((-2.0 * uniform().logarithm()).sqrt(), TAU * uniform());
+    radius * turn.cosine()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The sets of corrections that can be free: zeros, table entries, axes, base, tool.
 
-use congruent_description::{DhConvention, DhRowKind, DhTable, RobotQ};
+use congruent_description::{DhConvention, DhRowKind, DhTable, Elementary as _, RobotQ};
 use congruent_kinematics::{Axes, DhChain, DhRowTwists, KinematicsError, Pose, ScrewChain, Twist};
 use nalgebra::Vector3;
 
@@ -109,7 +109,7 @@ pub fn dh_entries(
         push(d, "d", at + 1, by.d);
         push(CorrectionEntry::A, "a", x_slot, by.a);
         push(CorrectionEntry::Alpha, "alpha", x_slot, by.alpha);
-        if has_neighbour && row.alpha_rad.sin().abs() < NEARLY_PARALLEL_SINE {
+        if has_neighbour && row.alpha_rad.sine().abs() < NEARLY_PARALLEL_SINE {
             let frame = &base_from_dh[x_slot];
             let y = frame.rotation.column(1).into_owned();
             push(CorrectionEntry::Beta, "beta", x_slot, Twist::turn(y, &frame.translation));

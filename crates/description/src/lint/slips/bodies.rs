@@ -10,6 +10,7 @@ use super::{
     },
 };
 use crate::{
+    Elementary as _,
     display::{length, quantity},
     model::{Inertia, LinkIndex},
     urdf::{CENTER_OF_MASS, LARGEST_PLAUSIBLE_M},
@@ -185,8 +186,8 @@ fn guess(body: &Body) -> String {
         (1.0, 1e-9, "the inertia is in kg m^2: is it in g mm^2?"),
     ];
     let off = |(mass, inertia, _): &(f64, f64, &str)| {
-        let density = body.sphere_density * mass * (mass / inertia).powf(1.5);
-        (density / USUAL_DENSITY).ln().abs()
+        let density = body.sphere_density * mass * (mass / inertia).to_power(1.5);
+        (density / USUAL_DENSITY).logarithm().abs()
     };
     let best = after.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
     best.map_or_else(String::new, |(_, _, words)| (*words).to_owned())

@@ -8,6 +8,7 @@ use super::{
     },
 };
 use crate::{
+    Elementary as _,
     display::{length, number, quantity},
     model::{Joint, JointKind},
     urdf::LARGEST_PLAUSIBLE_M,
@@ -127,6 +128,6 @@ const PLACEHOLDER_M: f64 = 1e5;
 
 /// Whether a limit is one: files write large powers of ten for "none".
 pub(super) fn is_real(limit: f64) -> bool {
-    let power = limit.abs().log10();
+    let power = limit.abs().decimal_logarithm();
     limit.is_finite() && (limit.abs() < 100.0 || (limit.abs() <= 1e5 && (power - power.round()).abs() > 1e-9))
 }

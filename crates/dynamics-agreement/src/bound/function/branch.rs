@@ -9,6 +9,8 @@
 
 use std::{cmp::Ordering, collections::BinaryHeap};
 
+use congruent_description::Elementary as _;
+
 use super::{
     speeds::Interval,
     trigonometric::{Trigonometric, Variable, along_into},
@@ -204,11 +206,11 @@ fn control_points(variable: &Variable, (lower, upper): (f64, f64)) -> Vec<Vec<f6
     let mut points = vec![variable.features(lower)];
     for arc in 0..arcs {
         let middle = lower + half * f64::from(2 * arc + 1);
-        let [first, last] = [middle - half, middle + half].map(|q| [1.0, q.cos(), q.sin()]);
-        let between = [half.cos(), middle.cos(), middle.sin()];
+        let [first, last] = [middle - half, middle + half].map(|q| [1.0, q.cosine(), q.sine()]);
+        let between = [half.cosine(), middle.cosine(), middle.sine()];
         if variable.degree == 1 {
             // Where two arcs meet, the point lies between the control points beside it: it is not needed.
-            points.push(between.map(|value| value / half.cos()).to_vec());
+            points.push(between.map(|value| value / half.cosine()).to_vec());
             continue;
         }
         let [ends, twice] = [product(&first, &last), product(&between, &between)];

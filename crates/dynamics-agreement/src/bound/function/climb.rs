@@ -4,6 +4,7 @@ use super::{
     measure::Measure,
     trigonometric::{Trigonometric, Variable},
 };
+use congruent_description::Elementary as _;
 use congruent_kinematics::Uniform;
 
 /// Random positions of which the best are climbed from. Kind: choice.
@@ -170,7 +171,7 @@ fn run_on(function: &Trigonometric, from: &[f64], q: &mut Vec<f64>, best: &mut f
 fn candidates(variable: &Variable, coefficients: &[f64]) -> Vec<f64> {
     let mut found = vec![variable.lower, variable.upper];
     if variable.turns {
-        let top = coefficients[2].atan2(coefficients[1]);
+        let top = coefficients[2].arctangent_over(coefficients[1]);
         for turns in -4..=4 {
             let q = top + f64::from(turns) * std::f64::consts::PI;
             if (variable.lower..=variable.upper).contains(&q) {

@@ -3,6 +3,8 @@
 
 use std::f64::consts::TAU;
 
+use congruent_description::Elementary as _;
+
 use super::measure::Measure;
 use crate::thresholds::NO_COEFFICIENT;
 
@@ -50,7 +52,7 @@ impl Variable {
             let x = self.scaled(q);
             return (0..self.size()).map(|power| x.powi(i32::try_from(power).unwrap_or(0))).collect();
         }
-        let waves = [1.0, q.cos(), q.sin(), (2.0 * q).cos(), (2.0 * q).sin()];
+        let waves = [1.0, q.cosine(), q.sine(), (2.0 * q).cosine(), (2.0 * q).sine()];
         waves[..self.size()].to_vec()
     }
 

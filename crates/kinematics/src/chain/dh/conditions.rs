@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use congruent_description::DhConvention;
+use congruent_description::{DhConvention, Elementary as _};
 use nalgebra::Vector3;
 
 /// How far from a right angle the two axes may be. Kind: digits of the file; ten of them, as in
@@ -41,7 +41,7 @@ impl NotADhTransform {
         origin: &Vector3<f64>,
     ) -> Result<(), Self> {
         let across = Vector3::z().cross(x);
-        let off_perpendicular_rad = x.z.abs().atan2(across.norm());
+        let off_perpendicular_rad = x.z.abs().arctangent_over(across.norm());
         // Parallel lines have no common perpendicular direction: their distance is the one to z.
         let off_meeting_m = across
             .try_normalize(f64::EPSILON)

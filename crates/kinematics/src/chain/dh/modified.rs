@@ -1,6 +1,6 @@
 //! One row of a table in the modified convention.
 
-use congruent_description::DhConvention;
+use congruent_description::{DhConvention, Elementary as _};
 use nalgebra::{Matrix3, Vector3};
 
 use super::conditions::NotADhTransform;
@@ -43,8 +43,8 @@ impl ModifiedDh {
     /// assert!((row.transform().translation - Vector3::new(0.25, -0.1, 0.)).norm() < f64::EPSILON);
     /// ```
     pub fn transform(&self) -> Pose {
-        let (st, ct) = self.theta_rad.sin_cos();
-        let (sa, ca) = self.alpha_rad.sin_cos();
+        let (st, ct) = self.theta_rad.sine_cosine();
+        let (sa, ca) = self.alpha_rad.sine_cosine();
         let rotation = Matrix3::new(
             ct,
             -st,
@@ -79,9 +79,9 @@ impl ModifiedDh {
         NotADhTransform::check(DhConvention::Modified, &x, &translation)?;
         Ok(Self {
             a_m: dh0_from_dh1.translation.x,
-            alpha_rad: (-rotation[(2, 1)]).atan2(rotation[(2, 2)]),
+            alpha_rad: (-rotation[(2, 1)]).arctangent_over(rotation[(2, 2)]),
             d_m: -translation.z,
-            theta_rad: (-x.y).atan2(x.x),
+            theta_rad: (-x.y).arctangent_over(x.x),
         })
     }
 }

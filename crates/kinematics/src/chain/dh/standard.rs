@@ -1,6 +1,6 @@
 //! One row of a table in the standard convention.
 
-use congruent_description::DhConvention;
+use congruent_description::{DhConvention, Elementary as _};
 use nalgebra::{Matrix3, Vector3};
 
 use super::conditions::NotADhTransform;
@@ -42,8 +42,8 @@ impl StandardDh {
     /// assert!((row.transform().translation - expected).norm() < f64::EPSILON);
     /// ```
     pub fn transform(&self) -> Pose {
-        let (st, ct) = self.theta_rad.sin_cos();
-        let (sa, ca) = self.alpha_rad.sin_cos();
+        let (st, ct) = self.theta_rad.sine_cosine();
+        let (sa, ca) = self.alpha_rad.sine_cosine();
         let rotation = Matrix3::new(
             ct,
             -st * ca,
@@ -83,9 +83,9 @@ impl StandardDh {
         NotADhTransform::check(DhConvention::Standard, &x, translation)?;
         Ok(Self {
             a_m: translation.x * x.x + translation.y * x.y,
-            alpha_rad: rotation[(2, 1)].atan2(rotation[(2, 2)]),
+            alpha_rad: rotation[(2, 1)].arctangent_over(rotation[(2, 2)]),
             d_m: translation.z,
-            theta_rad: x.y.atan2(x.x),
+            theta_rad: x.y.arctangent_over(x.x),
         })
     }
 }

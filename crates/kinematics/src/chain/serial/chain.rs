@@ -2,7 +2,7 @@
 //! chain was written as. For use in loops; the forms that are compared are
 //! `dh/chain.rs`, `urdf.rs` and `screws/tree.rs`.
 
-use congruent_description::{ChainQ, DhTable, LinkIndex, Robot};
+use congruent_description::{ChainQ, DhTable, Elementary as _, LinkIndex, Robot};
 use nalgebra::Vector3;
 
 use super::steps::{ChainPath, PathStep};
@@ -216,23 +216,23 @@ impl SerialRow {
     fn new(step: &PathStep, from_rad: f64, axis_from_next: &Pose) -> (Self, f64) {
         let Pose { rotation, translation } = axis_from_next;
         let (x, y) = (rotation[(0, 2)], rotation[(1, 2)]);
-        let sine = x.hypot(y);
+        let sine = x.hypotenuse_with(y);
         // Of parallel axes the split is free. Where `x` and `y` are little more than rounding any
         // direction serves as well: what `first` misses, the other two angles take up.
         let (sin, cos) = if sine < PARALLEL_RAD { (0.0, 1.0) } else { (x / sine, -y / sine) };
         let back = |v: Vector3<f64>| Vector3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z);
         let column = |at: usize| back(rotation.column(at).into_owned());
         let (next_x, next_y, next_z) = (column(0), column(1), column(2));
-        let length = next_z.y.hypot(next_z.z);
+        let length = next_z.y.hypotenuse_with(next_z.z);
         let (theta_per_q, d_per_q) = if step.turns { (step.per_q, 0.0) } else { (0.0, step.per_q) };
         let row = Self {
-            theta_rad: from_rad + sin.atan2(cos),
+            theta_rad: from_rad + sin.arctangent_over(cos),
             theta_per_q,
             d_per_q,
             shift: back(*translation),
             alpha: SinCos { sin: -next_z.y / length, cos: next_z.z / length },
         };
-        (row, (-next_y.x).atan2(next_x.x))
+        (row, (-next_y.x).arctangent_over(next_x.x))
     }
 }
 

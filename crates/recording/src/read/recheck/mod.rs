@@ -71,8 +71,10 @@ pub fn recheck(
     }
     let left_out = left_out(report);
     let replay = Replay::of(scalars, &setup, &left_out)?;
-    let lines = setup.checks().iter().map(|check| check.line).collect();
-    let mut context = Context { scalars, setup: &setup, lines, replay, is_broken, gap_s: 0.0 };
+    let checks = setup.checks();
+    let lines = checks.iter().map(|check| check.line).collect();
+    let are_default = checks.iter().map(|check| check.is_default).collect();
+    let mut context = Context { scalars, setup: &setup, lines, are_default, replay, is_broken, gap_s: 0.0 };
     context.gap_s = context.longest_gap_s();
     let mut disagreements = Vec::new();
     let checks: Vec<RecheckedCheck> = recorded
@@ -139,6 +141,8 @@ struct Context<'a> {
     setup: &'a RunSetup,
     /// Lines of the checks.
     lines: Vec<Option<usize>>,
+    /// Whether they were added to those of the scenario.
+    are_default: Vec<bool>,
     replay: Replay,
     is_broken: bool,
     gap_s: f64,
@@ -298,11 +302,10 @@ impl Context<'_> {
 
     /// The verdict of these results, by what the scenario expects.
     fn verdict(&self, checks: &[RecheckedCheck]) -> Verdict {
-        let results = checks.iter().map(|check| CheckResult {
+        let results = checks.iter().zip(&self.are_default).map(|(check, &is_default)| CheckResult {
             check: check.check,
             line: check.line,
-            // The checks of a scenario file have lines.
-            is_default: check.line.is_none(),
+            is_default,
             status: check.status,
             samples: 0,
             measures: Vec::new(),

@@ -1,6 +1,6 @@
 //! How far two links stand from what the joint between them allows, whatever its position is.
 
-use congruent_description::{Joint, JointKind, Robot};
+use congruent_description::{Elementary as _, Joint, JointKind, Robot};
 use nalgebra::Isometry3;
 
 /// The joint that carries a link, as a constraint on the poses of the two links that it joins.
@@ -39,7 +39,7 @@ impl JointConstraint {
             // About its axis it may turn as it likes: the axis itself stays.
             JointKind::Revolute | JointKind::Continuous => {
                 let turned = turn * axis_in_joint;
-                turned.cross(axis_in_joint).norm().atan2(turned.dot(axis_in_joint))
+                turned.cross(axis_in_joint).norm().arctangent_over(turned.dot(axis_in_joint))
             }
         };
         ConstraintError { offset_m, tilt_rad }

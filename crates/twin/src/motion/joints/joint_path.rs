@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use congruent_description::{Diagnostic, RobotQ, display::quantity};
+use congruent_description::{Diagnostic, Elementary as _, RobotQ, display::quantity};
 
 use super::spline::{JointSpline, SplineEnds, SplineValues};
 use crate::{
@@ -149,7 +149,7 @@ fn least_s(spline: &JointSpline, planning: &Planning<'_>) -> f64 {
         }
         true
     });
-    let jerk_s = |joint: usize| (spline.largest_third(joint) / limits.jerk[joint]).cbrt();
+    let jerk_s = |joint: usize| (spline.largest_third(joint) / limits.jerk[joint]).cube_root();
     (0..limits.jerk.len()).map(jerk_s).fold(least_s, f64::max)
 }
 

@@ -1,5 +1,6 @@
 //! A straight line or an arc of a circle between two poses; the orientation turns evenly along it.
 
+use congruent_description::Elementary as _;
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// Lengths below this are no way. A turn without a way has its angle as its length, 1 m for 1 rad.
@@ -50,7 +51,8 @@ impl Segment {
         // Seen along the normal the way from start over via to the end is anticlockwise.
         let (centre, normal) = (Point3::from(start + from_start), Unit::new_normalize(normal));
         let (out, back) = (-from_start, b - from_start);
-        let angle_rad = out.cross(&back).dot(&normal).atan2(out.dot(&back)).rem_euclid(std::f64::consts::TAU);
+        let angle_rad =
+            out.cross(&back).dot(&normal).arctangent_over(out.dot(&back)).rem_euclid(std::f64::consts::TAU);
         let radius_m = from_start.norm();
         let line = Self::line(from, to);
         Some(Self { length_m: radius_m * angle_rad, curve: Curve::Arc { centre, normal, radius_m }, ..line })

@@ -7,10 +7,10 @@
 //! target all the same. For the same reason the setpoint goes on, up to the joint limits, if an obstacle stops
 //! the arm: checks detect that, the servo does not.
 
-use congruent_description::{ArmQ, Diagnostic, Robot, RobotDescription, RobotQ};
+use congruent_description::{ArmQ, Diagnostic, Elementary as _, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::{Arm, ArmJoint, DifferentialMethod, IkSolver, KinematicsError, TargetPart};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::tcp_move;
 use crate::{
@@ -26,7 +26,7 @@ use crate::{
 pub(crate) const DEFAULT_GAIN_PER_S: f64 = 5.0;
 
 /// The result of a servo.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ServoResult {
     /// Number of the motion in the scenario, from 1.
     pub motion: usize,
@@ -107,7 +107,7 @@ impl<'a> ServoController<'a> {
         let (arm_q, method) = ((&self.measured, &self.commanded), servo.method.into());
         self.change.copy_from_slice(self.solver.change_towards(&servo.target, arm_q, method)?.change);
         // The solution of de/dt = -gain e over this time: no overshoot, whatever the gain.
-        let share = -(-servo.gain_per_s * moved_s).exp_m1();
+        let share = -(-servo.gain_per_s * moved_s).exponential_less_one();
         let joints = self.solver.arm().joints();
         let MotionLimits { velocity, declared_acceleration, .. } = self.limits;
         // An error that falls as exp(-gain t) slows down by gain times the speed.

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use congruent_description::Elementary as _;
+
 use super::{
     limits::MotionLimits,
     speed_profile::{RateLimits, SpeedProfile, Stretch},
@@ -84,7 +86,7 @@ pub(in crate::motion) fn least_time(
             let needed = |peak: f64, limit: f64| if peak.is_finite() { peak / limit } else { 0.0 };
             let duration_s = needed(velocity, limits.velocity)
                 .max(needed(acceleration, limits.acceleration).sqrt())
-                .max(needed(jerk, limits.jerk).cbrt());
+                .max(needed(jerk, limits.jerk).cube_root());
             Pace::Shape { profile, duration_s }
         }
     }))

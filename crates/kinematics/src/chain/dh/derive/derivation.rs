@@ -3,7 +3,7 @@
 //! One pass along the axes gives parameters that both conventions group differently. What the theory
 //! does not determine is chosen, and every choice is reported.
 
-use congruent_description::{DhConvention, DhRow, DhRowKind};
+use congruent_description::{DhConvention, DhRow, DhRowKind, Elementary as _};
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
@@ -208,13 +208,13 @@ impl FrameAssignment {
         let x_in_here = tip_in_here.rotation.column(0).into_owned();
         match normal.relation {
             AxisRelation::Coincident => {
-                let theta_rad = x_in_here.y.atan2(x_in_here.x);
+                let theta_rad = x_in_here.y.arctangent_over(x_in_here.x);
                 CommonNormal { theta_rad, d_m: tip_in_here.translation.z, ..normal }
             }
             AxisRelation::Parallel | AxisRelation::AntiParallel => {
                 CommonNormal { d_m: tip_in_here.translation.z, ..normal }
             }
-            _ if normal.alpha_rad.sin().abs() >= NEARLY_PARALLEL_RAD => normal,
+            _ if normal.alpha_rad.sine().abs() >= NEARLY_PARALLEL_RAD => normal,
             relation => CommonNormal { relation, theta_rad: 0.0, d_m: 0.0, a_m: 0.0, alpha_rad: 0.0 },
         }
     }

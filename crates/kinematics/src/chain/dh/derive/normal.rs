@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use congruent_description::Elementary as _;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -68,10 +69,10 @@ pub(super) fn between(base_from_here: &Pose, next: &AxisLine, parallel_rad: f64)
         if offset_m.abs() <= parallel_rad { AxisRelation::Intersecting } else { AxisRelation::Skew };
     CommonNormal {
         relation,
-        theta_rad: x.y.atan2(x.x),
+        theta_rad: x.y.arctangent_over(x.x),
         d_m: point.cross(&direction).dot(&across) / (sine * sine),
         a_m: offset_m * sense,
-        alpha_rad: sense * sine.atan2(direction.z),
+        alpha_rad: sense * sine.arctangent_over(direction.z),
     }
 }
 
@@ -79,7 +80,7 @@ pub(super) fn between(base_from_here: &Pose, next: &AxisLine, parallel_rad: f64)
 fn parallel(direction: &Vector3<f64>, point: &Vector3<f64>, parallel_m: f64) -> CommonNormal {
     let is_same_sense = direction.z > 0.0;
     let alpha_rad = if is_same_sense { 0.0 } else { PI };
-    let a_m = point.x.hypot(point.y);
+    let a_m = point.x.hypotenuse_with(point.y);
     if a_m <= parallel_m {
         return CommonNormal {
             relation: AxisRelation::Coincident,
@@ -90,5 +91,5 @@ fn parallel(direction: &Vector3<f64>, point: &Vector3<f64>, parallel_m: f64) -> 
         };
     }
     let relation = if is_same_sense { AxisRelation::Parallel } else { AxisRelation::AntiParallel };
-    CommonNormal { relation, theta_rad: point.y.atan2(point.x), d_m: 0.0, a_m, alpha_rad }
+    CommonNormal { relation, theta_rad: point.y.arctangent_over(point.x), d_m: 0.0, a_m, alpha_rad }
 }

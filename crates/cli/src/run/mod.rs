@@ -1,9 +1,9 @@
 //! `congruent run`: runs scenario files without a display.
 
+mod kept;
+
 use std::{
-    collections::BTreeMap,
     fmt::Write,
-    fs,
     path::{Path, PathBuf},
     sync::{
         Mutex,
@@ -18,8 +18,8 @@ use congruent::{
         ExecuteError, Options, RecordingFormat, RunSetup,
         diagnosis::RunDiagnosis,
         execute,
-        report::{Reason, RunReport, TestCase, TestResult, TestSuite, lines, planned_suite},
-        results::{FolderError, OutputFolder, write_whole},
+        report::{Reason, RunReport, TestCase, TestResult, TestSuite, lines},
+        results::{FolderError, write_whole},
         scenario::{CheckKind, Expectation, Override},
         source::ActuatorUse,
         verdict::{CheckResult, Status, Verdict},
@@ -27,6 +27,7 @@ use congruent::{
 };
 use serde::{Serialize, Serializer};
 
+use self::kept::{Loaded, load};
 #[cfg(feature = "recording")]
 use crate::recording::{live::LiveFormat, viewer::Viewer};
 use crate::{
@@ -52,6 +53,10 @@ pub(crate) struct Arguments {
     /// Folder for results; each scenario gets a folder of its name in it.
     #[arg(long, default_value = "out")]
     out: PathBuf,
+    /// Keep what an earlier call has left in the folder for scenarios that are finished and were made from the same files,
+    /// values and version; run the others. Index, JUnit file and summary are of all.
+    #[arg(long)]
+    resume: bool,
     /// How many scenarios run at once; as many as the machine has cores if it is left out. The results are the same.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
@@ -103,6 +108,8 @@ pub(crate) struct Ran {
     pub(crate) report: RunReport,
     /// Where its results are, or why they are not all on disk.
     pub(crate) results: Result<PathBuf, String>,
+    /// Whether it ran in an earlier call.
+    pub(crate) is_kept: bool,
 }
 
 impl Serialize for Ran {
@@ -118,6 +125,9 @@ impl BatchReport for Ran {
 
     fn text(&self) -> String {
         let results = match &self.results {
+            Ok(folder) if self.is_kept => {
+                format!("kept from an earlier call, results in {}", folder.display())
+            }
             Ok(folder) => format!("results in {}", folder.display()),
             Err(_) => "results are not all on disk".to_owned(),
         };
@@ -143,13 +153,19 @@ impl BatchReport for Ran {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let recording = recording_format(arguments, printer)?;
     let batch = Batch::begin(&arguments.scenarios, &arguments.ci, printer)?;
-    let loaded = load(arguments, &batch)?;
-    batch.plan(&loaded, planned_suite);
+    let recordings = recordings(recording.as_deref());
+    let options = Options { out: arguments.out.clone(), recordings, interrupt: None };
+    let loaded = load(arguments, &options, &batch)?;
+    batch.plan(&loaded, Loaded::suite);
     let interrupt = flag_of_signals();
     let progress = Progress::new(printer);
-    let recordings = recordings(recording.as_deref());
-    let options = Options { out: arguments.out.clone(), recordings, interrupt: Some(&interrupt) };
+    let options = Options { interrupt: Some(&interrupt), ..options };
     let answers = run_all(loaded, (arguments, &interrupt), &options, (&batch, &progress));
+    if arguments.resume {
+        let kept = answers.iter().filter(|answer| answer.report().is_ok_and(|ran| ran.is_kept)).count();
+        let note = format!("{kept} of {} kept from an earlier call", answers.len());
+        printer.notes([note.as_str()]);
+    }
     let written = write_index(&answers, &arguments.out);
     batch.finish_with_page(answers, written)
 }
@@ -180,34 +196,6 @@ fn entry(answer: &Answer<Ran>) -> IndexEntry<'_> {
     }
 }
 
-/// Reads all scenarios before the first one runs, so that a fault in the last is known at once.
-///
-/// What earlier runs have left for any of them is removed here: a call that is killed leaves no results of others.
-fn load(arguments: &Arguments, batch: &Batch<'_>) -> Result<Vec<Answer<RunSetup>>, Failure> {
-    let overrides = arguments.overrides();
-    let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
-    let access = arguments.access.access()?;
-    let mut load = |path: &PathBuf| {
-        let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation)?;
-        let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
-        if let Some(first) = folders.get(&folder) {
-            return Err(same_folder(&folder, first, path).into());
-        }
-        folders.insert(folder, path.clone());
-        let inputs: Vec<PathBuf> = setup.inputs.iter().map(|input| input.path.clone()).collect();
-        batch.reads(&inputs)?;
-        OutputFolder::create(&arguments.out, &setup.scenario.name, &setup.inputs).map_err(no_folder)?;
-        batch.warn(path, &setup.description.warnings);
-        batch.warn(path, &setup.warnings);
-        Ok(setup)
-    };
-    if arguments.scenarios.len() > 1 {
-        // That of an earlier call; if it cannot be removed, it cannot be replaced either, which is told at the end.
-        let _ = fs::remove_file(arguments.out.join(INDEX));
-    }
-    Ok(arguments.scenarios.iter().map(|path| batch.answer(path, || load(path))).collect())
-}
-
 /// Why there is no folder for results, and what to do.
 pub(crate) fn no_folder(error: FolderError) -> Failure {
     let help = match error {
@@ -220,19 +208,9 @@ pub(crate) fn no_folder(error: FolderError) -> Failure {
     Diagnostic::error("run::output", error.to_string()).with_help(help).into()
 }
 
-fn same_folder(folder: &Path, first: &Path, second: &Path) -> Diagnostic {
-    let message = format!(
-        "{} does not run, since {} writes to {} already",
-        second.display(),
-        first.display(),
-        folder.display()
-    );
-    Diagnostic::error("run::same_output", message).with_help("give the scenarios different names")
-}
-
 /// Runs scenarios on `--jobs` threads; answers are in the order of the arguments.
 fn run_all(
-    loaded: Vec<Answer<RunSetup>>,
+    loaded: Vec<Answer<Loaded>>,
     (arguments, interrupt): (&Arguments, &AtomicBool),
     options: &Options<'_>,
     (batch, progress): (&Batch<'_>, &Progress),
@@ -244,11 +222,14 @@ fn run_all(
         loop {
             let next = waiting.lock().expect("no thread panics while it takes a scenario").next();
             let Some((index, loaded)) = next else { return answers };
-            let answer = batch.go_on(loaded, |setup| {
-                if interrupt.load(Ordering::Relaxed) {
-                    return Err(Failure::Machine("interrupted before it started".to_owned()));
+            let answer = batch.go_on(loaded, |loaded| match loaded {
+                Loaded::Finished(report, folder) => {
+                    Ok(Ran { report: *report, results: Ok(folder), is_kept: true })
                 }
-                run_one(&setup, options, progress)
+                Loaded::New(_) if interrupt.load(Ordering::Relaxed) => {
+                    Err(Failure::Machine("interrupted before it started".to_owned()))
+                }
+                Loaded::New(setup) => run_one(&setup, options, progress),
             });
             batch.keep(index, &answer);
             progress.suspended(|| batch.tell(&answer));
@@ -303,10 +284,10 @@ fn recording_format(_: &Arguments, _: &Printer) -> Result<Option<Box<dyn Recordi
 pub(crate) fn run_one(setup: &RunSetup, options: &Options<'_>, progress: &Progress) -> Result<Ran, Failure> {
     let progress = progress.of_run(setup);
     match execute(setup, options, |steps| progress.steps(steps)) {
-        Ok((report, folder)) => Ok(Ran { report, results: Ok(folder.path().to_owned()) }),
+        Ok((report, folder)) => Ok(Ran { report, results: Ok(folder.path().to_owned()), is_kept: false }),
         Err(ExecuteError::Lost { report, source }) => {
             Printer::explain(setup.path.as_deref(), &Failure::Machine(source.to_string()));
-            Ok(Ran { report: *report, results: Err(source.to_string()) })
+            Ok(Ran { report: *report, results: Err(source.to_string()), is_kept: false })
         }
         Err(ExecuteError::Folder(error)) => Err(no_folder(error)),
         Err(ExecuteError::Output(error)) => Err(no_folder(error.into())),

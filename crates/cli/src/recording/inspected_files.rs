@@ -1,0 +1,101 @@
+//! A recording against the files of its run: the report beside it, and what the run was made from.
+
+use std::{fs, path::Path};
+
+use congruent::{
+    description::{Diagnostic, FileAccess, InputFile},
+    recording::{RecordingSummary, RerunFormat},
+    twin::{RecordingFormat, RunSetup, results::REPORT, scenario::Override},
+};
+use serde_json::Value;
+
+use crate::failure::{BAD_INPUT, NOTHING, worse};
+
+/// Adds what the files say: a report beside the recording must be its own.
+pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access: &FileAccess) {
+    let Some(report) = &summary.report else { return };
+    summary.changed_inputs = changed_inputs(report, access);
+    if path.file_name().is_some_and(|name| name == RerunFormat.file_name())
+        && let Ok(beside) = fs::read(path.with_file_name(REPORT))
+        && serde_json::from_slice::<Value>(&beside).ok().as_ref() != Some(report)
+    {
+        let problem = format!("{REPORT} beside the recording is not the report of its run");
+        if summary.exit_code != BAD_INPUT {
+            summary.reason.clone_from(&problem);
+        }
+        summary.exit_code = worse(summary.exit_code, BAD_INPUT);
+        summary.problems.push(problem);
+    }
+}
+
+/// A verdict about files that have changed says nothing about those that are there.
+pub(super) fn judge_inputs(summary: &mut RecordingSummary) {
+    let Some([first, others @ ..]) = summary.changed_inputs.as_deref() else { return };
+    let code = worse(summary.exit_code, NOTHING);
+    if code != summary.exit_code {
+        let more = if others.is_empty() { String::new() } else { format!(" (and {} more)", others.len()) };
+        summary.reason = format!("{first}{more}; in the run {}", summary.reason);
+        summary.exit_code = code;
+    }
+}
+
+/// The values that replaced those of the scenario file in the run.
+pub(super) fn overrides(report: &Value) -> Result<Vec<Override>, Diagnostic> {
+    let texts = report["overrides"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    texts.map(str::parse).collect()
+}
+
+/// What of the files of a run is not as it was; `None` if its scenario is not there, or names what may not be opened.
+fn changed_inputs(report: &Value, access: &FileAccess) -> Option<Vec<String>> {
+    let scenario = Path::new(report["scenario_file"].as_str()?);
+    let before: Vec<(&str, &str)> = report["inputs"]
+        .as_array()?
+        .iter()
+        .filter_map(|input| Some((input["file"].as_str()?, input["sha256"].as_str()?)))
+        .collect();
+    if !scenario.is_file() {
+        return None;
+    }
+    let setup = overrides(report)
+        .map_err(|error| vec![error])
+        .and_then(|overrides| RunSetup::load_with(scenario, &overrides, access));
+    Some(match setup {
+        Ok(setup) => differences(&before, &setup.inputs),
+        // What may not be opened here need not have changed.
+        Err(findings) if findings.iter().any(|finding| finding.code.ends_with("::outside")) => return None,
+        Err(findings) => {
+            let first = findings.first().map_or_else(String::new, |finding| format!(": {}", finding.message));
+            vec![format!("{} cannot be loaded as it is now{first}", scenario.display())]
+        }
+    })
+}
+
+fn differences(before: &[(&str, &str)], now: &[InputFile]) -> Vec<String> {
+    let found = |file: &str| now.iter().find(|input| input.file == file);
+    let old = before.iter().filter_map(|&(file, sha256)| match found(file) {
+        None => Some(format!("{file} is not read any more")),
+        Some(input) if input.sha256 != sha256 => Some(format!("{file} has changed since the run")),
+        Some(_) => None,
+    });
+    let new = now.iter().filter(|input| !before.iter().any(|&(file, _)| file == input.file));
+    old.chain(new.map(|input| format!("{} was not read in the run", input.file))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_difference_is_told() {
+        let input = |file: &str, sha256: &str| InputFile {
+            file: file.to_owned(),
+            sha256: sha256.to_owned(),
+            path: file.into(),
+        };
+        let now = [input("same", "1"), input("edited", "3"), input("new", "4")];
+        let found = differences(&[("same", "1"), ("edited", "2"), ("gone", "5")], &now);
+        let expected =
+            ["edited has changed since the run", "gone is not read any more", "new was not read in the run"];
+        assert_eq!(found, expected);
+    }
+}

@@ -1,0 +1,106 @@
+//! The scenarios of a call before they run, and those that `--resume` need not run again.
+
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use congruent::{
+    description::Diagnostic,
+    twin::{
+        Options, RunSetup, finished,
+        report::{RunReport, TestSuite, planned_suite},
+        results::OutputFolder,
+    },
+};
+
+use super::{Arguments, INDEX, no_folder};
+use crate::{
+    batch::{Answer, Batch},
+    failure::Failure,
+};
+
+/// A scenario that was read.
+pub(super) enum Loaded {
+    /// It is to run.
+    New(Box<RunSetup>),
+    /// It has run in an earlier call: the report and the folder of its results.
+    Finished(Box<RunReport>, PathBuf),
+}
+
+impl Loaded {
+    /// What the JUnit file says of it until it has run.
+    pub(super) fn suite(&self) -> TestSuite {
+        match self {
+            Self::New(setup) => planned_suite(setup),
+            Self::Finished(report, _) => report.test_suite(),
+        }
+    }
+}
+
+/// Reads all scenarios before the first one runs, so that a fault in the last is known at once.
+///
+/// What earlier runs have left for any of them is removed here, unless it is kept: a call that is killed leaves no results
+/// of others.
+pub(super) fn load(
+    arguments: &Arguments,
+    options: &Options<'_>,
+    batch: &Batch<'_>,
+) -> Result<Vec<Answer<Loaded>>, Failure> {
+    let overrides = arguments.overrides();
+    let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
+    let access = arguments.access.access()?;
+    let mut load = |path: &PathBuf| {
+        let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation)?;
+        let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
+        if let Some(first) = folders.get(&folder) {
+            return Err(same_folder(&folder, first, path).into());
+        }
+        folders.insert(folder, path.clone());
+        let inputs: Vec<PathBuf> = setup.inputs.iter().map(|input| input.path.clone()).collect();
+        batch.reads(&inputs)?;
+        let earlier = arguments.resume.then(|| finished(&setup, options)).flatten();
+        let earlier = earlier.filter(|(_, folder)| is_intact(folder, options));
+        if earlier.is_none() {
+            OutputFolder::create(&arguments.out, &setup.scenario.name, &setup.inputs).map_err(no_folder)?;
+        }
+        batch.warn(path, &setup.description.warnings);
+        batch.warn(path, &setup.warnings);
+        Ok(match earlier {
+            Some((report, folder)) => Loaded::Finished(Box::new(report), folder),
+            None => Loaded::New(Box::new(setup)),
+        })
+    };
+    if arguments.scenarios.len() > 1 {
+        // That of an earlier call; if it cannot be removed, it cannot be replaced either, which is told at the end.
+        let _ = fs::remove_file(arguments.out.join(INDEX));
+    }
+    Ok(arguments.scenarios.iter().map(|path| batch.answer(path, || load(path))).collect())
+}
+
+fn same_folder(folder: &Path, first: &Path, second: &Path) -> Diagnostic {
+    let message = format!(
+        "{} does not run, since {} writes to {} already",
+        second.display(),
+        first.display(),
+        folder.display()
+    );
+    Diagnostic::error("run::same_output", message).with_help("give the scenarios different names")
+}
+
+/// Whether the recording of an earlier call is as it was written, if this call wants one.
+#[cfg(feature = "recording")]
+fn is_intact(folder: &Path, options: &Options<'_>) -> bool {
+    use congruent::{recording::RerunFormat, twin::RecordingFormat};
+    let name = RerunFormat.file_name();
+    let is_wanted = options.recordings.iter().any(|format| format.file_name() == name);
+    let inspected = || congruent::recording::inspect(&folder.join(name));
+    !is_wanted || inspected().is_ok_and(|summary| summary.problems.is_empty())
+}
+
+/// Without the feature there are no recordings.
+#[cfg(not(feature = "recording"))]
+fn is_intact(_: &Path, _: &Options<'_>) -> bool {
+    true
+}
