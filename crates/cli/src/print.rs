@@ -3,7 +3,7 @@
 
 use std::{
     fmt::Write as _,
-    io::{self, IsTerminal, Write},
+    io::{self, BufWriter, IsTerminal, Write},
     path::Path,
     sync::OnceLock,
 };
@@ -15,9 +15,10 @@ use serde::Serialize;
 
 use crate::{
     failure::Failure,
+    json_output::write_json,
     layout::{columns, fitted},
     status_colour::with_coloured_status,
-    terminal_text::{Colours, for_people, for_programs, shown, with_visible_lines},
+    terminal_text::{Colours, for_people, shown, with_visible_lines},
 };
 
 /// How results are printed.
@@ -158,16 +159,17 @@ impl Printer {
         document: &T,
         text: impl FnOnce(&T) -> String,
     ) -> Result<(), Failure> {
-        let printed = match self.format {
-            Format::Human => for_people(&text(document), colours()),
-            Format::Json | Format::Sarif => {
-                let mut json = serde_json::to_string(document).map_err(machine)?;
-                json.push('\n');
-                for_programs(&json).into_owned()
+        let mut out = BufWriter::new(io::stdout().lock());
+        let written = match self.format {
+            Format::Human => {
+                let colours = colours();
+                let text = text(document);
+                let mut lines = text.split_inclusive('\n');
+                lines.try_for_each(|line| out.write_all(for_people(line, colours).as_bytes()))
             }
+            Format::Json | Format::Sarif => write_json(document, &mut out),
         };
-        let mut out = io::stdout().lock();
-        match out.write_all(printed.as_bytes()).and_then(|()| out.flush()) {
+        match written.and_then(|()| out.flush()) {
             // `congruent ... | head` is not a failure.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
             result => result.map_err(machine),
