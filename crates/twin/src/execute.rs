@@ -42,9 +42,8 @@ pub trait RecordingFormat: Sync {
     /// Name of the file in the folder of the scenario.
     fn file_name(&self) -> &'static str;
 
-    /// Whether a file that could not be completed can be read as far as it goes. Then it is kept, under a name that ends in
-    /// `.partial`.
-    fn is_readable_in_part(&self) -> bool;
+    /// What becomes of a file that could not be completed.
+    fn if_incomplete(&self) -> IfIncomplete;
 
     /// Creates the file of a run that is about to start.
     ///
@@ -128,7 +127,7 @@ pub fn execute(
     let sources = run.model().sources().to_vec();
     let mut recordings = Vec::new();
     for format in &options.recordings {
-        let file = StreamedFile::new(format.file_name(), format.is_readable_in_part());
+        let file = StreamedFile::new(format.file_name(), format.if_incomplete());
         recordings.push((format.begin(&folder.file(&file.partial), &run)?, file));
     }
     let mut trajectory = Trajectory::begin(&folder, &run)?;
@@ -140,13 +139,13 @@ pub fn execute(
     let mut files = Vec::new();
     if let Some(Trajectory { file, recorder }) = trajectory {
         let closed = recorder.finish();
-        files.push((file, closed.is_ok()));
+        files.push(file.closed(&closed));
         result = result.and(closed.map_err(RunError::from));
     }
     let mut report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
     for (recording, file) in recordings {
         let closed = recording.finish(&report);
-        files.push((file, closed.is_ok()));
+        files.push(file.closed(&closed));
         if let Err(error) = closed {
             // The error of the run is reported before an error of the recording that follows from it.
             result = result.and(Err(error.into()));
@@ -160,12 +159,8 @@ pub fn execute(
 }
 
 /// Gives complete files their names and writes the report. Each is tried, even if another has failed.
-fn settle(
-    files: &[(StreamedFile, bool)],
-    folder: &OutputFolder,
-    report: &RunReport,
-) -> Result<(), OutputError> {
-    let settled = files.iter().map(|(file, is_complete)| file.settle(folder, *is_complete));
+fn settle(files: &[StreamedFile], folder: &OutputFolder, report: &RunReport) -> Result<(), OutputError> {
+    let settled = files.iter().map(|file| file.settle(folder));
     let settled: Result<(), OutputError> = settled.collect::<Vec<_>>().into_iter().collect();
     let write = || {
         let written = write_report(folder, report);
@@ -173,11 +168,11 @@ fn settle(
     };
     let written = write().or_else(|error| {
         // On a full disk what is incomplete takes the space of the report, which matters more.
-        let mut incomplete = files.iter().filter(|(_, is_complete)| !is_complete).peekable();
+        let mut incomplete = files.iter().filter(|file| !file.is_complete).peekable();
         if incomplete.peek().is_none() {
             return Err(error);
         }
-        incomplete.try_for_each(|(file, _)| folder.remove(&file.partial))?;
+        incomplete.try_for_each(|file| folder.remove(&file.partial))?;
         write()
     });
     settled.and(written)
@@ -188,25 +183,40 @@ fn write_report(folder: &OutputFolder, report: &RunReport) -> Result<(), OutputE
     folder.write(REPORT, &report.to_json().map_err(refused)?)
 }
 
+/// What becomes of a file that could not be completed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum IfIncomplete {
+    /// It can be read as far as it goes: it is kept, under a name that ends in `.partial`.
+    Keep,
+    /// It is of no use.
+    Remove,
+}
+
 /// A file that is written during the run, under a temporary name.
 #[derive(Debug, Clone)]
 struct StreamedFile {
     partial: String,
     name: &'static str,
-    is_readable_in_part: bool,
+    if_incomplete: IfIncomplete,
+    is_complete: bool,
 }
 
 impl StreamedFile {
-    fn new(name: &'static str, is_readable_in_part: bool) -> Self {
-        Self { partial: format!("{name}.partial"), name, is_readable_in_part }
+    fn new(name: &'static str, if_incomplete: IfIncomplete) -> Self {
+        Self { partial: format!("{name}.partial"), name, if_incomplete, is_complete: false }
     }
 
-    /// Gives the file its name if it is complete. Otherwise it keeps the other one, or is removed if it is of no use.
-    fn settle(&self, folder: &OutputFolder, is_complete: bool) -> Result<(), OutputError> {
-        match (is_complete, self.is_readable_in_part) {
-            (true, _) => folder.publish(&self.partial, self.name),
-            (false, true) => Ok(()),
-            (false, false) => folder.remove(&self.partial),
+    /// The file after its end was written, or could not be.
+    fn closed(self, end: &Result<(), RecordingError>) -> Self {
+        Self { is_complete: end.is_ok(), ..self }
+    }
+
+    /// Gives the file its name if it is complete.
+    fn settle(&self, folder: &OutputFolder) -> Result<(), OutputError> {
+        match self.if_incomplete {
+            _ if self.is_complete => folder.publish(&self.partial, self.name),
+            IfIncomplete::Keep => Ok(()),
+            IfIncomplete::Remove => folder.remove(&self.partial),
         }
     }
 }
@@ -227,8 +237,12 @@ impl Trajectory {
 
     fn begin(folder: &OutputFolder, run: &Run<'_>) -> Result<Option<Self>, RecordingError> {
         let Some(format) = run.setup().scenario.output.trajectory else { return Ok(None) };
-        // Parquet has its index at its end.
-        let file = StreamedFile::new(Self::file_name(format), format == TrajectoryFormat::Csv);
+        let if_incomplete = match format {
+            TrajectoryFormat::Csv => IfIncomplete::Keep,
+            // It has its index at its end.
+            TrajectoryFormat::Parquet => IfIncomplete::Remove,
+        };
+        let file = StreamedFile::new(Self::file_name(format), if_incomplete);
         let recorder = TrajectoryRecorder::create(&folder.file(&file.partial), format, run)?;
         Ok(Some(Self { file, recorder }))
     }

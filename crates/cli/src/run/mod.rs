@@ -69,6 +69,18 @@ pub(crate) struct Arguments {
     /// Use this seed instead of the scenario's; the same as --set seed=N.
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX.unsigned_abs()))]
     seed: Option<u64>,
+    #[command(flatten)]
+    #[cfg_attr(not(feature = "recording"), expect(dead_code, reason = "without the feature there is none"))]
+    recording: RecordingArguments,
+    #[command(flatten)]
+    ci: CiArguments,
+    #[command(flatten)]
+    access: AccessArguments,
+}
+
+/// What becomes of the recording.
+#[derive(Debug, clap::Args)]
+struct RecordingArguments {
     /// Write no recording.
     #[arg(long)]
     #[cfg_attr(not(feature = "recording"), expect(dead_code, reason = "without the feature there is none"))]
@@ -79,10 +91,6 @@ pub(crate) struct Arguments {
     #[cfg(feature = "recording")]
     #[arg(long, conflicts_with = "no_recording")]
     view: bool,
-    #[command(flatten)]
-    ci: CiArguments,
-    #[command(flatten)]
-    access: AccessArguments,
 }
 
 fn parse_override(text: &str) -> Result<Override, String> {
@@ -258,10 +266,10 @@ fn recording_format(
     arguments: &Arguments,
     printer: &Printer,
 ) -> Result<Option<Box<dyn RecordingFormat>>, Failure> {
-    if arguments.no_recording {
+    if arguments.recording.no_recording {
         return Ok(None);
     }
-    if !arguments.view {
+    if !arguments.recording.view {
         return Ok(Some(Box::new(congruent::recording::RerunFormat)));
     }
     if arguments.scenarios.len() > 1 {
