@@ -136,46 +136,48 @@ pub fn execute(
     recorders.0.extend(trajectory.as_mut().map(|trajectory| &mut trajectory.recorder as &mut dyn Recorder));
     let (mut outcome, mut result) = run.finish(&mut checks, &mut recorders, progress);
     explain(setup, &mut outcome);
-    let mut files = Vec::new();
+    let mut settled = Vec::new();
     if let Some(Trajectory { file, recorder }) = trajectory {
         let closed = recorder.finish();
-        files.push(file.closed(&closed));
+        settled.push(file.settle(&folder, &closed));
         result = result.and(closed.map_err(RunError::from));
     }
     let mut report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
     for (recording, file) in recordings {
         let closed = recording.finish(&report);
-        files.push(file.closed(&closed));
+        settled.push(file.settle(&folder, &closed));
         if let Err(error) = closed {
             // The error of the run is reported before an error of the recording that follows from it.
             result = result.and(Err(error.into()));
             report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
         }
     }
-    match settle(&files, &folder, &report) {
+    match write_results(settled, &folder, &report) {
         Ok(()) => Ok((report, folder)),
         Err(source) => Err(ExecuteError::Lost { report: Box::new(report), source }),
     }
 }
 
-/// Gives complete files their names and writes the report. Each is tried, even if another has failed.
-fn settle(files: &[StreamedFile], folder: &OutputFolder, report: &RunReport) -> Result<(), OutputError> {
-    let settled = files.iter().map(|file| file.settle(folder));
-    let settled: Result<(), OutputError> = settled.collect::<Vec<_>>().into_iter().collect();
+/// Writes the report, whatever became of the other files.
+fn write_results(
+    settled: Vec<Settled>,
+    folder: &OutputFolder,
+    report: &RunReport,
+) -> Result<(), OutputError> {
     let write = || {
         let written = write_report(folder, report);
         written.and(write_junit(&folder.file("junit.xml"), &[report.test_suite()]))
     };
     let written = write().or_else(|error| {
         // On a full disk what is incomplete takes the space of the report, which matters more.
-        let mut incomplete = files.iter().filter(|file| !file.is_complete).peekable();
+        let mut incomplete = settled.iter().filter_map(|file| file.incomplete.as_ref()).peekable();
         if incomplete.peek().is_none() {
             return Err(error);
         }
-        incomplete.try_for_each(|file| folder.remove(&file.partial))?;
+        incomplete.try_for_each(|partial| folder.remove(partial))?;
         write()
     });
-    settled.and(written)
+    settled.into_iter().try_for_each(|file| file.result).and(written)
 }
 
 fn write_report(folder: &OutputFolder, report: &RunReport) -> Result<(), OutputError> {
@@ -198,25 +200,28 @@ struct StreamedFile {
     partial: String,
     name: &'static str,
     if_incomplete: IfIncomplete,
-    is_complete: bool,
+}
+
+/// What became of a [`StreamedFile`].
+struct Settled {
+    /// Its name if it is incomplete and was kept.
+    incomplete: Option<String>,
+    result: Result<(), OutputError>,
 }
 
 impl StreamedFile {
     fn new(name: &'static str, if_incomplete: IfIncomplete) -> Self {
-        Self { partial: format!("{name}.partial"), name, if_incomplete, is_complete: false }
+        Self { partial: format!("{name}.partial"), name, if_incomplete }
     }
 
-    /// The file after its end was written, or could not be.
-    fn closed(self, end: &Result<(), RecordingError>) -> Self {
-        Self { is_complete: end.is_ok(), ..self }
-    }
-
-    /// Gives the file its name if it is complete.
-    fn settle(&self, folder: &OutputFolder) -> Result<(), OutputError> {
+    /// Gives the file its name if it is complete, at once: the page links to files that are there.
+    fn settle(self, folder: &OutputFolder, closed: &Result<(), RecordingError>) -> Settled {
         match self.if_incomplete {
-            _ if self.is_complete => folder.publish(&self.partial, self.name),
-            IfIncomplete::Keep => Ok(()),
-            IfIncomplete::Remove => folder.remove(&self.partial),
+            _ if closed.is_ok() => {
+                Settled { incomplete: None, result: folder.publish(&self.partial, self.name) }
+            }
+            IfIncomplete::Keep => Settled { incomplete: Some(self.partial), result: Ok(()) },
+            IfIncomplete::Remove => Settled { incomplete: None, result: folder.remove(&self.partial) },
         }
     }
 }
