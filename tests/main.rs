@@ -37,6 +37,7 @@ mod interruptions;
 mod jacobian_goldens;
 mod lint;
 mod lint_broken;
+mod long_chains;
 mod machine_faults;
 mod mimics;
 mod new_files;
