@@ -104,7 +104,7 @@ fn robot_files_scenarios_and_srdfs_are_linted() {
     }
     assert!(codes("s.toml").contains(&"toml::unknown_key".to_owned()), "{:?}", codes("s.toml"));
     assert_eq!(codes("r.srdf"), ["srdf::unknown_link"]);
-    assert_eq!(codes("data.csv"), ["measurements::nothing_measured", "measurements::unknown_column"]);
+    assert_eq!(codes("data.csv"), ["measurements::unknown_column"; 2]);
 }
 
 #[test]
@@ -161,7 +161,9 @@ fn safe_corrections_are_shown_and_written() {
 fn sarif(arguments: &[&str]) -> (i32, Value) {
     let answer = congruent(&[&["lint", "--format", "sarif"], arguments].concat());
     let document = answer.json();
-    let schema: Value = serde_json::from_str(include_str!("sarif/sarif-schema-2.1.0.json")).unwrap();
+    let mut schema: Value = serde_json::from_str(include_str!("sarif/sarif-schema-2.1.0.json")).unwrap();
+    // Its pattern has a bracket that nothing opens, which the crate refuses; no language is written here.
+    schema["definitions"]["run"]["properties"]["language"].as_object_mut().unwrap().remove("pattern");
     let schema = jsonschema::draft7::options().should_validate_formats(true).build(&schema).unwrap();
     let faults: Vec<String> =
         schema.iter_errors(&document).map(|error| format!("{}: {error}", error.instance_path())).collect();
@@ -324,7 +326,7 @@ fn an_element_that_is_open_is_shown_where_it_begins_and_where_the_file_ends() {
     assert_eq!((&open["line"], &open["related"]["line"]), (&8.into(), &4.into()), "{open:#}");
     let shown = congruent(&["lint", &folder.text("j.urdf")]).stdout;
     assert!(
-        shown.contains("<joint> is opened here") && shown.contains("</joint> is expected here"),
+        shown.contains("<joint> is opened here") && shown.contains("</robot> where </joint> is expected"),
         "{shown}"
     );
 }

@@ -111,7 +111,7 @@ fn check(text: &str) -> Result<(), Diagnostic> {
             }
             Token::ElementEnd { end: ElementEnd::Close(_, local), span } => match open.pop() {
                 Some(element) if element.tag != local.as_str() => {
-                    return Err(not_closed(&element, text).at(span.range()));
+                    return Err(not_closed(&element, local.as_str(), text).at(span.range()));
                 }
                 _ => {}
             },
@@ -190,10 +190,11 @@ fn malformed(error: &xmlparser::Error, text: &str, open: &[OpenElement<'_>]) -> 
 }
 
 /// Another closing tag where that of an element is expected.
-fn not_closed(element: &OpenElement<'_>, text: &str) -> Diagnostic {
+fn not_closed(element: &OpenElement<'_>, found: &str, text: &str) -> Diagnostic {
     let named = element.name.map_or_else(String::new, |name| format!(" \"{name}\""));
     let (tag, line) = (element.tag, line_column(text, element.start).0);
-    let message = format!("</{tag}> is expected here: <{tag}>{named} of line {line} is not closed");
+    let message =
+        format!("</{found}> where </{tag}> is expected: <{tag}>{named} of line {line} is not closed");
     Diagnostic::error("xml::malformed", message)
         .related_to(element.opening(), format!("<{tag}> is opened here"))
         .with_help(format!("close <{tag}> before, or correct the name of one of the two tags"))
@@ -271,7 +272,7 @@ mod tests {
             "<joint> \"j\", opened in line 1, is not closed",
         );
         refused("<r>", "xml::truncated", "<r>, opened in line 1, is not closed");
-        refused("<r>\n<a></r>", "xml::malformed", "</a> is expected here: <a> of line 2 is not closed");
+        refused("<r>\n<a></r>", "xml::malformed", "</r> where </a> is expected: <a> of line 2 is not closed");
         refused("<r><a b=></a></r>", "xml::malformed", "invalid attribute");
     }
 

@@ -19,10 +19,10 @@ const ROBOT_FILE: &str = "robot.toml";
 /// What is known beside a file: the other files of the call, and what may be opened.
 type Beside<'a> = (&'a [PathBuf], &'a FileAccess);
 
-/// The robots among the files of a call.
+/// The robots among the files of a call. What comes from a pipe can be read once, so none of these is one.
 fn robots<'a>(path: &'a Path, (others, access): Beside<'a>) -> impl Iterator<Item = &'a PathBuf> {
     let is_robot = move |other: &&PathBuf| {
-        let is_other = other.as_path() != path;
+        let is_other = other.as_path() != path && (other.is_file() || other.is_dir());
         let opened = is_other.then(|| FileToLint::open(other, &access.fresh()));
         opened.is_some_and(|file| {
             file.is_ok_and(|file| matches!(file.kind, FileKind::Urdf | FileKind::RobotFile))
@@ -31,8 +31,8 @@ fn robots<'a>(path: &'a Path, (others, access): Beside<'a>) -> impl Iterator<Ite
     others.iter().filter(is_robot)
 }
 
-/// The robot of an SRDF: that of the same name in the call, else the only one of the call, else one of the same name in the
-/// same folder. If there is none, the finding that says so.
+/// The robot of an SRDF: that of the same name in the call, else in the same folder, else the only one of the call. If there
+/// is none, the finding that says so.
 pub(super) fn robot_of_srdf(
     path: &Path,
     source: &Arc<SourceFile>,
@@ -44,12 +44,13 @@ pub(super) fn robot_of_srdf(
     if let Some(same) = given.iter().position(|robot| robot.name() == name) {
         return Ok(given.swap_remove(same));
     }
-    if given.len() == 1 {
-        return Ok(given.swap_remove(0));
-    }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if let Some(robot) = urdfs_named(&name, folder).iter().find_map(|path| load(path)) {
         return Ok(robot);
+    }
+    // Of another name, which is told.
+    if given.len() == 1 {
+        return Ok(given.swap_remove(0));
     }
     let message = format!(
         "the names of links and joints are not checked: no URDF of robot \"{name}\" that can be read is beside the SRDF"
@@ -79,7 +80,7 @@ pub(super) fn robot_of_table(path: &Path, beside: Beside<'_>) -> Result<RobotDes
     let file = path.with_file_name(ROBOT_FILE);
     let robot = match given[..] {
         [only] => only,
-        [] if file.is_file() => &file,
+        _ if file.is_file() => &file,
         _ => {
             let how_many = if given.is_empty() { "no robot is" } else { "several robots are" };
             let message = format!("{how_many} given with {}, so its joints are not known", path.display());

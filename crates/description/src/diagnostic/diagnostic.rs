@@ -226,7 +226,7 @@ impl miette::Diagnostic for Diagnostic {
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let own = LabeledSpan::underline(self.span.clone()?);
+        let own = LabeledSpan::new_primary_with_span(None, self.span.clone()?);
         let related = self.kind.related.as_ref().and_then(|related| {
             Some(LabeledSpan::new_with_span(Some(related.message.clone()), related.span.clone()?))
         });

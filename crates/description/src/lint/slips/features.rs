@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::thresholds::LARGEST_MARKER_M;
+use super::thresholds::{LARGEST_MARKER_M, LEAST_BODY_KG};
 use crate::model::{Geometry, Inertia, LinkIndex, Robot, Shape};
 
 /// An axis-aligned box in the frame of a link.
@@ -138,10 +138,12 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// `None` without a mass above zero or a tensor other than zero.
+    /// `None` without the mass of a body or a tensor other than zero, and of the tensor 1 kg m^2 about every axis, which
+    /// examples have: what is too large in it is told when it is read, and is no slip of a unit.
     pub(super) fn of(link: LinkIndex, inertia: &Inertia, shapes: Option<Extent>) -> Option<Self> {
         let trace = inertia.tensor_kg_m2.trace();
-        if !(inertia.mass_kg > 0.0 && trace > 0.0) {
+        let is_example = inertia.tensor_kg_m2 == nalgebra::Matrix3::identity();
+        if !(inertia.mass_kg >= LEAST_BODY_KG && trace > 0.0) || is_example {
             return None;
         }
         let gyration_m = (trace / 3.0 / inertia.mass_kg).sqrt();
