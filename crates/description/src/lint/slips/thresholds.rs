@@ -59,7 +59,7 @@ pub(super) const FASTEST_TURN_RAD_S: f64 = 55.0;
 pub(super) const FASTEST_CONTINUOUS_RAD_S: f64 = 120.0;
 /// The same for the median of the turning joints of a robot, of any kind.
 pub(super) const MEDIAN_TURN_RAD_S: f64 = 45.0;
-/// Speed of a joint with a range against the median of the robot's turning joints. Seen: up to 5, of wrists and fingers.
+/// Speed of a joint with a range against the median of the robot's turning joints. Seen: up to 2.7.
 pub(super) const MOST_SPEED_TO_MEDIAN: f64 = 15.0;
 /// Slower joints are judged by no other value.
 pub(super) const LEAST_FAST_RAD_S: f64 = 20.0;
