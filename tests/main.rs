@@ -54,6 +54,7 @@ mod scenarios;
 mod schemas;
 mod servo;
 mod snapshots;
+mod special_inputs;
 mod suggestions;
 mod terminal;
 mod trajectories;
