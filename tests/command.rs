@@ -57,6 +57,11 @@ pub(crate) fn congruent_in_path<S: AsRef<OsStr>>(arguments: &[S], path: &Path) -
     answer(&allowing(arguments).env("PATH", path).output().expect("the command starts"))
 }
 
+/// The same in another folder.
+pub(crate) fn congruent_in<S: AsRef<OsStr>>(folder: &Path, arguments: &[S]) -> Answer {
+    answer(&allowing(arguments).current_dir(folder).output().expect("the command starts"))
+}
+
 /// The command, which may open the robots of the workspace and of the corpus.
 pub(crate) fn allowing<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
     let mut command = command(arguments);

@@ -109,8 +109,7 @@ impl CiArguments {
 pub(crate) fn in_repository(mut suite: TestSuite) -> TestSuite {
     let Some(top) = top_of_repository() else { return suite };
     for place in suite.cases.iter_mut().filter_map(|case| case.place.as_mut()) {
-        let file = Path::new(&place.file).canonicalize();
-        if let Some(inside) = file.as_deref().ok().and_then(|file| file.strip_prefix(&top).ok()) {
+        if let Some(inside) = inside(Path::new(&place.file), &top) {
             let parts: Vec<_> = inside.iter().map(|part| part.to_string_lossy()).collect();
             place.file = parts.join("/");
         }
@@ -118,7 +117,13 @@ pub(crate) fn in_repository(mut suite: TestSuite) -> TestSuite {
     suite
 }
 
-fn top_of_repository() -> Option<PathBuf> {
+/// A file by its path from a folder; `None` if it is not in it.
+pub(crate) fn inside(file: &Path, folder: &Path) -> Option<PathBuf> {
+    file.canonicalize().ok()?.strip_prefix(folder).ok().map(Path::to_owned)
+}
+
+/// The top of the repository that a call is made in.
+pub(crate) fn top_of_repository() -> Option<PathBuf> {
     let stated = CLONES.into_iter().filter_map(std::env::var_os).map(PathBuf::from);
     let current = std::env::current_dir().ok()?;
     let above = current.ancestors().find(|folder| folder.join(".git").exists()).map(Path::to_owned);

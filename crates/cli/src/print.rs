@@ -9,7 +9,7 @@ use std::{
 };
 
 use clap::ValueEnum;
-use congruent::description::{Diagnostic, Finding, serde_name, visible};
+use congruent::description::{Diagnostic, Finding, SourceFile, serde_name, visible};
 use miette::{GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
 
@@ -338,6 +338,13 @@ fn shortened(finding: &Diagnostic) -> Diagnostic {
     }
     clip(&mut shortened.message);
     shortened.help.as_mut().map(clip);
+    let is_related_long = |source: &SourceFile| {
+        let span = shortened.kind.related.as_ref().and_then(|related| related.span.as_ref());
+        span.is_some_and(|span| snippet_bytes(&source.text, span) > LONGEST_SNIPPET)
+    };
+    if finding.source.as_deref().is_some_and(is_related_long) {
+        shortened.kind.related = None;
+    }
     if let (Some(source), Some(span), Some((line, column))) =
         (&finding.source, &finding.span, finding.line_column())
         && snippet_bytes(&source.text, span) > LONGEST_SNIPPET

@@ -103,7 +103,15 @@ pub(crate) fn with_visible_lines(mut finding: Diagnostic) -> Diagnostic {
     let (Some(source), Some(span)) = (&finding.source, &finding.span) else { return finding };
     let shown = lines_around(&source.text, span);
     let is_obeyed = |c: char| is_hidden(c) && c != '\n' && c != '\t';
-    if !source.text[shown.clone()].contains(is_obeyed) {
+    let related = finding.kind.related.as_ref().and_then(|related| related.span.as_ref());
+    let is_related_plain =
+        related.is_none_or(|span| !source.text[lines_around(&source.text, span)].contains(is_obeyed));
+    let is_plain = !source.text[shown.clone()].contains(is_obeyed);
+    if !(is_plain && is_related_plain) {
+        // The message names its line.
+        finding.kind.related = None;
+    }
+    if is_plain {
         return finding;
     }
     let before = source.text[..shown.start].matches('\n').count();

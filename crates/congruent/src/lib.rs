@@ -31,7 +31,7 @@ pub use check::{
 };
 #[cfg(feature = "recording")]
 pub use joint_sweep::{JointSweep, SweepError, SweptJoint, joint_sweep};
-pub use lint::{LintFinding, LintFix, LintReport, LintVerdict, lint};
+pub use lint::{LintFinding, LintFix, LintReport, LintVerdict, lint, lint_among};
 pub use run_comparison::{NotComparable, RunComparison, compare_runs};
 pub use with_physics::{forward, joint_dynamics};
 

@@ -40,8 +40,11 @@ pub use diagnostic::{
 pub use edits::{ChangedLines, TextEdit, changed_lines, edited};
 pub use elementary::Elementary;
 pub use files::{FileAccess, InputFile, RosPackages, is_standard_input, read_text};
-pub use lint::{FileKind, IgnoredFinding, Ignores, SafeFix, safe_fixes, unit_slips};
-pub use load::{load_robot, load_robot_with, parse_robot};
+pub use lint::{
+    FileKind, FileToLint, IgnoredFinding, Ignores, SafeFix, examine_srdf, robot_name, safe_fixes,
+    safe_robot_file_fixes, unit_slips, zero_limits,
+};
+pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
 pub use mesh::{HullPoints, read_mesh};
 pub use model::{
     ArmQ, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
@@ -53,7 +56,6 @@ pub use robot_file::{
     InertialPoint, RobotFilePlaces, RowKey, ValuePlace, dh_section, relative_path, robot_file_schema,
     robot_file_text, robot_file_values, toml_key, toml_string,
 };
-pub use srdf::{SRDF_BYTES, examine as examine_srdf};
 pub use urdf::{UrdfPlaces, parse_urdf, urdf_text};
 pub use visible::{hidden_character, is_hidden, visible, visible_lines};
 pub use written::{

@@ -55,26 +55,52 @@ pub fn load_robot_with(path: &Path, access: &FileAccess) -> Result<RobotDescript
 }
 
 fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
-    let name = path.display();
-    if path.is_dir() {
-        let robot_file = path.join(ROBOT_FILE);
-        if !robot_file.exists() {
-            let message = format!("{name} is a directory without a {ROBOT_FILE}");
-            return Err(vec![Diagnostic::error("load::no_robot_file", message).with_help(ACCEPTED)]);
-        }
-        return load_robot_file(&robot_file, access);
-    }
-    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        load_robot_file(path, access)
-    } else {
-        load_bare_urdf(path, access)
-    }
+    let path = file_of_robot(path)?;
+    let most_bytes = if is_toml(&path) { ROBOT_FILE_BYTES } else { URDF_BYTES };
+    load_source(&open(&path, access, most_bytes)?, access)
 }
 
-fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<Arc<SourceFile>, Vec<Diagnostic>> {
+/// The same from a robot file or a URDF that was opened already.
+///
+/// # Errors
+/// As [`load_robot`].
+pub fn load_opened_robot(
+    source: &Arc<SourceFile>,
+    access: &FileAccess,
+) -> Result<RobotDescription, Vec<Diagnostic>> {
+    let own = access.fresh();
+    let description = load_source(source, &own)?;
+    let inputs = access.files().into_iter().chain(own.files()).collect();
+    access.add(&own.files());
+    Ok(RobotDescription { inputs, ..description })
+}
+
+fn load_source(source: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
+    if is_toml(&source.path) { load_robot_file(source, access) } else { load_bare_urdf(source, access) }
+}
+
+fn is_toml(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
+
+/// The file that a path of a robot means: that in a folder, or the path itself.
+pub(crate) fn file_of_robot(path: &Path) -> Result<PathBuf, Diagnostic> {
+    if !path.is_dir() {
+        return Ok(path.to_owned());
+    }
+    let robot_file = path.join(ROBOT_FILE);
+    if robot_file.exists() {
+        return Ok(robot_file);
+    }
+    let message = format!("{} is a directory without a {ROBOT_FILE}", path.display());
+    Err(Diagnostic::error("load::no_robot_file", message).with_help(ACCEPTED))
+}
+
+/// Opens what a person names as a robot.
+pub(crate) fn open(path: &Path, access: &FileAccess, most_bytes: u64) -> Result<Arc<SourceFile>, Diagnostic> {
     access.read_named_text(path, most_bytes).map_err(|fault| {
         let is_helpless = fault.code == "file::not_found" && fault.help.is_none();
-        vec![if is_helpless { fault.with_help(ACCEPTED) } else { fault }]
+        if is_helpless { fault.with_help(ACCEPTED) } else { fault }
     })
 }
 
@@ -116,10 +142,9 @@ pub fn parse_robot(
     checked(declared, diagnostics, robot_file)
 }
 
-fn load_bare_urdf(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
-    let urdf = open(path, access, URDF_BYTES)?;
-    let (robot, warnings) = load_urdf(&urdf, (BTreeMap::new(), access), &Repairs::default())?;
-    Ok(bare(&urdf, robot, warnings))
+fn load_bare_urdf(urdf: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
+    let (robot, warnings) = load_urdf(urdf, (BTreeMap::new(), access), &Repairs::default())?;
+    Ok(bare(urdf, robot, warnings))
 }
 
 /// A description without a robot file.
@@ -176,12 +201,14 @@ fn read_urdf(
     }
 }
 
-fn load_robot_file(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
-    let source = open(path, access, ROBOT_FILE_BYTES)?;
+fn load_robot_file(
+    source: &Arc<SourceFile>,
+    access: &FileAccess,
+) -> Result<RobotDescription, Vec<Diagnostic>> {
     let mut diagnostics = Diagnostics::default();
-    let access = access.of_file(path)?;
-    let description = read_robot_file(&source, &access, &mut diagnostics);
-    checked(description, diagnostics, &source)
+    let access = access.of_file(&source.path)?;
+    let description = read_robot_file(source, &access, &mut diagnostics);
+    checked(description, diagnostics, source)
 }
 
 /// A description with its warnings, or every diagnostic if one is an error.

@@ -6,13 +6,13 @@ use std::{
 };
 
 use crate::{
-    diagnostic::{Diagnostic, Diagnostics, SourceFile, Use, known_names},
+    diagnostic::{Diagnostic, SourceFile, Use, known_names},
     model::{LinkIndex, Robot},
     xml,
 };
 
 /// The largest SRDF that is read.
-pub const SRDF_BYTES: u64 = 16 << 20;
+pub(crate) const SRDF_BYTES: u64 = 16 << 20;
 
 /// The pairs that `<disable_collisions>` names, the smaller index first; diagnostics beside them.
 pub(crate) fn parse(
@@ -47,33 +47,6 @@ pub(crate) fn parse(
     (pairs, diagnostics)
 }
 
-/// What is wrong with an SRDF by itself; its names are compared with those of a robot when a robot file names it.
-pub fn examine(source: &Arc<SourceFile>) -> Vec<Diagnostic> {
-    let document = match xml::parse(&source.text) {
-        Ok(document) => document,
-        Err(fault) => return vec![fault.in_file(source)],
-    };
-    let root = document.root_element();
-    let mut found = Diagnostics::default();
-    if root.tag_name().name() != "robot" {
-        let message =
-            format!("the root element is <{}>: an SRDF begins with <robot>", root.tag_name().name());
-        found.push(Diagnostic::error("srdf::root", message).at(root.range()));
-    }
-    for node in document.descendants().filter(|node| node.has_tag_name("disable_collisions")) {
-        let [one, other] = ["link1", "link2"].map(|key| node.attribute(key).filter(|name| !name.is_empty()));
-        let what = match (one, other) {
-            (Some(one), Some(other)) if one == other => format!("link \"{one}\" with itself"),
-            (Some(_), Some(_)) => continue,
-            (None, _) => "no link1".to_owned(),
-            (_, None) => "no link2".to_owned(),
-        };
-        let warning = Diagnostic::warning("srdf::pair", format!("<disable_collisions> has {what}"));
-        found.push(warning.at(node.range()).with_help("it disables nothing: name two links"));
-    }
-    found.in_file(source)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -96,22 +69,5 @@ mod tests {
         assert_eq!(pairs, 1);
         assert_eq!(diagnostics, ["<disable_collisions>: link2 \"c\" is no link of the robot"]);
         assert_eq!(read("<robot>").0, 0);
-    }
-
-    #[test]
-    fn an_srdf_is_examined_by_itself() {
-        let examined = |text: &str| {
-            let source = Arc::new(SourceFile { path: "r.srdf".into(), text: text.to_owned() });
-            examine(&source).into_iter().map(|found| found.message).collect::<Vec<_>>()
-        };
-        assert_eq!(examined("<robot><disable_collisions link1='a' link2='b'/></robot>"), [""; 0]);
-        for (text, message) in [
-            ("<robot><disable_collisions link1='a' link2='a'/></robot>", "link \"a\" with itself"),
-            ("<robot><disable_collisions link1='a'/></robot>", "no link2"),
-            ("<semantics/>", "the root element is <semantics>"),
-            ("<robot>", "unexpected end of file"),
-        ] {
-            assert!(examined(text)[0].contains(message), "{:?}", examined(text));
-        }
     }
 }

@@ -3,10 +3,12 @@
 //! A pass over the tokens comes first: thousands of nested elements overflow the stack of a tree
 //! builder, which nothing can catch, and entities multiply.
 
+use std::ops::Range;
+
 use roxmltree::Document;
 use xmlparser::{ElementEnd, Token, Tokenizer};
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, line_column};
 
 /// The code of an element whose prefix is not declared.
 pub(crate) const UNKNOWN_PREFIX: &str = "xml::prefix";
@@ -26,6 +28,13 @@ struct OpenElement<'a> {
     name: Option<&'a str>,
     start: usize,
     attributes: usize,
+}
+
+impl OpenElement<'_> {
+    /// The opening of its tag.
+    fn opening(&self) -> Range<usize> {
+        self.start..self.start + 1 + self.tag.len()
+    }
 }
 
 /// The tree of a text.
@@ -97,13 +106,19 @@ fn check(text: &str) -> Result<(), Diagnostic> {
                     }
                 }
             }
-            Token::ElementEnd { end: ElementEnd::Empty | ElementEnd::Close(..), .. } => {
+            Token::ElementEnd { end: ElementEnd::Empty, .. } => {
                 open.pop();
             }
+            Token::ElementEnd { end: ElementEnd::Close(_, local), span } => match open.pop() {
+                Some(element) if element.tag != local.as_str() => {
+                    return Err(not_closed(&element, local.as_str(), text).at(span.range()));
+                }
+                _ => {}
+            },
             _ => {}
         }
     }
-    if open.is_empty() { Ok(()) } else { Err(unclosed(&open)) }
+    if open.is_empty() { Ok(()) } else { Err(unclosed(&open, text)) }
 }
 
 /// Files that are no XML at all, by how they begin.
@@ -167,16 +182,27 @@ fn malformed(error: &xmlparser::Error, text: &str, open: &[OpenElement<'_>]) -> 
             .with_help("remove what stands before it, be it an empty line");
     }
     if !open.is_empty() && !text[at..].contains('>') {
-        return unclosed(open);
+        return unclosed(open, text);
     }
     // The library's text ends in a position of its own, which the span already gives.
     let what = error.to_string();
     Diagnostic::error("xml::malformed", format!("XML is not well-formed: {what}")).at(at..at)
 }
 
-/// What is open at the end, innermost last: the innermost element that has a name is what a
-/// person looks for.
-fn unclosed(open: &[OpenElement<'_>]) -> Diagnostic {
+/// Another closing tag where that of an element is expected.
+fn not_closed(element: &OpenElement<'_>, found: &str, text: &str) -> Diagnostic {
+    let named = element.name.map_or_else(String::new, |name| format!(" \"{name}\""));
+    let (tag, line) = (element.tag, line_column(text, element.start).0);
+    let message =
+        format!("</{found}> where </{tag}> is expected: <{tag}>{named} of line {line} is not closed");
+    Diagnostic::error("xml::malformed", message)
+        .related_to(element.opening(), format!("<{tag}> is opened here"))
+        .with_help(format!("close <{tag}> before, or correct the name of one of the two tags"))
+}
+
+/// The end of a text in which elements are open, innermost last: the innermost element that has a name is what a person
+/// looks for.
+fn unclosed(open: &[OpenElement<'_>], text: &str) -> Diagnostic {
     let last = &open[open.len() - 1];
     let owner = open.iter().rev().find_map(|element| Some((element.tag, element.name?)));
     let inside = match owner {
@@ -184,9 +210,12 @@ fn unclosed(open: &[OpenElement<'_>]) -> Diagnostic {
         Some((_, name)) => format!(" \"{name}\""),
         None => String::new(),
     };
-    let message = format!("unexpected end of file: <{}>{inside} is not closed", last.tag);
+    let (tag, line) = (last.tag, line_column(text, last.start).0);
+    let message = format!("unexpected end of file: <{tag}>{inside}, opened in line {line}, is not closed");
+    let end = text.trim_end().len();
     Diagnostic::error("xml::truncated", message)
-        .at(last.start..last.start + 1 + last.tag.len())
+        .at(end..end)
+        .related_to(last.opening(), format!("<{tag}> is opened here"))
         .with_help("the file is cut off or a closing tag is missing")
 }
 
@@ -235,11 +264,27 @@ mod tests {
         refused(
             "<r><joint name=\"j\"><limit a=\"1",
             "xml::truncated",
-            "<limit> in joint \"j\" is not closed",
+            "<limit> in joint \"j\", opened in line 1, is not closed",
         );
-        refused("<r><joint name=\"j\">\n", "xml::truncated", "<joint> \"j\" is not closed");
-        refused("<r>", "xml::truncated", "<r> is not closed");
+        refused(
+            "<r><joint name=\"j\">\n",
+            "xml::truncated",
+            "<joint> \"j\", opened in line 1, is not closed",
+        );
+        refused("<r>", "xml::truncated", "<r>, opened in line 1, is not closed");
+        refused("<r>\n<a></r>", "xml::malformed", "</r> where </a> is expected: <a> of line 2 is not closed");
         refused("<r><a b=></a></r>", "xml::malformed", "invalid attribute");
+    }
+
+    #[test]
+    fn an_element_that_is_open_is_told_at_both_of_its_ends() {
+        for (text, at, opened) in
+            [("<r>\n<link name='l'>\n<a/>\n", 24, 4..9), ("<r>\n<link>\n<a/>\n</r>", 16, 4..9)]
+        {
+            let fault = check(text).unwrap_err();
+            assert_eq!(fault.span.map(|span| span.start), Some(at), "{text}");
+            assert_eq!(fault.kind.related.and_then(|related| related.span), Some(opened), "{text}");
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use congruent_agreement::compare::PoseSource;
 use congruent_description::RobotDescription;
 use congruent_simulation::Obstacle;
 use congruent_twin::{
-    Recording, RecordingFormat, Run, RunSetup, Sample,
+    IfIncomplete, Recording, RecordingFormat, Run, RunSetup, Sample,
     monitor::Names,
     recorder::{Recorder, RecordingError},
     report::RunReport,
@@ -244,8 +244,8 @@ impl RecordingFormat for RerunFormat {
         "recording.rrd"
     }
 
-    fn is_readable_in_part(&self) -> bool {
-        true
+    fn if_incomplete(&self) -> IfIncomplete {
+        IfIncomplete::Keep
     }
 
     fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {

@@ -42,9 +42,8 @@ pub trait RecordingFormat: Sync {
     /// Name of the file in the folder of the scenario.
     fn file_name(&self) -> &'static str;
 
-    /// Whether a file that could not be completed can be read as far as it goes. Then it is kept, under a name that ends in
-    /// `.partial`.
-    fn is_readable_in_part(&self) -> bool;
+    /// What becomes of a file that could not be completed.
+    fn if_incomplete(&self) -> IfIncomplete;
 
     /// Creates the file of a run that is about to start.
     ///
@@ -128,7 +127,7 @@ pub fn execute(
     let sources = run.model().sources().to_vec();
     let mut recordings = Vec::new();
     for format in &options.recordings {
-        let file = StreamedFile::new(format.file_name(), format.is_readable_in_part());
+        let file = StreamedFile::new(format.file_name(), format.if_incomplete());
         recordings.push((format.begin(&folder.file(&file.partial), &run)?, file));
     }
     let mut trajectory = Trajectory::begin(&folder, &run)?;
@@ -137,50 +136,48 @@ pub fn execute(
     recorders.0.extend(trajectory.as_mut().map(|trajectory| &mut trajectory.recorder as &mut dyn Recorder));
     let (mut outcome, mut result) = run.finish(&mut checks, &mut recorders, progress);
     explain(setup, &mut outcome);
-    let mut files = Vec::new();
+    let mut settled = Vec::new();
     if let Some(Trajectory { file, recorder }) = trajectory {
         let closed = recorder.finish();
-        files.push((file, closed.is_ok()));
+        settled.push(file.settle(&folder, &closed));
         result = result.and(closed.map_err(RunError::from));
     }
     let mut report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
     for (recording, file) in recordings {
         let closed = recording.finish(&report);
-        files.push((file, closed.is_ok()));
+        settled.push(file.settle(&folder, &closed));
         if let Err(error) = closed {
             // The error of the run is reported before an error of the recording that follows from it.
             result = result.and(Err(error.into()));
             report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
         }
     }
-    match settle(&files, &folder, &report) {
+    match write_results(settled, &folder, &report) {
         Ok(()) => Ok((report, folder)),
         Err(source) => Err(ExecuteError::Lost { report: Box::new(report), source }),
     }
 }
 
-/// Gives complete files their names and writes the report. Each is tried, even if another has failed.
-fn settle(
-    files: &[(StreamedFile, bool)],
+/// Writes the report, whatever became of the other files.
+fn write_results(
+    settled: Vec<Settled>,
     folder: &OutputFolder,
     report: &RunReport,
 ) -> Result<(), OutputError> {
-    let settled = files.iter().map(|(file, is_complete)| file.settle(folder, *is_complete));
-    let settled: Result<(), OutputError> = settled.collect::<Vec<_>>().into_iter().collect();
     let write = || {
         let written = write_report(folder, report);
         written.and(write_junit(&folder.file("junit.xml"), &[report.test_suite()]))
     };
     let written = write().or_else(|error| {
         // On a full disk what is incomplete takes the space of the report, which matters more.
-        let mut incomplete = files.iter().filter(|(_, is_complete)| !is_complete).peekable();
+        let mut incomplete = settled.iter().filter_map(|file| file.incomplete.as_ref()).peekable();
         if incomplete.peek().is_none() {
             return Err(error);
         }
-        incomplete.try_for_each(|(file, _)| folder.remove(&file.partial))?;
+        incomplete.try_for_each(|partial| folder.remove(partial))?;
         write()
     });
-    settled.and(written)
+    settled.into_iter().try_for_each(|file| file.result).and(written)
 }
 
 fn write_report(folder: &OutputFolder, report: &RunReport) -> Result<(), OutputError> {
@@ -188,25 +185,43 @@ fn write_report(folder: &OutputFolder, report: &RunReport) -> Result<(), OutputE
     folder.write(REPORT, &report.to_json().map_err(refused)?)
 }
 
+/// What becomes of a file that could not be completed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum IfIncomplete {
+    /// It can be read as far as it goes: it is kept, under a name that ends in `.partial`.
+    Keep,
+    /// It is of no use.
+    Remove,
+}
+
 /// A file that is written during the run, under a temporary name.
 #[derive(Debug, Clone)]
 struct StreamedFile {
     partial: String,
     name: &'static str,
-    is_readable_in_part: bool,
+    if_incomplete: IfIncomplete,
+}
+
+/// What became of a [`StreamedFile`].
+struct Settled {
+    /// Its name if it is incomplete and was kept.
+    incomplete: Option<String>,
+    result: Result<(), OutputError>,
 }
 
 impl StreamedFile {
-    fn new(name: &'static str, is_readable_in_part: bool) -> Self {
-        Self { partial: format!("{name}.partial"), name, is_readable_in_part }
+    fn new(name: &'static str, if_incomplete: IfIncomplete) -> Self {
+        Self { partial: format!("{name}.partial"), name, if_incomplete }
     }
 
-    /// Gives the file its name if it is complete. Otherwise it keeps the other one, or is removed if it is of no use.
-    fn settle(&self, folder: &OutputFolder, is_complete: bool) -> Result<(), OutputError> {
-        match (is_complete, self.is_readable_in_part) {
-            (true, _) => folder.publish(&self.partial, self.name),
-            (false, true) => Ok(()),
-            (false, false) => folder.remove(&self.partial),
+    /// Gives the file its name if it is complete, at once: the page links to files that are there.
+    fn settle(self, folder: &OutputFolder, closed: &Result<(), RecordingError>) -> Settled {
+        match self.if_incomplete {
+            _ if closed.is_ok() => {
+                Settled { incomplete: None, result: folder.publish(&self.partial, self.name) }
+            }
+            IfIncomplete::Keep => Settled { incomplete: Some(self.partial), result: Ok(()) },
+            IfIncomplete::Remove => Settled { incomplete: None, result: folder.remove(&self.partial) },
         }
     }
 }
@@ -227,8 +242,12 @@ impl Trajectory {
 
     fn begin(folder: &OutputFolder, run: &Run<'_>) -> Result<Option<Self>, RecordingError> {
         let Some(format) = run.setup().scenario.output.trajectory else { return Ok(None) };
-        // Parquet has its index at its end.
-        let file = StreamedFile::new(Self::file_name(format), format == TrajectoryFormat::Csv);
+        let if_incomplete = match format {
+            TrajectoryFormat::Csv => IfIncomplete::Keep,
+            // It has its index at its end.
+            TrajectoryFormat::Parquet => IfIncomplete::Remove,
+        };
+        let file = StreamedFile::new(Self::file_name(format), if_incomplete);
         let recorder = TrajectoryRecorder::create(&folder.file(&file.partial), format, run)?;
         Ok(Some(Self { file, recorder }))
     }

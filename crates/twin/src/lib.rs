@@ -27,7 +27,7 @@ pub mod verdict;
 mod words;
 
 pub use control::JointController;
-pub use execute::{ExecuteError, Options, Recording, RecordingFormat, execute, finished};
+pub use execute::{ExecuteError, IfIncomplete, Options, Recording, RecordingFormat, execute, finished};
 pub use run::{Outcome, Run, RunError};
 pub use sample::Sample;
 pub use setup::RunSetup;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use congruent_description::{Finding, JointValues, ReportedChain, Tolerance};
+use congruent_description::{Diagnostic, Finding, JointValues, ReportedChain, Tolerance};
 use congruent_kinematics::{PoseError, ReportedPose};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -78,10 +78,17 @@ pub struct LinkDifference {
 /// A source that could not be asked.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NotAsked {
-    /// The source: `simulation`, `simulated_dynamics` or `declared_dynamics`.
+    /// The source: `simulation`, `simulated_dynamics`, `declared_dynamics` or `other_dynamics`.
     pub source: &'static str,
     /// Why.
     pub findings: Vec<Finding>,
+}
+
+impl NotAsked {
+    /// A source that could not be asked for one reason.
+    pub fn because(source: &'static str, finding: &Diagnostic) -> Self {
+        Self { source, findings: vec![Finding::from(finding)] }
+    }
 }
 
 /// The answer of `congruent check` for one robot.

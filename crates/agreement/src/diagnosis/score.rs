@@ -37,7 +37,7 @@ pub(super) struct Rank {
 
 pub(super) fn rank(context: &FitContext<'_>, fit: &HypothesisFit, criterion: &Criterion) -> Rank {
     let hypotheses = || fit.hypotheses.iter().map(|&at| &context.hypotheses[at]);
-    let residual = fit.corrected.residual(criterion);
+    let residual = context.corrected(fit).residual(criterion);
     let in_tolerances = criterion.in_tolerances(&residual);
     let mut causes: Vec<Cause> = hypotheses().map(|hypothesis| hypothesis.cause).collect();
     causes.sort_unstable();
@@ -75,7 +75,7 @@ pub(super) fn is_refuted(
     criterion: &Criterion,
     best: &PoseError,
 ) -> bool {
-    let own = fit.corrected.residual(criterion);
+    let own = context.corrected(fit).residual(criterion);
     let rounded_up = |residual: &PoseError| {
         criterion.in_tolerances(&PoseError {
             position_m: residual.position_m.max(ROUNDING_RESIDUAL),
@@ -109,7 +109,7 @@ fn choices(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesi
             joints.iter().map(|&joint| models.reference.joints[joint].parent_from_joint.rotation);
         rotations.all(|rotation| (rotation - rotation.map(f64::round)).amax() < QUARTER_TURNS)
     };
-    if by_quarters(context.models) && by_quarters(&fit.corrected) { 3 } else { 1 }
+    if by_quarters(context.models) && by_quarters(&context.corrected(fit)) { 3 } else { 1 }
 }
 
 /// Whether the fault is in the reference model's file itself, not in how the candidate was derived from it.
@@ -162,7 +162,8 @@ impl UnitEvidence {
             }
         };
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let (found, expected) = (values(&context.models.candidate), values(&fit.corrected.candidate));
+        let (found, expected) =
+            (values(&context.models.candidate), values(&context.corrected(fit).candidate));
         let is_written = found.iter().any(|value| *value != 0.0);
         let is_vector = matches!(hypothesis.place, Place::Base | Place::Tool);
         let count = found.iter().filter(|value| is_vector || **value != 0.0).count();
@@ -197,18 +198,19 @@ fn is_given_as_zero(candidate: &Candidate, hypothesis: &Hypothesis) -> bool {
 /// Whether the whole declared base is left out, and is a turn by quarters: data sheets give tables without it, so
 /// that its zeros are no evidence against it.
 fn is_left_out_turn(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> bool {
-    let rotation = fit.corrected.candidate.base.pose.rotation;
+    let corrected = context.corrected(fit);
+    let base = &corrected.candidate.base.pose;
     hypothesis.cause == Cause::Base
         && has_no_base(context)
-        && (rotation - rotation.map(f64::round)).amax() < QUARTER_TURNS
-        && fit.corrected.candidate.base.pose.translation == context.models.candidate.base.pose.translation
+        && (base.rotation - base.rotation.map(f64::round)).amax() < QUARTER_TURNS
+        && base.translation == context.models.candidate.base.pose.translation
 }
 
 /// Whether the zero of the first joint is off by quarter turns in a table without a base: then it is the base
 /// that is left out, which the first joint's zero cannot be told from if both are about one axis.
 fn is_zero_in_place_of_base(context: &FitContext<'_>, fit: &HypothesisFit, hypothesis: &Hypothesis) -> bool {
     let theta_rad = |candidate: &Candidate| candidate.entry(0, DhEntry::Theta);
-    let turn = theta_rad(&fit.corrected.candidate).zip(theta_rad(&context.models.candidate));
+    let turn = theta_rad(&context.corrected(fit).candidate).zip(theta_rad(&context.models.candidate));
     let quarters = turn.map(|(expected, found)| (expected - found) / std::f64::consts::FRAC_PI_2);
     hypothesis.cause == Cause::ZeroOffset
         && hypothesis.free[..] == [ModelParameter::Row(0, DhEntry::Theta)]

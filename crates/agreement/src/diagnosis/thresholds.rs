@@ -83,8 +83,13 @@ pub(super) const EVALUATED_BELOW: f64 = 1e4;
 
 // Extent of the search.
 
-/// Most hypotheses that are tried in pairs, those with the smallest norms first. Kind: speed; 34,000 pairs.
-pub(super) const MAX_IN_PAIRS: usize = 260;
+/// Most hypotheses that are tried in pairs, those with the smallest norms first. Kind: speed; 34,000 pairs, fewer in the
+/// measure in which a chain is longer than 60 rows, as a pair takes the longer the more rows there are.
+pub(super) fn most_in_pairs(rows: usize) -> usize {
+    const MOST: usize = 260;
+    const ROWS: usize = 60;
+    (MOST * MOST * ROWS / rows.max(ROWS)).isqrt()
+}
 
 /// Most parameters that may be wrong together before a difference counts as unexplained. Kind: choice; more
 /// wrong parameters are a matter of calibration.

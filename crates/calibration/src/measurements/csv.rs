@@ -12,7 +12,7 @@ use super::{
     measured_row::{MeasuredRow, WrittenOrientation},
 };
 
-/// Faults after this many are not listed: one wrong column is a fault of every row.
+/// Faults after this many are not listed: one wrong column is a fault of every row, one wrong header of every column.
 const MOST_FAULTS: usize = 20;
 
 /// A record with the places of its cells in the text.
@@ -119,6 +119,9 @@ fn columns(header: &Record<'_>, robot: &Robot, needed: &[usize]) -> Result<Vec<C
                 columns.push(column);
             }
             Err(fault) => faults.push(fault.at(span.clone())),
+        }
+        if faults.len() >= MOST_FAULTS {
+            break;
         }
     }
     if !faults.is_empty() {

@@ -38,6 +38,7 @@ pub(super) fn text(check: &RobotCheck, robot: &Robot, at_configurations: &str) -
         let what = match *source {
             "simulation" => "not asked the physics:",
             "simulated_dynamics" => "not asked its forces:",
+            "other_dynamics" => "not compared, torques:",
             _ => "not compared, [[inertial]]:",
         };
         for (index, finding) in findings.iter().enumerate() {

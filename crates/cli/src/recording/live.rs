@@ -17,7 +17,7 @@ use std::{
 use congruent::{
     recording::RerunFormat,
     twin::{
-        Recording, RecordingFormat, Run, Sample,
+        IfIncomplete, Recording, RecordingFormat, Run, Sample,
         recorder::{Recorder, RecordingError},
         report::RunReport,
     },
@@ -46,8 +46,8 @@ impl RecordingFormat for LiveFormat {
         RerunFormat.file_name()
     }
 
-    fn is_readable_in_part(&self) -> bool {
-        true
+    fn if_incomplete(&self) -> IfIncomplete {
+        IfIncomplete::Keep
     }
 
     fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {

@@ -2,7 +2,6 @@
 
 use std::{
     collections::BTreeMap,
-    fs,
     path::{Path, PathBuf},
 };
 
@@ -15,7 +14,7 @@ use congruent::{
     },
 };
 
-use super::{Arguments, INDEX, no_folder};
+use super::{arguments::Arguments, index::remove_index, ran::no_folder};
 use crate::{
     batch::{Answer, Batch},
     failure::Failure,
@@ -73,8 +72,7 @@ pub(super) fn load(
         })
     };
     if arguments.scenarios.len() > 1 {
-        // That of an earlier call; if it cannot be removed, it cannot be replaced either, which is told at the end.
-        let _ = fs::remove_file(arguments.out.join(INDEX));
+        remove_index(&arguments.out);
     }
     Ok(arguments.scenarios.iter().map(|path| batch.answer(path, || load(path))).collect())
 }

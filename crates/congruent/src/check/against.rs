@@ -2,10 +2,12 @@
 
 use congruent_agreement::{
     SourcePair,
-    compare::{CheckError, CheckOptions, CheckReport},
+    compare::{CheckError, CheckOptions, CheckReport, NotAsked},
 };
-use congruent_description::{JointIndex, Robot, RobotDescription, RobotQ, display::length_and_angle};
-use congruent_dynamics_agreement::{DynamicsReport, NamedSide};
+use congruent_description::{
+    Diagnostic, JointIndex, Robot, RobotDescription, RobotQ, display::length_and_angle,
+};
+use congruent_dynamics_agreement::{CompareError, DynamicsReport, NamedSide};
 use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, UrdfTree, range};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -80,6 +82,12 @@ pub(super) fn compared(
     let reference = NamedSide { name: &other_name, side: &expected, places: urdf_places(other) };
     match two_descriptions(&candidate, &reference, options.seed) {
         Ok(report) => Ok((against, Some(report))),
+        // No difference of the two: the poses agree.
+        Err(error @ (CompareError::NoJoint | CompareError::TooManyJoints { .. })) => {
+            let finding = Diagnostic::error("check::other_dynamics", error.to_string());
+            geometry.not_asked.push(NotAsked::because("other_dynamics", &finding));
+            Ok((against, None))
+        }
         Err(error) => {
             against.dynamics_not_compared = Some(error.to_string());
             Ok((against, None))

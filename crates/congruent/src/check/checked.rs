@@ -65,14 +65,14 @@ fn checked(
             }
             Err(why) => {
                 let finding = Diagnostic::error("check::declared_dynamics", why);
-                geometry.not_asked.push(not_asked("declared_dynamics", &finding));
+                geometry.not_asked.push(NotAsked::because("declared_dynamics", &finding));
             }
         }
     }
     if is_simulated {
         match physics::compared(description, options.seed) {
             Ok(report) => compared.push(report),
-            Err(finding) => geometry.not_asked.push(not_asked("simulated_dynamics", &finding)),
+            Err(finding) => geometry.not_asked.push(NotAsked::because("simulated_dynamics", &finding)),
         }
     }
     // A comparison that disagrees comes first; the order is otherwise kept.
@@ -103,8 +103,4 @@ fn comparable(declared: &DeclaredDynamics, geometry: &CheckReport) -> Result<(),
         );
     }
     Ok(())
-}
-
-fn not_asked(source: &'static str, finding: &Diagnostic) -> NotAsked {
-    NotAsked { source, findings: vec![Finding::from(finding)] }
 }

@@ -116,5 +116,10 @@ pub(super) const AREAS: &[Area] = &[Area {
         (66, "view::recording", "The file is no recording, or a damaged one."),
         (67, "view::robot", "The robot cannot be shown; the message has the reason."),
         (68, "workspace::robot", "The chain has no workspace; the message has the reason."),
+        (
+            69,
+            "check::other_dynamics",
+            "The dynamics of the two descriptions cannot be compared; the message has the reason.",
+        ),
     ],
 }];

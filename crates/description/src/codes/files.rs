@@ -60,7 +60,12 @@ pub(super) const AREAS: &[Area] = &[
             (
                 16,
                 "lint::kind",
-                "The file is none of those that can be linted: URDF, SRDF, robot file, scenario. The kind is decided by the content.",
+                "The file is none of those that can be linted: URDF, SRDF, robot file, scenario, table of configurations, targets or measurements. The kind is decided by the content.",
+            ),
+            (
+                17,
+                "lint::no_robot",
+                "The robot of an SRDF or of a table is not known, so its names are not checked. Give both in one call, or lint the robot file that names the SRDF.\n    congruent lint robot.toml configurations.json",
             ),
         ],
     },
@@ -187,14 +192,30 @@ pub(super) const AREAS: &[Area] = &[
             (
                 1,
                 "srdf::unknown_link",
-                "<disable_collisions> names a link that the robot does not have, so the pair is not disabled. Often a link was renamed.",
+                "The SRDF names a link that the robot does not have; a pair of collisions with it is not disabled. Often a link was renamed.",
             ),
             (
                 2,
                 "srdf::pair",
-                "<disable_collisions> lacks link1 or link2, or names one link twice: it disables nothing.",
+                "<disable_collisions> or <enable_collisions> lacks link1 or link2, or names one link twice: it has no effect.",
             ),
             (3, "srdf::root", "The root element of an SRDF is <robot>."),
+            (
+                4,
+                "srdf::unknown_joint",
+                "The SRDF names a joint that the robot does not have. Often a joint was renamed, or it has the prefix of another robot.",
+            ),
+            (5, "srdf::unknown_group", "A group is named that the SRDF does not define."),
+            (
+                6,
+                "srdf::missing_name",
+                "An element of the SRDF does not name the link, joint or group that it is about.",
+            ),
+            (
+                7,
+                "srdf::robot_name",
+                "The SRDF and the URDF are of robots of different names. Motion planners refuse the two together.",
+            ),
         ],
     },
 ];

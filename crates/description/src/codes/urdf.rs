@@ -107,6 +107,11 @@ pub(super) const AREAS: &[Area] = &[
                 "urdf::zero_inertia",
                 "A link has a mass and an inertia of zero, so that it would be a point. Any torque about it would turn it at any speed.",
             ),
+            (
+                30,
+                "urdf::zero_limit",
+                "The velocity limit of a joint that moves is 0, or its effort limit is 0 while other joints have one. Here 0 counts as not given; to other programs it is a joint that cannot move. An effort of 0 for all joints is how many files say that it is not known, and is not told.",
+            ),
         ],
     },
     Area {

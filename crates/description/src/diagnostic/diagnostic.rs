@@ -80,6 +80,8 @@ pub struct Kind {
     pub words: Option<(String, String)>,
     /// All findings that this one stands for, itself the first; empty if it is the only one.
     pub occurrences: Vec<Occurrence>,
+    /// Another place of the same file that explains this one.
+    pub related: Option<Occurrence>,
 }
 
 /// One fault of an input, or one thing in it that is suspicious.
@@ -159,6 +161,14 @@ impl Diagnostic {
         self
     }
 
+    /// Adds another place that explains this one.
+    #[must_use]
+    pub fn related_to(mut self, span: Range<usize>, message: impl Into<String>) -> Self {
+        let message = visible(&message.into()).into_owned();
+        self.kind.related = Some(Occurrence { message, name: None, span: Some(span) });
+        self
+    }
+
     /// Adds the file, unless it is known already.
     #[must_use]
     pub fn in_file(mut self, source: &Arc<SourceFile>) -> Self {
@@ -216,8 +226,11 @@ impl miette::Diagnostic for Diagnostic {
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let span = self.span.clone()?;
-        Some(Box::new(std::iter::once(LabeledSpan::underline(span))))
+        let own = LabeledSpan::new_primary_with_span(None, self.span.clone()?);
+        let related = self.kind.related.as_ref().and_then(|related| {
+            Some(LabeledSpan::new_with_span(Some(related.message.clone()), related.span.clone()?))
+        });
+        Some(Box::new(std::iter::once(own).chain(related)))
     }
 }
 

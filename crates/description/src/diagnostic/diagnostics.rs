@@ -149,7 +149,7 @@ fn occurrences(found: Diagnostic) -> Vec<Occurrence> {
 /// One message for all: their number and their names, or the first message and the lines of the others.
 fn headline(found: &Diagnostic) -> String {
     const MOST_LISTED: usize = 20;
-    let Kind { words, occurrences } = &*found.kind;
+    let Kind { words, occurrences, .. } = &*found.kind;
     let listed = |words: Vec<String>| {
         let rest = words.len().saturating_sub(MOST_LISTED);
         let more = if rest == 0 { String::new() } else { format!(" and {rest} more") };

@@ -35,6 +35,9 @@ pub struct Finding {
     pub column: Option<usize>,
     /// What to do.
     pub help: Option<String>,
+    /// Another place of the file that explains this one, such as where an element begins that is not closed.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub related: Option<FindingPlace>,
     /// If this finding stands for several of its kind: each of them, up to 1000.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub places: Vec<FindingPlace>,
@@ -51,7 +54,7 @@ fn is_none(left_out: &usize) -> bool {
     *left_out == 0
 }
 
-/// One of several findings of a kind.
+/// One of several findings of a kind, or a place that explains a finding.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FindingPlace {
     /// What is wrong here.
@@ -78,6 +81,7 @@ impl From<&Diagnostic> for Finding {
             line: place.map(|(line, _)| line),
             column: place.map(|(_, column)| column),
             help: diagnostic.help.clone(),
+            related: diagnostic.kind.related.as_ref().map(|found| finding_place(places.as_mut(), found)),
             places: diagnostic
                 .kind
                 .occurrences

@@ -7,7 +7,7 @@ mod project;
 mod ros_packages;
 
 pub use access::{FileAccess, InputFile};
-pub(crate) use open::{folder_of, not_found};
+pub(crate) use open::{folder_of, head_of, not_found};
 pub use open::{is_standard_input, read_text};
 pub(crate) use packages::{Packages, Resolved};
 pub use ros_packages::RosPackages;

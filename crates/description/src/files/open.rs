@@ -50,6 +50,14 @@ pub(super) fn read_regular_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>
     read_at_most(file, path, most_bytes)
 }
 
+/// How a regular file begins, as text: at most so many bytes.
+pub(crate) fn head_of(path: &Path, bytes: usize) -> Result<String, Diagnostic> {
+    let mut head = Vec::new();
+    let file = File::open(path).map_err(|error| unreadable(path, &error))?;
+    file.take(bytes as u64).read_to_end(&mut head).map_err(|error| unreadable(path, &error))?;
+    Ok(String::from_utf8_lossy(&head).into_owned())
+}
+
 /// The bytes of what a person names: a regular file, a pipe or standard input.
 pub(super) fn read_named_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
     if is_standard_input(path) {

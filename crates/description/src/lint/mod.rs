@@ -2,12 +2,18 @@
 //! that change nothing of what a file means.
 
 mod fix;
+mod fix_keys;
 mod ignore;
 mod kind;
+mod limits;
 mod slips;
+mod srdf;
 
 pub use fix::{SafeFix, safe_fixes};
+pub use fix_keys::safe_robot_file_fixes;
 pub(crate) use ignore::WrittenLint;
 pub use ignore::{IgnoredFinding, Ignores};
-pub use kind::FileKind;
+pub use kind::{FileKind, FileToLint};
+pub use limits::zero_limits;
 pub use slips::unit_slips;
+pub use srdf::{examine_srdf, robot_name};

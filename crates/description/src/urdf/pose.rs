@@ -37,22 +37,7 @@ pub(super) fn read(
     diagnostics: &mut Diagnostics,
 ) -> Isometry3<f64> {
     let (xyz, rpy) = (pose.xyz.0, pose.rpy.0);
-    if let Some(length) = xyz.into_iter().find(|length| length.abs() > LARGEST_PLAUSIBLE_M) {
-        let (code, what, kind) = if parent.has_tag_name("inertial") {
-            let far = display::length(Vector3::from(xyz).norm());
-            let what = format!("its centre of mass is {far} away from it");
-            (CENTER_OF_MASS, what, "links have a centre of mass that is far away, of")
-        } else {
-            let what = format!("origin {length} is more than {LARGEST_PLAUSIBLE_M} m away");
-            (TOO_FAR, what, "origins are more than 10 m away, of")
-        };
-        diagnostics.push(
-            Diagnostic::warning(code, format!("{}: {what}", label(owner)))
-                .one_of(kind, label(owner))
-                .at(place(parent, "origin"))
-                .with_help("millimetres instead of metres?"),
-        );
-    }
+    far_away(Vector3::from(xyz), Place { parent, owner, needed_by }, diagnostics);
     let translation = Translation3::from(xyz);
     let origin = element(parent, "origin");
     if let Some(quaternion) = origin.and_then(|origin| origin.attribute("quat_xyzw")) {
@@ -74,6 +59,35 @@ pub(super) fn read(
         );
     }
     Isometry3::from_parts(translation, rotation_from_rpy_fixed_xyz(rpy))
+}
+
+/// Tells of an offset that no robot has.
+fn far_away(xyz: Vector3<f64>, place: Place<'_, '_>, diagnostics: &mut Diagnostics) {
+    let largest = xyz.amax();
+    if largest <= LARGEST_PLAUSIBLE_M {
+        return;
+    }
+    // The squares of entries beyond 1e154 overflow, so the largest entry goes first.
+    let far_m = largest * (xyz / largest).norm();
+    let far = display::length(far_m);
+    let is_com = place.parent.has_tag_name("inertial");
+    let (code, what, kind) = if is_com {
+        let what = format!("its centre of mass is {far} away from it");
+        (CENTER_OF_MASS, what, "links have a centre of mass that is far away, of")
+    } else {
+        let what = format!("origin {} is more than {LARGEST_PLAUSIBLE_M} m away", display::number(largest));
+        (TOO_FAR, what, "origins are more than 10 m away, of")
+    };
+    let owner = label(place.owner);
+    let found = if (far_m * far_m).is_finite() {
+        Diagnostic::warning(code, format!("{owner}: {what}")).one_of(kind, owner)
+    } else {
+        let why = if is_com { "its inertia about the joint" } else { "its squared distance" };
+        let message = format!("{owner}: {what}, so far that {why} is no finite number");
+        Diagnostic::error(code, message).needed_by(place.needed_by)
+    };
+    diagnostics
+        .push(found.at(self::place(place.parent, "origin")).with_help("millimetres instead of metres?"));
 }
 
 /// Normalised as urdfdom does; the pass against the grammar has checked the numbers.

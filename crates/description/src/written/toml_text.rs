@@ -62,6 +62,11 @@ pub fn read_table<T: DeserializeOwned>(
     table: Spanned<DeTable<'_>>,
     diagnostics: &mut Diagnostics,
 ) -> Option<T> {
+    each_fault(table, |error| diagnostics.push(diagnostic(error)))
+}
+
+/// The same, with what is done about each fault.
+fn each_fault<T: DeserializeOwned>(table: Spanned<DeTable<'_>>, mut tell: impl FnMut(&Error)) -> Option<T> {
     let (span, mut root) = (table.span(), table.into_inner());
     for _ in 0..MOST_UNKNOWN_KEYS {
         let attempt = Spanned::new(span.clone(), root.clone());
@@ -69,13 +74,35 @@ pub fn read_table<T: DeserializeOwned>(
             Ok(value) => return Some(value),
             Err(error) => error,
         };
-        diagnostics.push(diagnostic(&error));
+        tell(&error);
         let unknown = error.span().filter(|_| error.message().starts_with(UNKNOWN_KEY))?;
         if !take_out(&mut root, &unknown) {
             return None;
         }
     }
     None
+}
+
+/// A key that no field has.
+pub(crate) struct UnknownKey {
+    pub(crate) name: String,
+    /// Where it stands.
+    pub(crate) span: Range<usize>,
+    /// The keys that there may be in its place.
+    pub(crate) known: Vec<String>,
+}
+
+/// The keys of a text that no field has, and how many other faults there are; `None` if it is no TOML.
+pub(crate) fn unknown_keys<T: DeserializeOwned>(text: &str) -> Option<(Vec<UnknownKey>, usize)> {
+    let (mut unknown, mut others) = (Vec::new(), 0);
+    each_fault::<T>(parse_document(text).ok()?, |error| {
+        let mut names = error.message().split('`').skip(1).step_by(2).map(str::to_owned);
+        match (error.message().starts_with(UNKNOWN_KEY), names.next(), error.span()) {
+            (true, Some(name), Some(span)) => unknown.push(UnknownKey { name, span, known: names.collect() }),
+            _ => others += 1,
+        }
+    });
+    Some((unknown, others))
 }
 
 /// Most unknown keys that are named in one run: each costs another pass over the text.

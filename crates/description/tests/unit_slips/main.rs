@@ -23,13 +23,21 @@ use plant::{CLASSES, Class, Planted, planted};
 /// Of all planted slips so many are told.
 const LEAST_TOLD: f64 = 0.95;
 
-/// Every URDF of the workspace and of the corpus that is published somewhere.
+/// Names a folder of other robots, to measure on some that no bound was set on.
+const UNSEEN: &str = "CONGRUENT_UNSEEN";
+
+fn is_unseen() -> bool {
+    std::env::var_os(UNSEEN).is_some()
+}
+
+/// Every URDF of the workspace and of the corpus that is published somewhere, or those of another folder.
 fn robots(corpus: &Path) -> Vec<PathBuf> {
-    let (mut found, mut open) = (Vec::new(), Vec::new());
-    for folder in [corpus.join("robots"), corpus.join("pairs"), corpus.join("logs")] {
-        open.push(folder);
-    }
-    open.push(corpus::workspace().join("robots"));
+    let of_corpus = ["robots", "pairs", "logs"].map(|folder| corpus.join(folder)).into_iter();
+    let mut open: Vec<PathBuf> = match std::env::var_os(UNSEEN) {
+        Some(folder) => vec![folder.into()],
+        None => of_corpus.chain([corpus::workspace().join("robots")]).collect(),
+    };
+    let mut found = Vec::new();
     while let Some(folder) = open.pop() {
         for entry in fs::read_dir(&folder).into_iter().flatten().flatten() {
             let path = entry.path();
@@ -75,7 +83,7 @@ fn no_published_robot_is_told_of() {
         alarms.extend(found.iter().map(|found| format!("{}: {}: {found}", path.display(), found.code)));
     }
     eprintln!("{judged} robots, {} false alarms", alarms.len());
-    assert!(judged >= 25, "only {judged} robots were judged");
+    assert!(judged >= 25 || is_unseen(), "only {judged} robots were judged");
     assert!(alarms.is_empty(), "{}", alarms.join("\n"));
 }
 
@@ -132,7 +140,7 @@ fn planted_slips_are_told() {
         eprintln!("{class:24} {told:4} of {all:4}");
     }
     eprintln!("{told} of {all}; missed:\n{}", missed.join("\n"));
-    assert!(all > 1000, "only {all} slips were planted");
+    assert!(all > 1000 || is_unseen(), "only {all} slips were planted");
     #[expect(clippy::cast_precision_loss, reason = "some thousand")]
     let share = told as f64 / all as f64;
     assert!(share >= LEAST_TOLD, "{told} of {all} are told");

@@ -95,8 +95,18 @@ fn slide_speed(node: &Node<'_, '_>) -> &'static [&'static str] {
     if in_joint(node, "limit", &["prismatic"]) { &["velocity"] } else { &[] }
 }
 
-/// Whether a link has more than the mass of a marker.
+/// Whether a link has more than the mass of a marker, and another tensor than that of examples, 1 kg m^2 about every axis,
+/// which means nothing.
 fn is_body(inertial: Option<Node<'_, '_>>) -> bool {
+    let tensor = inertial.and_then(|inertial| inertial.children().find(|node| node.has_tag_name("inertia")));
+    let is = |node: Node<'_, '_>, keys: &[&str], wanted: f64| {
+        keys.iter().all(|key| node.attribute(*key).and_then(|value| value.parse().ok()) == Some(wanted))
+    };
+    let is_example =
+        |tensor| is(tensor, &["ixx", "iyy", "izz"], 1.0) && is(tensor, &["ixy", "ixz", "iyz"], 0.0);
+    if tensor.is_some_and(is_example) {
+        return false;
+    }
     let mass = inertial.and_then(|inertial| inertial.children().find(|node| node.has_tag_name("mass")));
     let mass: Option<f64> = mass.and_then(|mass| mass.attribute("value")?.parse().ok());
     mass.is_some_and(|mass| mass >= 0.005)

@@ -7,7 +7,7 @@ use std::{
 
 use congruent_description::Tolerance;
 use congruent_twin::{
-    Recording, RecordingFormat, Run, RunSetup, Sample,
+    IfIncomplete, Recording, RecordingFormat, Run, RunSetup, Sample,
     recorder::{Recorder, RecordingError},
     report::RunReport,
     scenario::Check,
@@ -25,8 +25,8 @@ impl RecordingFormat for PageFormat {
         "report.html"
     }
 
-    fn is_readable_in_part(&self) -> bool {
-        false
+    fn if_incomplete(&self) -> IfIncomplete {
+        IfIncomplete::Remove
     }
 
     fn begin(&self, path: &Path, run: &Run<'_>) -> Result<Box<dyn Recording>, RecordingError> {

@@ -1,5 +1,7 @@
 //! The fit of one hypothesis, or of several together.
 
+use std::borrow::Cow;
+
 use crate::diagnosis::{
     candidate::{Candidate, ModelParameter},
     fit::evaluation_point::EvaluationPoint,
@@ -14,8 +16,9 @@ use crate::diagnosis::{
 pub(in crate::diagnosis) struct HypothesisFit {
     /// Indices of the hypotheses.
     pub(in crate::diagnosis) hypotheses: Vec<usize>,
-    /// The models with the faults corrected.
-    pub(in crate::diagnosis) corrected: ModelPair,
+    /// The models with the faults corrected, if a parameter is fitted. Others are made again from the hypotheses
+    /// ([`FitContext::corrected`]): of a long chain there are too many to keep.
+    fitted: Option<ModelPair>,
     /// Norm of the remaining difference of screws and tip, without unit.
     pub(in crate::diagnosis) norm: f64,
     /// The change of each free parameter.
@@ -41,6 +44,23 @@ impl<'a> FitContext<'a> {
     pub(in crate::diagnosis) fn norm(&self, models: &ModelPair) -> f64 {
         let state = models.reference.state(&self.evaluation_point.q);
         FitTarget { evaluation_point: &self.evaluation_point, state: &state }.norm(&models.candidate)
+    }
+
+    /// The models with the faults of a fit corrected.
+    pub(in crate::diagnosis) fn corrected<'f>(&self, fit: &'f HypothesisFit) -> Cow<'f, ModelPair> {
+        match &fit.fitted {
+            Some(models) => Cow::Borrowed(models),
+            None => Cow::Owned(self.edited(&fit.hypotheses)),
+        }
+    }
+
+    /// The models after the edits of some hypotheses, before any fit.
+    fn edited(&self, hypotheses: &[usize]) -> ModelPair {
+        let mut models = self.models.clone();
+        for &hypothesis in hypotheses {
+            self.hypotheses[hypothesis].apply(&mut models);
+        }
+        models
     }
 
     /// One hypothesis, from every start.
@@ -69,10 +89,7 @@ impl<'a> FitContext<'a> {
     /// The fit of several hypotheses together: from the present values and from further starts of the free
     /// parameters. The best result counts.
     pub(in crate::diagnosis) fn fit(&self, hypotheses: Vec<usize>, starts: &[Vec<f64>]) -> HypothesisFit {
-        let mut models = self.models.clone();
-        for &hypothesis in &hypotheses {
-            self.hypotheses[hypothesis].apply(&mut models);
-        }
+        let models = self.edited(&hypotheses);
         let free: Vec<ModelParameter> =
             hypotheses.iter().flat_map(|&at| self.hypotheses[at].free.iter().copied()).collect();
         let of_edited;
@@ -104,7 +121,7 @@ impl<'a> FitContext<'a> {
         let changes = free.iter().map(|&at| moved(&models.candidate, &candidate, at)).collect();
         HypothesisFit {
             hypotheses,
-            corrected: ModelPair { candidate, reference: models.reference },
+            fitted: (!free.is_empty()).then_some(ModelPair { candidate, reference: models.reference }),
             norm,
             changes,
         }

@@ -129,7 +129,7 @@ impl ExplanationSearch<'_> {
         let unchanged = self.difference(self.context.models);
         let changes = |fit: &HypothesisFit| {
             !self.context.hypotheses[fit.hypotheses[0]].free.is_empty()
-                || !is_same(&self.difference(&fit.corrected), &unchanged)
+                || !is_same(&self.difference(&self.context.corrected(fit)), &unchanged)
         };
         (0..self.context.hypotheses.len()).map(|index| self.context.single(index)).filter(changes).collect()
     }
@@ -142,7 +142,7 @@ impl ExplanationSearch<'_> {
 
     fn explaining(&self, fits: &[HypothesisFit]) -> Vec<HypothesisFit> {
         let accepted: Vec<&HypothesisFit> = fits.iter().filter(|fit| self.accepts(fit)).collect();
-        let residuals = accepted.iter().map(|fit| fit.corrected.residual(self.criterion));
+        let residuals = accepted.iter().map(|fit| self.context.corrected(fit).residual(self.criterion));
         let in_tolerances = |a: &PoseError, b: &PoseError| {
             self.criterion.in_tolerances(a).total_cmp(&self.criterion.in_tolerances(b))
         };
@@ -189,7 +189,7 @@ impl ExplanationSearch<'_> {
             .tolerance
             .orientation_rad
             .max(criterion.tolerance.position_m / context.evaluation_point.length_m);
-        fit.norm <= EVALUATED_BELOW * tolerance && fit.corrected.is_accepted(criterion)
+        fit.norm <= EVALUATED_BELOW * tolerance && context.corrected(fit).is_accepted(criterion)
     }
 
     fn rank(&self, fit: &HypothesisFit) -> Rank {
@@ -215,8 +215,8 @@ impl ExplanationSearch<'_> {
                 *last = residual;
             }
         }
-        let residual = fit.corrected.residual(self.criterion);
-        Explanation { faults, stages, residual, corrected: fit.corrected.clone() }
+        let residual = self.context.corrected(fit).residual(self.criterion);
+        Explanation { faults, stages, residual, corrected: self.context.corrected(fit).into_owned() }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Two hypotheses together.
 
-use crate::diagnosis::{fit::hypothesis_fit::HypothesisFit, thresholds::MAX_IN_PAIRS};
+use crate::diagnosis::{fit::hypothesis_fit::HypothesisFit, thresholds::most_in_pairs};
 
 use super::{ExplanationSearch, is_same};
 
@@ -8,42 +8,59 @@ impl ExplanationSearch<'_> {
     /// The hypotheses to try in pairs: those with the smallest norms alone; of edits with the same effect
     /// only the first.
     fn pair_candidates<'a>(&self, singles: &'a [HypothesisFit]) -> Vec<&'a HypothesisFit> {
-        let mut effects: Vec<Vec<f64>> = Vec::new();
-        let is_new = |fit: &&HypothesisFit| {
-            if !self.context.hypotheses[fit.hypotheses[0]].free.is_empty() {
-                return true;
+        let most = most_in_pairs(self.context.models.candidate.rows.len());
+        let mut by_norm: Vec<&HypothesisFit> = singles.iter().collect();
+        by_norm.sort_by(|a, b| a.norm.total_cmp(&b.norm));
+        let mut best: Vec<&HypothesisFit> = Vec::new();
+        let mut effects: Vec<Option<Vec<f64>>> = Vec::new();
+        for fit in by_norm {
+            let is_edit = self.context.hypotheses[fit.hypotheses[0]].free.is_empty();
+            let effect = is_edit.then(|| self.difference(&self.context.corrected(fit)));
+            let is_known = |known: &Option<Vec<f64>>| {
+                known.as_ref().zip(effect.as_ref()).is_some_and(|(known, effect)| is_same(known, effect))
+            };
+            match effects.iter().position(is_known) {
+                // Their norms differ by rounding, which must not decide.
+                Some(at) if fit.hypotheses < best[at].hypotheses => best[at] = fit,
+                Some(_) => {}
+                None if best.len() == most => break,
+                None => {
+                    best.push(fit);
+                    effects.push(effect);
+                }
             }
-            let effect = self.difference(&fit.corrected);
-            let is_new = !effects.iter().any(|known| is_same(known, &effect));
-            effects.push(effect);
-            is_new
-        };
-        let mut best: Vec<&HypothesisFit> = singles.iter().filter(is_new).collect();
-        best.sort_by(|a, b| a.norm.total_cmp(&b.norm));
-        best.truncate(MAX_IN_PAIRS);
+        }
         best.sort_by_key(|fit| fit.hypotheses[0]);
         best
     }
 
-    /// Two hypotheses together, for all candidates.
+    /// Two hypotheses together, for all candidates: the pairs that reach the tolerance, then the next best.
     pub(super) fn pairs(&self, singles: &[HypothesisFit]) -> Vec<HypothesisFit> {
         let best = self.pair_candidates(singles);
-        let mut fits = Vec::new();
+        let (mut accepted, mut others) = (Vec::new(), Vec::new());
         for (at, second) in best.iter().enumerate() {
-            for first in &best[..at] {
-                let [a, b] = [first, second].map(|fit| &self.context.hypotheses[fit.hypotheses[0]]);
-                if a.free.iter().any(|parameter| b.free.contains(parameter)) {
-                    continue;
-                }
-                fits.push(self.pair(first, second));
-                // The order of two edits of one place matters.
-                if a.edit.is_some() && b.edit.is_some() {
-                    fits.push(self.pair(second, first));
-                }
-            }
+            let pairs = best[..at].iter().flat_map(|first| self.pairs_of(first, second));
+            let (reaching, beyond): (Vec<_>, Vec<_>) = pairs.partition(|pair| self.accepts(pair));
+            accepted.extend(reaching);
+            others.extend(beyond);
+            // All of them would be gigabytes for a long chain.
+            others = self.next_best(&others);
         }
-        let equivalent = self.equivalent_pairs(singles, &fits);
-        fits.extend(equivalent);
+        let equivalent = self.equivalent_pairs(singles, &accepted);
+        [accepted, equivalent, others].concat()
+    }
+
+    /// The fit of two hypotheses together, in both orders if that makes a difference; none if they fit the same parameter.
+    fn pairs_of(&self, first: &HypothesisFit, second: &HypothesisFit) -> Vec<HypothesisFit> {
+        let [a, b] = [first, second].map(|fit| &self.context.hypotheses[fit.hypotheses[0]]);
+        if a.free.iter().any(|parameter| b.free.contains(parameter)) {
+            return Vec::new();
+        }
+        let mut fits = vec![self.pair(first, second)];
+        // The order of two edits of one place matters.
+        if a.edit.is_some() && b.edit.is_some() {
+            fits.push(self.pair(second, first));
+        }
         fits
     }
 
@@ -58,8 +75,12 @@ impl ExplanationSearch<'_> {
     }
 
     /// For each pair that reaches the tolerance, the pairs with other edits of the same effect.
-    fn equivalent_pairs(&self, singles: &[HypothesisFit], pairs: &[HypothesisFit]) -> Vec<HypothesisFit> {
-        let effects: Vec<Vec<f64>> = singles.iter().map(|fit| self.difference(&fit.corrected)).collect();
+    fn equivalent_pairs(&self, singles: &[HypothesisFit], accepted: &[HypothesisFit]) -> Vec<HypothesisFit> {
+        if accepted.is_empty() {
+            return Vec::new();
+        }
+        let effects: Vec<Vec<f64>> =
+            singles.iter().map(|fit| self.difference(&self.context.corrected(fit))).collect();
         let same = |hypothesis: usize| -> Vec<&HypothesisFit> {
             let Some(at) = singles.iter().position(|fit| fit.hypotheses[0] == hypothesis) else {
                 return Vec::new();
@@ -74,7 +95,7 @@ impl ExplanationSearch<'_> {
             (0..singles.len()).filter(is_same).map(|other| &singles[other]).collect()
         };
         let mut fits = Vec::new();
-        for pair in pairs.iter().filter(|pair| self.accepts(pair)) {
+        for pair in accepted {
             let [firsts, seconds] = [same(pair.hypotheses[0]), same(pair.hypotheses[1])];
             let all = firsts.iter().flat_map(|first| seconds.iter().map(move |second| (first, second)));
             let others = all

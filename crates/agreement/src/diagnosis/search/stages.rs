@@ -1,6 +1,8 @@
 //! A cause with a large effect and the parameters that are wrong besides: the first is found under a tolerance
 //! as loose as what the others leave, these are added one by one.
 
+use std::borrow::Cow;
+
 use congruent_description::Tolerance;
 use congruent_kinematics::PoseError;
 
@@ -24,8 +26,9 @@ impl ExplanationSearch<'_> {
         let unchanged = self.context.norm(self.context.models);
         let gross: Vec<HypothesisFit> =
             singles.iter().filter(|fit| fit.norm < GROSS_PART * unchanged).cloned().collect();
-        let residual =
-            |fit: &HypothesisFit| self.criterion.in_tolerances(&fit.corrected.residual(self.criterion));
+        let residual = |fit: &HypothesisFit| {
+            self.criterion.in_tolerances(&self.context.corrected(fit).residual(self.criterion))
+        };
         let Some(best) = gross.iter().map(residual).min_by(f64::total_cmp) else { return Vec::new() };
         let Tolerance { position_m, orientation_rad } = self.criterion.tolerance;
         let loose = Criterion {
@@ -95,13 +98,13 @@ impl ExplanationSearch<'_> {
     /// The values that differ in the nearest table that agrees.
     fn with_changed_values(&self, gross: Option<&HypothesisFit>) -> Option<HypothesisFit> {
         let (mut hypotheses, mut changes, models) = match gross {
-            Some(fit) => (fit.hypotheses.clone(), fit.changes.clone(), &fit.corrected),
-            None => (Vec::new(), Vec::new(), self.context.models),
+            Some(fit) => (fit.hypotheses.clone(), fit.changes.clone(), self.context.corrected(fit)),
+            None => (Vec::new(), Vec::new(), Cow::Borrowed(self.context.models)),
         };
         let kept = hypotheses.len();
         let fitted: Vec<ModelParameter> =
             hypotheses.iter().flat_map(|&at| self.context.hypotheses[at].free.iter().copied()).collect();
-        let nearest = nearby_table(models, &fitted)?;
+        let nearest = nearby_table(&models, &fitted)?;
         let length_m = self.context.evaluation_point.length_m;
         let mut changed: Vec<(f64, usize, f64)> = Vec::new();
         for (at, Hypothesis { cause, free, .. }) in self.context.hypotheses.iter().enumerate() {
@@ -187,10 +190,10 @@ impl ExplanationSearch<'_> {
             } else {
                 self.context.fit(order[..count].to_vec(), &[start])
             };
-            residuals.push(partial.corrected.residual(self.criterion));
+            residuals.push(self.context.corrected(&partial).residual(self.criterion));
             changes = partial.changes;
         }
-        residuals.push(fit.corrected.residual(self.criterion));
+        residuals.push(self.context.corrected(fit).residual(self.criterion));
         (order, residuals)
     }
 }

@@ -9,7 +9,7 @@ mod text;
 use std::path::{Path, PathBuf};
 
 use congruent::{
-    LintReport, LintVerdict, lint,
+    LintReport, LintVerdict, lint_among,
     twin::report::{CasePlace, Reason, TestResult, TestSuite},
 };
 use serde::Serialize;
@@ -22,15 +22,17 @@ use crate::{
     print::{Format, Printer},
 };
 
-/// What is wrong or suspicious in URDFs, SRDFs, robot files and scenarios, with the files that they name.
+/// What is wrong or suspicious in URDFs, SRDFs, robot files and scenarios, with the files that they name, and in tables.
 ///
+/// An SRDF is compared with the robot in the same call or folder, and so are tables of configurations, targets and
+/// measurements.
 /// Each finding has its place, a code that never changes, what to do, and what it stops: kinematics, clearance or physics.
 /// Warnings that are meant are ignored by `[[lint.ignore]]` in robot.toml, with a reason. Exit codes: 0 no error, 1 errors
 /// (with --strict also warnings), 2 a file cannot be read.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(crate) struct Arguments {
-    /// URDF, SRDF, robot file, folder with robot.toml, scenario, or - for a URDF on standard input.
+    /// URDF, SRDF, robot file, folder with robot.toml, scenario, table (.json, .csv), or - for a URDF on standard input.
     #[arg(required_unless_present = "explain")]
     files: Vec<PathBuf>,
     /// Explain a finding, by its number (CGR-URDF-005) or its name (`urdf::tree`).
@@ -60,6 +62,9 @@ const MOST_ROUNDS: usize = 4;
 struct Linted {
     #[serde(flatten)]
     report: LintReport,
+    /// The file as it was named.
+    #[serde(skip)]
+    path: PathBuf,
     #[serde(skip)]
     strict: bool,
     /// What `--fix` has changed, or would change.
@@ -108,7 +113,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let access = arguments.access.access()?;
     let linted = |path: &Path| {
         let own = access.fresh();
-        let mut report = lint(path, &own);
+        let mut report = lint_among(path, &arguments.files, &own);
         let (mut difference, mut fixed) = (String::new(), Vec::new());
         // What was refused hides other findings, which the next round corrects.
         for _ in 0..MOST_ROUNDS {
@@ -120,20 +125,21 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
                 break;
             }
             fixed.append(&mut report.fixes);
-            report = lint(path, &own);
+            report = lint_among(path, &arguments.files, &own);
         }
         fixed.append(&mut report.fixes);
         report.fixes = fixed;
         let read: Vec<PathBuf> = own.files().into_iter().map(|file| file.path).collect();
         batch.reads(&read).map_err(Failure::from)?;
-        Ok(Linted { report, strict: arguments.strict, difference })
+        Ok(Linted { report, path: path.to_owned(), strict: arguments.strict, difference })
     };
     let files = arguments.files.iter();
     let answers: Vec<Answer<Linted>> = files.map(|path| batch.answer(path, || linted(path))).collect();
     if printer.format() == Format::Sarif {
         return batch.finish_as(answers, |answers| {
             let found = answers.iter().filter_map(|answer| answer.report().ok());
-            let reports: Vec<&LintReport> = found.map(|linted| &linted.report).collect();
+            let reports: Vec<(&Path, &LintReport)> =
+                found.map(|linted| (linted.path.as_path(), &linted.report)).collect();
             sarif::document(&reports)
         });
     }

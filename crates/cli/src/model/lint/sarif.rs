@@ -1,14 +1,21 @@
 //! Findings as SARIF 2.1.0, which code hosts show beside the lines. Source: OASIS, *Static Analysis Results Interchange
 //! Format (SARIF) Version 2.1.0* (2020). A finding that stands for several places is a result for each of them.
 
-use std::{collections::BTreeMap, fmt::Write, ops::Range, path::Path};
+use std::{
+    collections::BTreeMap,
+    fmt::Write,
+    ops::Range,
+    path::{Component, Path, PathBuf, Prefix},
+};
 
 use congruent::{
     LintFix, LintReport,
-    description::{Code, Diagnostic, Severity, TextEdit, line_column},
+    description::{Code, Diagnostic, Occurrence, Severity, SourceFile, TextEdit, line_column},
 };
 use serde::Serialize;
 use serde_json::{Value, json};
+
+use crate::ci::{inside, top_of_repository};
 
 /// A log with one run.
 #[derive(Serialize)]
@@ -19,15 +26,42 @@ pub(super) struct Sarif {
     runs: [Value; 1],
 }
 
-pub(super) fn document(reports: &[&LintReport]) -> Sarif {
-    let found = || reports.iter().flat_map(|report| report.diagnostics.iter().map(|found| (*report, found)));
+/// Writes the results of a run.
+struct Results<'a> {
+    /// The top of the repository; `None` outside of one.
+    top: Option<PathBuf>,
+    /// The rules, by the names of their codes.
+    codes: BTreeMap<&'a str, Option<Code>>,
+    /// How often a result was written that differs from others by its line alone.
+    seen: BTreeMap<String, usize>,
+}
+
+/// One place of a finding.
+struct Place<'a> {
+    message: &'a str,
+    /// What it is about.
+    name: Option<&'a str>,
+    span: Option<&'a Range<usize>>,
+}
+
+impl<'a> From<&'a Occurrence> for Place<'a> {
+    fn from(found: &'a Occurrence) -> Self {
+        Self { message: &found.message, name: found.name.as_deref(), span: found.span.as_ref() }
+    }
+}
+
+pub(super) fn document(reports: &[(&Path, &LintReport)]) -> Sarif {
+    let found = || {
+        reports.iter().flat_map(|(path, report)| {
+            report.diagnostics.iter().map(move |found| (*path, &report.fixes[..], found))
+        })
+    };
     let codes: BTreeMap<&str, Option<Code>> =
-        found().map(|(_, found)| (found.code, Code::find(found.code))).collect();
+        found().map(|(.., found)| (found.code, Code::find(found.code))).collect();
     let rules: Vec<Value> = codes.iter().map(|(name, code)| rule(name, *code)).collect();
-    let index = |name: &str| codes.keys().position(|known| *known == name);
-    let results: Vec<Value> = found()
-        .flat_map(|(report, found)| results(found, &report.fixes, (index(found.code), codes[found.code])))
-        .collect();
+    let mut results = Results { top: top_of_repository(), codes, seen: BTreeMap::new() };
+    let written: Vec<Value> =
+        found().flat_map(|(path, fixes, found)| results.of(found, path, fixes)).collect();
     let driver = json!({
         "name": "congruent",
         "semanticVersion": env!("CARGO_PKG_VERSION"),
@@ -36,17 +70,16 @@ pub(super) fn document(reports: &[&LintReport]) -> Sarif {
     let run = json!({
         "tool": { "driver": driver },
         "columnKind": "unicodeCodePoints",
-        "results": results,
+        "results": written,
     });
     Sarif { schema: "https://json.schemastore.org/sarif-2.1.0.json", version: "2.1.0", runs: [run] }
 }
 
 fn rule(name: &str, code: Option<Code>) -> Value {
-    let id = code.map_or_else(|| name.to_owned(), |code| code.to_string());
     let about = code.map_or("", |code| code.about);
     let first = about.split_inclusive(['.', ':']).next().unwrap_or(name).trim_end_matches(':');
     json!({
-        "id": id,
+        "id": id(name, code),
         "name": name,
         "shortDescription": { "text": first },
         "fullDescription": { "text": about },
@@ -54,36 +87,98 @@ fn rule(name: &str, code: Option<Code>) -> Value {
     })
 }
 
-fn results(found: &Diagnostic, fixes: &[LintFix], (rule, code): (Option<usize>, Option<Code>)) -> Vec<Value> {
-    let id = code.map_or_else(|| found.code.to_owned(), |code| code.to_string());
-    let level = match found.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    };
-    let one = |message: &str, span: Option<&Range<usize>>| {
+fn id(name: &str, code: Option<Code>) -> String {
+    code.map_or_else(|| name.to_owned(), |code| code.to_string())
+}
+
+impl Results<'_> {
+    /// A finding of the file that was linted: a result for each of its places.
+    fn of(&mut self, found: &Diagnostic, linted: &Path, fixes: &[LintFix]) -> Vec<Value> {
+        let name = found.kind.words.as_ref().map(|(_, name)| name.as_str());
+        let whole = Place { message: &found.message, name, span: found.span.as_ref() };
+        let mut one = |place: Place<'_>| {
+            let fixes: Vec<&LintFix> = fixes.iter().filter(|fix| answers(fix, found, place.span)).collect();
+            let mut result = self.result(found, linted, &place);
+            if !fixes.is_empty() {
+                result["fixes"] = fixes.into_iter().map(|fix| self.fix(fix)).collect();
+            }
+            result
+        };
+        match &found.kind.occurrences[..] {
+            [] => vec![one(whole)],
+            several => several.iter().map(|each| one(each.into())).collect(),
+        }
+    }
+
+    fn result(&mut self, found: &Diagnostic, linted: &Path, place: &Place<'_>) -> Value {
+        let id = id(found.code, self.codes.get(found.code).copied().flatten());
+        let level = match found.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        };
         let help = found.help.as_ref().map_or_else(String::new, |help| format!("; {help}"));
+        let artifact = self.artifact(found.source.as_ref().map_or(linted, |source| &source.path));
+        let fingerprint = self.fingerprint(&id, &artifact, place);
+        let source = found.source.as_deref();
         let mut result = json!({
             "ruleId": id,
             "level": level,
-            "message": { "text": format!("{message}{help}") },
+            "message": { "text": format!("{}{help}", place.message) },
+            "locations": [{ "physicalLocation": location(&artifact, source, place.span) }],
+            "partialFingerprints": { "congruentFinding/v1": fingerprint },
         });
-        if let Some(rule) = rule {
+        if let Some(rule) = self.codes.keys().position(|known| *known == found.code) {
             result["ruleIndex"] = json!(rule);
         }
-        if let Some(location) = location(found, span) {
-            result["locations"] = json!([{ "physicalLocation": location }]);
-        }
-        let fixes = fixes.iter().filter(|fix| answers(fix, found, span)).map(fix);
-        let fixes: Vec<Value> = fixes.collect();
-        if !fixes.is_empty() {
-            result["fixes"] = json!(fixes);
+        if let Some(related) = &found.kind.related {
+            let physical = location(&artifact, source, related.span.as_ref());
+            let message = json!({ "text": related.message });
+            result["relatedLocations"] = json!([{ "physicalLocation": physical, "message": message }]);
         }
         result
-    };
-    match &found.kind.occurrences[..] {
-        [] => vec![one(&found.message, found.span.as_ref())],
-        several => several.iter().map(|each| one(&each.message, each.span.as_ref())).collect(),
     }
+
+    /// What a result is known by when lines before it come and go: its rule, its file and what it is about.
+    fn fingerprint(&mut self, id: &str, artifact: &Value, place: &Place<'_>) -> String {
+        let about = place.name.unwrap_or(place.message);
+        let key = format!("{id} {} {about}", artifact["uri"]);
+        let before = self.seen.entry(key.clone()).or_default();
+        *before += 1;
+        format!("{:016x}:{before}", hash(&key))
+    }
+
+    fn fix(&self, fix: &LintFix) -> Value {
+        let replacement = |edit: &TextEdit| {
+            let inserted = json!({ "text": edit.text });
+            json!({ "deletedRegion": region(&fix.source.text, &edit.span), "insertedContent": inserted })
+        };
+        let replacements: Vec<Value> = fix.edits.iter().map(replacement).collect();
+        let artifact = self.artifact(&fix.source.path);
+        json!({
+            "description": { "text": fix.about },
+            "artifactChanges": [{ "artifactLocation": artifact, "replacements": replacements }],
+        })
+    }
+
+    /// A file as code hosts find it: by its path from the top of the repository, else from the current folder, else whole.
+    fn artifact(&self, path: &Path) -> Value {
+        let current = || std::env::current_dir().ok()?.canonicalize().ok();
+        let top = self.top.clone().or_else(current);
+        let below = top.and_then(|top| inside(path, &top));
+        let whole = || path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let file = below.unwrap_or_else(whole);
+        if file.is_absolute() {
+            json!({ "uri": format!("file://{}", uri(&file)) })
+        } else {
+            json!({ "uri": uri(&file), "uriBaseId": "%SRCROOT%" })
+        }
+    }
+}
+
+/// FNV-1a of 64 bits. Source: Fowler, Noll, Vo; RFC 9923.
+fn hash(text: &str) -> u64 {
+    text.bytes()
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// Whether a correction is of what stands at a place: of the same file, in the same line.
@@ -94,26 +189,13 @@ fn answers(fix: &LintFix, found: &Diagnostic, span: Option<&Range<usize>>) -> bo
     fix.code == found.code && fix.source.path == source.path && fix.edits.first().is_some_and(is_here)
 }
 
-fn fix(fix: &LintFix) -> Value {
-    let replacement = |edit: &TextEdit| {
-        let inserted = json!({ "text": edit.text });
-        json!({ "deletedRegion": region(&fix.source.text, &edit.span), "insertedContent": inserted })
+/// A place in a file; its first line if it is about the whole file, since code hosts show no finding without one.
+fn location(artifact: &Value, source: Option<&SourceFile>, span: Option<&Range<usize>>) -> Value {
+    let region = match (source, span) {
+        (Some(source), Some(span)) => region(&source.text, span),
+        _ => json!({ "startLine": 1 }),
     };
-    let replacements: Vec<Value> = fix.edits.iter().map(replacement).collect();
-    let uri = uri(&fix.source.path);
-    json!({
-        "description": { "text": fix.about },
-        "artifactChanges": [{ "artifactLocation": { "uri": uri }, "replacements": replacements }],
-    })
-}
-
-fn location(found: &Diagnostic, span: Option<&Range<usize>>) -> Option<Value> {
-    let source = found.source.as_ref()?;
-    let mut location = json!({ "artifactLocation": { "uri": uri(&source.path) } });
-    if let Some(span) = span {
-        location["region"] = region(&source.text, span);
-    }
-    Some(location)
+    json!({ "artifactLocation": artifact, "region": region })
 }
 
 /// Lines and columns from 1; the end is the column behind the last character.
@@ -128,29 +210,47 @@ fn region(text: &str, span: &Range<usize>) -> Value {
     region
 }
 
-/// A path as a URI: relative to the current folder where it is below it, which is how code hosts find the file.
+/// The parts of a path with slashes between, every byte escaped that has a meaning in a URI.
 fn uri(path: &Path) -> String {
-    let current = std::env::current_dir().ok();
-    let below = current.as_ref().and_then(|current| path.strip_prefix(current).ok()).unwrap_or(path);
-    let text = below.to_string_lossy().replace('\\', "/");
-    let mut uri = if below.is_absolute() { "file://".to_owned() } else { String::new() };
-    for byte in text.trim_start_matches("./").bytes() {
-        if byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte) {
-            uri.push(char::from(byte));
+    let part = |part: Component<'_>| match part {
+        Component::RootDir => None,
+        Component::Prefix(prefix) => match prefix.kind() {
+            Prefix::Disk(letter) | Prefix::VerbatimDisk(letter) => Some(format!("/{}:", char::from(letter))),
+            _ => Some(escaped(prefix.as_os_str().as_encoded_bytes())),
+        },
+        other => Some(escaped(other.as_os_str().as_encoded_bytes())),
+    };
+    let parts: Vec<String> =
+        path.components().filter(|part| *part != Component::CurDir).filter_map(part).collect();
+    let starts_at_root = path.components().next() == Some(Component::RootDir);
+    format!("{}{}", if starts_at_root { "/" } else { "" }, parts.join("/"))
+}
+
+fn escaped(bytes: &[u8]) -> String {
+    let mut escaped = String::with_capacity(bytes.len());
+    for &byte in bytes {
+        if byte.is_ascii_alphanumeric() || b"-._~".contains(&byte) {
+            escaped.push(char::from(byte));
         } else {
-            let _ = write!(uri, "%{byte:02X}");
+            let _ = write!(escaped, "%{byte:02X}");
         }
     }
-    uri
+    escaped
 }
 
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
 
-    use congruent::description::{Diagnostics, SourceFile};
+    use congruent::description::Diagnostics;
 
     use super::*;
+
+    fn results(found: &[Diagnostic]) -> Vec<Value> {
+        let codes = found.iter().map(|found| (found.code, Code::find(found.code))).collect();
+        let mut results = Results { top: None, codes, seen: BTreeMap::new() };
+        found.iter().flat_map(|found| results.of(found, Path::new("a.urdf"), &[])).collect()
+    }
 
     #[test]
     fn every_place_is_a_result_with_its_region() {
@@ -161,9 +261,7 @@ mod tests {
             let warning = Diagnostic::warning("urdf::massless", format!("link {name} has no mass"));
             found.push(warning.one_of("links have no mass", name).at(span));
         }
-        let found = found.in_file(&source);
-        let code = Code::find("urdf::massless");
-        let results = results(&found[0], &[], (Some(0), code));
+        let results = results(&found.in_file(&source));
         assert_eq!(results.len(), 2);
         let location = &results[0]["locations"][0]["physicalLocation"];
         assert_eq!(location["artifactLocation"]["uri"], "my%20robot/a.urdf");
@@ -174,5 +272,35 @@ mod tests {
         assert_eq!(results[1]["locations"][0]["physicalLocation"]["region"]["startLine"], 3);
         assert_eq!(results[0]["ruleId"], "CGR-URDF-028");
         assert_eq!(results[0]["ruleIndex"], 0);
+    }
+
+    #[test]
+    fn a_fingerprint_stays_when_lines_are_added() {
+        let of = |lines: &str, names: &[&str]| -> Vec<Value> {
+            let source = Arc::new(SourceFile { path: "a.urdf".into(), text: format!("{lines}<x>") });
+            let fault = |name: &&str| Diagnostic::error("urdf::mass", format!("link {name}: negative"));
+            let at = lines.len()..lines.len() + 2;
+            let found: Vec<Diagnostic> =
+                names.iter().map(|name| fault(name).at(at.clone()).in_file(&source)).collect();
+            results(&found).into_iter().map(|result| result["partialFingerprints"].clone()).collect()
+        };
+        let both = of("", &["x", "y", "x"]);
+        assert_eq!(both, of("\n\n\n", &["x", "y", "x"]));
+        assert!(both[0] != both[1] && both[0] != both[2], "{both:?}");
+        assert_eq!(of("", &["y"])[0], both[1]);
+    }
+
+    #[test]
+    fn a_path_is_a_uri() {
+        for (path, expected) in [
+            ("robots/my arm/ärm#1.urdf", "robots/my%20arm/%C3%A4rm%231.urdf"),
+            ("./a.urdf", "a.urdf"),
+            ("../a%b.urdf", "../a%25b.urdf"),
+            ("/r/a:b?.urdf", "/r/a%3Ab%3F.urdf"),
+        ] {
+            assert_eq!(uri(Path::new(path)), expected);
+        }
+        let backslash = if cfg!(windows) { "a/b" } else { "a%5Cb" };
+        assert_eq!(uri(Path::new("a\\b")), backslash);
     }
 }

@@ -59,9 +59,7 @@ impl Judge<'_> {
         let robot = self.robot;
         let bodies: Vec<Body> = robot
             .link_indices()
-            .filter_map(|link| {
-                Body::of(link, robot.link(link).inertia.as_ref()?, self.sizes.shapes[link.get()])
-            })
+            .filter_map(|link| Body::of(link, robot.link(link).inertia.as_ref()?, &self.sizes))
             .collect();
         let whole = Whole::of(&bodies);
         for body in &bodies {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::thresholds::LARGEST_MARKER_M;
+use super::thresholds::{LARGEST_MARKER_M, LEAST_BODY_KG};
 use crate::model::{Geometry, Inertia, LinkIndex, Robot, Shape};
 
 /// An axis-aligned box in the frame of a link.
@@ -87,6 +87,8 @@ pub(super) fn diagonal_m(shape: &Shape) -> Option<f64> {
 pub(super) struct Sizes {
     /// Around the shapes of each link; `None` without shapes.
     pub(super) shapes: Vec<Option<Extent>>,
+    /// Whether all shapes of a link are balls, so that its tensor is that of a ball.
+    balls: Vec<bool>,
     /// Sum of the lengths of all joint origins.
     pub(super) origins_m: f64,
     /// The longest joint origin.
@@ -103,6 +105,11 @@ impl Sizes {
             shapes.filter_map(Extent::of_shape).reduce(Extent::with)
         };
         let shapes: Vec<Option<Extent>> = robot.link_indices().map(around).collect();
+        let balls = robot.links().iter().map(|link| {
+            let mut shapes = link.visuals.iter().chain(&link.collisions).peekable();
+            shapes.peek().is_some() && shapes.all(|shape| matches!(shape.geometry, Geometry::Sphere { .. }))
+        });
+        let balls = balls.collect();
         let lengths = || robot.joints().iter().map(|joint| joint.parent_from_joint.translation.vector.norm());
         let mut below_m: Vec<f64> =
             shapes.iter().map(|shapes| shapes.map_or(0.0, |shapes| shapes.farthest_m())).collect();
@@ -112,7 +119,13 @@ impl Sizes {
             let parent = &mut below_m[joint.parent.get()];
             *parent = parent.max(length + child);
         }
-        Self { shapes, origins_m: lengths().sum(), longest_origin_m: lengths().fold(0.0, f64::max), below_m }
+        Self {
+            shapes,
+            balls,
+            origins_m: lengths().sum(),
+            longest_origin_m: lengths().fold(0.0, f64::max),
+            below_m,
+        }
     }
 
     /// The size of the robot: what all joint origins make in a row, or its largest link.
@@ -138,10 +151,12 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// `None` without a mass above zero or a tensor other than zero.
-    pub(super) fn of(link: LinkIndex, inertia: &Inertia, shapes: Option<Extent>) -> Option<Self> {
+    /// `None` without the mass of a body or a tensor other than zero, and of the tensor 1 kg m^2 about every axis, which
+    /// examples have: what is too large in it is told when it is read, and is no slip of a unit.
+    pub(super) fn of(link: LinkIndex, inertia: &Inertia, sizes: &Sizes) -> Option<Self> {
         let trace = inertia.tensor_kg_m2.trace();
-        if !(inertia.mass_kg > 0.0 && trace > 0.0) {
+        let is_example = inertia.tensor_kg_m2 == nalgebra::Matrix3::identity();
+        if !(inertia.mass_kg >= LEAST_BODY_KG && trace > 0.0) || is_example {
             return None;
         }
         let gyration_m = (trace / 3.0 / inertia.mass_kg).sqrt();
@@ -149,8 +164,9 @@ impl Body {
         let sphere_density = inertia.mass_kg / (4.0 / 3.0 * std::f64::consts::PI * radius_m.powi(3));
         let tensor = &inertia.tensor_kg_m2;
         let is_ball = *tensor == nalgebra::Matrix3::from_diagonal_element(tensor[(0, 0)]);
-        let is_placeholder = is_ball || tensor.iter().all(|entry| has_one_digit(*entry));
-        let shapes = shapes.filter(|shapes| shapes.diagonal_m() > 0.0);
+        let is_placeholder =
+            (is_ball && !sizes.balls[link.get()]) || tensor.iter().all(|entry| has_one_digit(*entry));
+        let shapes = sizes.shapes[link.get()].filter(|shapes| shapes.diagonal_m() > 0.0);
         Some(Self { link, mass_kg: inertia.mass_kg, gyration_m, sphere_density, is_placeholder, shapes })
     }
 

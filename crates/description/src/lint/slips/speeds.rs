@@ -6,7 +6,7 @@ use super::{
     lengths::is_real,
     thresholds::{
         FASTEST_CONTINUOUS_RAD_S, FASTEST_TURN_RAD_S, LEAST_FAST_RAD_S, LEAST_MASS_KG, MEDIAN_TURN_RAD_S,
-        MOST_POWER_W_KG,
+        MOST_POWER_W_KG, MOST_SPEED_TO_MEDIAN,
     },
 };
 use crate::{
@@ -26,7 +26,8 @@ impl Judge<'_> {
     pub(super) fn speeds(&mut self, fastest_tip_m_s: Option<f64>) {
         let robot = self.robot;
         let speeds = || robot.joints().iter().filter_map(speed);
-        let all_are_fast = speeds().count() >= 4 && median(speeds()) > Some(MEDIAN_TURN_RAD_S);
+        let middle = median(speeds()).filter(|_| speeds().count() >= 4);
+        let all_are_fast = middle > Some(MEDIAN_TURN_RAD_S);
         let mass_kg: f64 = robot.links().iter().filter_map(|link| Some(link.inertia?.mass_kg)).sum();
         for joint in robot.joints() {
             let Some(speed) = speed(joint).filter(|speed| *speed > LEAST_FAST_RAD_S) else { continue };
@@ -38,8 +39,13 @@ impl Judge<'_> {
             let carried_m_s = speed * self.sizes.below_m[joint.child.get()];
             let effort = joint.limit.and_then(|limit| limit.effort).filter(|effort| is_real(*effort));
             let power_w = effort.map_or(0.0, |effort| effort * speed);
+            // Wheels and rotors turn without limits, beside slow arms.
+            let is_odd = joint.kind == JointKind::Revolute
+                && middle.is_some_and(|middle| speed > MOST_SPEED_TO_MEDIAN * middle);
             let why = if speed > most || (all_are_fast && speed > MEDIAN_TURN_RAD_S) {
                 String::new()
+            } else if let (true, Some(middle)) = (is_odd, middle) {
+                format!(": the middle one of the robot turns with {} rad/s", number(middle))
             } else if fastest_tip_m_s.is_some_and(|fastest_m_s| carried_m_s > fastest_m_s) {
                 format!(": what it carries would reach {}", quantity(carried_m_s, "m/s"))
             } else if mass_kg > LEAST_MASS_KG && power_w > MOST_POWER_W_KG * mass_kg {

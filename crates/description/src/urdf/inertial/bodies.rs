@@ -179,11 +179,18 @@ impl Judge<'_, '_> {
 
     fn sizes(&mut self) {
         for link in self.robot.links() {
-            if let Some(what) = link.inertia.as_ref().and_then(suspicious_size) {
+            if let Some((inertia, what)) =
+                link.inertia.as_ref().and_then(|inertia| Some((inertia, suspicious_size(inertia)?)))
+            {
+                let help = if inertia.tensor_kg_m2 == nalgebra::Matrix3::identity() {
+                    "1 kg m^2 about every axis is the value of examples: give that of a box of the link's size"
+                } else {
+                    "kg mm^2 instead of kg m^2?"
+                };
                 let found =
                     Diagnostic::warning("urdf::inertia_size", format!("link \"{}\": {what}", link.name))
                         .one_of("links have an inertia that is far too large for their mass", &link.name)
-                        .with_help("kg mm^2 instead of kg m^2?");
+                        .with_help(help);
                 self.report(found, &link.name, "inertia");
             }
         }

@@ -1,0 +1,120 @@
+//! What `congruent run` is asked for.
+
+use std::path::PathBuf;
+
+use congruent::{
+    description::Diagnostic,
+    page::PageFormat,
+    twin::{RecordingFormat, scenario::Override},
+};
+
+#[cfg(feature = "recording")]
+use crate::recording::{live::LiveFormat, viewer::Viewer};
+use crate::{ci::CiArguments, failure::Failure, input::AccessArguments, print::Printer};
+
+/// Runs scenario files and writes report, page, JUnit and recording of each to its own folder; of several an index of the
+/// pages besides.
+///
+/// Ctrl-C and SIGTERM end the runs in order: what was computed until then is written, and the exit code is 3. The second
+/// ends the call at once.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// Scenario files.
+    #[arg(required = true)]
+    pub(super) scenarios: Vec<PathBuf>,
+    /// Folder for results; each scenario gets a folder of its name in it.
+    #[arg(long, default_value = "out")]
+    pub(super) out: PathBuf,
+    /// Keep what an earlier call has left in the folder for scenarios that are finished and were made from the same files,
+    /// values and version; run the others. Index, JUnit file and summary are of all.
+    #[arg(long)]
+    pub(super) resume: bool,
+    /// How many scenarios run at once; as many as the machine has cores if it is left out. The results are the same.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    jobs: Option<u16>,
+    /// Replace a value of all scenarios, for example controller.stiffness=500 or check.1.position_m=1e-6.
+    ///
+    /// KEY is the keys of the file joined by dots; an entry of a list has its number, from 1. VALUE is TOML
+    /// or a word. May be given several times.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_override)]
+    overrides: Vec<Override>,
+    /// Use this seed instead of the scenario's; the same as --set seed=N.
+    #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX.unsigned_abs()))]
+    seed: Option<u64>,
+    #[command(flatten)]
+    #[cfg_attr(not(feature = "recording"), expect(dead_code, reason = "without the feature there is none"))]
+    recording: RecordingArguments,
+    #[command(flatten)]
+    pub(super) ci: CiArguments,
+    #[command(flatten)]
+    pub(super) access: AccessArguments,
+}
+
+/// What becomes of the recording.
+#[derive(Debug, clap::Args)]
+struct RecordingArguments {
+    /// Write no recording.
+    #[arg(long)]
+    #[cfg_attr(not(feature = "recording"), expect(dead_code, reason = "without the feature there is none"))]
+    no_recording: bool,
+    /// Show the recording of one scenario in the rerun viewer while it is written; the viewer stays open.
+    ///
+    /// The recording is written every 1000 samples, 10 s of the run; its layout comes with its end.
+    #[cfg(feature = "recording")]
+    #[arg(long, conflicts_with = "no_recording")]
+    view: bool,
+}
+
+fn parse_override(text: &str) -> Result<Override, String> {
+    text.parse().map_err(|error: Diagnostic| {
+        error.help.map_or(error.message.clone(), |help| format!("{}; {help}", error.message))
+    })
+}
+
+impl Arguments {
+    /// Number of threads for so many scenarios.
+    pub(super) fn threads(&self, scenarios: usize) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        self.jobs.map_or_else(cores, usize::from).min(scenarios)
+    }
+
+    pub(super) fn overrides(&self) -> Vec<Override> {
+        self.overrides.iter().cloned().chain(self.seed.map(Override::seed)).collect()
+    }
+}
+
+/// The files that take the samples: the recording, and the page, which links to it.
+pub(super) fn recordings(recording: Option<&dyn RecordingFormat>) -> Vec<&dyn RecordingFormat> {
+    recording.into_iter().chain([&PageFormat as &dyn RecordingFormat]).collect()
+}
+
+/// The format of recordings, if they are wanted and this command was built with one.
+#[cfg(feature = "recording")]
+pub(super) fn recording_format(
+    arguments: &Arguments,
+    printer: &Printer,
+) -> Result<Option<Box<dyn RecordingFormat>>, Failure> {
+    if arguments.recording.no_recording {
+        return Ok(None);
+    }
+    if !arguments.recording.view {
+        return Ok(Some(Box::new(congruent::recording::RerunFormat)));
+    }
+    if arguments.scenarios.len() > 1 {
+        let message = format!("--view shows one run, and there are {} scenarios", arguments.scenarios.len());
+        return Err(Diagnostic::error("run::view", message).with_help("give one scenario").into());
+    }
+    let viewer = Viewer::find(None)?;
+    printer.notes(viewer.remark().as_deref());
+    Ok(Some(Box::new(LiveFormat(viewer))))
+}
+
+/// This command was built without recordings.
+#[cfg(not(feature = "recording"))]
+#[expect(clippy::unnecessary_wraps, reason = "with recordings it may fail")]
+pub(super) fn recording_format(
+    _: &Arguments,
+    _: &Printer,
+) -> Result<Option<Box<dyn RecordingFormat>>, Failure> {
+    Ok(None)
+}

@@ -1,0 +1,45 @@
+//! The page over the scenarios of a call.
+
+use std::{fs, path::Path};
+
+use congruent::{
+    page::{IndexEntry, index_page},
+    twin::results::write_whole,
+};
+
+use super::ran::Ran;
+use crate::{
+    batch::Answer,
+    failure::{Failure, unwritable},
+};
+
+/// The page over several scenarios.
+const INDEX: &str = "index.html";
+
+/// Removes that of an earlier call. If it cannot be removed, it cannot be replaced either, which is told at the end.
+pub(super) fn remove_index(out: &Path) {
+    let _ = fs::remove_file(out.join(INDEX));
+}
+
+/// The page over all scenarios of a call, beside their folders, if there are several and one of them ran.
+pub(super) fn write_index(answers: &[Answer<Ran>], out: &Path) -> Result<(), Failure> {
+    if answers.len() < 2 || answers.iter().all(|answer| answer.report().is_err()) {
+        return Ok(());
+    }
+    let entries: Vec<IndexEntry<'_>> = answers.iter().map(entry).collect();
+    let page = index_page(&entries);
+    write_whole(&out.join(INDEX), page.as_bytes())
+        .map_err(|error| unwritable(&error, "choose a folder that can be written with --out"))
+}
+
+fn entry(answer: &Answer<Ran>) -> IndexEntry<'_> {
+    let page = |ran: &Ran| {
+        let folder = ran.results.as_ref().ok()?.file_name()?;
+        Some(format!("{}/report.html", folder.to_string_lossy()))
+    };
+    IndexEntry {
+        input: answer.input(),
+        page: answer.report().ok().and_then(page),
+        result: answer.report().map(|ran| &ran.report),
+    }
+}

@@ -1,0 +1,240 @@
+//! `lint`: everything that is wrong or suspicious in a file, whatever its kind, as one report.
+
+mod beside;
+mod report;
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use congruent_analysis::inverse::read_targets;
+use congruent_calibration::{measurements::read_measurements, needed_coordinates};
+use congruent_description::{
+    Diagnostic, FileAccess, FileKind, FileToLint, Finding, Ignores, RobotDescription, SafeFix, Severity,
+    SourceFile, Use, examine_srdf, load_opened_robot, read_states, read_text, safe_fixes,
+    safe_robot_file_fixes, unit_slips, zero_limits,
+};
+use congruent_twin::RunSetup;
+
+pub use self::report::{LintFinding, LintFix, LintReport, LintVerdict};
+
+/// What was found in a file.
+struct Examined {
+    kind: Option<FileKind>,
+    found: Vec<Diagnostic>,
+    ignores: Ignores,
+}
+
+/// A file that is linted, and what else is known of it.
+struct Subject<'a> {
+    path: &'a Path,
+    source: &'a Arc<SourceFile>,
+    others: &'a [PathBuf],
+    access: &'a FileAccess,
+}
+
+/// Everything that is wrong or suspicious in a URDF, an SRDF, a robot file or a scenario, with the files that it names.
+///
+/// # Examples
+/// ```
+/// # let folder = std::env::temp_dir().join("congruent_lint");
+/// # std::fs::create_dir_all(&folder).unwrap();
+/// # let path = folder.join("a.urdf");
+/// use congruent::{description::FileAccess, lint, LintVerdict};
+/// std::fs::write(&path, "<robot name='r'><link name='a'/><link name='a'/></robot>").unwrap();
+/// let report = lint(&path, &FileAccess::default());
+/// assert_eq!(report.verdict, LintVerdict::Errors);
+/// assert_eq!(report.findings[0].finding.id.as_deref(), Some("CGR-URDF-005"));
+/// ```
+pub fn lint(path: &Path, access: &FileAccess) -> LintReport {
+    lint_among(path, &[], access)
+}
+
+/// The same of one file of several: an SRDF is compared with the robot among them, as is a table of configurations, targets
+/// or measurements.
+pub fn lint_among(path: &Path, files: &[PathBuf], access: &FileAccess) -> LintReport {
+    let Examined { kind, found, ignores } = examined(path, files, access);
+    let is_unreadable = found.iter().any(|found| found.source.is_none() && is_about_the_file(found));
+    let (kept, ignored) = ignores.apply(found);
+    let diagnostics: Vec<Diagnostic> = kept.into_iter().map(judged).collect();
+    let of = |severity| diagnostics.iter().filter(|found| found.severity == severity).count();
+    let (errors, warnings) = (of(Severity::Error), of(Severity::Warning));
+    let findings: Vec<LintFinding> = diagnostics
+        .iter()
+        .map(|found| LintFinding { finding: Finding::from(found), stopped_uses: stopped_uses(found, kind) })
+        .collect();
+    let is_stopped = |needed: &Use| findings.iter().any(|found| found.stopped_uses.contains(needed));
+    let verdict = match (errors, warnings) {
+        _ if is_unreadable => LintVerdict::Unreadable,
+        (0, 0) => LintVerdict::Clean,
+        (0, _) => LintVerdict::Warnings,
+        _ => LintVerdict::Errors,
+    };
+    let stops = ALL_USES.into_iter().filter(is_stopped).collect();
+    let fixes = fixes(&diagnostics, kind);
+    LintReport { kind, verdict, errors, warnings, stops, findings, ignored, fixes, diagnostics }
+}
+
+/// The safe corrections of each file that has findings.
+fn fixes(found: &[Diagnostic], kind: Option<FileKind>) -> Vec<LintFix> {
+    let mut sources: Vec<&Arc<SourceFile>> = Vec::new();
+    for source in found.iter().filter_map(|found| found.source.as_ref()) {
+        if sources.iter().all(|known| known.path != source.path) {
+            sources.push(source);
+        }
+    }
+    let of = |source: &Arc<SourceFile>| {
+        let found = |fix: &SafeFix| {
+            found.iter().any(|found| {
+                let path = found.source.as_ref().map(|source| &source.path);
+                found.code == fix.code && path == Some(&source.path)
+            })
+        };
+        let is_toml = source.path.extension().is_some_and(|extension| extension == "toml");
+        let fixes = match (is_toml, kind) {
+            (false, _) => safe_fixes(&source.text),
+            (true, Some(FileKind::RobotFile)) => safe_robot_file_fixes(&source.text),
+            (true, _) => Vec::new(),
+        };
+        let fixes = fixes.into_iter().filter(found);
+        fixes.map(|fix| LintFix::of(fix, source)).collect::<Vec<_>>()
+    };
+    sources.into_iter().flat_map(of).collect()
+}
+
+/// A finding that stops a use is an error of the file, although the other uses go on.
+fn judged(found: Diagnostic) -> Diagnostic {
+    let severity = if found.stops.is_some() { Severity::Error } else { found.severity };
+    Diagnostic { severity, ..found }
+}
+
+const ALL_USES: [Use; 3] = [Use::Kinematics, Use::Clearance, Use::Physics];
+
+fn stopped_uses(found: &Diagnostic, kind: Option<FileKind>) -> Vec<Use> {
+    match (found.severity, found.stops, kind) {
+        (_, Some(stopped), _) => vec![stopped],
+        (Severity::Error, None, Some(FileKind::Urdf | FileKind::RobotFile)) => ALL_USES.to_vec(),
+        _ => Vec::new(),
+    }
+}
+
+/// Whether a finding says that the file itself could not be read.
+fn is_about_the_file(found: &Diagnostic) -> bool {
+    ["file::", "load::", "lint::kind", "lint::no_robot"].iter().any(|area| found.code.starts_with(area))
+}
+
+fn examined(path: &Path, others: &[PathBuf], access: &FileAccess) -> Examined {
+    let (kind, source) = match FileToLint::open(path, access) {
+        Ok(FileToLint { kind, source }) => (kind, source),
+        Err(fault) => return Examined { kind: None, found: vec![fault], ignores: Ignores::default() },
+    };
+    let (found, ignores) = match &source {
+        None => (table(path, kind, (others, access)), Ignores::default()),
+        Some(source) => {
+            let subject = Subject { path, source, others, access };
+            match kind {
+                FileKind::Scenario => scenario(&subject),
+                FileKind::Srdf => (srdf(&subject), Ignores::default()),
+                _ => robot(&subject),
+            }
+        }
+    };
+    Examined { kind: Some(kind), found, ignores }
+}
+
+fn robot(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
+    let loaded = load_opened_robot(subject.source, subject.access);
+    let found = loaded.map_or_else(|found| found, |robot| suspicions(&robot));
+    (found, ignores_of(subject.source))
+}
+
+/// What is suspicious in a robot that could be read.
+fn suspicions(description: &RobotDescription) -> Vec<Diagnostic> {
+    let mut found = description.warnings.clone();
+    found.extend(unit_slips(description));
+    found.extend(zero_limits(description));
+    if let Some(source) = srdf_of(description) {
+        // Its names were compared when it was read, those of its pairs alone.
+        let is_told_here =
+            |found: &Diagnostic| found.source.as_ref().is_some_and(|of| of.path == source.path);
+        found.retain(|found| !is_told_here(found));
+        let told = examine_srdf(&source, Some(&description.robot)).into_iter();
+        // What is no XML has no pairs, which stops clearance alone.
+        found.extend(told.map(|found| match found.severity {
+            Severity::Error => found.needed_by(Some(Use::Clearance)),
+            Severity::Warning => found,
+        }));
+    }
+    found
+}
+
+/// Largest file that is read a second time: larger ones were refused when they were read.
+const MOST_BYTES: u64 = 16 << 20;
+
+/// The SRDF of a robot file; `None` if it cannot be read, which the reader of the robot has told.
+fn srdf_of(description: &RobotDescription) -> Option<Arc<SourceFile>> {
+    let srdf = description.named_files.srdf.as_ref()?;
+    let is_read = description.inputs.iter().any(|file| file.path == *srdf);
+    is_read.then(|| read_text(srdf, MOST_BYTES).ok()).flatten()
+}
+
+/// An SRDF by itself, with the robot that is given beside it or lies beside it.
+fn srdf(subject: &Subject<'_>) -> Vec<Diagnostic> {
+    match beside::robot_of_srdf(subject.path, subject.source, (subject.others, subject.access)) {
+        Ok(robot) => examine_srdf(subject.source, Some(&robot)),
+        Err(unknown) => {
+            let mut found = examine_srdf(subject.source, None);
+            found.push(unknown.in_file(subject.source));
+            found
+        }
+    }
+}
+
+/// A table, as the command reads it that takes such a table.
+fn table(path: &Path, kind: FileKind, (others, access): (&[PathBuf], &FileAccess)) -> Vec<Diagnostic> {
+    let description = match beside::robot_of_table(path, (others, access)) {
+        Ok(description) => description,
+        Err(unknown) => return vec![unknown],
+    };
+    let robot = &description.robot;
+    let read = match kind {
+        FileKind::Targets => read_targets(path, robot).map(|read| read.warnings),
+        FileKind::Measurements => needed_coordinates(&description)
+            .map_err(Vec::from)
+            .and_then(|needed| read_measurements(path, robot, &needed))
+            .map(|_| Vec::new()),
+        // Velocities, accelerations and torques are checked with the positions.
+        _ => read_states(path, robot).map(|read| read.warning.into_iter().collect()),
+    };
+    read.unwrap_or_else(|found| found)
+}
+
+fn scenario(subject: &Subject<'_>) -> (Vec<Diagnostic>, Ignores) {
+    match RunSetup::load_with(subject.path, &[], subject.access) {
+        Ok(setup) => {
+            let robot_file = read_text(&setup.description.path, MOST_BYTES).ok();
+            let ignores = robot_file.as_ref().map_or_else(Ignores::default, ignores_of);
+            let mut found = setup.warnings.clone();
+            found.extend(suspicions(&setup.description));
+            // A run is a simulation, which needs more than a plan.
+            if let Err(refused) = setup.for_simulation() {
+                found.retain(|found| refused.iter().all(|refused| !is_same(found, refused)));
+                found.extend(refused);
+            }
+            (found, ignores)
+        }
+        Err(found) => (found, Ignores::default()),
+    }
+}
+
+fn is_same(one: &Diagnostic, other: &Diagnostic) -> bool {
+    one.code == other.code && one.message == other.message
+}
+
+/// What a robot file ignores; nothing of a URDF.
+fn ignores_of(robot: &Arc<SourceFile>) -> Ignores {
+    let is_robot_file =
+        robot.path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+    if is_robot_file { Ignores::of(robot) } else { Ignores::default() }
+}

@@ -1,0 +1,80 @@
+//! Corrections of a robot file: keys that are misspelt. A value is never changed, nor the unit that a key gives it.
+
+use super::fix::SafeFix;
+use crate::{
+    edits::{TextEdit, edited},
+    robot_file::WrittenRobot,
+    written::toml_text::{UNKNOWN_KEY_CODE, UnknownKey, unknown_keys},
+};
+
+/// Ends of keys that are units.
+const UNITS: [&str; 8] = ["_m", "_mm", "_rad", "_deg", "_kg", "_g", "_s", "_s2"];
+/// Keys from this length on may have two letters wrong, shorter ones one.
+const LONG_KEY: usize = 8;
+
+/// The safe corrections of a robot file: of a key that is a letter away from one key and from no other, which is not given
+/// beside it and which takes the value.
+pub fn safe_robot_file_fixes(text: &str) -> Vec<SafeFix> {
+    let Some((unknown, others)) = unknown_keys::<WrittenRobot>(text) else { return Vec::new() };
+    let fix = |key: &UnknownKey| {
+        let meant = meant(key)?;
+        // Quoted keys keep their quotes.
+        let at = key.span.start + text.get(key.span.clone())?.find(&key.name)?;
+        let edit = TextEdit { span: at..at + key.name.len(), text: meant.to_owned() };
+        let (after, others_after) = unknown_keys::<WrittenRobot>(&edited(text, std::slice::from_ref(&edit)))?;
+        (after.len() < unknown.len() && others_after <= others).then(|| SafeFix {
+            code: UNKNOWN_KEY_CODE,
+            about: format!("the key \"{}\" is written \"{meant}\"", key.name),
+            edits: vec![edit],
+        })
+    };
+    unknown.iter().filter_map(fix).collect()
+}
+
+/// The one key that can be meant.
+fn meant(key: &UnknownKey) -> Option<&str> {
+    let most = if key.name.chars().count() < LONG_KEY { 1 } else { 2 };
+    let mut near = key.known.iter().filter(|known| strsim::osa_distance(&key.name, known) <= most);
+    let (only, None) = (near.next()?, near.next()) else { return None };
+    let unit = |name: &str| UNITS.iter().filter(|unit| name.ends_with(**unit)).max_by_key(|unit| unit.len());
+    (unit(only) == unit(&key.name)).then_some(only)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fixed(text: &str) -> String {
+        let edits: Vec<TextEdit> =
+            safe_robot_file_fixes(text).into_iter().flat_map(|fix| fix.edits).collect();
+        edited(text, &edits)
+    }
+
+    #[test]
+    fn a_misspelt_key_becomes_the_one_that_is_meant() {
+        let wrong =
+            "urfd = 'r.urdf'\nnmae = 'x'\n[tcp]\nxzy_m = [0, 0, 0.1]\n\"quaternoin_wxyz\" = [1, 0, 0, 0]\n";
+        let right =
+            "urdf = 'r.urdf'\nname = 'x'\n[tcp]\nxyz_m = [0, 0, 0.1]\n\"quaternion_wxyz\" = [1, 0, 0, 0]\n";
+        assert_eq!(fixed(wrong), right);
+        assert_eq!(safe_robot_file_fixes(right), []);
+    }
+
+    #[test]
+    fn what_needs_a_decision_is_left_alone() {
+        for text in [
+            // The unit is what is wrong or missing.
+            "urdf = 'r.urdf'\n[tcp]\nxyz = [0, 0, 0.1]\n",
+            "urdf = 'r.urdf'\n[tcp]\nxyz_n = [0, 0, 0.1]\n",
+            "urdf = 'r.urdf'\n[tcp]\nrpy_rd = [0, 0, 0.1]\n",
+            // The key is there already, takes no such value, or is none of these.
+            "urdf = 'r.urdf'\nurfd = 'q.urdf'\n",
+            "urdf = 'r.urdf'\nnmae = 3\n",
+            "urdf = 'r.urdf'\ncolour = 'red'\n",
+            "urdf = 'r.urdf'\n[tcp]\nrpy_rad = [0, 90, 0]\n",
+            "urdf = \n",
+        ] {
+            assert_eq!(fixed(text), text);
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! What is wrong with an SRDF: by itself, and in its names against the robot that it is of.
+
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::Arc,
+};
+
+use roxmltree::Node;
+
+use crate::{
+    diagnostic::{Diagnostic, Diagnostics, SourceFile, known_names},
+    model::Robot,
+    urdf::node::{elements, label, tag},
+    xml,
+};
+
+/// What an attribute names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Named {
+    Link,
+    Joint,
+    Group,
+}
+
+impl Named {
+    const fn code(self) -> &'static str {
+        match self {
+            Self::Link => "srdf::unknown_link",
+            Self::Joint => "srdf::unknown_joint",
+            Self::Group => "srdf::unknown_group",
+        }
+    }
+
+    /// What several wrong names are, the word for one, and that for all.
+    const fn words(self) -> (&'static str, &'static str, &'static str) {
+        match self {
+            Self::Link => {
+                ("times a link is named that the robot does not have", "link of the robot", "links")
+            }
+            Self::Joint => {
+                ("times a joint is named that the robot does not have", "joint of the robot", "joints")
+            }
+            Self::Group => ("times a group is named that there is not", "group of this file", "groups"),
+        }
+    }
+}
+
+/// The attributes that are names: the parent (any if it is empty), the element, the attribute, and whether it must be there.
+const NAMES: &[(&str, &str, &str, Named, bool)] = &[
+    ("group", "link", "name", Named::Link, true),
+    ("group", "joint", "name", Named::Joint, true),
+    ("group", "chain", "base_link", Named::Link, true),
+    ("group", "chain", "tip_link", Named::Link, true),
+    ("group", "group", "name", Named::Group, true),
+    ("robot", "group_state", "group", Named::Group, true),
+    ("group_state", "joint", "name", Named::Joint, true),
+    ("robot", "end_effector", "parent_link", Named::Link, true),
+    ("robot", "end_effector", "group", Named::Group, true),
+    ("robot", "end_effector", "parent_group", Named::Group, false),
+    ("robot", "virtual_joint", "child_link", Named::Link, true),
+    ("robot", "passive_joint", "name", Named::Joint, true),
+    ("robot", "link_sphere_approximation", "link", Named::Link, true),
+    ("robot", "disable_default_collisions", "link", Named::Link, true),
+    ("robot", "joint_property", "joint_name", Named::Joint, true),
+    // What is missing in these is told as a pair.
+    ("robot", "disable_collisions", "link1", Named::Link, false),
+    ("robot", "disable_collisions", "link2", Named::Link, false),
+    ("robot", "enable_collisions", "link1", Named::Link, false),
+    ("robot", "enable_collisions", "link2", Named::Link, false),
+];
+
+/// The name that the root element of a URDF or an SRDF gives; `None` if the text is no XML or the element has none.
+pub fn robot_name(text: &str) -> Option<String> {
+    let document = xml::parse(text).ok()?;
+    let root = document.root_element();
+    root.attribute("name").filter(|_| root.has_tag_name("robot")).map(str::to_owned)
+}
+
+/// What is wrong with an SRDF. Its links and joints are compared with those of its robot, if that is known.
+pub fn examine_srdf(source: &Arc<SourceFile>, robot: Option<&Robot>) -> Vec<Diagnostic> {
+    let document = match xml::parse(&source.text) {
+        Ok(document) => document,
+        Err(fault) => return vec![fault.in_file(source)],
+    };
+    let root = document.root_element();
+    let mut found = Diagnostics::default();
+    if root.tag_name().name() != "robot" {
+        let message =
+            format!("the root element is <{}>: an SRDF begins with <robot>", root.tag_name().name());
+        found.push(Diagnostic::error("srdf::root", message).at(tag(root)));
+    }
+    found.extend(robot.and_then(|robot| other_robot(root, robot)));
+    found.extend(document.descendants().filter_map(pair));
+    let known = Known::new(root, robot);
+    for node in document.descendants().filter(Node::is_element) {
+        found.extend(known.names(node));
+    }
+    found.in_file(source)
+}
+
+/// The SRDF is of a robot of another name.
+fn other_robot(root: Node<'_, '_>, robot: &Robot) -> Option<Diagnostic> {
+    let name = root.attribute("name").unwrap_or_default();
+    (name != robot.name()).then(|| {
+        let message = format!("the SRDF is of robot \"{name}\", the URDF is of robot \"{}\"", robot.name());
+        Diagnostic::warning("srdf::robot_name", message)
+            .at(tag(root))
+            .with_help("motion planners refuse the two together: give both the same name")
+    })
+}
+
+/// A pair of collisions that are disabled, without two links.
+fn pair(node: Node<'_, '_>) -> Option<Diagnostic> {
+    let element = node.tag_name().name();
+    if !["disable_collisions", "enable_collisions"].contains(&element) {
+        return None;
+    }
+    let [one, other] = ["link1", "link2"].map(|key| node.attribute(key).filter(|name| !name.is_empty()));
+    let what = match (one, other) {
+        (Some(one), Some(other)) if one == other => format!("link \"{one}\" with itself"),
+        (Some(_), Some(_)) => return None,
+        (None, _) => "no link1".to_owned(),
+        (_, None) => "no link2".to_owned(),
+    };
+    let verb = if element == "disable_collisions" { "disables" } else { "enables" };
+    let warning = Diagnostic::warning("srdf::pair", format!("<{element}> has {what}"));
+    Some(warning.at(tag(node)).with_help(format!("it {verb} nothing: name two links")))
+}
+
+/// The names that there are; of what is not known there is no entry.
+struct Known<'a>(BTreeMap<Named, BTreeSet<&'a str>>);
+
+impl<'a> Known<'a> {
+    fn new(root: Node<'a, 'a>, robot: Option<&'a Robot>) -> Self {
+        let of = |element| elements(root, element).filter_map(|node| node.attribute("name"));
+        let mut known = BTreeMap::from([(Named::Group, of("group").collect::<BTreeSet<&str>>())]);
+        if let Some(robot) = robot {
+            let links = robot.links().iter().map(|link| link.name.as_str());
+            let joints = robot.joints().iter().map(|joint| joint.name.as_str());
+            known.insert(Named::Link, links.collect());
+            known.insert(Named::Joint, joints.chain(of("virtual_joint")).collect());
+        }
+        Self(known)
+    }
+
+    /// What is wrong with the names of an element.
+    fn names(&self, node: Node<'_, '_>) -> Vec<Diagnostic> {
+        let element = node.tag_name().name();
+        let parent = node.parent_element().map_or("", |parent| parent.tag_name().name());
+        let rules = NAMES.iter().filter(|(within, name, ..)| *name == element && *within == parent);
+        let wrong = |&(_, _, attribute, named, is_needed): &(_, _, &str, Named, bool)| match node
+            .attribute(attribute)
+            .filter(|name| !name.is_empty())
+        {
+            Some(name) => self.unknown(node, (attribute, name), named),
+            None if is_needed => {
+                let message = format!("{} has no {attribute}", described(node));
+                Some(Diagnostic::warning("srdf::missing_name", message).at(tag(node)))
+            }
+            None => None,
+        };
+        rules.filter_map(wrong).collect()
+    }
+
+    fn unknown(
+        &self,
+        node: Node<'_, '_>,
+        (attribute, name): (&str, &str),
+        named: Named,
+    ) -> Option<Diagnostic> {
+        let known = self.0.get(&named).filter(|known| !known.contains(name))?;
+        let (several, one, all) = named.words();
+        let message = format!("{}: {attribute} \"{name}\" is no {one}", described(node));
+        let warning = Diagnostic::warning(named.code(), message).one_of(several, name).at(tag(node));
+        Some(warning.with_help(known_names(name, all, known.iter().copied())))
+    }
+}
+
+/// `<chain> in group "arm"`.
+fn described(node: Node<'_, '_>) -> String {
+    let element = node.tag_name().name();
+    match node.parent_element().filter(|parent| parent.tag_name().name() != "robot") {
+        Some(parent) => format!("<{element}> in {}", label(parent)),
+        None => format!("<{element}>"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const URDF: &str = "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'>\
+                        <parent link='a'/><child link='b'/></joint></robot>";
+
+    fn examined(text: &str, robot: Option<&Robot>) -> Vec<String> {
+        let source = Arc::new(SourceFile { path: "r.srdf".into(), text: text.to_owned() });
+        examine_srdf(&source, robot).into_iter().map(|found| found.message).collect()
+    }
+
+    #[test]
+    fn an_srdf_is_examined_by_itself() {
+        let whole = "<robot name='r'><disable_collisions link1='a' link2='b'/></robot>";
+        assert_eq!(examined(whole, None), [""; 0]);
+        for (text, message) in [
+            ("<robot><disable_collisions link1='a' link2='a'/></robot>", "link \"a\" with itself"),
+            ("<robot><disable_collisions link1='a'/></robot>", "no link2"),
+            (
+                "<robot><group_state name='home' group='arm'/></robot>",
+                "group \"arm\" is no group of this file",
+            ),
+            ("<robot><end_effector name='e' group='g'/></robot>", "<end_effector> has no parent_link"),
+            ("<semantics/>", "the root element is <semantics>"),
+            ("<robot>", "unexpected end of file"),
+        ] {
+            assert!(examined(text, None)[0].contains(message), "{:?}", examined(text, None));
+        }
+    }
+
+    #[test]
+    fn names_are_those_of_the_robot() {
+        let robot = crate::parse_urdf(URDF).unwrap();
+        let of = |inside: &str| examined(&format!("<robot name='r'>{inside}</robot>"), Some(&robot));
+        let good = "<virtual_joint name='v' child_link='a' parent_frame='world' type='fixed'/>\
+                    <group name='arm'><joint name='v'/><joint name='j'/><chain base_link='a' tip_link='b'/></group>\
+                    <group name='all'><group name='arm'/><link name='b'/></group>\
+                    <group_state name='home' group='arm'><joint name='j' value='0'/></group_state>\
+                    <end_effector name='e' parent_link='b' group='all' parent_group='arm'/>\
+                    <passive_joint name='j'/><disable_collisions link1='a' link2='b' reason='Adjacent'/>";
+        assert_eq!(of(good), [""; 0]);
+        for (from, to, message) in [
+            (
+                "tip_link='b'",
+                "tip_link='c'",
+                "<chain> in group \"arm\": tip_link \"c\" is no link of the robot",
+            ),
+            ("<joint name='j'/>", "<joint name='k'/>", "<joint> in group \"arm\": name \"k\" is no joint"),
+            (
+                "<group name='arm'/>",
+                "<group name='amr'/>",
+                "<group> in group \"all\": name \"amr\" is no group",
+            ),
+            ("parent_link='b'", "parent_link='x'", "<end_effector>: parent_link \"x\" is no link"),
+            ("link2='b'", "link2='x'", "<disable_collisions>: link2 \"x\" is no link of the robot"),
+            ("<passive_joint name='j'/>", "<passive_joint name='x'/>", "\"x\" is no joint of the robot"),
+            ("<joint name='j' value", "<joint name='i' value", "<joint> in group_state \"home\": name \"i\""),
+        ] {
+            assert!(good.contains(from), "{from}");
+            let found = of(&good.replacen(from, to, 1));
+            assert!(found.len() == 1 && found[0].contains(message), "{to}: {found:?}");
+        }
+        let other = examined("<robot name='q'/>", Some(&robot));
+        assert_eq!(other, ["the SRDF is of robot \"q\", the URDF is of robot \"r\""]);
+    }
+}
