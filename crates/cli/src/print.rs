@@ -4,6 +4,7 @@
 use std::{
     fmt::Write as _,
     io::{self, BufWriter, IsTerminal, Write},
+    iter::once_with,
     path::Path,
     sync::OnceLock,
 };
@@ -145,12 +146,21 @@ impl Printer {
         document: &T,
         text: impl FnOnce(&T) -> String,
     ) -> Result<(), Failure> {
+        self.parts(document, |document| once_with(move || text(document)))
+    }
+
+    /// The same for a long text, whose parts of whole lines are made while it is written.
+    pub(crate) fn parts<'a, T: Serialize, Parts: Iterator<Item = String> + 'a>(
+        &self,
+        document: &'a T,
+        text: impl FnOnce(&'a T) -> Parts,
+    ) -> Result<(), Failure> {
         let within = |text: String| match columns() {
             Some(columns) => fitted(&text, columns),
             None => text,
         };
         let in_colour = |text: String| if is_coloured() { with_coloured_status(&text) } else { text };
-        self.verbatim(document, |document| in_colour(within(text(document))))
+        self.write(document, |document| text(document).map(within).map(in_colour))
     }
 
     /// The same for a text that is a file, of which no line is broken.
@@ -159,13 +169,22 @@ impl Printer {
         document: &T,
         text: impl FnOnce(&T) -> String,
     ) -> Result<(), Failure> {
+        self.write(document, |document| once_with(move || text(document)))
+    }
+
+    fn write<'a, T: Serialize, Parts: Iterator<Item = String> + 'a>(
+        &self,
+        document: &'a T,
+        text: impl FnOnce(&'a T) -> Parts,
+    ) -> Result<(), Failure> {
         let mut out = BufWriter::new(io::stdout().lock());
         let written = match self.format {
             Format::Human => {
                 let colours = colours();
-                let text = text(document);
-                let mut lines = text.split_inclusive('\n');
-                lines.try_for_each(|line| out.write_all(for_people(line, colours).as_bytes()))
+                text(document).try_for_each(|part| {
+                    let mut lines = part.split_inclusive('\n');
+                    lines.try_for_each(|line| out.write_all(for_people(line, colours).as_bytes()))
+                })
             }
             Format::Json | Format::Sarif => write_json(document, &mut out),
         };

@@ -3,34 +3,29 @@
 use std::ops::Range;
 
 use congruent_analysis::dynamics::{DynamicsOptions, DynamicsReport, DynamicsSource, dynamics, robot_of};
-use congruent_analysis::forward::{ForwardError, ForwardReport, Source, forward_by_table};
+use congruent_analysis::forward::{ForwardReport, PoseStream, Source, forward_by_table};
 use congruent_description::{Diagnostic, JointState, Robot, RobotDescription, RobotQ, Use};
 use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_kinematics::{LinkPoses, ScrewTree, UrdfTree};
 use congruent_twin::source::{SimulatedDynamics, SimulatedPoses};
 
-/// Poses of all links at each configuration, by a chosen source.
+/// Poses of all links at each configuration, by a chosen source; each is computed when it is asked for.
 ///
 /// # Errors
-/// What is wrong with the robot or with the configurations, if the source does not exist or rejects them.
-pub fn forward(
-    description: &RobotDescription,
+/// What is wrong with the robot or with the first configuration, if the source does not exist or rejects them.
+pub fn forward<'a>(
+    description: &'a RobotDescription,
     source: Source,
-    configurations: &[RobotQ],
-) -> Result<ForwardReport, Vec<Diagnostic>> {
+    configurations: impl Iterator<Item = RobotQ> + 'a,
+) -> Result<ForwardReport<PoseStream<'a>>, Vec<Diagnostic>> {
     let robot = &description.robot;
-    let mut link_poses: Box<dyn LinkPoses> = match source {
-        Source::Dh => return forward_by_table(description, configurations).map_err(refused),
+    let link_poses: Box<dyn LinkPoses + 'a> = match source {
+        Source::Dh => return Ok(forward_by_table(description, configurations)?),
         Source::Urdf => Box::new(UrdfTree::new(robot)),
         Source::Poe => Box::new(ScrewTree::new(robot)),
         Source::Simulation => Box::new(simulated_poses(description)?),
     };
-    congruent_analysis::forward::forward(description, (source, &mut *link_poses), configurations)
-        .map_err(refused)
-}
-
-fn refused(error: ForwardError) -> Vec<Diagnostic> {
-    vec![error.into()]
+    Ok(congruent_analysis::forward::forward(description, (source, link_poses), configurations)?)
 }
 
 /// The physics of a robot, or the findings for which it cannot be built.

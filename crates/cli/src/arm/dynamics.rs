@@ -54,6 +54,7 @@ fn payload(text: &str) -> Result<Payload, String> {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.arm.load_urdf(printer)?;
     let states = arguments.configurations.read_states_or_rest(&mut description, printer)?;
+    let states: Vec<_> = states.iter().collect();
     let options = DynamicsOptions { friction: arguments.friction, payload: arguments.payload };
     let report = congruent::joint_dynamics(&description, arguments.source, &options, &states)?;
     printer.warnings(stiction(&description.robot, (arguments.source, &options), &states).as_slice());
