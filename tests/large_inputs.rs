@@ -3,15 +3,14 @@
 use std::{
     fmt::Write,
     fs::{self, File},
-    process::Command,
 };
 
-use crate::{calibration::Bench, command::allowing, corpus::workspace};
+use crate::{calibration::Bench, command::with_memory, corpus::workspace};
 
 const CONFIGURATIONS: usize = 200_000;
 /// Address space of the command, in KiB. Of it the program has 60 MB before it reads anything, and the values of the joints
 /// 10 MB; each configuration in a form of its own would take 100 MB or more.
-const MOST_KIB: usize = 128 << 10;
+const MOST_KIB: u32 = 128 << 10;
 
 /// A list of configurations of the UR5e, each another one.
 fn list() -> String {
@@ -32,12 +31,9 @@ fn list() -> String {
 
 /// What the command prints if it has no more memory than this.
 fn limited(bench: &Bench, arguments: &[&str]) -> String {
-    let command = allowing(arguments);
-    let limit = format!("ulimit -v {MOST_KIB}; exec \"$0\" \"$@\"");
-    let mut shell = Command::new("/bin/sh");
-    shell.args(["-c", &limit]).arg(command.get_program()).args(command.get_args()).current_dir(workspace());
     let printed = bench.write("printed", "");
-    let ended = shell.stdout(File::create(&printed).unwrap()).output().unwrap();
+    let mut command = with_memory(MOST_KIB, arguments);
+    let ended = command.stdout(File::create(&printed).unwrap()).output().unwrap();
     assert!(ended.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&ended.stderr));
     fs::read_to_string(printed).unwrap()
 }

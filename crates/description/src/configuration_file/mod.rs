@@ -3,6 +3,7 @@
 mod json_list;
 mod json_stream;
 mod outside;
+mod rows;
 mod states;
 mod unique;
 
@@ -14,12 +15,13 @@ use serde::Deserialize;
 use crate::{
     diagnostic::{Diagnostic, known_names},
     files::{InputFile, TextStream},
-    model::{Robot, RobotQ, RobotQList},
+    model::{Robot, RobotQ},
 };
 
 pub use self::{
     json_list::JsonList,
     outside::{outside_limits, outside_limits_warning},
+    rows::RobotQList,
     states::{JointState, JointStateList},
     unique::unique_names,
 };

@@ -1,6 +1,7 @@
 //! States of a robot: positions with speeds, accelerations and torques.
 
-use crate::model::{RobotQ, Rows};
+use super::rows::Rows;
+use crate::model::RobotQ;
 
 /// One entry of a batch in full: one value for each movable joint.
 #[derive(Debug, Clone, PartialEq)]

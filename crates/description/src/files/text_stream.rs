@@ -123,7 +123,7 @@ impl TextStream {
         };
         stream.fill();
         match stream.fault {
-            Some(fault) => Err(fault.in_file(&stream.excerpts.into_source(stream.path))),
+            Some(fault) => Err(placed(fault, &stream.excerpts.into_source(stream.path))),
             None => Ok(stream),
         }
     }
@@ -197,7 +197,7 @@ impl TextStream {
         let Self { path, fault, excerpts, .. } = self;
         let source = excerpts.into_source(path.clone());
         if let Some(fault) = fault {
-            return Err(if fault.span.is_some() { fault.in_file(&source) } else { fault });
+            return Err(placed(fault, &source));
         }
         let sha256 = format!("{:x}", self.digest.finalize());
         Ok((InputFile { file: path.display().to_string(), sha256, path }, source))
@@ -261,6 +261,11 @@ impl TextStream {
         let span = self.keep(at..at);
         self.fault = Some(fault.at(span));
     }
+}
+
+/// The fault with its text, unless it is about the file as a whole.
+fn placed(fault: Diagnostic, source: &Arc<SourceFile>) -> Diagnostic {
+    if fault.span.is_some() { fault.in_file(source) } else { fault }
 }
 
 impl Excerpts {

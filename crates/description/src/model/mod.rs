@@ -9,7 +9,6 @@ mod joint_values;
 mod link;
 mod positions;
 mod robot;
-mod rows;
 mod tolerance;
 mod tree;
 
@@ -22,6 +21,4 @@ pub use joint_values::JointValues;
 pub use link::{Link, LinkIndex};
 pub use positions::{ArmQ, ChainQ, RobotQ};
 pub use robot::Robot;
-pub use rows::RobotQList;
-pub(crate) use rows::Rows;
 pub use tolerance::{Tolerance, ToleranceScale};

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::positions::RobotQ;
+use crate::model::RobotQ;
 
 /// Configurations of one robot, one after the other: 8 bytes for each value.
 ///
@@ -62,7 +62,7 @@ impl From<&RobotQ> for RobotQList {
 
 /// Rows of as many values each. Those that come before the first one with a value that is not zero take no memory.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Rows {
+pub(super) struct Rows {
     width: usize,
     count: usize,
     /// Rows of zeros at the beginning, which are not stored.
@@ -72,11 +72,11 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    pub(crate) fn new(width: usize) -> Self {
+    pub(super) fn new(width: usize) -> Self {
         Self { width, zeros: vec![0.0; width], ..Self::default() }
     }
 
-    pub(crate) fn push(&mut self, row: &[f64]) {
+    pub(super) fn push(&mut self, row: &[f64]) {
         assert_eq!(row.len(), self.width, "one value for each movable joint");
         self.count += 1;
         // The sign of a zero is kept.
@@ -87,7 +87,7 @@ impl Rows {
         }
     }
 
-    pub(crate) fn row(&self, index: usize) -> &[f64] {
+    pub(super) fn row(&self, index: usize) -> &[f64] {
         let place = |at: usize| -> Range<usize> { at * self.width..(at + 1) * self.width };
         index.checked_sub(self.zero_rows).map_or(&self.zeros[..], |stored| &self.values[place(stored)])
     }
