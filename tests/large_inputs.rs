@@ -5,7 +5,7 @@ use std::{
     fs::{self, File},
 };
 
-use crate::{calibration::Bench, command::with_memory, corpus::workspace};
+use crate::{calibration::Bench, command::with_memory};
 
 const CONFIGURATIONS: usize = 200_000;
 /// Address space of the command, in KiB. Of it the program has 60 MB before it reads anything, and the values of the joints

@@ -48,8 +48,8 @@ pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
 pub use mesh::{HullPoints, read_mesh};
 pub use model::{
     ArmQ, ChainQ, DhConvention, DhRow, DhRowKind, DhTable, Geometry, Inertia, Joint, JointIndex, JointKind,
-    JointLimit, JointParts, JointValues, Link, LinkIndex, Mesh, Mimic, Robot, RobotError, RobotQ, RobotQList,
-    Shape, Tolerance, ToleranceScale, principal_moments,
+    JointLimit, JointParts, JointValues, Link, LinkIndex, Mesh, Mimic, Robot, RobotError, RobotQ, Shape,
+    Tolerance, ToleranceScale, principal_moments,
 };
 pub use robot_file::{
     ConstantKey, ConstantPart, DeclaredDynamics, DeclaredInertial, InertialFrame, InertialPlaces,
