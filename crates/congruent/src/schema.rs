@@ -5,7 +5,7 @@ use congruent_analysis::{
     base_parameters::BaseParameterReport,
     conversion::ConversionReport,
     description_summary::DescriptionSummary,
-    dynamics::DynamicsReport,
+    dynamics::{DynamicsReport, DynamicsStream},
     forward::{ForwardReport, PoseStream},
     inverse::InverseReport,
     jacobians::{JacobianReport, JacobianStream},
@@ -68,7 +68,11 @@ impl Document {
             "Jacobians, printed by `jacobian`",
             written::<JacobianReport<JacobianStream<'static>>>,
         ),
-        Self::new("dynamics", "torques and accelerations, printed by `dynamics`", written::<DynamicsReport>),
+        Self::new(
+            "dynamics",
+            "torques and accelerations, printed by `dynamics`",
+            written::<DynamicsReport<DynamicsStream<'static>>>,
+        ),
         Self::new("ik", "solutions, printed by `ik`", written::<InverseReport>),
         Self::new(
             "manipulability",

@@ -70,9 +70,9 @@ fn parts<'a>(report: &'a Report<'_>, robot: &Robot) -> impl Iterator<Item = Stri
     if !report.sliding.is_empty() {
         let _ = writeln!(text, "{radian} of {} count as one radian", report.sliding.join(", "));
     }
-    let configuration = move |(number, result): (usize, ConfigurationDexterity)| {
+    let configuration = move |(at, result): (usize, ConfigurationDexterity)| {
         let [x, y, z] = result.tcp_in_base_m.map(|value| in_column(value, "m"));
-        let mut text = format!("configuration {number}: tool at {x}, {y}, {z} mm in the base\n");
+        let mut text = format!("configuration {at}: tool at {x}, {y}, {z} mm in the base\n");
         ellipsoid(&mut text, ("linear", "m"), &result.linear, per);
         ellipsoid(&mut text, ("angular", "rad"), &result.angular, per);
         let _ = writeln!(text, "  both, {radian} as one radian: {}", measures(&result.whole, number));
