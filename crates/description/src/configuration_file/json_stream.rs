@@ -75,6 +75,10 @@ impl JsonList {
             count = 1;
         }
         drop(parser);
+        if number == 0 {
+            // Whoever needs an entry shows where the text begins.
+            text.borrow_mut().keep(0..0);
+        }
         // Whatever is wrong with the file as a whole comes before what is wrong in it.
         let (input, source) = text.into_inner().close()?;
         if count > MOST_FAULTS {
