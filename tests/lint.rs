@@ -143,7 +143,8 @@ fn codes_are_explained_by_number_and_by_name() {
 
 #[test]
 fn safe_corrections_are_shown_and_written() {
-    let misspelt = URDF.replace("<origin", "<orgin");
+    // The byte order mark stays.
+    let misspelt = format!("\u{feff}{}", URDF.replace("<origin", "<orgin"));
     let folder = Folder::new(&[("r.urdf", &misspelt)]);
     let file = folder.text("r.urdf");
     let dry = congruent(&["lint", &file, "--fix", "--dry-run"]);
@@ -151,7 +152,8 @@ fn safe_corrections_are_shown_and_written() {
     assert_eq!(fs::read_to_string(&file).unwrap(), misspelt);
     let fixed = congruent(&["lint", &file, "--fix"]);
     assert!(fixed.code == 0 && fixed.stdout.contains("\n+    <axis xyz='0 0 1'/>"), "{}", fixed.stdout);
-    assert_eq!(fs::read_to_string(&file).unwrap(), URDF.replace("'0 0 2'", "'0 0 1'"));
+    let right = format!("\u{feff}{}", URDF.replace("'0 0 2'", "'0 0 1'"));
+    assert_eq!(fs::read_to_string(&file).unwrap(), right);
     let sarif = congruent(&["lint", &folder.text("r.urdf"), "--format", "sarif"]).json();
     assert!(sarif["runs"][0]["results"].as_array().is_some_and(|results| !results.is_empty()));
 }

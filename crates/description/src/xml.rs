@@ -133,6 +133,13 @@ fn no_xml(text: &str) -> Result<(), Diagnostic> {
         .at(at..at)
         .with_help("`git lfs pull` fetches it"));
     }
+    let starts_with =
+        |word: &str| begin.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word));
+    if starts_with("<!doctype html") || starts_with("<html") {
+        return Err(Diagnostic::error("xml::malformed", "the file is a web page (HTML)")
+            .at(at..at)
+            .with_help("download the file itself: code hosts show it inside of a page, and have a link to the raw file"));
+    }
     if begin.is_empty() || begin.starts_with('<') {
         return Ok(());
     }
@@ -249,6 +256,8 @@ mod tests {
         refused(&nested(100_000), "xml::depth", "deeper than 64");
         refused("<!DOCTYPE r [<!ENTITY x SYSTEM \"f\">]><r>&x;</r>", "xml::dtd", "entity");
         refused("<!DOCTYPE r><r/>", "xml::dtd", "DTD");
+        refused("<!DOCTYPE HTML><html></html>", "xml::malformed", "web page");
+        refused("\n<html></html>", "xml::malformed", "web page");
     }
 
     #[test]

@@ -34,10 +34,11 @@ pub fn safe_robot_file_fixes(text: &str) -> Vec<SafeFix> {
 /// The one key that can be meant.
 fn meant(key: &UnknownKey) -> Option<&str> {
     let most = if key.name.chars().count() < LONG_KEY { 1 } else { 2 };
-    let mut near = key.known.iter().filter(|known| strsim::osa_distance(&key.name, known) <= most);
-    let (only, None) = (near.next()?, near.next()) else { return None };
     let unit = |name: &str| UNITS.iter().filter(|unit| name.ends_with(**unit)).max_by_key(|unit| unit.len());
-    (unit(only) == unit(&key.name)).then_some(only)
+    let is_near = |known: &str| strsim::osa_distance(&key.name, known) <= most;
+    let mut near = key.known.iter().filter(|known| unit(known) == unit(&key.name) && is_near(known));
+    let (only, None) = (near.next()?, near.next()) else { return None };
+    Some(only)
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Limits of 0, which mean "not given" to some readers and "cannot move" to others.
 
+use std::collections::BTreeMap;
+
 use crate::{
     description::RobotDescription,
     diagnostic::{Diagnostic, Diagnostics},
@@ -41,6 +43,9 @@ const LIMITS: [Limit; 2] = [
 pub fn zero_limits(description: &RobotDescription) -> Vec<Diagnostic> {
     let Some(places) = &description.places.urdf else { return Vec::new() };
     let Ok(document) = xml::parse(&places.source().text) else { return Vec::new() };
+    let joints: BTreeMap<&str, roxmltree::Node<'_, '_>> = elements(document.root_element(), "joint")
+        .filter_map(|node| Some((node.attribute("name")?, node)))
+        .collect();
     let driven = || description.robot.joints().iter().filter(|joint| is_driven(joint));
     let mut found = Diagnostics::default();
     for limit in &LIMITS {
@@ -56,9 +61,8 @@ pub fn zero_limits(description: &RobotDescription) -> Vec<Diagnostic> {
             let warning = Diagnostic::warning("urdf::zero_limit", message)
                 .one_of(limit.words, joint.name.as_str())
                 .with_help(limit.help);
-            let mut nodes = elements(document.root_element(), "joint");
-            let node = nodes.find(|node| node.attribute("name") == Some(&joint.name));
-            found.push(warning.at(node.map_or(0..0, |node| place(node, "limit"))));
+            let node = joints.get(joint.name.as_str());
+            found.push(warning.at(node.map_or(0..0, |node| place(*node, "limit"))));
         }
     }
     found.in_file(places.source())

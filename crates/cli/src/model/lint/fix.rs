@@ -1,6 +1,6 @@
 //! `lint --fix`: writes the safe corrections, each file whole or not at all.
 
-use std::sync::Arc;
+use std::{fs, sync::Arc};
 
 use congruent::{
     LintFix,
@@ -10,6 +10,9 @@ use congruent::{
 
 use super::diff::unified;
 use crate::failure::{Failure, unwritable};
+
+/// The byte order mark.
+const MARK: &str = "\u{feff}";
 
 /// The files that are corrected, each with all of its changes.
 fn files(fixes: &[LintFix]) -> Vec<(&Arc<SourceFile>, Vec<TextEdit>)> {
@@ -36,7 +39,9 @@ pub(super) fn difference(fixes: &[LintFix]) -> String {
 pub(super) fn write(fixes: &[LintFix]) -> Result<bool, Failure> {
     let files = files(fixes);
     for (source, edits) in &files {
-        let text = edited(&source.text, edits);
+        // It is not in the text that was read, and is no part of what is corrected.
+        let mark = fs::read(&source.path).is_ok_and(|old| old.starts_with(MARK.as_bytes()));
+        let text = [if mark { MARK } else { "" }, &edited(&source.text, edits)].concat();
         write_whole(&source.path, text.as_bytes())
             .map_err(|error| unwritable(&error, "--dry-run shows the difference alone"))?;
     }
