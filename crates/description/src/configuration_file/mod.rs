@@ -126,7 +126,9 @@ fn read(
         if !found.is_empty() {
             first_outside.get_or_insert_with(|| place.keep());
         }
-        found.into_iter().for_each(|what| outside.add(|| format!("configuration {index}: {what}")));
+        for what in found {
+            outside.add(|| format!("configuration {index}: {what}"));
+        }
         add(&written)
     };
     let (input, source) = LIST.read_stream(TextStream::open(path, MOST_BYTES)?, entry)?;

@@ -23,7 +23,9 @@ pub fn outside_limits(values: &BTreeMap<String, f64>, robot: &Robot) -> Vec<Stri
 /// The warning that lists such sentences; `None` if there are none.
 pub fn outside_limits_warning(found: &[String]) -> Option<Diagnostic> {
     let mut outside = OutsideLimits::default();
-    found.iter().for_each(|what| outside.add(|| what.clone()));
+    for what in found {
+        outside.add(|| what.clone());
+    }
     outside.warning()
 }
 

@@ -66,7 +66,7 @@ pub(super) struct Rows {
     width: usize,
     count: usize,
     /// Rows of zeros at the beginning, which are not stored.
-    zero_rows: usize,
+    leading: usize,
     zeros: Vec<f64>,
     values: Vec<f64>,
 }
@@ -81,7 +81,7 @@ impl Rows {
         self.count += 1;
         // The sign of a zero is kept.
         if self.values.is_empty() && row.iter().all(|value| value.to_bits() == 0) {
-            self.zero_rows += 1;
+            self.leading += 1;
         } else {
             self.values.extend_from_slice(row);
         }
@@ -89,7 +89,7 @@ impl Rows {
 
     pub(super) fn row(&self, index: usize) -> &[f64] {
         let place = |at: usize| -> Range<usize> { at * self.width..(at + 1) * self.width };
-        index.checked_sub(self.zero_rows).map_or(&self.zeros[..], |stored| &self.values[place(stored)])
+        index.checked_sub(self.leading).map_or(&self.zeros[..], |stored| &self.values[place(stored)])
     }
 }
 

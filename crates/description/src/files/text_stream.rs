@@ -59,7 +59,7 @@ impl Place {
         let (column, column_bytes) = line_start.map_or((self.column, self.column_bytes), |_| (0, 0));
         Self {
             offset: self.offset + bytes.len(),
-            line: self.line + bytes.iter().filter(|&&byte| byte == b'\n').count(),
+            line: self.line + bytes.split(|&byte| byte == b'\n').count() - 1,
             column: column + characters,
             column_bytes: column_bytes + in_line.len(),
         }
