@@ -95,7 +95,7 @@ impl From<ForwardError> for Diagnostic {
 /// Poses that are computed while they are written.
 pub type PoseStream<'a> = Stream<'a, ReportedLinkPoses>;
 
-impl<'a> ForwardReport<PoseStream<'a>> {
+impl ForwardReport<PoseStream<'_>> {
     /// The same poses in the frame `from`, and of the frame `to` alone; what is not given stays as it is. `self` has the
     /// poses of all frames in the root link.
     ///
