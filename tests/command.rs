@@ -77,6 +77,16 @@ pub(crate) fn allowing<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
     command
 }
 
+/// The command under a shell that gives it an address space of so many KiB.
+#[cfg(target_os = "linux")]
+pub(crate) fn with_memory<S: AsRef<OsStr>>(most_kib: u32, arguments: &[S]) -> Command {
+    let command = allowing(arguments);
+    let limit = format!("ulimit -v {most_kib}; exec \"$0\" \"$@\"");
+    let mut shell = Command::new("/bin/sh");
+    shell.args(["-c", &limit]).arg(command.get_program()).args(command.get_args()).current_dir(workspace());
+    shell
+}
+
 fn command<S: AsRef<OsStr>>(arguments: &[S]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_congruent"));
     command

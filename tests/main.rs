@@ -35,6 +35,8 @@ mod frames;
 mod golden;
 mod interruptions;
 mod jacobian_goldens;
+#[cfg(target_os = "linux")]
+mod large_inputs;
 mod lint;
 mod lint_broken;
 mod long_chains;

@@ -1,10 +1,14 @@
 //! `congruent dynamics`: torques and accelerations of a robot at given states.
 
-use congruent_description::{Diagnostic, Finding, JointState, ReportedChain, Robot, RobotDescription};
+use congruent_description::{
+    Diagnostic, Finding, JointState, JointStateList, ReportedChain, Robot, RobotDescription,
+};
 use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError, JointMotion, SpatialInertia};
 use nalgebra::{DMatrix, Point3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::stream::Stream;
 
 /// A source of joint torques and accelerations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -51,7 +55,8 @@ pub struct DynamicsResult {
 
 /// The answer of `congruent dynamics`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct DynamicsReport {
+#[schemars(rename = "DynamicsReport")]
+pub struct DynamicsReport<Results> {
     /// Name of the robot.
     pub robot: String,
     /// Base and tip, on which a payload hangs.
@@ -68,20 +73,44 @@ pub struct DynamicsReport {
     /// The mass that the tool carries.
     pub payload: Option<Payload>,
     /// One entry for each state, in input order.
-    pub results: Vec<DynamicsResult>,
+    pub results: Results,
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
 }
 
-impl DynamicsReport {
-    /// Whether no torque, entry of a mass matrix or acceleration overflows.
+/// Dynamics that are computed while they are written.
+pub type DynamicsStream<'a> = Stream<'a, DynamicsResult>;
+
+impl DynamicsResult {
+    /// The dynamics at a state.
+    ///
+    /// # Errors
+    /// [`JointDynamicsError`] if the source refuses the state.
+    pub fn at(state: &JointState, by: &mut dyn JointDynamics) -> Result<Self, JointDynamicsError> {
+        let JointState { q, qd, qdd, tau } = state;
+        let n = qd.len();
+        let zeros = vec![0.0; n];
+        let [mut gravity, mut inverse, mut bias, mut forward] = std::array::from_fn(|_| vec![0.0; n]);
+        let mut matrix = DMatrix::zeros(n, n);
+        by.gravity_into(q, &mut gravity)?;
+        by.mass_matrix_into(q, &mut matrix)?;
+        by.inverse_into(&JointMotion { q, qd, qdd: &zeros }, &mut bias)?;
+        by.inverse_into(&JointMotion { q, qd, qdd }, &mut inverse)?;
+        by.forward_into(&DrivenState { q, qd, tau }, &mut forward)?;
+        Ok(Self {
+            gravity_n_m: gravity,
+            mass_matrix: matrix.row_iter().map(|row| row.iter().copied().collect()).collect(),
+            bias_n_m: bias,
+            inverse_dynamics_n_m: inverse,
+            forward_dynamics: forward,
+        })
+    }
+
+    /// Whether no torque, entry of the mass matrix or acceleration overflows.
     pub fn is_finite(&self) -> bool {
-        let mut values = self.results.iter().flat_map(|of| {
-            let vectors = [&of.gravity_n_m, &of.bias_n_m, &of.inverse_dynamics_n_m, &of.forward_dynamics];
-            vectors.into_iter().chain(&of.mass_matrix).flatten()
-        });
-        values.all(|value| value.is_finite())
+        let vectors = [&self.gravity_n_m, &self.bias_n_m, &self.inverse_dynamics_n_m, &self.forward_dynamics];
+        vectors.into_iter().chain(&self.mass_matrix).flatten().all(|value| value.is_finite())
     }
 }
 
@@ -108,17 +137,19 @@ pub fn robot_of(description: &RobotDescription, options: &DynamicsOptions) -> Re
     Ok(robot.with_inertia(description.tip, inertia))
 }
 
-/// Dynamics at each state, by a source that was made for the robot: [`robot_of`] the description and the options.
+/// Dynamics at each state, computed when it is asked for, by a source that was made for the robot: [`robot_of`] the
+/// description and the options.
 ///
 /// # Errors
-/// [`JointDynamicsError`] if the source refuses a state.
-pub fn dynamics(
+/// The source refuses the first state.
+pub fn dynamics<'a>(
     (description, robot): (&RobotDescription, &Robot),
     options: &DynamicsOptions,
-    (source, by): (DynamicsSource, &mut dyn JointDynamics),
-    states: &[JointState],
-) -> Result<DynamicsReport, JointDynamicsError> {
-    let results = states.iter().map(|state| at(state, by)).collect::<Result<_, _>>()?;
+    (source, mut by): (DynamicsSource, Box<dyn JointDynamics + 'a>),
+    states: &'a JointStateList,
+) -> Result<DynamicsReport<DynamicsStream<'a>>, Diagnostic> {
+    let at = move |state: JointState| DynamicsResult::at(&state, &mut *by).map_err(|error| refused(&error));
+    let results = Stream::begin(states.iter().map(at))?;
     let at_rest = stiction(robot, (source, options), states);
     let joints = || robot.movable_joints().iter().map(|&joint| robot.joint(joint));
     Ok(DynamicsReport {
@@ -134,11 +165,16 @@ pub fn dynamics(
     })
 }
 
+/// What a source says that refuses a state or a robot.
+pub fn refused(error: &dyn std::error::Error) -> Diagnostic {
+    Diagnostic::error("dynamics::source", error.to_string())
+}
+
 /// A warning if joints stand still that dry friction may hold, and the source is one that does not know it.
 pub fn stiction(
     robot: &Robot,
     (source, options): (DynamicsSource, &DynamicsOptions),
-    states: &[JointState],
+    states: &JointStateList,
 ) -> Option<Diagnostic> {
     if source != DynamicsSource::Model || !options.friction {
         return None;
@@ -155,24 +191,4 @@ pub fn stiction(
     );
     let help = "their accelerations are those without dry friction: give speeds, or ask --source simulation";
     (!held.is_empty()).then(|| Diagnostic::warning("dynamics::at_rest", message).with_help(help))
-}
-
-fn at(state: &JointState, by: &mut dyn JointDynamics) -> Result<DynamicsResult, JointDynamicsError> {
-    let JointState { q, qd, qdd, tau } = state;
-    let n = qd.len();
-    let zeros = vec![0.0; n];
-    let [mut gravity, mut inverse, mut bias, mut forward] = std::array::from_fn(|_| vec![0.0; n]);
-    let mut matrix = DMatrix::zeros(n, n);
-    by.gravity_into(q, &mut gravity)?;
-    by.mass_matrix_into(q, &mut matrix)?;
-    by.inverse_into(&JointMotion { q, qd, qdd: &zeros }, &mut bias)?;
-    by.inverse_into(&JointMotion { q, qd, qdd }, &mut inverse)?;
-    by.forward_into(&DrivenState { q, qd, tau }, &mut forward)?;
-    Ok(DynamicsResult {
-        gravity_n_m: gravity,
-        mass_matrix: matrix.row_iter().map(|row| row.iter().copied().collect()).collect(),
-        bias_n_m: bias,
-        inverse_dynamics_n_m: inverse,
-        forward_dynamics: forward,
-    })
 }

@@ -11,6 +11,8 @@ use congruent_kinematics::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::stream::Stream;
+
 /// A source of link poses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -40,7 +42,8 @@ fn as_map<S: serde::Serializer>(poses: &[(String, ReportedPose)], serializer: S)
 
 /// The answer of `congruent fk`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ForwardReport {
+#[schemars(rename = "ForwardReport")]
+pub struct ForwardReport<Results> {
     /// Name of the robot.
     pub robot: String,
     /// Base and tip, and who named them.
@@ -56,7 +59,7 @@ pub struct ForwardReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<String>,
     /// One entry for each configuration, in input order.
-    pub results: Vec<ReportedLinkPoses>,
+    pub results: Results,
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
@@ -89,38 +92,53 @@ impl From<ForwardError> for Diagnostic {
     }
 }
 
-impl ForwardReport {
+/// Poses that are computed while they are written.
+pub type PoseStream<'a> = Stream<'a, ReportedLinkPoses>;
+
+impl ForwardReport<PoseStream<'_>> {
     /// The same poses in the frame `from`, and of the frame `to` alone; what is not given stays as it is. `self` has the
     /// poses of all frames in the root link.
     ///
     /// # Errors
     /// The source has no such frame.
-    pub fn between(mut self, from: Option<&str>, to: Option<&str>) -> Result<Self, Diagnostic> {
-        let root = self.from.clone();
-        for ReportedLinkPoses { links } in &mut self.results {
-            let root_from = |name: &str| -> Result<Pose, Diagnostic> {
-                let found = links.iter().find(|(link, _)| link == name);
-                match found {
-                    Some((_, pose)) => Ok(pose.into()),
-                    None if name == root => Ok(Pose::identity()),
-                    None => Err(unknown_frame(name, self.source, links)),
-                }
-            };
-            let from_from_root =
-                from.map(root_from).transpose()?.map(|root_from_from| root_from_from.inverse());
-            let root_from_to = to.map(root_from).transpose()?;
-            if let (Some(to), Some(root_from_to)) = (to, root_from_to) {
-                *links = vec![(to.to_owned(), (&root_from_to).into())];
+    pub fn between(self, from: Option<&str>, to: Option<&str>) -> Result<Self, Diagnostic> {
+        let (source, root) = (self.source, self.from.clone());
+        let [from, to] = [from, to].map(|frame| frame.map(str::to_owned));
+        let results = {
+            let (from, to) = (from.clone(), to.clone());
+            self.results.map(move |poses| poses.between((source, &root), from.as_deref(), to.as_deref()))?
+        };
+        Ok(Self { from: from.unwrap_or(self.from), to, results, ..self })
+    }
+}
+
+impl ReportedLinkPoses {
+    fn between(
+        self,
+        (source, root): (Source, &str),
+        from: Option<&str>,
+        to: Option<&str>,
+    ) -> Result<Self, Diagnostic> {
+        let mut links = self.links;
+        let root_from = |name: &str| -> Result<Pose, Diagnostic> {
+            let found = links.iter().find(|(link, _)| link == name);
+            match found {
+                Some((_, pose)) => Ok(pose.into()),
+                None if name == root => Ok(Pose::identity()),
+                None => Err(unknown_frame(name, source, &links)),
             }
-            if let Some(from_from_root) = from_from_root {
-                for (_, pose) in links.iter_mut() {
-                    *pose = (&(from_from_root * Pose::from(&*pose))).into();
-                }
+        };
+        let from_from_root = from.map(root_from).transpose()?.map(|root_from_from| root_from_from.inverse());
+        let root_from_to = to.map(root_from).transpose()?;
+        if let (Some(to), Some(root_from_to)) = (to, root_from_to) {
+            links = vec![(to.to_owned(), (&root_from_to).into())];
+        }
+        if let Some(from_from_root) = from_from_root {
+            for (_, pose) in &mut links {
+                *pose = (&(from_from_root * Pose::from(&*pose))).into();
             }
         }
-        self.from = from.map_or(root, str::to_owned);
-        self.to = to.map(str::to_owned);
-        Ok(self)
+        Ok(Self { links })
     }
 }
 
@@ -133,18 +151,17 @@ fn unknown_frame(name: &str, source: Source, links: &[(String, ReportedPose)]) -
 /// Poses of all links and of the declared TCP at each configuration, by a source of link poses.
 ///
 /// # Errors
-/// [`ForwardError`] if the source refuses a configuration.
-pub fn forward(
-    description: &RobotDescription,
-    (source, link_poses): (Source, &mut dyn LinkPoses),
-    configurations: &[RobotQ],
-) -> Result<ForwardReport, ForwardError> {
+/// [`ForwardError`] if the source refuses the first configuration.
+pub fn forward<'a>(
+    description: &'a RobotDescription,
+    (source, mut link_poses): (Source, Box<dyn LinkPoses + 'a>),
+    configurations: impl Iterator<Item = RobotQ> + 'a,
+) -> Result<ForwardReport<PoseStream<'a>>, Diagnostic> {
     let robot = &description.robot;
     let mut root_from_links = vec![Pose::identity(); robot.links().len()];
     let tip_from_tcp = description.tip_from_tcp.map(Pose::from);
-    let mut results = Vec::with_capacity(configurations.len());
-    for q in configurations {
-        link_poses.root_from_links_into(q, &mut root_from_links)?;
+    let at = move |q: RobotQ| -> Result<ReportedLinkPoses, ForwardError> {
+        link_poses.root_from_links_into(&q, &mut root_from_links)?;
         let names = robot.links().iter().map(|link| link.name.clone());
         let mut links: Vec<(String, ReportedPose)> =
             names.zip(root_from_links.iter().map(ReportedPose::from)).collect();
@@ -152,33 +169,37 @@ pub fn forward(
             let root_from_tcp = root_from_links[description.tip.get()] * tip_from_tcp;
             links.push((robot.tcp_name().to_owned(), (&root_from_tcp).into()));
         }
-        results.push(ReportedLinkPoses { links });
-    }
-    Ok(report(description, source, results))
+        Ok(ReportedLinkPoses { links })
+    };
+    report(description, source, configurations.map(at))
 }
 
-fn report(description: &RobotDescription, source: Source, results: Vec<ReportedLinkPoses>) -> ForwardReport {
+fn report<'a>(
+    description: &RobotDescription,
+    source: Source,
+    results: impl Iterator<Item = Result<ReportedLinkPoses, ForwardError>> + 'a,
+) -> Result<ForwardReport<PoseStream<'a>>, Diagnostic> {
     let robot = &description.robot;
-    ForwardReport {
+    Ok(ForwardReport {
         robot: robot.name().to_owned(),
         chain: description.reported_chain(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         source,
         from: robot.link(robot.root()).name.clone(),
         to: None,
-        results,
+        results: Stream::begin(results.map(|result| result.map_err(Diagnostic::from)))?,
         warnings: description.warnings.iter().map(Finding::from).collect(),
-    }
+    })
 }
 
 /// The base unless it is the root, frames `dh0` to `dhn`, the tip under its name, and the TCP, which is the tip without a tool.
 ///
 /// # Errors
 /// [`ForwardError::NoTable`] for a robot without a table.
-pub fn forward_by_table(
-    description: &RobotDescription,
-    configurations: &[RobotQ],
-) -> Result<ForwardReport, ForwardError> {
+pub fn forward_by_table<'a>(
+    description: &'a RobotDescription,
+    configurations: impl Iterator<Item = RobotQ> + 'a,
+) -> Result<ForwardReport<PoseStream<'a>>, Diagnostic> {
     let robot = &description.robot;
     let table =
         description.dh.as_ref().ok_or_else(|| ForwardError::NoTable { robot: robot.name().to_owned() })?;
@@ -187,7 +208,7 @@ pub fn forward_by_table(
     let name = |link| robot.link(link).name.clone();
     let tip_from_tcp = description.tip_from_tcp.map_or(Pose::identity(), Pose::from);
     let mut base_from_dh = vec![Pose::identity(); chain.joint_count() + 1];
-    let at = |q: &RobotQ| -> Result<ReportedLinkPoses, KinematicsError> {
+    let mut at = move |q: &RobotQ| -> Result<ReportedLinkPoses, KinematicsError> {
         let root_from_base = tree.root_from_link(q, description.base)?;
         chain.dh_frames_into(q, &mut base_from_dh)?;
         let root_from_tip = root_from_base * chain.base_from_tip(q)?;
@@ -200,6 +221,6 @@ pub fn forward_by_table(
         links.push((robot.tcp_name().to_owned(), (&(root_from_tip * tip_from_tcp)).into()));
         Ok(ReportedLinkPoses { links })
     };
-    let results = configurations.iter().map(at).collect::<Result<_, KinematicsError>>();
-    Ok(report(description, Source::Dh, results.map_err(LinkPosesError::from)?))
+    let results = configurations.map(move |q| at(&q).map_err(|error| LinkPosesError::from(error).into()));
+    report(description, Source::Dh, results)
 }

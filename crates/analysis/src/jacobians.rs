@@ -8,6 +8,8 @@ use nalgebra::Matrix3xX;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::stream::Stream;
+
 pub use congruent_kinematics::JacobianKind;
 
 /// A Jacobian as programs read it: named blocks, since half the field stacks linear first and half
@@ -43,7 +45,8 @@ pub struct JacobianResult {
 
 /// The answer of `congruent jacobian`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct JacobianReport {
+#[schemars(rename = "JacobianReport")]
+pub struct JacobianReport<Results> {
     /// Name of the robot.
     pub robot: String,
     /// Base and tip, and who named them.
@@ -59,7 +62,7 @@ pub struct JacobianReport {
     /// Which axes and which point.
     pub kind: JacobianKind,
     /// One entry for each configuration, in input order.
-    pub results: Vec<JacobianResult>,
+    pub results: Results,
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
@@ -123,53 +126,55 @@ impl JacobianFrame {
     }
 }
 
-/// Jacobians of one frame at each configuration, from the URDF chain.
+/// Jacobians that are computed while they are written.
+pub type JacobianStream<'a> = Stream<'a, JacobianResult>;
+
+/// Jacobians of one frame at each configuration, from the URDF chain, each computed when it is asked for.
 ///
 /// # Errors
-/// [`KinematicsError::JointCount`] for a configuration of another length.
-pub fn jacobians(
+/// The first configuration is of another length.
+pub fn jacobians<'a>(
     description: &RobotDescription,
     frame: JacobianFrame,
     kind: JacobianKind,
-    configurations: &[RobotQ],
-) -> Result<JacobianReport, KinematicsError> {
+    configurations: impl Iterator<Item = RobotQ> + 'a,
+) -> Result<JacobianReport<JacobianStream<'a>>, Diagnostic> {
     let tree = UrdfTree::new(&description.robot);
     let (link, link_from_frame) = frame.in_link();
-    let at = |q: &RobotQ| {
-        let jacobian = tree.jacobian_of_frame(q, (link, &link_from_frame), kind)?;
+    let at = move |q: RobotQ| {
+        let jacobian = tree.jacobian_of_frame(&q, (link, &link_from_frame), kind)?;
         Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative: None })
     };
-    let results = configurations.iter().map(at).collect::<Result<_, KinematicsError>>()?;
-    Ok(report(description, frame, kind, results))
+    report(description, frame, kind, configurations.map(at))
 }
 
-/// Jacobians of one frame and their time derivatives, from the URDF chain.
+/// Jacobians of one frame and their time derivatives, from the URDF chain, each computed when it is asked for.
 ///
 /// # Errors
-/// [`KinematicsError::JointCount`] for positions or velocities of another length.
-pub fn jacobians_in_motion(
+/// The first positions or velocities are of another length.
+pub fn jacobians_in_motion<'a>(
     description: &RobotDescription,
     frame: JacobianFrame,
     kind: JacobianKind,
-    states: &[JointState],
-) -> Result<JacobianReport, KinematicsError> {
+    states: impl Iterator<Item = JointState> + 'a,
+) -> Result<JacobianReport<JacobianStream<'a>>, Diagnostic> {
     let tree = UrdfTree::new(&description.robot);
     let (link, link_from_frame) = frame.in_link();
-    let at = |JointState { q, qd, .. }: &JointState| {
-        let jacobian = tree.jacobian_of_frame(q, (link, &link_from_frame), kind)?;
-        let derivative = Some(JacobianBlocks::from(&jacobian.rate(qd)?));
+    let at = move |JointState { q, qd, .. }: JointState| {
+        let jacobian = tree.jacobian_of_frame(&q, (link, &link_from_frame), kind)?;
+        let derivative = Some(JacobianBlocks::from(&jacobian.rate(&qd)?));
         Ok(JacobianResult { jacobian: JacobianBlocks::from(&jacobian), derivative })
     };
-    let results = states.iter().map(at).collect::<Result<_, KinematicsError>>()?;
-    Ok(report(description, frame, kind, results))
+    report(description, frame, kind, states.map(at))
 }
 
-fn report(
+fn report<'a>(
     description: &RobotDescription,
     frame: JacobianFrame,
     kind: JacobianKind,
-    results: Vec<JacobianResult>,
-) -> JacobianReport {
+    results: impl Iterator<Item = Result<JacobianResult, KinematicsError>> + 'a,
+) -> Result<JacobianReport<JacobianStream<'a>>, Diagnostic> {
+    let refused = |error: KinematicsError| Diagnostic::error("jacobian::configuration", error.to_string());
     let robot = &description.robot;
     let name = |link| robot.link(link).name.clone();
     let (link, tcp) = match frame {
@@ -179,14 +184,14 @@ fn report(
             Some(TcpInLink { link: name(link), link_from_tcp: (&pose).into() }),
         ),
     };
-    JacobianReport {
+    Ok(JacobianReport {
         chain: description.reported_chain(),
         robot: robot.name().to_owned(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
         link,
         tcp,
         kind,
-        results,
+        results: Stream::begin(results.map(move |result| result.map_err(refused)))?,
         warnings: description.warnings.iter().map(Finding::from).collect(),
-    }
+    })
 }

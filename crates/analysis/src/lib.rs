@@ -13,4 +13,5 @@ pub mod jacobians;
 pub mod manipulability;
 pub mod plot;
 pub mod sensitivity;
+pub mod stream;
 pub mod workspace;

@@ -1,7 +1,7 @@
 //! `congruent manipulability`: how well the tool moves in each direction.
 
 use congruent_description::{
-    Elementary as _, Finding, JointValues, LinkIndex, ReportedChain, RobotDescription, RobotQ,
+    Diagnostic, Elementary as _, Finding, JointValues, LinkIndex, ReportedChain, RobotDescription, RobotQ,
 };
 use congruent_kinematics::{
     Arm, Dexterity, KinematicsError, Manipulability, Pose, UrdfTree, VelocityEllipsoid,
@@ -13,11 +13,13 @@ use serde::Serialize;
 use crate::{
     arm_joints::joint_names,
     plot::{AXES, Curve, PLANES, PlaneView, PlotError, views},
+    stream::Stream,
 };
 
 /// The answer of `congruent manipulability`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct ManipulabilityReport {
+#[schemars(rename = "ManipulabilityReport")]
+pub struct ManipulabilityReport<Results> {
     /// Name of the robot.
     pub robot: String,
     /// Base and tip, and who named them.
@@ -31,7 +33,7 @@ pub struct ManipulabilityReport {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sliding: Vec<String>,
     /// One entry for each configuration.
-    pub results: Vec<ConfigurationDexterity>,
+    pub results: Results,
     /// Warnings about the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Finding>,
@@ -98,38 +100,44 @@ impl From<&VelocityEllipsoid> for ReportedEllipsoid {
     }
 }
 
-/// Manipulability at configurations of the robot; `metres_per_rad` is [`Arm::metres_per_rad`] if it is left out.
+/// Dexterity that is computed while it is written.
+pub type DexterityStream<'a> = Stream<'a, ConfigurationDexterity>;
+
+/// Manipulability at configurations of the robot, each computed when it is asked for; `metres_per_rad` is
+/// [`Arm::metres_per_rad`] if it is left out.
 ///
 /// # Errors
-/// [`KinematicsError`] if the robot has no arm.
-pub fn manipulability(
+/// The robot has no arm.
+pub fn manipulability<'a>(
     description: &RobotDescription,
-    configurations: &[RobotQ],
+    configurations: impl Iterator<Item = RobotQ> + 'a,
     metres_per_rad: Option<f64>,
-) -> Result<ManipulabilityReport, KinematicsError> {
-    let mut arm = Arm::of(description)?;
+) -> Result<ManipulabilityReport<DexterityStream<'a>>, Diagnostic> {
+    let refused = |error: KinematicsError| Diagnostic::error("manipulability::robot", error.to_string());
+    let mut arm = Arm::of(description).map_err(refused)?;
     let metres_per_rad = metres_per_rad.unwrap_or(arm.metres_per_rad());
     let joints = joint_names(description, &arm);
-    let mut results = Vec::with_capacity(configurations.len());
-    for q_robot in configurations {
-        let q = arm.from_robot(q_robot);
+    let slides = arm.joints().iter().zip(&joints).filter(|(joint, _)| arm.turns_and_slides() && !joint.turns);
+    let sliding = slides.map(|(_, name)| name.clone()).collect();
+    let names = joints.clone();
+    let mut at = move |q_robot: RobotQ| {
+        let q = arm.from_robot(&q_robot);
         let Manipulability { linear, angular, whole } = arm.manipulability(&q, metres_per_rad)?;
-        results.push(ConfigurationDexterity {
-            q: JointValues::new(&joints, &q),
+        Ok(ConfigurationDexterity {
+            q: JointValues::new(&names, &q),
             tcp_in_base_m: arm.base_from_tcp(&q)?.translation.into(),
             linear: (&linear).into(),
             angular: (&angular).into(),
             whole: (&whole).into(),
-        });
-    }
-    let slides = arm.joints().iter().zip(&joints).filter(|(joint, _)| arm.turns_and_slides() && !joint.turns);
+        })
+    };
     Ok(ManipulabilityReport {
         robot: description.robot.name().to_owned(),
         chain: description.reported_chain(),
         metres_per_rad,
-        sliding: slides.map(|(_, name)| name.clone()).collect(),
+        sliding,
         joints,
-        results,
+        results: Stream::begin(configurations.map(move |q| at(q).map_err(refused)))?,
         warnings: description.warnings.iter().map(Finding::from).collect(),
     })
 }

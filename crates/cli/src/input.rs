@@ -10,9 +10,9 @@ use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, IntoDeserializer, value::Error};
 
 use congruent::description::{
-    Configurations, Diagnostic, FileAccess, JointState, Robot, RobotDescription, RobotQ, RosPackages, Use,
-    configuration, load_robot_with, outside_limits, outside_limits_warning, read_configurations, read_states,
-    units::Unit,
+    Configurations, Diagnostic, FileAccess, JointState, JointStateList, Robot, RobotDescription, RobotQList,
+    RosPackages, Use, configuration, load_robot_with, outside_limits, outside_limits_warning,
+    read_configurations, read_states, units::Unit,
 };
 
 use crate::{failure::Failure, print::Printer};
@@ -199,7 +199,7 @@ impl ConfigurationArguments {
         &self,
         description: &mut RobotDescription,
         printer: &Printer,
-    ) -> Result<Vec<RobotQ>, Failure> {
+    ) -> Result<RobotQList, Failure> {
         if let Some(path) = &self.configurations {
             let read = read_configurations(path, &description.robot)?;
             return Ok(with_warning(read, description, printer));
@@ -215,7 +215,11 @@ impl ConfigurationArguments {
         }
         let q = configuration(&values, robot)?;
         let warning = outside_limits_warning(&outside_limits(&values, robot));
-        Ok(with_warning(Configurations { entries: vec![q], warning, input: None }, description, printer))
+        Ok(with_warning(
+            Configurations { entries: RobotQList::from(&q), warning, input: None },
+            description,
+            printer,
+        ))
     }
 
     /// The same with the velocities, accelerations and torques of the file; at rest and without torques if there
@@ -224,13 +228,16 @@ impl ConfigurationArguments {
         &self,
         description: &mut RobotDescription,
         printer: &Printer,
-    ) -> Result<Vec<JointState>, Failure> {
+    ) -> Result<JointStateList, Failure> {
         if self.configurations.is_some() {
             return self.read_states(description, printer);
         }
         let zeros = vec![0.0; description.robot.dof()];
-        let rest = |q| JointState { q, qd: zeros.clone(), qdd: zeros.clone(), tau: zeros.clone() };
-        Ok(self.read(description, printer)?.into_iter().map(rest).collect())
+        let mut at_rest = JointStateList::new(description.robot.dof());
+        for q in self.read(description, printer)?.iter() {
+            at_rest.push(&JointState { q, qd: zeros.clone(), qdd: zeros.clone(), tau: zeros.clone() });
+        }
+        Ok(at_rest)
     }
 
     /// The same with the velocities, accelerations and torques of the file.
@@ -238,7 +245,7 @@ impl ConfigurationArguments {
         &self,
         description: &mut RobotDescription,
         printer: &Printer,
-    ) -> Result<Vec<JointState>, Failure> {
+    ) -> Result<JointStateList, Failure> {
         let Some(path) = &self.configurations else {
             let message = "joint velocities are read from a file of configurations, and none is given";
             return Err(Diagnostic::error("cli::velocities", message)
@@ -251,11 +258,11 @@ impl ConfigurationArguments {
 
 /// The entries; their warning is printed and becomes one of the description, whose warnings are in each report, and their
 /// file one of its inputs.
-pub(crate) fn with_warning<T>(
-    read: Configurations<T>,
+pub(crate) fn with_warning<List>(
+    read: Configurations<List>,
     description: &mut RobotDescription,
     printer: &Printer,
-) -> Vec<T> {
+) -> List {
     printer.warnings(read.warning.as_slice());
     description.warnings.extend(read.warning);
     description.inputs.extend(read.input);

@@ -10,6 +10,7 @@ mod failure;
 mod faults;
 mod input;
 mod interrupt;
+mod json_output;
 mod layout;
 mod man;
 mod model;

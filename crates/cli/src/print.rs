@@ -3,7 +3,8 @@
 
 use std::{
     fmt::Write as _,
-    io::{self, IsTerminal, Write},
+    io::{self, BufWriter, IsTerminal, Write},
+    iter::once_with,
     path::Path,
     sync::OnceLock,
 };
@@ -15,9 +16,10 @@ use serde::Serialize;
 
 use crate::{
     failure::Failure,
+    json_output::write_json,
     layout::{columns, fitted},
     status_colour::with_coloured_status,
-    terminal_text::{Colours, for_people, for_programs, shown, with_visible_lines},
+    terminal_text::{Colours, for_people, shown, with_visible_lines},
 };
 
 /// How results are printed.
@@ -144,12 +146,21 @@ impl Printer {
         document: &T,
         text: impl FnOnce(&T) -> String,
     ) -> Result<(), Failure> {
+        self.parts(document, |document| once_with(move || text(document)))
+    }
+
+    /// The same for a long text, whose parts of whole lines are made while it is written.
+    pub(crate) fn parts<'a, T: Serialize, Parts: Iterator<Item = String> + 'a>(
+        &self,
+        document: &'a T,
+        text: impl FnOnce(&'a T) -> Parts,
+    ) -> Result<(), Failure> {
         let within = |text: String| match columns() {
             Some(columns) => fitted(&text, columns),
             None => text,
         };
         let in_colour = |text: String| if is_coloured() { with_coloured_status(&text) } else { text };
-        self.verbatim(document, |document| in_colour(within(text(document))))
+        self.write(document, |document| text(document).map(within).map(in_colour))
     }
 
     /// The same for a text that is a file, of which no line is broken.
@@ -158,16 +169,26 @@ impl Printer {
         document: &T,
         text: impl FnOnce(&T) -> String,
     ) -> Result<(), Failure> {
-        let printed = match self.format {
-            Format::Human => for_people(&text(document), colours()),
-            Format::Json | Format::Sarif => {
-                let mut json = serde_json::to_string(document).map_err(machine)?;
-                json.push('\n');
-                for_programs(&json).into_owned()
+        self.write(document, |document| once_with(move || text(document)))
+    }
+
+    fn write<'a, T: Serialize, Parts: Iterator<Item = String> + 'a>(
+        &self,
+        document: &'a T,
+        text: impl FnOnce(&'a T) -> Parts,
+    ) -> Result<(), Failure> {
+        let mut out = BufWriter::new(io::stdout().lock());
+        let written = match self.format {
+            Format::Human => {
+                let colours = colours();
+                text(document).try_for_each(|part| {
+                    let mut lines = part.split_inclusive('\n');
+                    lines.try_for_each(|line| out.write_all(for_people(line, colours).as_bytes()))
+                })
             }
+            Format::Json | Format::Sarif => write_json(document, &mut out),
         };
-        let mut out = io::stdout().lock();
-        match out.write_all(printed.as_bytes()).and_then(|()| out.flush()) {
+        match written.and_then(|()| out.flush()) {
             // `congruent ... | head` is not a failure.
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
             result => result.map_err(machine),

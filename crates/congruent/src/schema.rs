@@ -2,10 +2,16 @@
 //! check while one types, and for programs in other languages.
 
 use congruent_analysis::{
-    base_parameters::BaseParameterReport, conversion::ConversionReport,
-    description_summary::DescriptionSummary, dynamics::DynamicsReport, forward::ForwardReport,
-    inverse::InverseReport, jacobians::JacobianReport, manipulability::ManipulabilityReport,
-    sensitivity::SensitivityReport, workspace::WorkspaceReport,
+    base_parameters::BaseParameterReport,
+    conversion::ConversionReport,
+    description_summary::DescriptionSummary,
+    dynamics::{DynamicsReport, DynamicsStream},
+    forward::{ForwardReport, PoseStream},
+    inverse::InverseReport,
+    jacobians::{JacobianReport, JacobianStream},
+    manipulability::{DexterityStream, ManipulabilityReport},
+    sensitivity::SensitivityReport,
+    workspace::WorkspaceReport,
 };
 use congruent_calibration::report::CalibrationReport;
 use congruent_description::{configurations_schema, robot_file_schema};
@@ -56,14 +62,22 @@ impl Document {
             "what a robot's files say, printed by `describe`",
             written::<DescriptionSummary>,
         ),
-        Self::new("fk", "link poses, printed by `fk`", written::<ForwardReport>),
-        Self::new("jacobian", "Jacobians, printed by `jacobian`", written::<JacobianReport>),
-        Self::new("dynamics", "torques and accelerations, printed by `dynamics`", written::<DynamicsReport>),
+        Self::new("fk", "link poses, printed by `fk`", written::<ForwardReport<PoseStream<'static>>>),
+        Self::new(
+            "jacobian",
+            "Jacobians, printed by `jacobian`",
+            written::<JacobianReport<JacobianStream<'static>>>,
+        ),
+        Self::new(
+            "dynamics",
+            "torques and accelerations, printed by `dynamics`",
+            written::<DynamicsReport<DynamicsStream<'static>>>,
+        ),
         Self::new("ik", "solutions, printed by `ik`", written::<InverseReport>),
         Self::new(
             "manipulability",
             "ellipsoids, printed by `manipulability`",
-            written::<ManipulabilityReport>,
+            written::<ManipulabilityReport<DexterityStream<'static>>>,
         ),
         Self::new("workspace", "reach, printed by `workspace`", written::<WorkspaceReport>),
         Self::new("sensitivity", "sensitivities, printed by `sensitivity`", written::<SensitivityReport>),

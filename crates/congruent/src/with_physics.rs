@@ -2,35 +2,32 @@
 
 use std::ops::Range;
 
-use congruent_analysis::dynamics::{DynamicsOptions, DynamicsReport, DynamicsSource, dynamics, robot_of};
-use congruent_analysis::forward::{ForwardError, ForwardReport, Source, forward_by_table};
-use congruent_description::{Diagnostic, JointState, Robot, RobotDescription, RobotQ, Use};
+use congruent_analysis::dynamics::{
+    DynamicsOptions, DynamicsReport, DynamicsResult, DynamicsSource, DynamicsStream, dynamics, refused,
+};
+use congruent_analysis::forward::{ForwardReport, PoseStream, Source, forward_by_table};
+use congruent_description::{Diagnostic, JointStateList, Robot, RobotDescription, RobotQ, Use};
 use congruent_dynamics::{JointDynamics, TreeDynamics};
 use congruent_kinematics::{LinkPoses, ScrewTree, UrdfTree};
 use congruent_twin::source::{SimulatedDynamics, SimulatedPoses};
 
-/// Poses of all links at each configuration, by a chosen source.
+/// Poses of all links at each configuration, by a chosen source; each is computed when it is asked for.
 ///
 /// # Errors
-/// What is wrong with the robot or with the configurations, if the source does not exist or rejects them.
-pub fn forward(
-    description: &RobotDescription,
+/// What is wrong with the robot or with the first configuration, if the source does not exist or rejects them.
+pub fn forward<'a>(
+    description: &'a RobotDescription,
     source: Source,
-    configurations: &[RobotQ],
-) -> Result<ForwardReport, Vec<Diagnostic>> {
+    configurations: impl Iterator<Item = RobotQ> + 'a,
+) -> Result<ForwardReport<PoseStream<'a>>, Vec<Diagnostic>> {
     let robot = &description.robot;
-    let mut link_poses: Box<dyn LinkPoses> = match source {
-        Source::Dh => return forward_by_table(description, configurations).map_err(refused),
+    let link_poses: Box<dyn LinkPoses + 'a> = match source {
+        Source::Dh => return Ok(forward_by_table(description, configurations)?),
         Source::Urdf => Box::new(UrdfTree::new(robot)),
         Source::Poe => Box::new(ScrewTree::new(robot)),
         Source::Simulation => Box::new(simulated_poses(description)?),
     };
-    congruent_analysis::forward::forward(description, (source, &mut *link_poses), configurations)
-        .map_err(refused)
-}
-
-fn refused(error: ForwardError) -> Vec<Diagnostic> {
-    vec![error.into()]
+    Ok(congruent_analysis::forward::forward(description, (source, link_poses), configurations)?)
 }
 
 /// The physics of a robot, or the findings for which it cannot be built.
@@ -40,44 +37,47 @@ pub(crate) fn simulated_poses(description: &RobotDescription) -> Result<Simulate
         .map_err(|error| vec![Diagnostic::error("simulation::robot", error.to_string())])
 }
 
-/// Torques and accelerations at each state, by the equations of motion or by the physics.
+/// Torques and accelerations at each state, by the equations of motion or by the physics; each is computed when it is asked
+/// for. The robot is [`robot_of`](congruent_analysis::dynamics::robot_of) the description and the options.
 ///
 /// # Errors
-/// The findings for which the robot has no dynamics, or what a source says that refuses a state; a payload without
-/// mass.
-pub fn joint_dynamics(
-    description: &RobotDescription,
+/// The findings for which the robot has no dynamics, or what a source says that refuses a state.
+pub fn joint_dynamics<'a>(
+    (description, robot): (&RobotDescription, &'a Robot),
     source: DynamicsSource,
     options: &DynamicsOptions,
-    states: &[JointState],
-) -> Result<DynamicsReport, Vec<Diagnostic>> {
+    states: &'a JointStateList,
+) -> Result<DynamicsReport<DynamicsStream<'a>>, Vec<Diagnostic>> {
     description.for_use(Use::Physics)?;
-    let robot = robot_of(description, options)?;
-    let refused =
-        |error: &dyn std::error::Error| vec![Diagnostic::error("dynamics::source", error.to_string())];
-    let mut by: Box<dyn JointDynamics> = match source {
-        DynamicsSource::Model => Box::new(TreeDynamics::new(&robot)),
+    let mut by: Box<dyn JointDynamics + 'a> = match source {
+        DynamicsSource::Model => Box::new(TreeDynamics::new(robot)),
         DynamicsSource::Simulation => {
-            Box::new(SimulatedDynamics::new(&robot).map_err(|error| refused(&error))?)
+            Box::new(SimulatedDynamics::new(robot).map_err(|error| refused(&error))?)
         }
     };
-    let report = dynamics((description, &robot), options, (source, &mut *by), states);
-    match report {
-        Ok(report) if report.is_finite() => Ok(report),
-        // A number that overflows may look like a joint without inertia.
-        Ok(_) => Err(vec![beyond_numbers((description, &robot), states)]),
-        Err(error) => Err(match largest_value((description, &robot), states) {
-            (_, value, _) if value > LARGEST_VALUE => vec![beyond_numbers((description, &robot), states)],
-            _ => refused(&error),
-        }),
+    // Nothing is written if there is a state that cannot be answered, so all are tried before the first is.
+    for state in states.iter() {
+        match DynamicsResult::at(&state, &mut *by) {
+            Ok(result) if result.is_finite() => {}
+            // A number that overflows may look like a joint without inertia.
+            Ok(_) => return Err(beyond_numbers((description, robot), states).into()),
+            Err(error) => {
+                return Err(match largest_value((description, robot), states) {
+                    (_, value, _) if value > LARGEST_VALUE => beyond_numbers((description, robot), states),
+                    _ => refused(&error),
+                }
+                .into());
+            }
+        }
     }
+    Ok(dynamics((description, robot), options, (source, by), states)?)
 }
 
 /// Squares of larger values times lengths and speeds overflow. Kind: range of numbers.
 const LARGEST_VALUE: f64 = 1e100;
 
 /// That torques cannot be computed, with the largest value there is.
-fn beyond_numbers(robot: (&RobotDescription, &Robot), states: &[JointState]) -> Diagnostic {
+fn beyond_numbers(robot: (&RobotDescription, &Robot), states: &JointStateList) -> Diagnostic {
     let (what, value, span) = largest_value(robot, states);
     let message =
         format!("{what} = {value:e} is beyond what torques can be computed with: they are not finite");
@@ -91,7 +91,7 @@ fn beyond_numbers(robot: (&RobotDescription, &Robot), states: &[JointState]) -> 
 /// The largest value of masses, inertias, friction and states, what it is and where the URDF says it.
 fn largest_value(
     (description, robot): (&RobotDescription, &Robot),
-    states: &[JointState],
+    states: &JointStateList,
 ) -> (String, f64, Option<Range<usize>>) {
     let places = description.places.urdf.as_ref();
     let mut all: Vec<(String, f64, Option<Range<usize>>)> = Vec::new();

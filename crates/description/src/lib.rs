@@ -29,8 +29,8 @@ pub use catch_panic::catch_panic;
 pub use chain::{ChainEnd, ChainEnds, ReportedChain};
 pub use codes::Code;
 pub use configuration_file::{
-    Configurations, JointState, JsonList, configuration, configurations_schema, outside_limits,
-    outside_limits_warning, read_configurations, read_states, unique_names,
+    Configurations, JointState, JointStateList, JsonList, RobotQList, configuration, configurations_schema,
+    outside_limits, outside_limits_warning, read_configurations, read_states, unique_names,
 };
 pub use description::{NamedFiles, Places, RobotDescription, TABLE_DROPPED};
 pub use diagnostic::{

@@ -56,6 +56,7 @@ fn pair(text: &str) -> Result<[String; 2], String> {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.robot.load_for(Use::Clearance, printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
+    let configurations: Vec<_> = configurations.iter().collect();
     let options = DistanceOptions {
         choice: if arguments.all_pairs { PairChoice::All } else { PairChoice::Usual },
         names: PairNames { pairs: arguments.pair.clone(), ignore: arguments.ignore.clone() },

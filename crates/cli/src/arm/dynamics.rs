@@ -1,12 +1,13 @@
 //! `congruent dynamics`: torques and accelerations at given states.
 
-use std::fmt::Write;
+use std::{fmt::Write, iter::once};
 
 use congruent::{
     analysis::dynamics::{
-        DynamicsOptions, DynamicsReport, DynamicsResult, DynamicsSource, Payload, stiction,
+        DynamicsOptions, DynamicsReport, DynamicsResult, DynamicsSource, DynamicsStream, Payload, robot_of,
+        stiction,
     },
-    description::{display::quantity, serde_name},
+    description::{Use, display::quantity, serde_name},
 };
 
 use crate::{
@@ -55,13 +56,20 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let mut description = arguments.arm.load_urdf(printer)?;
     let states = arguments.configurations.read_states_or_rest(&mut description, printer)?;
     let options = DynamicsOptions { friction: arguments.friction, payload: arguments.payload };
-    let report = congruent::joint_dynamics(&description, arguments.source, &options, &states)?;
+    description.for_use(Use::Physics)?;
+    let robot = robot_of(&description, &options)?;
+    let report = congruent::joint_dynamics((&description, &robot), arguments.source, &options, &states)?;
     printer.warnings(stiction(&description.robot, (arguments.source, &options), &states).as_slice());
-    printer.result(&report, text)?;
+    let printed = printer.parts(&report, parts);
+    report.results.end()?;
+    printed?;
     Ok(0)
 }
 
-fn text(report: &DynamicsReport) -> String {
+type Report<'a> = DynamicsReport<DynamicsStream<'a>>;
+
+/// The heading, and each state.
+fn parts<'a>(report: &'a Report<'_>) -> impl Iterator<Item = String> + 'a {
     let source = serde_name(&report.source);
     let mut text = format!("{}: dynamics by the {source}", report.robot);
     text += if report.friction { ", with damping and dry friction" } else { ", without friction" };
@@ -70,14 +78,15 @@ fn text(report: &DynamicsReport) -> String {
     }
     let _ = writeln!(text, "\n  {}", report.chain);
     text += "  gravity: torque that holds it still; bias: at the speeds v; motion: at v and a; acceleration: under tau\n";
-    for (index, result) in report.results.iter().enumerate() {
-        let _ = writeln!(text, "state {}", index + 1);
-        state(&mut text, report, result);
-    }
-    text
+    let one = |(number, result): (usize, DynamicsResult)| {
+        let mut text = format!("state {number}\n");
+        state(&mut text, report, &result);
+        text
+    };
+    once(text).chain((1..).zip(report.results.iter()).map(one))
 }
 
-fn state(text: &mut String, report: &DynamicsReport, result: &DynamicsResult) {
+fn state(text: &mut String, report: &Report<'_>, result: &DynamicsResult) {
     let width = report.joints.iter().map(String::len).max().unwrap_or(0).max("joint".len());
     let _ = writeln!(
         text,

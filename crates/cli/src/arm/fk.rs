@@ -1,9 +1,9 @@
 //! `congruent fk`: poses of the links.
 
-use std::fmt::Write;
+use std::iter::once;
 
 use congruent::{
-    analysis::forward::{ForwardReport, Source},
+    analysis::forward::{ForwardReport, PoseStream, ReportedLinkPoses, Source},
     description::Use,
 };
 
@@ -40,23 +40,26 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let needed = if arguments.source == Source::Simulation { Use::Physics } else { Use::Kinematics };
     let mut description = arguments.arm.load_for(needed, printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
-    let report = congruent::forward(&description, arguments.source, &configurations)?;
+    let report = congruent::forward(&description, arguments.source, configurations.iter())?;
     let report = report.between(arguments.from.as_deref(), arguments.to.as_deref())?;
     let root = &description.robot.link(description.robot.root()).name;
-    printer.result(&report, |report| text(report, root))?;
+    let printed = printer.parts(&report, |report| parts(report, root));
+    report.results.end()?;
+    printed?;
     Ok(0)
 }
 
-fn text(report: &ForwardReport, root: &str) -> String {
-    let mut text = format!("{}\n", report.chain);
-    for (index, poses) in report.results.iter().enumerate() {
-        let frame = if report.from == root { format!("the root link {root}") } else { report.from.clone() };
-        let _ = writeln!(text, "configuration {}: poses in {frame}", index + 1);
+/// The heading, and each configuration.
+fn parts<'a>(report: &'a ForwardReport<PoseStream<'_>>, root: &str) -> impl Iterator<Item = String> + 'a {
+    let frame = if report.from == root { format!("the root link {root}") } else { report.from.clone() };
+    let configuration = move |(number, poses): (usize, ReportedLinkPoses)| {
+        let mut text = format!("configuration {number}: poses in {frame}\n");
         let mut table = Table::headed(POSE_COLUMNS);
         for (name, pose) in &poses.links {
             table.row([name.clone()].into_iter().chain(pose_cells(pose)));
         }
         table.write(&mut text);
-    }
-    text
+        text
+    };
+    once(format!("{}\n", report.chain)).chain((1..).zip(report.results.iter()).map(configuration))
 }

@@ -1,12 +1,13 @@
 //! `congruent jacobian`: the velocity of a link by the velocities of the joints.
 
-use std::fmt::Write;
+use std::{fmt::Write, iter::once};
 
 use congruent::{
     analysis::jacobians::{
-        JacobianBlocks, JacobianFrame, JacobianKind, JacobianReport, jacobians, jacobians_in_motion,
+        JacobianBlocks, JacobianFrame, JacobianKind, JacobianReport, JacobianResult, JacobianStream,
+        jacobians, jacobians_in_motion,
     },
-    description::{Diagnostic, RobotDescription, display::in_column, serde_name},
+    description::{RobotDescription, display::in_column, serde_name},
 };
 
 use crate::{
@@ -38,19 +39,24 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let mut description = arguments.arm.load(printer)?;
     let frame = JacobianFrame::named(&description, arguments.link.as_deref())?;
     let kind = arguments.kind;
+    let (states, configurations);
     let report = if arguments.derivative {
-        let states = arguments.configurations.read_states(&mut description, printer)?;
-        jacobians_in_motion(&description, frame, kind, &states)
+        states = arguments.configurations.read_states(&mut description, printer)?;
+        jacobians_in_motion(&description, frame, kind, states.iter())?
     } else {
-        let configurations = arguments.configurations.read(&mut description, printer)?;
-        jacobians(&description, frame, kind, &configurations)
-    }
-    .map_err(|error| Diagnostic::error("jacobian::configuration", error.to_string()))?;
-    printer.result(&report, |report| text(report, &description))?;
+        configurations = arguments.configurations.read(&mut description, printer)?;
+        jacobians(&description, frame, kind, configurations.iter())?
+    };
+    let printed = printer.parts(&report, |report| parts(report, &description));
+    report.results.end()?;
+    printed?;
     Ok(0)
 }
 
-fn text(report: &JacobianReport, description: &RobotDescription) -> String {
+type Report<'a> = JacobianReport<JacobianStream<'a>>;
+
+/// The heading, and each configuration.
+fn parts<'a>(report: &'a Report<'_>, description: &RobotDescription) -> impl Iterator<Item = String> + 'a {
     let frame = frame(report, description);
     let mut text = format!("{}\n{} Jacobian of {frame}\n", report.chain, serde_name(&report.kind));
     text += match report.kind {
@@ -59,19 +65,20 @@ fn text(report: &JacobianReport, description: &RobotDescription) -> String {
         JacobianKind::Geometric => "  axes of the root; linear: its origin",
     };
     text += "; in m and rad per rad, of sliding joints per m\n";
-    for (index, result) in report.results.iter().enumerate() {
-        let _ = writeln!(text, "configuration {}", index + 1);
+    let configuration = |(number, result): (usize, JacobianResult)| {
+        let mut text = format!("configuration {number}\n");
         columns(&mut text, &report.joints, &result.jacobian);
         if let Some(derivative) = &result.derivative {
             let _ = writeln!(text, "derivative, per s");
             columns(&mut text, &report.joints, derivative);
         }
-    }
-    text
+        text
+    };
+    once(text).chain((1..).zip(report.results.iter()).map(configuration))
 }
 
 /// The frame, and the other one that could be meant.
-fn frame(report: &JacobianReport, description: &RobotDescription) -> String {
+fn frame(report: &Report<'_>, description: &RobotDescription) -> String {
     let tip = &description.robot.link(description.tip).name;
     match (&report.tcp, description.tip_from_tcp) {
         (Some(tcp), _) => {

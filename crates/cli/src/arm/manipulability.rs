@@ -1,13 +1,14 @@
 //! `congruent manipulability`: how well the tool moves in each direction.
 
-use std::fmt::Write;
+use std::{fmt::Write, iter::once};
 
 use congruent::{
     analysis::manipulability::{
-        ManipulabilityReport, ReportedDexterity, ReportedEllipsoid, manipulability, plot,
+        ConfigurationDexterity, DexterityStream, ManipulabilityReport, ReportedDexterity, ReportedEllipsoid,
+        manipulability, plot,
     },
     description::{
-        Diagnostic, Robot,
+        Robot,
         display::{in_column, length, number, quantity},
     },
 };
@@ -43,16 +44,24 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.arm.load(printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
-    let report = manipulability(&description, &configurations, arguments.length)
-        .map_err(|error| Diagnostic::error("manipulability::robot", error.to_string()))?;
-    if let (Some(q), Some(result)) = (configurations.first(), report.results.first()) {
-        arguments.plot.write(|| plot(&description, q, result), &files_of(&description))?;
+    let report = manipulability(&description, configurations.iter(), arguments.length)?;
+    if let Some(q) = configurations.get(0) {
+        let first = || manipulability(&description, configurations.iter().take(1), arguments.length);
+        let result = first()?.results.iter().next();
+        result
+            .map(|result| arguments.plot.write(|| plot(&description, &q, &result), &files_of(&description)))
+            .transpose()?;
     }
-    printer.result(&report, |report| text(report, &description.robot))?;
+    let printed = printer.parts(&report, |report| parts(report, &description.robot));
+    report.results.end()?;
+    printed?;
     Ok(0)
 }
 
-fn text(report: &ManipulabilityReport, robot: &Robot) -> String {
+type Report<'a> = ManipulabilityReport<DexterityStream<'a>>;
+
+/// The heading, and each configuration.
+fn parts<'a>(report: &'a Report<'_>, robot: &Robot) -> impl Iterator<Item = String> + 'a {
     let mut text = format!("{}\n", report.chain);
     let radian = length(report.metres_per_rad);
     let turns =
@@ -61,14 +70,15 @@ fn text(report: &ManipulabilityReport, robot: &Robot) -> String {
     if !report.sliding.is_empty() {
         let _ = writeln!(text, "{radian} of {} count as one radian", report.sliding.join(", "));
     }
-    for (index, result) in report.results.iter().enumerate() {
+    let configuration = move |(at, result): (usize, ConfigurationDexterity)| {
         let [x, y, z] = result.tcp_in_base_m.map(|value| in_column(value, "m"));
-        let _ = writeln!(text, "configuration {}: tool at {x}, {y}, {z} mm in the base", index + 1);
+        let mut text = format!("configuration {at}: tool at {x}, {y}, {z} mm in the base\n");
         ellipsoid(&mut text, ("linear", "m"), &result.linear, per);
         ellipsoid(&mut text, ("angular", "rad"), &result.angular, per);
         let _ = writeln!(text, "  both, {radian} as one radian: {}", measures(&result.whole, number));
-    }
-    text
+        text
+    };
+    once(text).chain((1..).zip(report.results.iter()).map(configuration))
 }
 
 fn ellipsoid(text: &mut String, (name, unit): (&str, &str), ellipsoid: &ReportedEllipsoid, per: &str) {

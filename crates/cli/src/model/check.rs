@@ -150,7 +150,7 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         let read = read_configurations(path, &description.robot)?;
         description.warnings.extend(read.warning);
         description.inputs.extend(read.input);
-        configurations = read.entries;
+        configurations = read.entries.iter().collect();
     }
     let declared = description.tolerance;
     if let Some(tolerance) = arguments.tolerance {

@@ -43,22 +43,33 @@ impl JsonList {
                 });
             match found {
                 Ok(found) => read.push(found),
-                Err(mut fault) => {
-                    fault.message = format!("{} {}: {}", self.entry, index + 1, fault.message);
-                    faults.push(fault);
-                }
+                Err(fault) => faults.push(self.of_entry(index + 1, fault)),
             }
         }
         if faults.is_empty() { Ok(read) } else { Err(faults) }
     }
 
-    /// What the parser says, without the line and column that it counts from the entry.
+    /// The fault with the number of its entry, from 1.
+    pub(super) fn of_entry(&self, number: usize, mut fault: Diagnostic) -> Diagnostic {
+        fault.message = format!("{} {number}: {}", self.entry, fault.message);
+        fault
+    }
+
     fn malformed(&self, text: &str, start: usize, error: &serde_json::Error) -> Diagnostic {
-        let lines = text[start..].split_inclusive('\n');
-        let before: usize = lines.take(error.line().saturating_sub(1)).map(str::len).sum();
-        let offset = (start + before + error.column().saturating_sub(1)).min(text.len());
+        let offset = start + offset_of(&text[start..], error);
+        self.not_read(error).at(offset..offset)
+    }
+
+    /// What the parser says, without the line and column that it counts from the entry.
+    pub(super) fn not_read(&self, error: &serde_json::Error) -> Diagnostic {
         let said = error.to_string();
         let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
-        Diagnostic::error(self.code, said).with_help(self.help).at(offset..offset)
+        Diagnostic::error(self.code, said).with_help(self.help)
     }
+}
+
+/// The place that an error means in the text that was parsed.
+pub(super) fn offset_of(text: &str, error: &serde_json::Error) -> usize {
+    let before: usize = text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
+    (before + error.column().saturating_sub(1)).min(text.len())
 }

@@ -1,25 +1,31 @@
 //! Configurations by joint name, as batch commands read them: JSON, SI units.
 
 mod json_list;
+mod json_stream;
 mod outside;
+mod rows;
+mod states;
 mod unique;
 
-use std::{collections::BTreeMap, ops::Range, path::Path};
+use std::{collections::BTreeMap, path::Path};
 
 use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 
 use crate::{
     diagnostic::{Diagnostic, known_names},
-    files::{FileAccess, InputFile},
+    files::{InputFile, TextStream},
     model::{Robot, RobotQ},
 };
 
 pub use self::{
     json_list::JsonList,
     outside::{outside_limits, outside_limits_warning},
+    rows::RobotQList,
+    states::{JointState, JointStateList},
     unique::unique_names,
 };
+use self::{json_stream::EntryPlace, outside::OutsideLimits};
 
 /// How far a given mimic position or speed may be from what its master implies. Kind: digits of the file.
 const MIMIC_DIGITS: f64 = 1e-9;
@@ -56,24 +62,11 @@ pub fn configurations_schema() -> Schema {
     schema_for!(Vec<WrittenConfiguration>)
 }
 
-/// One entry of a batch in full: one value for each movable joint.
+/// What is in a file of configurations.
 #[derive(Debug, Clone, PartialEq)]
-pub struct JointState {
-    /// Positions in rad and m.
-    pub q: RobotQ,
-    /// Speeds in rad/s and m/s.
-    pub qd: Vec<f64>,
-    /// Accelerations in rad/s^2 and m/s^2.
-    pub qdd: Vec<f64>,
-    /// Torques in N m and forces in N.
-    pub tau: Vec<f64>,
-}
-
-/// The entries of a file of configurations.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Configurations<T> {
-    /// In the order of the file, at least one.
-    pub entries: Vec<T>,
+pub struct Configurations<List> {
+    /// The entries in the order of the file, at least one.
+    pub entries: List,
     /// Given positions outside the joint limits.
     pub warning: Option<Diagnostic>,
     /// The file; `None` if they come from none.
@@ -81,12 +74,21 @@ pub struct Configurations<T> {
 }
 
 /// Reads a file of configurations: a JSON array of `{"q": {joint: value}, ...}` in rad and m,
-/// missing joints 0. The result holds configuration vectors of the robot.
+/// missing joints 0. The text is read once and not kept: memory is taken by the values alone.
 ///
 /// # Errors
 /// The file cannot be read, is no such array, is empty, or names an unknown joint.
-pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Configurations<RobotQ>, Vec<Diagnostic>> {
-    read(path, robot, |written| configuration(&written.q, robot))
+pub fn read_configurations(
+    path: &Path,
+    robot: &Robot,
+) -> Result<Configurations<RobotQList>, Vec<Diagnostic>> {
+    let mut list = RobotQList::new(robot.dof());
+    let add = |written: &WrittenConfiguration| {
+        list.push(&configuration(&written.q, robot)?);
+        Ok(())
+    };
+    let (warning, input) = read(path, robot, add)?;
+    Ok(Configurations { entries: list, warning, input: Some(input) })
 }
 
 /// The same with the speeds `"v"`, the accelerations `"a"` and the torques `"tau"`, missing ones 0; mimic joints
@@ -94,46 +96,47 @@ pub fn read_configurations(path: &Path, robot: &Robot) -> Result<Configurations<
 ///
 /// # Errors
 /// As [`read_configurations`], or a mimic joint has another speed or acceleration than its master implies.
-pub fn read_states(path: &Path, robot: &Robot) -> Result<Configurations<JointState>, Vec<Diagnostic>> {
+pub fn read_states(path: &Path, robot: &Robot) -> Result<Configurations<JointStateList>, Vec<Diagnostic>> {
     let in_ratio = |values: &BTreeMap<String, f64>| {
-        Ok::<_, Diagnostic>(
-            followed(values, robot, |robot, rates| robot.apply_mimic_to_speeds(rates))?.to_vec(),
-        )
+        followed(values, robot, |robot, rates| robot.apply_mimic_to_speeds(rates)).map(|rates| rates.to_vec())
     };
-    let state = |written: &WrittenConfiguration| {
+    let mut list = JointStateList::new(robot.dof());
+    let add = |written: &WrittenConfiguration| {
         let (q, tau) = (configuration(&written.q, robot)?, place(&written.tau, robot)?.to_vec());
-        Ok(JointState { q, qd: in_ratio(&written.v)?, qdd: in_ratio(&written.a)?, tau })
+        list.push(&JointState { q, qd: in_ratio(&written.v)?, qdd: in_ratio(&written.a)?, tau });
+        Ok(())
     };
-    read(path, robot, state)
+    let (warning, input) = read(path, robot, add)?;
+    Ok(Configurations { entries: list, warning, input: Some(input) })
 }
 
-fn read<T>(
+/// Reads a file whose entries are added to a list; the warning about positions outside the limits.
+fn read(
     path: &Path,
     robot: &Robot,
-    vectors: impl Fn(&WrittenConfiguration) -> Result<T, Diagnostic>,
-) -> Result<Configurations<T>, Vec<Diagnostic>> {
-    let access = FileAccess::default();
-    let source = access.read_named_text(path, MOST_BYTES)?;
-    let (mut index, mut outside, mut first_outside) = (0, Vec::new(), None);
-    let entry = |written: WrittenConfiguration, place: Range<usize>| {
+    mut add: impl FnMut(&WrittenConfiguration) -> Result<(), Diagnostic>,
+) -> Result<(Option<Diagnostic>, InputFile), Vec<Diagnostic>> {
+    let (mut index, mut outside, mut first_outside) = (0, OutsideLimits::default(), None);
+    let entry = |written: WrittenConfiguration, place: &EntryPlace<'_>| {
         index += 1;
         for group in [&written.v, &written.tau, &written.a] {
             self::place(group, robot)?;
         }
         let found = outside_limits(&written.q, robot);
         if !found.is_empty() {
-            first_outside.get_or_insert(place);
+            first_outside.get_or_insert_with(|| place.keep());
         }
-        outside.extend(found.into_iter().map(|what| format!("configuration {index}: {what}")));
-        vectors(&written)
+        for what in found {
+            outside.add(|| format!("configuration {index}: {what}"));
+        }
+        add(&written)
     };
-    let entries = LIST
-        .read(&source.text, entry)
-        .and_then(|entries| if entries.is_empty() { Err(vec![no_entry()]) } else { Ok(entries) })
-        .map_err(|faults| faults.into_iter().map(|fault| fault.in_file(&source)).collect::<Vec<_>>())?;
-    let warning = outside_limits_warning(&outside)
-        .map(|warning| warning.at(first_outside.unwrap_or_default()).in_file(&source));
-    Ok(Configurations { entries, warning, input: access.files().pop() })
+    let (input, source) = LIST.read_stream(TextStream::open(path, MOST_BYTES)?, entry)?;
+    if index == 0 {
+        return Err(no_entry().in_file(&source).into());
+    }
+    let warning = outside.warning();
+    Ok((warning.map(|warning| warning.at(first_outside.unwrap_or_default()).in_file(&source)), input))
 }
 
 fn no_entry() -> Diagnostic {

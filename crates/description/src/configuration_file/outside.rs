@@ -22,14 +22,37 @@ pub fn outside_limits(values: &BTreeMap<String, f64>, robot: &Robot) -> Vec<Stri
 
 /// The warning that lists such sentences; `None` if there are none.
 pub fn outside_limits_warning(found: &[String]) -> Option<Diagnostic> {
-    let listed = found.iter().take(MOST_LISTED).cloned().collect::<Vec<_>>().join(", ");
-    let more = match found.len().saturating_sub(MOST_LISTED) {
-        0 => String::new(),
-        more => format!(" and {more} more"),
-    };
-    let message = format!("outside the joint limits: {listed}{more}");
-    (!found.is_empty()).then(|| {
-        Diagnostic::warning("configurations::outside_limits", message)
-            .with_help("the result is computed for these positions, which the robot cannot take")
-    })
+    let mut outside = OutsideLimits::default();
+    for what in found {
+        outside.add(|| what.clone());
+    }
+    outside.warning()
+}
+
+/// Such sentences, of which as many are kept as the warning lists.
+#[derive(Debug, Default)]
+pub(super) struct OutsideLimits {
+    listed: Vec<String>,
+    count: usize,
+}
+
+impl OutsideLimits {
+    pub(super) fn add(&mut self, what: impl FnOnce() -> String) {
+        self.count += 1;
+        if self.listed.len() < MOST_LISTED {
+            self.listed.push(what());
+        }
+    }
+
+    pub(super) fn warning(&self) -> Option<Diagnostic> {
+        let more = match self.count - self.listed.len() {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let message = format!("outside the joint limits: {}{more}", self.listed.join(", "));
+        (self.count > 0).then(|| {
+            Diagnostic::warning("configurations::outside_limits", message)
+                .with_help("the result is computed for these positions, which the robot cannot take")
+        })
+    }
 }

@@ -38,16 +38,19 @@ pub fn is_standard_input(path: &Path) -> bool {
 
 /// The bytes of a regular file of at most `most_bytes`.
 pub(super) fn read_regular_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
+    read_at_most(open_regular(path, most_bytes)?, path, most_bytes)
+}
+
+/// A regular file of at most `most_bytes`. It may grow: who reads it counts.
+fn open_regular(path: &Path, most_bytes: u64) -> Result<File, Diagnostic> {
     let metadata = metadata(path)?;
     if !metadata.is_file() {
         return Err(not_regular(path));
     }
-    // One byte more than allowed is asked for: the file may have grown since its size was read.
     if metadata.len() > most_bytes {
         return Err(too_large(path, metadata.len(), most_bytes));
     }
-    let file = File::open(path).map_err(|error| unreadable(path, &error))?;
-    read_at_most(file, path, most_bytes)
+    File::open(path).map_err(|error| unreadable(path, &error))
 }
 
 /// How a regular file begins, as text: at most so many bytes.
@@ -60,14 +63,18 @@ pub(crate) fn head_of(path: &Path, bytes: usize) -> Result<String, Diagnostic> {
 
 /// The bytes of what a person names: a regular file, a pipe or standard input.
 pub(super) fn read_named_bytes(path: &Path, most_bytes: u64) -> Result<Vec<u8>, Diagnostic> {
+    read_at_most(open_named(path, most_bytes)?, path, most_bytes)
+}
+
+/// What a person names: a regular file of at most `most_bytes`, a pipe or standard input, whose bytes the reader counts.
+pub(super) fn open_named(path: &Path, most_bytes: u64) -> Result<Box<dyn Read>, Diagnostic> {
     if is_standard_input(path) {
-        return read_at_most(standard_input(path)?.lock(), path, most_bytes);
+        return Ok(Box::new(standard_input(path)?.lock()));
     }
     if is_pipe(&metadata(path)?) {
-        read_at_most(open_pipe(path)?, path, most_bytes)
-    } else {
-        read_regular_bytes(path, most_bytes)
+        return Ok(Box::new(open_pipe(path)?));
     }
+    Ok(Box::new(open_regular(path, most_bytes)?))
 }
 
 /// Standard input, of which there is one.
@@ -124,12 +131,12 @@ fn not_regular(path: &Path) -> Diagnostic {
     Diagnostic::error("file::not_regular", message)
 }
 
-fn too_large(path: &Path, length: u64, most_bytes: u64) -> Diagnostic {
+pub(super) fn too_large(path: &Path, length: u64, most_bytes: u64) -> Diagnostic {
     let message = format!("{} is too large: {length} bytes, the limit is {most_bytes}", path.display());
     Diagnostic::error("file::too_large", message)
 }
 
-fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
+pub(super) fn unreadable(path: &Path, error: &io::Error) -> Diagnostic {
     let name = path.display();
     match error.kind() {
         io::ErrorKind::NotFound => not_found(path, format!("{name} does not exist")),
@@ -183,20 +190,11 @@ pub(super) fn decode_text(path: &Path, bytes: &[u8]) -> Result<Arc<SourceFile>, 
 
 /// UTF-8 without its byte order mark, or what is wrong and the text up to there.
 fn decode(bytes: &[u8]) -> Result<&str, Box<(Diagnostic, &str)>> {
-    let refused = |code, message: String, readable, help: Option<&str>| {
+    let refused = |fault: Diagnostic, readable| {
         let end = str::len(readable);
-        let fault = Diagnostic::error(code, message).at(end..end);
-        Box::new((Diagnostic { help: help.map(str::to_owned), ..fault }, readable))
+        Box::new((fault.at(end..end), readable))
     };
-    let as_utf8 = Some("save the file as UTF-8");
-    if bytes.is_empty() {
-        return Err(refused("file::empty", "the file is empty".to_owned(), "", None));
-    }
-    if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
-        let message = "the file is UTF-16, UTF-8 is expected".to_owned();
-        return Err(refused("file::utf16", message, "", as_utf8));
-    }
-    let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
+    let bytes = without_mark(bytes).map_err(|fault| refused(fault, ""))?;
     let (good, bad) = match std::str::from_utf8(bytes) {
         Ok(text) => (text, None),
         Err(error) => {
@@ -205,14 +203,34 @@ fn decode(bytes: &[u8]) -> Result<&str, Box<(Diagnostic, &str)>> {
         }
     };
     if let Some(at) = good.find('\0') {
-        let (line, _) = line_column(good, at);
-        let message = format!("NUL byte at line {line}: the file is not text");
-        return Err(refused("file::nul", message, &good[..at], None));
+        return Err(refused(nul(line_column(good, at).0), &good[..at]));
     }
-    let Some(byte) = bad else { return Ok(good) };
-    let (line, _) = line_column(good, good.len());
+    let Some(&byte) = bad else { return Ok(good) };
+    Err(refused(not_utf8(byte, line_column(good, good.len()).0), good))
+}
+
+/// The help for a text in another encoding.
+const AS_UTF8: &str = "save the file as UTF-8";
+
+/// The bytes of a text, of which there are some and which seem to be UTF-8, after the byte order mark.
+pub(super) fn without_mark(bytes: &[u8]) -> Result<&[u8], Diagnostic> {
+    if bytes.is_empty() {
+        return Err(Diagnostic::error("file::empty", "the file is empty"));
+    }
+    if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
+        let fault = Diagnostic::error("file::utf16", "the file is UTF-16, UTF-8 is expected");
+        return Err(fault.with_help(AS_UTF8));
+    }
+    Ok(bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes))
+}
+
+pub(super) fn nul(line: usize) -> Diagnostic {
+    Diagnostic::error("file::nul", format!("NUL byte at line {line}: the file is not text"))
+}
+
+pub(super) fn not_utf8(byte: u8, line: usize) -> Diagnostic {
     let message = format!("byte 0x{byte:02X} at line {line} is not UTF-8");
-    Err(refused("file::not_utf8", message, good, as_utf8))
+    Diagnostic::error("file::not_utf8", message).with_help(AS_UTF8)
 }
 
 #[cfg(test)]
