@@ -51,6 +51,13 @@ fn memory_is_that_of_the_joint_values_however_many_configurations() {
     check(200_000, &["fk", "--to", "tool0", "--format", "json"], "\"links\":");
     check(200_000, &["jacobian", "--format", "json"], "\"angular\":");
     check(200_000, &["dynamics", "--format", "json"], "\"bias_n_m\":");
+    check(200_000, &["check", "--format", "json"], "\"tip\":[");
+    check(200_000, &["check"], "at configuration ");
+    check(
+        20_000,
+        &["clearance", "--pair", "forearm_link,*", "--limit", "1mm", "--format", "json"],
+        "\"distances_m\":",
+    );
     // Ellipsoids take ten times as long.
     check(50_000, &["manipulability", "--format", "json"], "\"tcp_in_base_m\":");
 }

@@ -43,7 +43,7 @@ d_m = 0
 #[track_caller]
 fn names_line_10(description: &RobotDescription, file: &Path) {
     let mut physics = UrdfTree::new(&description.robot);
-    let options = CheckOptions { seed: 0, configurations: Vec::new() };
+    let options = CheckOptions::default();
     let report = check(description, Ok(&mut physics), &options).unwrap();
     let fault = &report.diagnosis[0].fault;
     assert_eq!((fault.joint.as_deref(), fault.line), (Some("a"), Some(10)), "{fault:?}");

@@ -2,6 +2,7 @@
 
 use std::{
     fmt::Write,
+    iter::once_with,
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
     sync::{Mutex, PoisonError},
@@ -21,12 +22,19 @@ use crate::{
     terminal_text::shown,
 };
 
+/// A text for people in parts of whole lines.
+pub(crate) type Parts<'a> = Box<dyn Iterator<Item = String> + 'a>;
+
 /// What a command prints for one input.
 pub(crate) trait BatchReport: Serialize {
     /// The exit code that stands for its verdict.
     fn exit_code(&self) -> u8;
     /// The report for people.
     fn text(&self) -> String;
+    /// The same in parts of whole lines, each made when it is printed.
+    fn parts(&self) -> Parts<'_> {
+        Box::new(once_with(|| self.text()))
+    }
     /// The report for CI; `input` tells it from the others of the file.
     fn test_suite(&self, input: &str) -> TestSuite;
 }
@@ -188,7 +196,7 @@ impl<'a> Batch<'a> {
             let entries: Vec<Entry<'_, R>> = answers.iter().map(Answer::entry).collect();
             self.printer.result(&entries, |_| text(&answers))?;
         } else if let Some(Answer { result, .. }) = answers.pop() {
-            self.printer.result(&result?, R::text)?;
+            self.printer.parts(&result?, R::parts)?;
         }
         Ok(code)
     }

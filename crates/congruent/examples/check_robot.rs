@@ -9,8 +9,7 @@ use congruent::prelude::*;
 fn main() -> Result<(), String> {
     let robot = env::args().nth(1).map_or_else(default_robot, PathBuf::from);
     let description = load_robot(&robot).map_err(|found| listed(&found))?;
-    let report = check(&description, &CheckOptions { seed: 0, configurations: Vec::new() })
-        .map_err(|e| e.to_string())?;
+    let report = check(&description, &CheckOptions::default()).map_err(|e| e.to_string())?;
     println!("{}: {}", report.geometry.robot, report.geometry.verdict);
     for comparison in &report.geometry.comparisons {
         let worst = comparison.worst.error.position_m;

@@ -49,6 +49,16 @@ impl LinkPosesError {
     }
 }
 
+impl<T: LinkPoses + ?Sized> LinkPoses for &mut T {
+    fn root_from_links_into(
+        &mut self,
+        q: &RobotQ,
+        root_from_links: &mut [Pose],
+    ) -> Result<(), LinkPosesError> {
+        (**self).root_from_links_into(q, root_from_links)
+    }
+}
+
 impl LinkPoses for UrdfTree {
     fn root_from_links_into(
         &mut self,

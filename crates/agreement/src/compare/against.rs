@@ -1,13 +1,14 @@
 //! A robot's URDF against another description of the same joints: the checks of [`check`], added to its report under
 //! the name of that pair.
 
-use congruent_description::{Places, RobotDescription};
+use congruent_description::RobotDescription;
 use congruent_kinematics::LinkPoses;
 
 use super::{
     certificate::{Brackets, worst},
     check::{CheckOptions, check, verdict, worst_of},
-    check_report::{CheckReport, TipDifference},
+    check_report::CheckReport,
+    differences_at::without_table,
     error::CheckError,
 };
 use crate::source_pair::SourcePair;
@@ -23,10 +24,7 @@ impl CheckReport {
         other: &mut dyn LinkPoses,
         options: &CheckOptions,
     ) -> Result<(), CheckError> {
-        // Without its table: the other source is held against the URDF, as the physics is.
-        let places = Places { robot_file: None, ..description.places.clone() };
-        let urdf = RobotDescription { dh: None, places, ..description.clone() };
-        let found = check(&urdf, Ok(other), options)?;
+        let found = check(&without_table(description), Ok(other), options)?;
         let pair = SourcePair::UrdfOther;
         let is_other = |name: SourcePair| name == SourcePair::UrdfSimulation;
         for mut comparison in found.comparisons.into_iter().filter(|of| is_other(of.name)) {
@@ -43,11 +41,6 @@ impl CheckReport {
         }
         if self.diagnosis.is_empty() {
             (self.diagnosis, self.indistinguishable) = (found.diagnosis, found.indistinguishable);
-        }
-        for (here, other) in self.at_configurations.iter_mut().zip(found.at_configurations) {
-            here.error = here.error.larger(other.error);
-            let tips = other.tip.into_iter().filter(|tip| is_other(tip.pair));
-            here.tip.extend(tips.map(|tip| TipDifference { pair, ..tip }));
         }
         self.verdict = verdict(&self.comparisons);
         self.worst = worst_of(&self.comparisons, &self.tolerance);

@@ -128,7 +128,7 @@ impl<T> BySource<T> {
 /// [`KinematicsError`] if a configuration has the wrong number of joints.
 pub(crate) fn basics(
     description: &RobotDescription,
-    configurations: &[RobotQ],
+    configurations: impl Iterator<Item = RobotQ>,
 ) -> Result<Basics, KinematicsError> {
     let robot = &description.robot;
     let sources = TcpSources::new(description);
@@ -163,7 +163,7 @@ pub(crate) fn basics(
         });
     }
     for q in configurations {
-        sources.base_from_tcp(q)?.named().for_each(|(_, base_from_tcp)| basics.observe(base_from_tcp));
+        sources.base_from_tcp(&q)?.named().for_each(|(_, base_from_tcp)| basics.observe(base_from_tcp));
     }
     Ok(basics)
 }

@@ -1,22 +1,20 @@
 //! The comparison of model, URDF and physics without motion: are they the same robot?
 
+use std::sync::Arc;
+
 use congruent_description::{
-    Diagnostic, Finding, JointValues, RobotDescription, RobotQ, Tolerance, display::quantity,
+    Diagnostic, Finding, RobotDescription, RobotQ, RobotQList, Tolerance, display::quantity,
 };
-use congruent_kinematics::{
-    KinematicsError, LinkPoses, Pose, PoseError, ScrewChain, ScrewTree, UrdfTree, sample_configurations,
-};
+use congruent_kinematics::{LinkPoses, PoseError, ScrewChain, sample_configurations};
 
 use super::{
     basics::basics,
     certificate::{Brackets, ReportedCertificate, certificates, worst},
-    check_report::{
-        Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, NotAsked, TipDifference,
-        WorstDifference,
-    },
+    check_report::{Agreement, CheckReport, Comparison, NotAsked, WorstDifference},
+    comparing::{Comparing, is_turned_only},
+    configurations::Configurations,
     error::CheckError,
     identified::IdentifiedChain,
-    model::{Model, PoseSource},
 };
 use crate::{report::diagnose_models, source_pair::SourcePair};
 
@@ -25,8 +23,8 @@ use crate::{report::diagnose_models, source_pair::SourcePair};
 pub struct CheckOptions {
     /// Seed of the random configurations.
     pub seed: u64,
-    /// Configurations at which the report has the difference.
-    pub configurations: Vec<RobotQ>,
+    /// Configurations that are compared as well.
+    pub configurations: Arc<RobotQList>,
 }
 
 /// Number of random configurations of a check.
@@ -52,29 +50,22 @@ pub fn check(
     let mut configurations = sample_configurations(robot, options.seed, RANDOM_CONFIGURATIONS);
     let Physics { source, identified, certificates, not_asked } =
         Physics::new(description, physics, &configurations)?;
-    let mut sources = LinkPoseSources::new(description, source)?;
+    let mut comparing = Comparing::new(description, source.map(|source| Box::new(source) as _))?;
     // The worst configurations of the certificates count for the verdict: random ones seldom find them.
     let brackets = certificates.iter().filter_map(|certificate| certificate.brackets.as_ref());
     configurations.extend(brackets.flat_map(|brackets| brackets.attained_at(robot)));
-    let mut running = running(description, &sources);
-    let requested_from = configurations.len();
-    configurations.extend_from_slice(&options.configurations);
-    let mut requested = Vec::with_capacity(options.configurations.len());
+    let configurations = Configurations { sampled: configurations, requested: &options.configurations };
     for (index, q) in configurations.iter().enumerate() {
-        sources.evaluate(q)?;
-        let here = running.iter_mut().map(|comparison| comparison.observe(index, &sources));
-        let error = here.fold(PoseError::default(), PoseError::larger);
-        if index >= requested_from {
-            let (q, tip) = (JointValues::of_robot(robot, q), sources.tips(description));
-            requested.push(DifferenceAt { q, error, tip });
-        }
+        comparing.observe(index, &q)?;
     }
-    let comparisons: Vec<Comparison> =
-        running.iter().map(|comparison| comparison.finish(description, &configurations)).collect();
+    let comparisons = comparing.finish(description, |index| configurations.at(index));
     let verdict = verdict(&comparisons);
     // What is left of sources that agree is the rounding of the identified screws: it has no cause.
-    let diagnosed: &[RobotQ] = if verdict == Agreement::Agree { &[] } else { &configurations };
-    let diagnoses = diagnose_models(description, identified.as_ref(), diagnosed);
+    let diagnosed = match verdict {
+        Agreement::Agree => Vec::new(),
+        _ => configurations.diagnosed(comparing.worst_at()),
+    };
+    let diagnoses = diagnose_models(description, identified.as_ref(), &diagnosed);
     let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
     let brackets = worst(&certificates);
     Ok(CheckReport {
@@ -89,8 +80,7 @@ pub fn check(
         configurations: configurations.len(),
         seed: options.seed,
         comparisons,
-        at_configurations: requested,
-        basics: basics(description, &configurations)?,
+        basics: basics(description, configurations.iter())?,
         certificate: brackets.as_ref().map(Brackets::bounds),
         certificate_bracket: brackets,
         certificates,
@@ -103,9 +93,9 @@ pub fn check(
 }
 
 /// Refuses positions so large that numbers of their size are further apart than the tolerance.
-fn resolved(description: &RobotDescription, configurations: &[RobotQ]) -> Result<(), CheckError> {
+fn resolved(description: &RobotDescription, configurations: &RobotQList) -> Result<(), CheckError> {
     let (robot, tolerance) = (&description.robot, &description.tolerance);
-    for (number, q) in (1..).zip(configurations) {
+    for (number, q) in (1..).zip(configurations.iter()) {
         for (&joint, &position) in robot.movable_joints().iter().zip(q.iter()) {
             let joint = robot.joint(joint);
             let spacing = position.abs().next_up() - position.abs();
@@ -151,23 +141,6 @@ impl<'a> Physics<'a> {
     }
 }
 
-/// The comparisons of the sources that were asked.
-fn running(description: &RobotDescription, sources: &LinkPoseSources<'_>) -> Vec<RunningComparison> {
-    let mut running = Vec::new();
-    if description.dh.is_some() {
-        let decides = |source| source == PoseSource::Dh;
-        let sources = sources.model.sources();
-        running.push(RunningComparison::new(SourcePair::ModelUrdf, model_urdf, sources, decides));
-    }
-    let urdf = vec![PoseSource::Urdf; description.robot.links().len()];
-    let all = |_| true;
-    running.push(RunningComparison::new(SourcePair::PoeUrdf, poe_urdf, &urdf, all));
-    if sources.physics.is_some() {
-        running.push(RunningComparison::new(SourcePair::UrdfSimulation, urdf_simulation, &urdf, all));
-    }
-    running
-}
-
 /// Screws are made from the URDF chain: alone they show that two computations agree, not two descriptions.
 pub(super) fn verdict(comparisons: &[Comparison]) -> Agreement {
     if comparisons.iter().any(|comparison| comparison.verdict != Agreement::Agree) {
@@ -193,166 +166,4 @@ pub(super) fn worst_of(comparisons: &[Comparison], tolerance: &Tolerance) -> Wor
         }
     }
     WorstDifference { error, ..worst.clone() }
-}
-
-/// Whether the orientation alone is beyond the tolerance, so that its place is the one to name.
-fn is_turned_only(worst: &PoseError, tolerance: &Tolerance) -> bool {
-    worst.position_m <= tolerance.position_m && !worst.is_within(tolerance)
-}
-
-/// Poses of all links at one configuration, by each source.
-struct LinkPoseSources<'a> {
-    model: Model,
-    urdf: UrdfTree,
-    screws: ScrewTree,
-    physics: Option<&'a mut dyn LinkPoses>,
-    by_urdf: Vec<Pose>,
-    by_screws: Vec<Pose>,
-    by_physics: Vec<Pose>,
-}
-
-impl<'a> LinkPoseSources<'a> {
-    fn new(
-        description: &RobotDescription,
-        physics: Option<&'a mut dyn LinkPoses>,
-    ) -> Result<Self, KinematicsError> {
-        let robot = &description.robot;
-        let links = robot.links().len();
-        Ok(Self {
-            model: Model::new(description)?,
-            urdf: UrdfTree::new(robot),
-            screws: ScrewTree::new(robot),
-            physics,
-            by_urdf: vec![Pose::identity(); links],
-            by_screws: vec![Pose::identity(); links],
-            by_physics: vec![Pose::identity(); links],
-        })
-    }
-
-    fn evaluate(&mut self, q: &RobotQ) -> Result<(), CheckError> {
-        self.model.root_from_links(q)?;
-        self.urdf.root_from_links_into(q, &mut self.by_urdf)?;
-        self.screws.root_from_links_into(q, &mut self.by_screws)?;
-        if let Some(physics) = &mut self.physics {
-            physics.root_from_links_into(q, &mut self.by_physics)?;
-        }
-        Ok(())
-    }
-}
-
-impl LinkPoseSources<'_> {
-    /// The tip by each two sources that describe the robot, at the configuration of the last evaluation.
-    fn tips(&self, description: &RobotDescription) -> Vec<TipDifference> {
-        let (base, tip) = (description.base.get(), description.tip.get());
-        // The base is placed by the URDF, which places the table.
-        let in_base = |links: &[Pose], base: &Pose| base.inverse() * links[tip];
-        let by_urdf = in_base(&self.by_urdf, &self.by_urdf[base]);
-        let between = |pair, first: Pose, second: Pose| TipDifference {
-            pair,
-            first: (&first).into(),
-            second: (&second).into(),
-            error: PoseError::between(&first, &second),
-        };
-        let model = description.dh.as_ref().map(|_| in_base(self.model.latest(), &self.by_urdf[base]));
-        let model = model.map(|by_model| between(SourcePair::ModelUrdf, by_model, by_urdf));
-        let physics = self.physics.as_ref().map(|_| in_base(&self.by_physics, &self.by_physics[base]));
-        let physics = physics.map(|by_physics| between(SourcePair::UrdfSimulation, by_urdf, by_physics));
-        model.into_iter().chain(physics).collect()
-    }
-}
-
-/// The difference of two sources at a link.
-type Difference = fn(&LinkPoseSources<'_>, usize) -> PoseError;
-
-fn model_urdf(sources: &LinkPoseSources<'_>, link: usize) -> PoseError {
-    PoseError::between(&sources.model.latest()[link], &sources.by_urdf[link])
-}
-
-fn poe_urdf(sources: &LinkPoseSources<'_>, link: usize) -> PoseError {
-    PoseError::between(&sources.by_screws[link], &sources.by_urdf[link])
-}
-
-fn urdf_simulation(sources: &LinkPoseSources<'_>, link: usize) -> PoseError {
-    PoseError::between(&sources.by_urdf[link], &sources.by_physics[link])
-}
-
-/// One comparison with the worst differences so far.
-struct RunningComparison {
-    pair: SourcePair,
-    difference: Difference,
-    sources: Vec<PoseSource>,
-    /// Whether a link decides the verdict.
-    decides: Vec<bool>,
-    worst: Vec<PoseError>,
-    /// Link and configuration of the largest distance, of the links that decide.
-    furthest: (usize, usize),
-    /// The same of the largest angle.
-    most_turned: (usize, usize),
-}
-
-impl RunningComparison {
-    fn new(
-        pair: SourcePair,
-        difference: Difference,
-        sources: &[PoseSource],
-        decides: impl Fn(PoseSource) -> bool,
-    ) -> Self {
-        let decides: Vec<bool> = sources.iter().map(|&source| decides(source)).collect();
-        let first = decides.iter().position(|&decides| decides).expect("the tip or every link decides");
-        Self {
-            pair,
-            difference,
-            sources: sources.to_vec(),
-            worst: vec![PoseError::default(); sources.len()],
-            decides,
-            furthest: (first, 0),
-            most_turned: (first, 0),
-        }
-    }
-
-    /// Adds one configuration; returns the largest difference there of the links that decide.
-    fn observe(&mut self, configuration: usize, sources: &LinkPoseSources<'_>) -> PoseError {
-        let mut here = PoseError::default();
-        for link in 0..self.worst.len() {
-            let error = (self.difference)(sources, link);
-            if self.decides[link] {
-                here = here.larger(error);
-                if error.position_m > self.worst[self.furthest.0].position_m {
-                    self.furthest = (link, configuration);
-                }
-                if error.orientation_rad > self.worst[self.most_turned.0].orientation_rad {
-                    self.most_turned = (link, configuration);
-                }
-            }
-            self.worst[link] = self.worst[link].larger(error);
-        }
-        here
-    }
-
-    fn finish(&self, description: &RobotDescription, configurations: &[RobotQ]) -> Comparison {
-        let robot = &description.robot;
-        let deciding = || self.worst.iter().zip(&self.decides).filter(|(_, decides)| **decides);
-        let worst = deciding().fold(PoseError::default(), |worst, (error, _)| worst.larger(*error));
-        let agrees = worst.is_within(&description.tolerance);
-        let is_turned_only = is_turned_only(&worst, &description.tolerance);
-        let (link, configuration) = if is_turned_only { self.most_turned } else { self.furthest };
-        let links = robot.links().iter().zip(&self.sources).zip(&self.worst);
-        Comparison {
-            name: self.pair,
-            title: self.pair.title(),
-            verdict: if agrees { Agreement::Agree } else { Agreement::Disagree },
-            worst: WorstDifference {
-                error: worst,
-                link: robot.links()[link].name.clone(),
-                at: JointValues::of_robot(robot, &configurations[configuration]),
-            },
-            links: links
-                .map(|((link, &source), worst)| LinkDifference {
-                    link: link.name.clone(),
-                    source,
-                    error: *worst,
-                })
-                .collect(),
-        }
-    }
 }

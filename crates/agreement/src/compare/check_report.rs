@@ -118,9 +118,6 @@ pub struct CheckReport {
     pub seed: u64,
     /// The comparisons, two sources each.
     pub comparisons: Vec<Comparison>,
-    /// The worst of all comparisons at each requested configuration.
-    #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub at_configurations: Vec<DifferenceAt>,
     /// First checks: zero, one axis at a time, whether the transforms are rigid motions.
     pub basics: Basics,
     /// Bound of the difference of the models over the whole joint range: the largest of `certificates`.
@@ -141,18 +138,6 @@ pub struct CheckReport {
     pub not_asked: Vec<NotAsked>,
     /// Warnings about the input.
     pub warnings: Vec<Finding>,
-}
-
-/// The difference of the sources at one requested configuration.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct DifferenceAt {
-    /// The configuration: every movable joint, rad or m.
-    pub q: JointValues,
-    /// The largest distance and the largest angle at a link that decides.
-    #[serde(flatten)]
-    pub error: PoseError,
-    /// The tip by the sources of each pair that is compared, screws excepted.
-    pub tip: Vec<TipDifference>,
 }
 
 /// The tip by two sources, in link `base`.

@@ -6,7 +6,7 @@ use congruent_kinematics::{LinkPoses, Pose, PoseError, Uniform, UrdfTree, range,
 
 use super::{
     check::{CheckOptions, RANDOM_CONFIGURATIONS, verdict, worst_of},
-    check_report::{Agreement, CheckReport, TipDifference},
+    check_report::{Agreement, CheckReport},
     error::CheckError,
 };
 use crate::{
@@ -47,8 +47,11 @@ impl CheckReport {
                 differences.observe(differences.both(&q, &mut random), poses)?;
             }
             if corrected == 0 {
+                for q in options.configurations.iter() {
+                    let followed = differences.followed(&q);
+                    differences.observe([q, followed], poses)?;
+                }
                 self.enlarge(description, &differences);
-                self.at_requested(description, (&mut differences, poses), options)?;
             }
             worst_left.push(differences.links.iter().copied().fold(PoseError::default(), PoseError::larger));
         }
@@ -86,31 +89,6 @@ impl CheckReport {
         (self.certificate, self.certificate_bracket) = (None, None);
         self.verdict = verdict(&self.comparisons);
         self.worst = worst_of(&self.comparisons, &self.tolerance);
-    }
-
-    /// The differences at requested configurations.
-    fn at_requested(
-        &mut self,
-        description: &RobotDescription,
-        (differences, poses): (&mut Differences<'_>, &mut dyn LinkPoses),
-        options: &CheckOptions,
-    ) -> Result<(), CheckError> {
-        let (base, tip) = (description.base.get(), description.tip.get());
-        for (here, q) in self.at_configurations.iter_mut().zip(&options.configurations) {
-            let error = differences.observe([q.clone(), differences.followed(q)], poses)?;
-            here.error = here.error.larger(error);
-            let [first, second] = [&differences.own_links, &differences.other_links]
-                .map(|links| links[base].inverse() * links[tip]);
-            for tip in here.tip.iter_mut().filter(|tip| tip.pair == SourcePair::UrdfOther) {
-                *tip = TipDifference {
-                    pair: tip.pair,
-                    first: (&first).into(),
-                    second: (&second).into(),
-                    error: PoseError::between(&first, &second),
-                };
-            }
-        }
-        Ok(())
     }
 }
 

@@ -6,7 +6,10 @@ pub(crate) mod basics;
 pub(crate) mod certificate;
 pub(crate) mod check;
 pub(crate) mod check_report;
+mod comparing;
+mod configurations;
 pub(crate) mod diagnosis;
+mod differences_at;
 pub(crate) mod error;
 pub(crate) mod identified;
 mod mimic;
@@ -16,9 +19,9 @@ pub use basics::{Basics, BySource, CoordinateUnit, SingleJointMotion, TcpDisplac
 pub use certificate::{Brackets, Premise, ReportedBracket, ReportedCertificate};
 pub use check::{CheckOptions, RANDOM_CONFIGURATIONS, check};
 pub use check_report::{
-    Agreement, CheckReport, Comparison, DifferenceAt, LinkDifference, NotAsked, TipDifference,
-    WorstDifference,
+    Agreement, CheckReport, Comparison, LinkDifference, NotAsked, TipDifference, WorstDifference,
 };
 pub use diagnosis::diagnose;
+pub use differences_at::{DifferenceAt, DifferencesAt};
 pub use error::CheckError;
 pub use model::{Model, PoseSource};

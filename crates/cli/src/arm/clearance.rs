@@ -1,6 +1,6 @@
 //! `congruent clearance`: distances between links.
 
-use std::fmt::Write;
+use std::{fmt::Write, iter::once};
 
 use congruent::{
     description::{
@@ -8,7 +8,7 @@ use congruent::{
         display::{in_column, length},
     },
     twin::proximity::{
-        DistanceError, DistanceOptions, DistanceReport, Overlap, PairChoice, PairNames, distances,
+        DistanceError, DistanceOptions, DistanceReport, Distances, Overlap, PairChoice, PairNames, distances,
     },
 };
 
@@ -56,7 +56,6 @@ fn pair(text: &str) -> Result<[String; 2], String> {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.robot.load_for(Use::Clearance, printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
-    let configurations: Vec<_> = configurations.iter().collect();
     let options = DistanceOptions {
         choice: if arguments.all_pairs { PairChoice::All } else { PairChoice::Usual },
         names: PairNames { pairs: arguments.pair.clone(), ignore: arguments.ignore.clone() },
@@ -67,13 +66,22 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         DistanceError::Pair(fault) => fault.diagnostic,
         error => Diagnostic::error("clearance::shape", error.to_string()),
     })?;
-    printer.result(&report, |report| text(report, &description.robot))?;
+    printer.parts(&report, |report| parts(report, &description.robot))?;
     let is_nothing = report.pairs.is_empty() || report.results.is_empty();
     let has_failed = !report.below.is_empty();
     Ok(if is_nothing { NOTHING } else { u8::from(has_failed) * FAILED })
 }
 
-fn text(report: &DistanceReport, robot: &Robot) -> String {
+/// What was left out and what is below the limit, then the distances at each configuration.
+fn parts<'a>(report: &'a DistanceReport<'_>, robot: &Robot) -> impl Iterator<Item = String> + 'a {
+    // Without a pair there is nothing to say of a configuration.
+    let shown = if report.pairs.is_empty() { 0 } else { usize::MAX };
+    let configurations = (1..).zip(report.results.iter()).take(shown);
+    once(summary(report, robot))
+        .chain(configurations.map(|(number, result)| nearest(report, number, &result)))
+}
+
+fn summary(report: &DistanceReport<'_>, robot: &Robot) -> String {
     let mut text = String::new();
     for [a, b] in &report.ignored {
         let _ = writeln!(text, "ignored: {a} -- {b}");
@@ -92,24 +100,26 @@ fn text(report: &DistanceReport, robot: &Robot) -> String {
     if let Some(limit_m) = report.limit_m {
         below(&mut text, report, limit_m);
     }
-    for (index, result) in report.results.iter().enumerate() {
-        let _ = writeln!(text, "configuration {}: nearest pairs first", index + 1);
-        let mut order: Vec<usize> = (0..report.pairs.len()).collect();
-        order.sort_by(|&a, &b| result.distances_m[a].total_cmp(&result.distances_m[b]));
-        let mut table = Table::headed(["", "mm"]);
-        for pair in order {
-            let [a, b] = &report.pairs[pair];
-            table.row([format!("{a} -- {b}"), in_column(result.distances_m[pair], "m")]);
-        }
-        table.write(&mut text);
-    }
     text
 }
 
-fn below(text: &mut String, report: &DistanceReport, limit_m: f64) {
+/// The distances at one configuration, the nearest pair first.
+fn nearest(report: &DistanceReport<'_>, number: usize, result: &Distances) -> String {
+    let mut text = format!("configuration {number}: nearest pairs first\n");
+    let mut order: Vec<usize> = (0..report.pairs.len()).collect();
+    order.sort_by(|&a, &b| result.distances_m[a].total_cmp(&result.distances_m[b]));
+    let mut table = Table::headed(["", "mm"]);
+    for pair in order {
+        let [a, b] = &report.pairs[pair];
+        table.row([format!("{a} -- {b}"), in_column(result.distances_m[pair], "m")]);
+    }
+    table.write(&mut text);
+    text
+}
+
+fn below(text: &mut String, report: &DistanceReport<'_>, limit_m: f64) {
     if report.below.is_empty() {
-        let least = report.results.iter().flat_map(|result| &result.distances_m).copied();
-        let left_m = least.fold(f64::INFINITY, f64::min) - limit_m;
+        let left_m = report.least_m.unwrap_or(f64::INFINITY) - limit_m;
         let _ = writeln!(text, "no pair is below {}: {} left", length(limit_m), length(left_m));
         return;
     }

@@ -1,13 +1,16 @@
 //! `congruent check`: compares model, URDF and physics.
 
-use std::path::{Path, PathBuf};
+use std::{
+    iter::{empty, once, once_with},
+    path::{Path, PathBuf},
+};
 
 use congruent::{
     RobotCheck,
     agreement::compare::{Agreement, CheckOptions},
     analysis::plot::errors,
     check_suite, checked_robot,
-    description::{Diagnostic, RobotDescription, Severity, load_robot_with, read_configurations},
+    description::{Diagnostic, RobotDescription, RobotQList, Severity, load_robot_with, read_configurations},
     page::{CheckEntry, check_page},
     twin::report::TestSuite,
 };
@@ -15,12 +18,12 @@ use congruent::{
 use serde::{Serialize, Serializer};
 
 use super::{
-    check_text::{basics, text},
+    check_text::{basics, compared_text, explained_text},
     errors_at::{chart, lines, table},
     tolerance::ToleranceArgument,
 };
 use crate::{
-    batch::{Answer, Batch, BatchReport},
+    batch::{Answer, Batch, BatchReport, Parts},
     ci::CiArguments,
     failure::{FAILED, Failure, NOTHING},
     input::{AccessArguments, ChainArguments, files_of},
@@ -100,9 +103,19 @@ impl BatchReport for Checked {
     }
 
     fn text(&self) -> String {
-        let basics = if self.with_basics { basics(&self.report.geometry.basics) } else { String::new() };
-        let at_configurations = if self.with_table { table } else { lines };
-        text(&self.report, &self.description.robot, &at_configurations(&self.report.geometry)) + &basics
+        self.parts().collect()
+    }
+
+    fn parts(&self) -> Parts<'_> {
+        let Self { report, description: RobotDescription { robot, .. }, .. } = self;
+        let at_configurations = match &report.at_configurations {
+            Some(differences) if self.with_table => table(&report.geometry, differences),
+            Some(differences) => lines(differences),
+            None => Box::new(empty()),
+        };
+        let basics = if self.with_basics { basics(&report.geometry.basics) } else { String::new() };
+        let explained = once_with(move || explained_text(report, robot) + &basics);
+        Box::new(once(compared_text(report, robot)).chain(at_configurations).chain(explained))
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
@@ -145,12 +158,12 @@ fn one_plot(arguments: &Arguments) -> Result<(), Diagnostic> {
 
 fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checked, Failure> {
     let mut description = arguments.chain.of(load_robot_with(path, &arguments.access.access()?)?)?;
-    let mut configurations = Vec::new();
+    let mut configurations = RobotQList::new(description.robot.dof());
     if let Some(path) = &arguments.configurations {
         let read = read_configurations(path, &description.robot)?;
         description.warnings.extend(read.warning);
         description.inputs.extend(read.input);
-        configurations = read.entries.iter().collect();
+        configurations = read.entries;
     }
     let declared = description.tolerance;
     if let Some(tolerance) = arguments.tolerance {
@@ -162,7 +175,7 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         description.tolerance = tolerance.replace(declared);
     }
     batch.warn(path, &description.warnings);
-    let options = CheckOptions { seed: arguments.seed, configurations };
+    let options = CheckOptions { seed: arguments.seed, configurations: configurations.into() };
     let access = arguments.access.access()?;
     let other = arguments.against.as_ref().map(|other| load_robot_with(other, &access)).transpose()?;
     let mut inputs = files_of(&description);
@@ -184,7 +197,9 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         return Err(unusable.into());
     }
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
-    arguments.plot.write(|| errors(&chart(&report.geometry)), &inputs)?;
+    if let Some(differences) = &report.at_configurations {
+        arguments.plot.write(|| errors(&chart(&report.geometry, differences)), &inputs)?;
+    }
     let (with_basics, with_table) = (arguments.basics, arguments.table);
     Ok(Checked { report, description, other, with_basics, with_table })
 }

@@ -20,8 +20,8 @@ use congruent::{
 use super::{diagnosis_text::diagnosed, dynamics_text::dynamics};
 use crate::table::{with_one_sign, wrapped};
 
-/// The report; `at_configurations` are the errors at each requested configuration.
-pub(super) fn text(check: &RobotCheck, robot: &Robot, at_configurations: &str) -> String {
+/// The report before the errors at requested configurations.
+pub(super) fn compared_text(check: &RobotCheck, robot: &Robot) -> String {
     let report = &check.geometry;
     let mut text = String::new();
     headline(&mut text, check);
@@ -51,7 +51,13 @@ pub(super) fn text(check: &RobotCheck, robot: &Robot, at_configurations: &str) -
         let _ = writeln!(text, "  worst at link {}, at", report.worst.link);
         text += &wrapped(&report.worst.at.for_people(robot));
     }
-    text += at_configurations;
+    text
+}
+
+/// The report behind them.
+pub(super) fn explained_text(check: &RobotCheck, robot: &Robot) -> String {
+    let report = &check.geometry;
+    let mut text = String::new();
     certified(&mut text, report, robot);
     if let Some(diagnosis) = report.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty()) {
         diagnosed(&mut text, diagnosis);

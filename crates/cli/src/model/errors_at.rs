@@ -1,57 +1,65 @@
 //! The errors of `congruent check` at the configurations of `--configurations`: as lines, as a table with the tip by both
 //! models, and as a chart.
 
-use std::fmt::Write;
+use std::iter::{from_fn, once};
 
 use congruent::{
     agreement::{
         SourcePair,
-        compare::{CheckReport, TipDifference},
+        compare::{CheckReport, DifferencesAt, TipDifference},
     },
     analysis::plot::{ErrorChart, ErrorPanel},
     description::display::{angle, in_column, length, length_and_angle},
 };
 
-use crate::table::Table;
+use crate::{batch::Parts, table::Table};
 
 /// A line for each configuration: the worst of all comparisons.
-pub(super) fn lines(report: &CheckReport) -> String {
-    let mut text = String::new();
-    for (at, difference) in (1..).zip(&report.at_configurations) {
+pub(super) fn lines(differences: &DifferencesAt) -> Parts<'_> {
+    Box::new((1..).zip(differences.iter()).map(|(at, difference)| {
         let error = length_and_angle(difference.error.position_m, difference.error.orientation_rad);
-        let _ = writeln!(text, "  at configuration {at}: {error}");
-    }
-    text
+        format!("  at configuration {at}: {error}\n")
+    }))
 }
 
+/// Rows in the memory at a time: the width of a column is that of so many. Kind: choice.
+const ROWS: usize = 1000;
+
 /// A table for each pair of models: the position of the tip by both, and the error.
-pub(super) fn table(report: &CheckReport) -> String {
-    let mut text = String::new();
-    for pair in pairs(report) {
+pub(super) fn table<'a>(report: &'a CheckReport, differences: &'a DifferencesAt) -> Parts<'a> {
+    Box::new(pairs(differences).into_iter().flat_map(move |pair| {
         let [first, second] = names(pair);
-        let _ = writeln!(
-            text,
-            "  tip {} in {}: x, y, z in mm by {first}, by {second}, error",
+        let title = format!(
+            "  tip {} in {}: x, y, z in mm by {first}, by {second}, error\n",
             report.chain.tip, report.chain.base
         );
-        let mut rows = Table::headed(["", "x", "y", "z", "x", "y", "z", "error", "angle"]);
-        for (at, tip) in (1..).zip(of_pair(report, pair)) {
-            let positions = [&tip.first, &tip.second].map(|pose| pose.translation_m);
-            let positions = positions.into_iter().flatten().map(|value| in_column(value, "m"));
-            let error = length(tip.error.position_m);
-            let turn = angle(tip.error.orientation_rad);
-            rows.row([at.to_string()].into_iter().chain(positions).chain([error, turn]));
-        }
-        rows.write(&mut text);
+        let mut tips = (1..).zip(of_pair(differences, pair)).peekable();
+        once(title).chain(from_fn(move || {
+            tips.peek()?;
+            Some(rows(tips.by_ref().take(ROWS)))
+        }))
+    }))
+}
+
+fn rows(tips: impl Iterator<Item = (usize, TipDifference)>) -> String {
+    let mut rows = Table::headed(["", "x", "y", "z", "x", "y", "z", "error", "angle"]);
+    for (at, tip) in tips {
+        let positions = [&tip.first, &tip.second].map(|pose| pose.translation_m);
+        let positions = positions.into_iter().flatten().map(|value| in_column(value, "m"));
+        let error = length(tip.error.position_m);
+        let turn = angle(tip.error.orientation_rad);
+        rows.row([at.to_string()].into_iter().chain(positions).chain([error, turn]));
     }
+    let mut text = String::new();
+    rows.write(&mut text);
     text
 }
 
 /// The errors of the tip, a series for each pair of models.
-pub(super) fn chart(report: &CheckReport) -> ErrorChart {
-    let pairs = pairs(report);
+pub(super) fn chart(report: &CheckReport, differences: &DifferencesAt) -> ErrorChart {
+    let pairs = pairs(differences);
     let values = |of: fn(&TipDifference) -> f64| -> Vec<Vec<f64>> {
-        pairs.iter().map(|&pair| of_pair(report, pair).map(of).collect()).collect()
+        pairs.iter().map(|&pair| of_pair(differences, pair).map(|tip| of(&tip)).collect()).collect()
     };
     let panel = |name: &str, unit: &str, tolerance, values| ErrorPanel {
         name: name.to_owned(),
@@ -72,19 +80,17 @@ pub(super) fn chart(report: &CheckReport) -> ErrorChart {
 }
 
 /// The pairs that are shown: those of two descriptions, or URDF and physics if there is one alone.
-fn pairs(report: &CheckReport) -> Vec<SourcePair> {
-    let all: Vec<SourcePair> = report
-        .at_configurations
-        .first()
-        .map_or_else(Vec::new, |first| first.tip.iter().map(|tip| tip.pair).collect());
+fn pairs(differences: &DifferencesAt) -> Vec<SourcePair> {
+    let first = differences.iter().next();
+    let all: Vec<SourcePair> =
+        first.map_or_else(Vec::new, |first| first.tip.iter().map(|tip| tip.pair).collect());
     let descriptions: Vec<SourcePair> =
         all.iter().copied().filter(|&pair| pair != SourcePair::UrdfSimulation).collect();
     if descriptions.is_empty() { all } else { descriptions }
 }
 
-fn of_pair(report: &CheckReport, pair: SourcePair) -> impl Iterator<Item = &TipDifference> {
-    let tips = report.at_configurations.iter();
-    tips.filter_map(move |difference| difference.tip.iter().find(|tip| tip.pair == pair))
+fn of_pair(differences: &DifferencesAt, pair: SourcePair) -> impl Iterator<Item = TipDifference> + '_ {
+    differences.iter().filter_map(move |difference| difference.tip.into_iter().find(|tip| tip.pair == pair))
 }
 
 fn names(pair: SourcePair) -> [&'static str; 2] {

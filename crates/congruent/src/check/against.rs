@@ -12,7 +12,10 @@ use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, Uniform, 
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::sides::{two_descriptions, unreadable_value, urdf_places, urdf_side};
+use super::{
+    poses_of_other::PosesOfOther,
+    sides::{two_descriptions, unreadable_value, urdf_places, urdf_side},
+};
 
 /// The other description of a robot.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
@@ -176,63 +179,4 @@ fn misplaced_joint(description: &RobotDescription, geometry: &CheckReport) -> Op
             length_and_angle(worst.error.position_m, worst.error.orientation_rad)
         )
     })
-}
-
-/// The poses of another description at the links of a robot.
-struct PosesOfOther<'a> {
-    robot: &'a Robot,
-    tree: UrdfTree,
-    /// For each link of the robot that of the other which moves as it does; `None` for one that the other lacks.
-    links: Vec<Option<usize>>,
-    /// For each coordinate of the other that of the robot.
-    coordinates: Vec<usize>,
-    q: RobotQ,
-    poses: Vec<Pose>,
-}
-
-impl<'a> PosesOfOther<'a> {
-    /// Both have the same moving joints by name.
-    fn new(robot: &'a Robot, other: &Robot) -> Self {
-        let link = |link| {
-            let joint = robot.parent_joint(link).map(|joint| robot.joint(joint));
-            match joint.filter(|joint| joint.kind.is_movable()) {
-                Some(joint) => Some(other.joint(other.find_joint(&joint.name)?).child.get()),
-                None => Some(other.find_link(&robot.link(link).name)?.get()),
-            }
-        };
-        let coordinate = |name: &str| robot.coordinate(robot.find_joint(name)?);
-        Self {
-            tree: UrdfTree::new(other),
-            links: robot.link_indices().map(link).collect(),
-            coordinates: other.movable_joint_names().filter_map(coordinate).collect(),
-            q: RobotQ::zeros(other.dof()),
-            poses: vec![Pose::identity(); other.links().len()],
-            robot,
-        }
-    }
-}
-
-impl LinkPoses for PosesOfOther<'_> {
-    fn root_from_links_into(
-        &mut self,
-        q: &RobotQ,
-        root_from_links: &mut [Pose],
-    ) -> Result<(), LinkPosesError> {
-        for (at, &coordinate) in self.coordinates.iter().enumerate() {
-            self.q[at] = q[coordinate];
-        }
-        self.tree.root_from_links_into(&self.q, &mut self.poses)?;
-        for link in self.robot.link_indices() {
-            let parent = self.robot.parent_joint(link).map(|joint| self.robot.joint(joint));
-            root_from_links[link.get()] = match (self.links[link.get()], parent) {
-                (Some(there), _) => self.poses[there],
-                // A frame that the other lacks moves with its body.
-                (None, Some(joint)) => {
-                    root_from_links[joint.parent.get()] * Pose::from(joint.parent_from_joint)
-                }
-                (None, None) => Pose::identity(),
-            };
-        }
-        Ok(())
-    }
 }

@@ -2,13 +2,16 @@
 
 use congruent_agreement::{
     SourcePair,
-    compare::{Agreement, CheckError, CheckOptions, CheckReport, NotAsked},
+    compare::{Agreement, CheckError, CheckOptions, CheckReport, DifferencesAt, NotAsked},
 };
 use congruent_description::{DeclaredDynamics, Diagnostic, Finding, InertialFrame, RobotDescription};
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_kinematics::LinkPoses;
 
-use super::{against, declared, physics, robot_check::RobotCheck, sides::unreadable_value};
+use super::{
+    against, declared, physics, poses_of_other::PosesOfOther, robot_check::RobotCheck,
+    sides::unreadable_value,
+};
 use crate::with_physics::simulated_poses;
 
 /// Compares table, URDF chain, screws and the physics twin of a robot, first their poses and then their dynamics. A robot
@@ -53,6 +56,7 @@ fn checked(
         }
         None => None,
     };
+    let at_configurations = at_configurations((description, other), &geometry, options)?;
     let mut declared_dynamics = None;
     if let Some(declared) = &description.dynamics {
         let readable = unreadable_value(description).map_or(Ok(()), Err);
@@ -85,7 +89,28 @@ fn checked(
     }
     let mut compared = compared.into_iter();
     let (dynamics, other_dynamics) = (compared.next(), compared.collect());
-    Ok(RobotCheck { geometry, against, declared_dynamics, dynamics, other_dynamics })
+    Ok(RobotCheck { geometry, at_configurations, against, declared_dynamics, dynamics, other_dynamics })
+}
+
+/// The differences at requested configurations, by the sources that the comparison had.
+fn at_configurations(
+    (description, other): (&RobotDescription, Option<&RobotDescription>),
+    geometry: &CheckReport,
+    options: &CheckOptions,
+) -> Result<Option<DifferencesAt>, CheckError> {
+    if options.configurations.is_empty() {
+        return Ok(None);
+    }
+    let physics = simulated_poses(description).ok().map(|poses| Box::new(poses) as Box<dyn LinkPoses>);
+    let differences = DifferencesAt::new(description, physics, &options.configurations)?;
+    let is_compared = geometry.comparisons.iter().any(|of| of.name == SourcePair::UrdfOther);
+    Ok(Some(match other.filter(|_| is_compared) {
+        Some(other) => {
+            let poses = PosesOfOther::with_mimics(&description.robot, &other.robot);
+            differences.with_other(description, Box::new(poses))?
+        }
+        None => differences,
+    }))
 }
 
 /// Whether there is anything to compare, and if parameters are in frames of the table, whether these are those of the

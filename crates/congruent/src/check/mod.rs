@@ -5,6 +5,7 @@ mod checked;
 mod declared;
 mod page;
 mod physics;
+mod poses_of_other;
 mod robot_check;
 mod sides;
 mod suite;

@@ -28,6 +28,7 @@ pub fn checked_robot<'a>(
     CheckedRobot {
         description,
         geometry: &report.geometry,
+        at_configurations: report.at_configurations.as_ref(),
         other,
         dynamics: report.all_dynamics().collect(),
         not_compared,

@@ -1,6 +1,6 @@
 //! The answer of `congruent check`: geometry, then dynamics.
 
-use congruent_agreement::compare::CheckReport;
+use congruent_agreement::compare::{CheckReport, DifferenceAt, DifferencesAt};
 use congruent_dynamics_agreement::DynamicsReport;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -8,12 +8,16 @@ use serde::Serialize;
 use super::{against::OtherDescription, declared::DeclaredSource};
 
 /// The answer of `congruent check` for one robot.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "CheckReport")]
 pub struct RobotCheck {
     /// Poses of table, URDF, screws and physics. Its `verdict` and `not_asked` are those of the whole check.
     #[serde(flatten)]
     pub geometry: CheckReport,
+    /// The worst of all comparisons at each requested configuration.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Vec<DifferenceAt>", default)]
+    pub at_configurations: Option<DifferencesAt>,
     /// The other description, of --against.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub against: Option<OtherDescription>,

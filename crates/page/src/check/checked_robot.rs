@@ -1,6 +1,6 @@
 //! What a page of a check shows of one robot.
 
-use congruent_agreement::compare::CheckReport;
+use congruent_agreement::compare::{CheckReport, DifferencesAt};
 use congruent_description::RobotDescription;
 use congruent_dynamics_agreement::DynamicsReport;
 
@@ -11,6 +11,8 @@ pub struct CheckedRobot<'a> {
     pub description: &'a RobotDescription,
     /// The report on its geometry.
     pub geometry: &'a CheckReport,
+    /// The differences at requested configurations.
+    pub at_configurations: Option<&'a DifferencesAt>,
     /// The other description that it was compared with.
     pub other: Option<&'a RobotDescription>,
     /// The comparisons of dynamics, as the report has them: `dynamics`, then `other_dynamics`.

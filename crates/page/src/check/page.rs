@@ -1,7 +1,7 @@
 //! The page of a check: one robot, or several below a table of them.
 
 use congruent_agreement::{
-    compare::{Agreement, CheckReport},
+    compare::{Agreement, CheckReport, DifferencesAt},
     report::foremost,
 };
 use congruent_description::display::{angle, length, length_and_angle};
@@ -104,7 +104,7 @@ fn one(robot: &CheckedRobot<'_>, at: &Pointer) -> Markup {
         (comparisons(robot.geometry, at))
         (certificate(robot, at))
         (dynamics(robot, at))
-        (requested(robot.geometry, at))
+        (requested(robot.at_configurations, at))
         (warnings(&robot.geometry.warnings))
     }
 }
@@ -162,16 +162,19 @@ fn why(report: &CheckReport, at: &Pointer) -> Markup {
     }
 }
 
+/// Configurations whose differences the page shows; a page with more is not read and does not open. Kind: choice.
+const MOST_SHOWN: usize = 1000;
+
 /// The differences at the configurations of --configurations.
-fn requested(report: &CheckReport, at: &Pointer) -> Markup {
+fn requested(differences: Option<&DifferencesAt>, at: &Pointer) -> Markup {
     html! {
-        @if !report.at_configurations.is_empty() {
+        @if let Some(differences) = differences {
             section {
                 h2 { "At the requested configurations" }
                 table {
                     thead { tr { th { "configuration" } th { "position" } th { "orientation" } } }
                     tbody {
-                        @for (index, of) in report.at_configurations.iter().enumerate() {
+                        @for (index, of) in differences.iter().take(MOST_SHOWN).enumerate() {
                             @let at = at.key("at_configurations").key(index);
                             tr {
                                 th scope="row" { (index + 1) }
@@ -180,6 +183,9 @@ fn requested(report: &CheckReport, at: &Pointer) -> Markup {
                             }
                         }
                     }
+                }
+                @if differences.len() > MOST_SHOWN {
+                    p { "and " (differences.len() - MOST_SHOWN) " more, which the report as JSON has" }
                 }
             }
         }

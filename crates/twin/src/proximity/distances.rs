@@ -1,11 +1,13 @@
 //! `congruent clearance`: distances between links at given configurations.
 
-use congruent_description::{Finding, RobotDescription, RobotQ};
+use std::{cell::RefCell, fmt};
+
+use congruent_description::{Finding, RobotDescription, RobotQ, RobotQList};
 use congruent_kinematics::{KinematicsError, Pose, UrdfTree};
 use congruent_simulation::Obstacle;
 use nalgebra::Isometry3;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::{
     clearance::Clearance,
@@ -23,8 +25,8 @@ pub struct Distances {
 }
 
 /// The answer of `congruent clearance`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct DistanceReport {
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct DistanceReport<'a> {
     /// Name of the robot.
     pub robot: String,
     /// Movable joints, in the order of configuration vectors.
@@ -35,10 +37,14 @@ pub struct DistanceReport {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ignored: Vec<[String; 2]>,
     /// One entry for each configuration, in input order.
-    pub results: Vec<Distances>,
+    #[schemars(with = "Vec<Distances>")]
+    pub results: DistanceList<'a>,
     /// Smallest distance that is allowed, if one was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit_m: Option<f64>,
+    /// Smallest distance that there is, if one is allowed.
+    #[serde(skip)]
+    pub least_m: Option<f64>,
     /// Every pair that comes below the limit, the nearest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub below: Vec<BelowLimit>,
@@ -106,15 +112,15 @@ pub enum DistanceError {
 /// Distances between convex hulls of links (and to obstacles) at each configuration.
 ///
 /// # Errors
-/// [`DistanceError`] if a collision mesh has no extent, or a name is unknown.
-pub fn distances(
+/// [`DistanceError`] if a collision mesh has no extent, a name is unknown, or configurations are those of another robot.
+pub fn distances<'a>(
     description: &RobotDescription,
     obstacles: &[Obstacle],
     options: &DistanceOptions,
-    configurations: &[RobotQ],
-) -> Result<DistanceReport, DistanceError> {
+    configurations: &'a RobotQList,
+) -> Result<DistanceReport<'a>, DistanceError> {
     let robot = &description.robot;
-    let mut clearance = Clearance::new(description, obstacles, options.choice)?;
+    let clearance = Clearance::new(description, obstacles, options.choice)?;
     let measured: Vec<(&str, &str)> =
         (0..clearance.pairs().len()).map(|pair| clearance.names(pair)).collect();
     let subjects: Vec<&str> = clearance.subjects().iter().map(String::as_str).collect();
@@ -127,26 +133,25 @@ pub fn distances(
     let ignored = names(&|pair| options.names.is_ignored(pair));
     let looked_at: Vec<usize> =
         (0..measured.len()).filter(|&pair| options.names.look_at(measured[pair])).collect();
-    let tree = UrdfTree::new(robot);
-    let mut by_analysis = vec![Pose::identity(); robot.links().len()];
-    let mut root_from_links = vec![Isometry3::identity(); robot.links().len()];
-    let mut results = Vec::with_capacity(configurations.len());
-    for q in configurations {
-        tree.root_from_links_into(q, &mut by_analysis)?;
-        for (pose, by_analysis) in root_from_links.iter_mut().zip(&by_analysis) {
-            *pose = by_analysis.to_isometry();
-        }
-        clearance.move_links(&root_from_links);
-        let measure = |&pair: &usize| match options.overlap {
-            Overlap::Zero => clearance.measure(pair),
-            Overlap::Depth => clearance.measure_signed(pair),
-        };
-        results.push(Distances { distances_m: looked_at.iter().map(measure).collect() });
-    }
+    let links = robot.links().len();
+    let measuring = Measuring {
+        tree: UrdfTree::new(robot),
+        by_analysis: vec![Pose::identity(); links],
+        root_from_links: vec![Isometry3::identity(); links],
+        clearance,
+        looked_at,
+        overlap: options.overlap,
+    };
+    let results = DistanceList::new(configurations, measuring)?;
+    let least = options.limit_m.map_or_else(Vec::new, |_| least(&pairs, &results));
     Ok(DistanceReport {
         robot: robot.name().to_owned(),
         joints: robot.movable_joint_names().map(str::to_owned).collect(),
-        below: options.limit_m.map_or_else(Vec::new, |limit_m| below(&pairs, &results, limit_m)),
+        least_m: least.first().map(|least| least.distance_m),
+        below: least
+            .into_iter()
+            .filter(|of| options.limit_m.is_some_and(|limit_m| of.distance_m < limit_m))
+            .collect(),
         pairs,
         ignored,
         results,
@@ -160,15 +165,87 @@ pub fn distances(
     })
 }
 
-/// Pairs whose least distance is below the limit, the nearest first.
-fn below(pairs: &[[String; 2]], results: &[Distances], limit_m: f64) -> Vec<BelowLimit> {
-    let least = |(at, pair): (usize, &[String; 2])| {
-        let distances = results.iter().enumerate().map(|(index, result)| (result.distances_m[at], index + 1));
-        let (distance_m, configuration) = distances.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-        Some(BelowLimit { pair: pair.clone(), distance_m, configuration })
-    };
-    let least = pairs.iter().enumerate().filter_map(least);
-    let mut below: Vec<BelowLimit> = least.filter(|least| least.distance_m < limit_m).collect();
-    below.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
-    below
+/// The least distance of each pair over the configurations, the nearest pair first.
+fn least(pairs: &[[String; 2]], results: &DistanceList<'_>) -> Vec<BelowLimit> {
+    let mut least: Vec<Option<BelowLimit>> = vec![None; pairs.len()];
+    for (configuration, result) in (1..).zip(results.iter()) {
+        for ((pair, least), distance_m) in pairs.iter().zip(&mut least).zip(result.distances_m) {
+            if least.as_ref().is_none_or(|least| distance_m < least.distance_m) {
+                *least = Some(BelowLimit { pair: pair.clone(), distance_m, configuration });
+            }
+        }
+    }
+    let mut least: Vec<BelowLimit> = least.into_iter().flatten().collect();
+    least.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
+    least
+}
+
+/// Distances at many configurations, each measured when it is read: memory does not grow with their number. They are
+/// serialised as the list of them.
+pub struct DistanceList<'a> {
+    configurations: &'a RobotQList,
+    measuring: RefCell<Measuring>,
+}
+
+/// A robot's hulls, which are moved to one configuration after the other.
+struct Measuring {
+    tree: UrdfTree,
+    by_analysis: Vec<Pose>,
+    root_from_links: Vec<Isometry3<f64>>,
+    clearance: Clearance,
+    looked_at: Vec<usize>,
+    overlap: Overlap,
+}
+
+impl<'a> DistanceList<'a> {
+    /// Tries the first configuration: all are of the same joints.
+    fn new(configurations: &'a RobotQList, mut measuring: Measuring) -> Result<Self, KinematicsError> {
+        if let Some(q) = configurations.get(0) {
+            measuring.at(&q)?;
+        }
+        Ok(Self { configurations, measuring: measuring.into() })
+    }
+
+    /// Whether there is no configuration.
+    pub fn is_empty(&self) -> bool {
+        self.configurations.is_empty()
+    }
+
+    /// All, in the order of the configurations.
+    #[expect(clippy::missing_panics_doc, reason = "the first was measured, and all have as many joints")]
+    pub fn iter(&self) -> impl Iterator<Item = Distances> + '_ {
+        let at =
+            |q| self.measuring.borrow_mut().at(&q).expect("the first has as many joints, and was measured");
+        self.configurations.iter().map(at)
+    }
+}
+
+impl Measuring {
+    fn at(&mut self, q: &RobotQ) -> Result<Distances, KinematicsError> {
+        let Self { tree, by_analysis, root_from_links, clearance, looked_at, overlap } = self;
+        tree.root_from_links_into(q, by_analysis)?;
+        for (pose, by_analysis) in root_from_links.iter_mut().zip(by_analysis) {
+            *pose = by_analysis.to_isometry();
+        }
+        clearance.move_links(root_from_links);
+        let measure = |&pair: &usize| match overlap {
+            Overlap::Zero => clearance.measure(pair),
+            Overlap::Depth => clearance.measure_signed(pair),
+        };
+        Ok(Distances { distances_m: looked_at.iter().map(measure).collect() })
+    }
+}
+
+impl Serialize for DistanceList<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.iter())
+    }
+}
+
+impl fmt::Debug for DistanceList<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("DistanceList")
+            .field("configurations", &self.configurations.len())
+            .finish_non_exhaustive()
+    }
 }

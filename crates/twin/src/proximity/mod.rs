@@ -18,7 +18,7 @@ pub use disabled_pairs::{
 };
 pub use disabled_srdf::srdf_text;
 pub use distances::{
-    BelowLimit, DistanceError, DistanceOptions, DistanceReport, Distances, Overlap, distances,
+    BelowLimit, DistanceError, DistanceList, DistanceOptions, DistanceReport, Distances, Overlap, distances,
 };
 pub use hulls::{Hulls, ProximityError};
 pub(crate) use pair_names::matches;

@@ -1,0 +1,83 @@
+//! The poses of another description at the links of a robot.
+
+use congruent_description::{Robot, RobotQ};
+use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, UrdfTree};
+
+/// The poses of another description at the links of a robot; both have the same moving joints by name.
+pub(super) struct PosesOfOther {
+    tree: UrdfTree,
+    links: Vec<Place>,
+    /// For each coordinate of the other that of the robot.
+    coordinates: Vec<usize>,
+    /// The other robot if its mimic joints follow; otherwise each joint counts as driven.
+    followed: Option<Robot>,
+    q: RobotQ,
+    poses: Vec<Pose>,
+}
+
+/// Where a link of the robot is found.
+enum Place {
+    /// At this link of the other, which moves as it does.
+    Other(usize),
+    /// The other lacks it: it moves with this link of the robot.
+    Behind(usize, Pose),
+    /// It is the root.
+    Root,
+}
+
+impl PosesOfOther {
+    /// Each joint counts as driven.
+    pub(super) fn new(robot: &Robot, other: &Robot) -> Self {
+        let place = |link| {
+            let joint = robot.parent_joint(link).map(|joint| robot.joint(joint));
+            let there = match joint.filter(|joint| joint.kind.is_movable()) {
+                Some(joint) => other.find_joint(&joint.name).map(|there| other.joint(there).child),
+                None => other.find_link(&robot.link(link).name),
+            };
+            match (there, joint) {
+                (Some(there), _) => Place::Other(there.get()),
+                (None, Some(joint)) => Place::Behind(joint.parent.get(), Pose::from(joint.parent_from_joint)),
+                (None, None) => Place::Root,
+            }
+        };
+        let coordinate = |name: &str| robot.coordinate(robot.find_joint(name)?);
+        Self {
+            tree: UrdfTree::new(other),
+            links: robot.link_indices().map(place).collect(),
+            coordinates: other.movable_joint_names().filter_map(coordinate).collect(),
+            followed: None,
+            q: RobotQ::zeros(other.dof()),
+            poses: vec![Pose::identity(); other.links().len()],
+        }
+    }
+
+    /// Mimic joints of the other follow as the other says.
+    pub(super) fn with_mimics(robot: &Robot, other: &Robot) -> Self {
+        Self { followed: Some(other.clone()), ..Self::new(robot, other) }
+    }
+}
+
+impl LinkPoses for PosesOfOther {
+    fn root_from_links_into(
+        &mut self,
+        q: &RobotQ,
+        root_from_links: &mut [Pose],
+    ) -> Result<(), LinkPosesError> {
+        for (at, &coordinate) in self.coordinates.iter().enumerate() {
+            self.q[at] = q[coordinate];
+        }
+        if let Some(other) = &self.followed {
+            other.apply_mimic(&mut self.q);
+        }
+        self.tree.root_from_links_into(&self.q, &mut self.poses)?;
+        for (link, place) in self.links.iter().enumerate() {
+            root_from_links[link] = match *place {
+                Place::Other(there) => self.poses[there],
+                // A parent comes before its children.
+                Place::Behind(parent, parent_from_link) => root_from_links[parent] * parent_from_link,
+                Place::Root => Pose::identity(),
+            };
+        }
+        Ok(())
+    }
+}
