@@ -18,8 +18,10 @@ use serde::Serialize;
 use crate::{
     ci::{CiArguments, in_repository},
     failure::{BAD_INPUT, BROKEN, FAILED, Failure, NOTHING, worse},
-    print::{MOST_FINDINGS, Printer, Refusal},
-    terminal_text::shown,
+    terminal::{
+        print::{MOST_FINDINGS, Printer, Refusal},
+        text::shown,
+    },
 };
 
 /// A text for people in parts of whole lines.
@@ -344,7 +346,7 @@ fn place(failure: &Failure) -> Option<CasePlace> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::print::{Format, Verbosity};
+    use crate::terminal::print::{Format, Verbosity};
 
     #[derive(Serialize)]
     struct Passed;

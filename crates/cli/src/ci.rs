@@ -14,8 +14,8 @@ use congruent::{
 
 use crate::{
     failure::{Failure, unwritable},
-    output_file::refuse_inputs,
-    print::Printer,
+    output::file::refuse_inputs,
+    terminal::print::Printer,
 };
 
 /// Names of the folder that a CI host has cloned the repository to.

@@ -9,7 +9,13 @@ use congruent::{
 };
 use serde_json::Value;
 
-use crate::{failure::Failure, print::Printer, table::Table, table::wrapped};
+use crate::{
+    failure::Failure,
+    terminal::{
+        print::Printer,
+        table::{Table, wrapped},
+    },
+};
 
 /// The first difference between two runs in time, joint and value, and the worst one of each series.
 ///

@@ -3,7 +3,7 @@
 use clap_complete::{Shell, generate};
 use serde::Serialize;
 
-use crate::{failure::Failure, print::Printer};
+use crate::{failure::Failure, terminal::print::Printer};
 
 /// A script with which a shell completes commands, options and their values.
 ///

@@ -18,9 +18,11 @@ use congruent::{
 use crate::{
     failure::{BROKEN, FAILED, Failure, worse},
     input::AccessArguments,
-    output_file::replace,
-    print::Printer,
-    progress::{Progress, RunProgress},
+    output::file::replace,
+    terminal::{
+        print::Printer,
+        progress::{Progress, RunProgress},
+    },
 };
 
 /// Runs scenarios that inject faults and shows which checks see them, after how long, and what the diagnosis says.

@@ -15,7 +15,7 @@ use congruent::description::{
     read_configurations, read_states, units::Unit,
 };
 
-use crate::{failure::Failure, print::Printer};
+use crate::{failure::Failure, terminal::print::Printer};
 
 /// Refuses arguments with control characters or separators of lines: paths and names go into every output.
 pub(crate) fn shown_arguments() -> Result<(), Failure> {

@@ -15,7 +15,7 @@ use signal_hook::{
 
 use crate::{
     failure::{BROKEN, Failure},
-    print::Printer,
+    terminal::print::Printer,
 };
 
 /// The flag of a call that ends its runs in order.

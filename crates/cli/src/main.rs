@@ -10,23 +10,15 @@ mod failure;
 mod faults;
 mod input;
 mod interrupt;
-mod json_output;
-mod layout;
 mod man;
 mod model;
 mod new;
-mod output_file;
-mod page_file;
-mod plot_file;
-mod print;
-mod progress;
+mod output;
 #[cfg(feature = "recording")]
 mod recording;
 mod run;
 mod schema;
-mod status_colour;
-mod table;
-mod terminal_text;
+mod terminal;
 
 use std::process::ExitCode;
 
@@ -35,7 +27,7 @@ use congruent::description::Diagnostic;
 
 use crate::{
     failure::{BAD_INPUT, Failure},
-    print::{Color, Format, Printer, Verbosity},
+    terminal::print::{Color, Format, Printer, Verbosity},
 };
 
 /// Columns of help, unless the terminal has fewer.
@@ -107,7 +99,7 @@ impl Arguments {
 /// The arguments; help is as wide as the terminal, up to what is read with ease.
 fn parse() -> Result<Arguments, clap::Error> {
     let command = Arguments::command();
-    let mut command = match layout::columns() {
+    let mut command = match terminal::layout::columns() {
         Some(columns) => command.term_width(columns.min(WIDEST_HELP)),
         None => command,
     };

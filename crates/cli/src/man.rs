@@ -6,7 +6,7 @@ use clap_mangen::Man;
 use congruent::description::Diagnostic;
 use serde::Serialize;
 
-use crate::{failure::Failure, output_file::replace, print::Printer};
+use crate::{failure::Failure, output::file::replace, terminal::print::Printer};
 
 /// Manual pages: that of `congruent` on standard output, or one for each command in a folder.
 ///

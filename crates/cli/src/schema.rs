@@ -7,7 +7,7 @@ use congruent::{
     schema::Document,
 };
 
-use crate::{failure::Failure, print::Printer};
+use crate::{failure::Failure, terminal::print::Printer};
 
 /// The JSON schema (draft 2020-12) of a file that is read or of a document that is printed.
 #[derive(Debug, clap::Args)]

@@ -14,9 +14,8 @@ use congruent::{
 use crate::{
     failure::{Failure, NOTHING},
     input::{RobotArgument, files_of},
-    output_file::{NewFile, folder_of},
-    print::Printer,
-    table::paragraph,
+    output::file::{NewFile, folder_of},
+    terminal::{print::Printer, table::paragraph},
 };
 
 /// The pairs of links that need not be looked at for collisions (allowed collision matrix).

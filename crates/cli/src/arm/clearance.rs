@@ -16,8 +16,7 @@ use super::length::positive_length;
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ConfigurationArguments, RobotArgument},
-    print::Printer,
-    table::Table,
+    terminal::{print::Printer, table::Table},
 };
 
 /// Distances between the convex hulls of links.

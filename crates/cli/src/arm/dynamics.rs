@@ -13,7 +13,7 @@ use congruent::{
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, named},
-    print::Printer,
+    terminal::print::Printer,
 };
 
 /// Torques that hold and move a robot, its mass matrix, and its accelerations under torques.

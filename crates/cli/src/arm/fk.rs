@@ -10,8 +10,10 @@ use congruent::{
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, named},
-    print::Printer,
-    table::{POSE_COLUMNS, Table, pose_cells},
+    terminal::{
+        print::Printer,
+        table::{POSE_COLUMNS, Table, pose_cells},
+    },
 };
 
 /// Poses of all links in the root link's frame, by a chosen source.

@@ -15,8 +15,7 @@ use congruent::{
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, named},
-    print::Printer,
-    table::Table,
+    terminal::{print::Printer, table::Table},
 };
 
 /// Joint positions that bring the tip, or the TCP if one is declared, to given poses.

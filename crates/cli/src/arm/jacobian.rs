@@ -13,8 +13,7 @@ use congruent::{
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, named},
-    print::Printer,
-    table::Table,
+    terminal::{print::Printer, table::Table},
 };
 
 /// The Jacobian of a link: its velocity per velocity of each joint, linear and angular block by name.

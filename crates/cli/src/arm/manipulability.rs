@@ -17,9 +17,8 @@ use super::length::positive_length;
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, files_of},
-    plot_file::PlotArgument,
-    print::Printer,
-    table::Table,
+    output::plot::PlotArgument,
+    terminal::{print::Printer, table::Table},
 };
 
 /// Velocity ellipsoids of the tool, Yoshikawa's measure, condition and distance to singularity.

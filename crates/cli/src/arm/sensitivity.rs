@@ -14,9 +14,11 @@ use congruent::{
 use crate::{
     failure::Failure,
     input::{ArmArguments, files_of},
-    plot_file::PlotArgument,
-    print::Printer,
-    table::{Table, wrapped},
+    output::plot::PlotArgument,
+    terminal::{
+        print::Printer,
+        table::{Table, wrapped},
+    },
 };
 
 /// How far the tool is displaced by 1 degree or 1 mm in each joint's zero and each DH parameter.

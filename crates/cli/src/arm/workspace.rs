@@ -15,9 +15,11 @@ use congruent::{
 use crate::{
     failure::Failure,
     input::{ArmArguments, files_of},
-    plot_file::PlotArgument,
-    print::Printer,
-    table::{Table, wrapped},
+    output::plot::PlotArgument,
+    terminal::{
+        print::Printer,
+        table::{Table, wrapped},
+    },
 };
 
 /// The positions of the tool within the joint limits: reach, bounding box, volume or area.

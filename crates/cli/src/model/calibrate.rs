@@ -23,10 +23,8 @@ use congruent::{
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, files_of, named},
-    page_file::PageArgument,
-    plot_file::PlotArgument,
-    print::Printer,
-    table::wrapped,
+    output::{page::PageArgument, plot::PlotArgument},
+    terminal::{print::Printer, table::wrapped},
 };
 
 /// Corrections of a robot's model from measured poses or points of its tip (or TCP) in the base.

@@ -27,9 +27,8 @@ use crate::{
     ci::CiArguments,
     failure::{FAILED, Failure, NOTHING},
     input::{AccessArguments, ChainArguments, files_of},
-    page_file::PageArgument,
-    plot_file::PlotArgument,
-    print::Printer,
+    output::{page::PageArgument, plot::PlotArgument},
+    terminal::print::Printer,
 };
 
 /// Whether a robot's table, its URDF and its physics twin are the same robot, in geometry and in dynamics.

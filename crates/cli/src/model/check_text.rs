@@ -18,7 +18,7 @@ use congruent::{
 };
 
 use super::{diagnosis_text::diagnosed, dynamics_text::dynamics};
-use crate::table::{with_one_sign, wrapped};
+use crate::terminal::table::{with_one_sign, wrapped};
 
 /// The report before the errors at requested configurations.
 pub(super) fn compared_text(check: &RobotCheck, robot: &Robot) -> String {

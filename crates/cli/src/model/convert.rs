@@ -9,8 +9,8 @@ use crate::{
     failure::Failure,
     input::{ArmArguments, named},
     model::written_model::answer,
-    output_file::OutputArgument,
-    print::Printer,
+    output::file::OutputArgument,
+    terminal::print::Printer,
 };
 
 /// Writes a robot's model as another one, proved by comparing back.

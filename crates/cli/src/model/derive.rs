@@ -20,9 +20,8 @@ use crate::{
     failure::Failure,
     input::ArmArguments,
     model::{convert::AccuracyArguments, written_model::answer},
-    output_file::OutputArgument,
-    print::Printer,
-    table::wrapped,
+    output::file::OutputArgument,
+    terminal::{print::Printer, table::wrapped},
 };
 
 /// A Denavit-Hartenberg table from the axes of a URDF, proved by comparing back.

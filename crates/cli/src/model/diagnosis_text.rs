@@ -17,7 +17,7 @@ use congruent::{
     },
 };
 
-use crate::print::rendered;
+use crate::terminal::print::rendered;
 
 /// The first cause with its lines of the file, then the causes that cannot be distinguished from it and the
 /// next best ones.

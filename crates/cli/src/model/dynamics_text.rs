@@ -12,7 +12,7 @@ use congruent::{
     },
 };
 
-use crate::table::wrapped;
+use crate::terminal::table::wrapped;
 
 /// Parameters, alternatives or hidden differences that are shown to people; JSON has all of them.
 const SHOWN: usize = 8;

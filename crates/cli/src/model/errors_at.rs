@@ -12,7 +12,7 @@ use congruent::{
     description::display::{angle, in_column, length, length_and_angle},
 };
 
-use crate::{batch::Parts, table::Table};
+use crate::{batch::Parts, terminal::table::Table};
 
 /// A line for each configuration: the worst of all comparisons.
 pub(super) fn lines(differences: &DifferencesAt) -> Parts<'_> {

@@ -14,8 +14,8 @@ use congruent::{
 use crate::{
     failure::Failure,
     input::{allowing_inputs, files_of},
-    output_file::{OutputArgument, folder_of},
-    print::Printer,
+    output::file::{OutputArgument, folder_of},
+    terminal::print::Printer,
 };
 
 /// The tolerance of a written robot file whose table is off by rounded axes, as a multiple of what was found at

@@ -3,7 +3,7 @@
 mod robot;
 mod scenario;
 
-use crate::{failure::Failure, print::Printer};
+use crate::{failure::Failure, terminal::print::Printer};
 
 /// Files to start from: a robot file for a URDF, a scenario for a robot.
 #[derive(Debug, clap::Args)]

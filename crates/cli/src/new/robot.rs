@@ -21,9 +21,8 @@ use congruent::{
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, allowing_inputs, files_of, needs_to_be_allowed},
-    output_file::{NewFile, unwritable},
-    print::Printer,
-    table::paragraph,
+    output::file::{NewFile, unwritable},
+    terminal::{print::Printer, table::paragraph},
 };
 
 /// A commented robot file for a URDF, with a derived table.

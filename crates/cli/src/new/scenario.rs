@@ -15,9 +15,8 @@ use congruent::{
 use crate::{
     failure::Failure,
     input::{RobotArgument, allowing_inputs, files_of, needs_to_be_allowed},
-    output_file::{NewFile, folder_of},
-    print::Printer,
-    table::paragraph,
+    output::file::{NewFile, folder_of},
+    terminal::{print::Printer, table::paragraph},
 };
 
 /// A commented scenario for a robot, which passes.

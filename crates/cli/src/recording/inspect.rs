@@ -21,8 +21,8 @@ use crate::{
     ci::CiArguments,
     failure::{BAD_INPUT, BROKEN, FAILED, Failure, worse},
     input::AccessArguments,
-    output_file::{refuse_inputs, replace},
-    print::Printer,
+    output::file::{refuse_inputs, replace},
+    terminal::print::Printer,
 };
 
 /// What recordings hold: verdict, worst values, duration, entities, statistics of their scalars, problems of the file.

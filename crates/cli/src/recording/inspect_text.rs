@@ -11,7 +11,7 @@ use congruent::{
     twin::{report::share_in_full, verdict::Status},
 };
 
-use crate::table::paragraph;
+use crate::terminal::table::paragraph;
 
 /// The property that is printed as the verdict.
 const VERDICT: &str = "congruent/verdict";

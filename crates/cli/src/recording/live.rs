@@ -24,7 +24,7 @@ use congruent::{
 };
 
 use super::viewer::Viewer;
-use crate::{failure::Failure, print::Printer};
+use crate::{failure::Failure, terminal::print::Printer};
 
 /// Between two looks whether the file has grown.
 const PAUSE: Duration = Duration::from_millis(50);

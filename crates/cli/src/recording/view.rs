@@ -20,10 +20,8 @@ use crate::{
     batch::BatchReport,
     failure::Failure,
     input::AccessArguments,
-    print::Printer,
-    progress::Progress,
     run::{no_folder, run_one},
-    table::Table,
+    terminal::{print::Printer, progress::Progress, table::Table},
 };
 
 /// Opens the rerun viewer on a recording, on a robot with each joint moving over its range, or on the run of a scenario.

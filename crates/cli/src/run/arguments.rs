@@ -10,7 +10,7 @@ use congruent::{
 
 #[cfg(feature = "recording")]
 use crate::recording::{live::LiveFormat, viewer::Viewer};
-use crate::{ci::CiArguments, failure::Failure, input::AccessArguments, print::Printer};
+use crate::{ci::CiArguments, failure::Failure, input::AccessArguments, terminal::print::Printer};
 
 /// Runs scenario files and writes report, page, JUnit and recording of each to its own folder; of several an index of the
 /// pages besides.

@@ -26,8 +26,7 @@ use crate::{
     batch::{Answer, Batch},
     failure::Failure,
     interrupt::flag_of_signals,
-    print::Printer,
-    progress::Progress,
+    terminal::{print::Printer, progress::Progress},
 };
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {

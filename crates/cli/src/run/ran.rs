@@ -16,8 +16,7 @@ use super::described::described;
 use crate::{
     batch::BatchReport,
     failure::{BROKEN, Failure, unwritable},
-    print::Printer,
-    progress::Progress,
+    terminal::{print::Printer, progress::Progress},
 };
 
 /// A scenario that ran.

@@ -216,6 +216,26 @@ pub(super) const AREAS: &[Area] = &[
                 "srdf::robot_name",
                 "The SRDF and the URDF are of robots of different names. Motion planners refuse the two together.",
             ),
+            (
+                8,
+                "srdf::twice",
+                "Two groups, or two states of one group, have the same name. Motion planners take one of the two without a word.",
+            ),
+            (
+                9,
+                "srdf::empty_group",
+                "A group has no joints, links, chains or groups: nothing can be planned for it.",
+            ),
+            (
+                10,
+                "srdf::value",
+                "The position of a joint in a named state is missing or is no number, in rad or m.",
+            ),
+            (
+                11,
+                "srdf::beyond_limit",
+                "A named state has a joint beyond the limits of the URDF. Motion planners refuse it as a goal. Often the position is in degrees.",
+            ),
         ],
     },
 ];

@@ -112,6 +112,11 @@ pub(super) const AREAS: &[Area] = &[
                 "urdf::zero_limit",
                 "The velocity limit of a joint that moves is 0, or its effort limit is 0 while other joints have one. Here 0 counts as not given; to other programs it is a joint that cannot move. An effort of 0 for all joints is how many files say that it is not known, and is not told.",
             ),
+            (
+                31,
+                "urdf::still_mimic",
+                "A joint mimics another with a multiplier of 0, so that it never moves. Left out, the multiplier is 1.",
+            ),
         ],
     },
     Area {

@@ -6,8 +6,10 @@ mod fix_keys;
 mod ignore;
 mod kind;
 mod limits;
+mod mimics;
 mod slips;
 mod srdf;
+mod srdf_groups;
 
 pub use fix::{SafeFix, safe_fixes};
 pub use fix_keys::safe_robot_file_fixes;
@@ -15,5 +17,6 @@ pub(crate) use ignore::WrittenLint;
 pub use ignore::{IgnoredFinding, Ignores};
 pub use kind::{FileKind, FileToLint};
 pub use limits::zero_limits;
+pub use mimics::still_mimics;
 pub use slips::unit_slips;
 pub use srdf::{examine_srdf, robot_name};

@@ -7,6 +7,7 @@ use std::{
 
 use roxmltree::Node;
 
+use super::srdf_groups::examine_groups;
 use crate::{
     diagnostic::{Diagnostic, Diagnostics, SourceFile, known_names},
     model::Robot,
@@ -91,6 +92,7 @@ pub fn examine_srdf(source: &Arc<SourceFile>, robot: Option<&Robot>) -> Vec<Diag
     }
     found.extend(robot.and_then(|robot| other_robot(root, robot)));
     found.extend(document.descendants().filter_map(pair));
+    found.extend(examine_groups(root, robot));
     let known = Known::new(root, robot);
     for node in document.descendants().filter(Node::is_element) {
         found.extend(known.names(node));
@@ -119,12 +121,21 @@ fn pair(node: Node<'_, '_>) -> Option<Diagnostic> {
     let what = match (one, other) {
         (Some(one), Some(other)) if one == other => format!("link \"{one}\" with itself"),
         (Some(_), Some(_)) => return None,
-        (None, _) => "no link1".to_owned(),
-        (_, None) => "no link2".to_owned(),
+        (None, _) => without(node, "link1"),
+        (_, None) => without(node, "link2"),
     };
     let verb = if element == "disable_collisions" { "disables" } else { "enables" };
     let warning = Diagnostic::warning("srdf::pair", format!("<{element}> has {what}"));
     Some(warning.at(tag(node)).with_help(format!("it {verb} nothing: name two links")))
+}
+
+/// The link that a pair lacks, and what may stand for it.
+fn without(node: Node<'_, '_>, key: &str) -> String {
+    let other = node.attributes().find(|attribute| !["link1", "link2", "reason"].contains(&attribute.name()));
+    match other {
+        Some(other) => format!("no {key}, but {}=\"{}\"", other.name(), other.value()),
+        None => format!("no {key}"),
+    }
 }
 
 /// The names that there are; of what is not known there is no entry.
@@ -204,6 +215,7 @@ mod tests {
         for (text, message) in [
             ("<robot><disable_collisions link1='a' link2='a'/></robot>", "link \"a\" with itself"),
             ("<robot><disable_collisions link1='a'/></robot>", "no link2"),
+            ("<robot><disable_collisions link1='a' link='b'/></robot>", "no link2, but link=\"b\""),
             (
                 "<robot><group_state name='home' group='arm'/></robot>",
                 "group \"arm\" is no group of this file",

@@ -16,7 +16,7 @@ use crate::{
     ci::CiArguments,
     failure::Failure,
     input::{AccessArguments, ChainArguments},
-    print::Printer,
+    terminal::print::Printer,
 };
 
 /// What a robot's files say: its links and joints, and what is missing for which use.

@@ -13,7 +13,7 @@ use congruent::{
     },
 };
 
-use crate::table::paragraph;
+use crate::terminal::table::paragraph;
 
 pub(super) fn text(summary: &DescriptionSummary) -> String {
     let mut text = String::new();

@@ -5,7 +5,10 @@ use std::fmt::Write;
 use congruent::description::{Code, Diagnostic};
 use serde::Serialize;
 
-use crate::{failure::Failure, print::Printer, table::paragraph};
+use crate::{
+    failure::Failure,
+    terminal::{print::Printer, table::paragraph},
+};
 
 /// An explanation as programs read it.
 #[derive(Serialize)]

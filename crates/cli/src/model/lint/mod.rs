@@ -19,7 +19,7 @@ use crate::{
     ci::CiArguments,
     failure::{BAD_INPUT, FAILED, Failure},
     input::AccessArguments,
-    print::{Format, Printer},
+    terminal::print::{Format, Printer},
 };
 
 /// What is wrong or suspicious in URDFs, SRDFs, robot files and scenarios, with the files that they name, and in tables.

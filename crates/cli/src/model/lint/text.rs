@@ -7,7 +7,7 @@ use congruent::{
     description::{display::counted, serde_name},
 };
 
-use crate::print::rendered;
+use crate::terminal::print::rendered;
 
 pub(super) fn text(report: &LintReport, difference: &str) -> String {
     let mut text: String = report.diagnostics.iter().map(rendered).collect();

@@ -3,8 +3,8 @@
 use super::{
     Judge, Kind,
     thresholds::{
-        FARTHEST_JOINT, FASTEST_SLIDE_M_S, LEAST_ORIGIN_M, LEAST_TRAVEL_M, LONGEST_ORIGIN, LONGEST_TRAVEL_M,
-        TRACK_TO_SIZE, TRAVEL_TO_SHAPES, TRAVEL_TO_SIZE,
+        FARTHEST_JOINT, FASTEST_SLIDE_M_S, LEAST_ORIGIN_M, LEAST_TRAVEL_M, LONGEST_ORIGIN, LONGEST_TRACK_M,
+        LONGEST_TRAVEL_M, TRACK_TO_SIZE, TRAVEL_TO_SHAPES, TRAVEL_TO_SIZE,
     },
 };
 use crate::{
@@ -96,21 +96,24 @@ impl Judge<'_> {
             return None;
         }
         let what = |than: String| Some(format!("it slides over {}, {than}", length(travel_m)));
-        if travel_m > LONGEST_TRAVEL_M {
+        let may_be_track = self.is_first_to_move(joint);
+        if travel_m > if may_be_track { LONGEST_TRACK_M } else { LONGEST_TRAVEL_M } {
             return what("farther than any robot is long".to_owned());
         }
         if travel_m < LEAST_TRAVEL_M {
             return None;
         }
-        if let (Some(one), Some(other)) =
-            (self.sizes.shapes[joint.parent.get()], self.sizes.shapes[joint.child.get()])
+        // The shape of a track is often left out, or that of its carriage alone.
+        if !may_be_track
+            && let (Some(one), Some(other)) =
+                (self.sizes.shapes[joint.parent.get()], self.sizes.shapes[joint.child.get()])
             && let shapes_m = one.diagonal_m() + other.diagonal_m()
             && travel_m > TRAVEL_TO_SHAPES * shapes_m
         {
             return what(format!("and the shapes of both links are {} large", length(shapes_m)));
         }
         let robot_m = self.sizes.robot_m();
-        let most = if self.is_first_to_move(joint) { TRACK_TO_SIZE } else { TRAVEL_TO_SIZE };
+        let most = if may_be_track { TRACK_TO_SIZE } else { TRAVEL_TO_SIZE };
         (travel_m > most * robot_m && robot_m > 0.0)
             .then(|| what(format!("and the robot is {} large", length(robot_m))))?
     }

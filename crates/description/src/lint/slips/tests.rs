@@ -71,4 +71,24 @@ fn what_belongs_together_gives_a_slip_away() {
     check("size='0.3 0.06 0.06'", "size='9.9 6 6'", "units::large_shape", "link \"lower\"");
 }
 
+/// The arm on a rail.
+#[test]
+fn a_track_may_be_long_but_not_in_millimetres() {
+    let rail = |travel_m: &str| {
+        let rail = format!(
+            "<link name='floor'/><joint name='rail' type='prismatic'><parent link='floor'/><child link='base'/>\
+             <limit lower='0' upper='{travel_m}' velocity='1.5' effort='900'/></joint></robot>"
+        );
+        told(&ARM.replace("</robot>", &rail))
+    };
+    assert_eq!(rail("12"), []);
+    for slip in ["1200", "12000"] {
+        let found = rail(slip);
+        assert!(
+            found.iter().any(|(code, said)| *code == "units::travel" && said.contains("rail")),
+            "{found:?}"
+        );
+    }
+}
+
 const CENTER: &str = crate::urdf::CENTER_OF_MASS;

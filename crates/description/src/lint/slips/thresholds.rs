@@ -43,8 +43,11 @@ pub(super) const LEAST_ORIGIN_M: f64 = 0.5;
 
 /// Travel of a sliding joint, m; linear axes of robots are shorter than this.
 pub(super) const LONGEST_TRAVEL_M: f64 = 10.0;
-/// Travel against the size of the robot, of the first moving joint, which may be a track, and of all others. Seen: up to 0.9.
-pub(super) const TRACK_TO_SIZE: f64 = 4.0;
+/// The same of the first moving joint, which may be a track or a rail of a crane.
+pub(super) const LONGEST_TRACK_M: f64 = 60.0;
+/// Travel against the size of the robot, of a joint that may be a track and of all others. Seen: up to 0.9; tracks of arms are
+/// sold up to some ten times the reach.
+pub(super) const TRACK_TO_SIZE: f64 = 15.0;
 pub(super) const TRAVEL_TO_SIZE: f64 = 2.0;
 /// Travel against the diagonals of the two links that slide. Seen: up to 1.
 pub(super) const TRAVEL_TO_SHAPES: f64 = 6.0;

@@ -18,15 +18,23 @@ pub(in crate::motion) fn plan(
 ) -> Result<Motion, Vec<Diagnostic>> {
     let robot = &planning.description.robot;
     let mut to = planning.from.clone();
+    let mut beyond = Vec::new();
     for target in JointTargets::from(settings).resolve(robot, planning.place)? {
         if let Some(message) = target.beyond_limits(robot, "target") {
             let warning = Diagnostic::warning("scenario::target_limit", message);
-            planning.warnings.push(mark(warning, target.span.clone()));
+            beyond.push(mark(warning, target.span.clone()));
         }
         target.put(robot, &mut to);
     }
     robot.apply_mimic(&mut to);
-    Ok(straight(to, (settings.profile, settings.duration_s), planning)?)
+    match straight(to, (settings.profile, settings.duration_s), planning) {
+        Ok(motion) => {
+            planning.warnings.extend(beyond);
+            Ok(motion)
+        }
+        // A target that is far too far is why the move is too fast: it is told first.
+        Err(fault) => Err(beyond.into_iter().chain([fault]).collect()),
+    }
 }
 
 /// All joints together from where they stand to `to`, over a duration or in the least time.

@@ -6,7 +6,7 @@ use congruent::description::Diagnostic;
 
 use crate::{
     failure::Failure,
-    output_file::{refuse_inputs, replace},
+    output::file::{refuse_inputs, replace},
 };
 
 /// The file of a page.

@@ -16,10 +16,12 @@ use serde::Serialize;
 
 use crate::{
     failure::Failure,
-    json_output::write_json,
-    layout::{columns, fitted},
-    status_colour::with_coloured_status,
-    terminal_text::{Colours, for_people, shown, with_visible_lines},
+    terminal::{
+        json_output::write_json,
+        layout::{columns, fitted},
+        status_colour::with_coloured_status,
+        text::{Colours, for_people, shown, with_visible_lines},
+    },
 };
 
 /// How results are printed.

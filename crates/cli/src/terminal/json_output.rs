@@ -8,7 +8,7 @@ use serde_json::{
     ser::{CharEscape, CompactFormatter, Formatter},
 };
 
-use crate::terminal_text::for_programs;
+use super::text::for_programs;
 
 /// Writes a document in one line, which no terminal and no CI host obeys.
 pub(crate) fn write_json<T: Serialize>(document: &T, out: &mut impl Write) -> io::Result<()> {

@@ -4,7 +4,7 @@ use std::{fmt::Write, ops::Range};
 
 use congruent::{description::display::in_column, kinematics::ReportedPose};
 
-use crate::layout::columns;
+use super::layout::columns;
 
 /// Rows of a table: the first column is aligned to the left, the others to the right.
 #[derive(Debug, Default)]

@@ -3,7 +3,7 @@
 use congruent::twin::RunSetup;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
-use crate::print::Printer;
+use super::print::Printer;
 
 /// Steps between two looks at the clock.
 const STEPS_A_TICK: u64 = 256;

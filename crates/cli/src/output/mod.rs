@@ -1,0 +1,5 @@
+//! Files that commands write: the file itself, the page of `--html`, the plot of `--plot`.
+
+pub(crate) mod file;
+pub(crate) mod page;
+pub(crate) mod plot;
