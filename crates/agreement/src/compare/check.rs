@@ -18,7 +18,10 @@ use super::{
     identified::IdentifiedChain,
     model::{Model, PoseSource},
 };
-use crate::{report::diagnose_models, source_pair::SourcePair};
+use crate::{
+    report::{ReportedDiagnosis, diagnose_models},
+    source_pair::SourcePair,
+};
 
 /// Further configurations of a check, besides zero, single axes, and limits.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -47,6 +50,28 @@ pub fn check(
     physics: Result<&mut dyn LinkPoses, Vec<Diagnostic>>,
     options: &CheckOptions,
 ) -> Result<CheckReport, CheckError> {
+    let Compared { mut report, identified, configurations } = compared(description, physics, options)?;
+    // What is left of sources that agree is the rounding of the identified screws: it has no cause.
+    let diagnosed: &[RobotQ] = if report.verdict == Agreement::Agree { &[] } else { &configurations };
+    report.set_diagnoses(diagnose_models(description, identified.as_ref(), diagnosed));
+    Ok(report)
+}
+
+/// A report without a diagnosis, and what a diagnosis starts from.
+pub(super) struct Compared {
+    pub(super) report: CheckReport,
+    /// The chain of the physics.
+    pub(super) identified: Option<ScrewChain>,
+    /// The configurations that were compared.
+    pub(super) configurations: Vec<RobotQ>,
+}
+
+/// The comparisons of [`check`], without the cause of a difference.
+pub(super) fn compared(
+    description: &RobotDescription,
+    physics: Result<&mut dyn LinkPoses, Vec<Diagnostic>>,
+    options: &CheckOptions,
+) -> Result<Compared, CheckError> {
     let robot = &description.robot;
     resolved(description, &options.configurations)?;
     let mut configurations = sample_configurations(robot, options.seed, RANDOM_CONFIGURATIONS);
@@ -71,18 +96,13 @@ pub fn check(
     }
     let comparisons: Vec<Comparison> =
         running.iter().map(|comparison| comparison.finish(description, &configurations)).collect();
-    let verdict = verdict(&comparisons);
-    // What is left of sources that agree is the rounding of the identified screws: it has no cause.
-    let diagnosed: &[RobotQ] = if verdict == Agreement::Agree { &[] } else { &configurations };
-    let diagnoses = diagnose_models(description, identified.as_ref(), diagnosed);
-    let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
     let brackets = worst(&certificates);
-    Ok(CheckReport {
+    let report = CheckReport {
         file: description.path.display().to_string(),
         robot: robot.name().to_owned(),
         chain: description.reported_chain(),
         table_compared: description.dh.is_some(),
-        verdict,
+        verdict: verdict(&comparisons),
         worst: worst_of(&comparisons, &description.tolerance),
         tolerance: description.tolerance,
         replaced_tolerance: None,
@@ -94,12 +114,24 @@ pub fn check(
         certificate: brackets.as_ref().map(Brackets::bounds),
         certificate_bracket: brackets,
         certificates,
-        diagnosis: named.map(|diagnosis| diagnosis.causes.clone()).unwrap_or_default(),
-        indistinguishable: named.map(|diagnosis| diagnosis.indistinguishable.clone()).unwrap_or_default(),
-        diagnoses,
+        diagnosis: Vec::new(),
+        indistinguishable: Vec::new(),
+        diagnoses: Vec::new(),
         not_asked,
         warnings: description.warnings.iter().map(Finding::from).collect(),
-    })
+    };
+    Ok(Compared { report, identified, configurations })
+}
+
+impl CheckReport {
+    /// Sets the diagnoses; the first one with a cause is that of the report.
+    pub(super) fn set_diagnoses(&mut self, diagnoses: Vec<ReportedDiagnosis>) {
+        let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
+        self.diagnosis = named.map(|diagnosis| diagnosis.causes.clone()).unwrap_or_default();
+        self.indistinguishable =
+            named.map(|diagnosis| diagnosis.indistinguishable.clone()).unwrap_or_default();
+        self.diagnoses = diagnoses;
+    }
 }
 
 /// Refuses positions so large that numbers of their size are further apart than the tolerance.
