@@ -48,15 +48,12 @@ pub(crate) fn explained_by_joints(
     at: &ComparedAt<'_>,
 ) -> Result<Option<ExplainedByJoints>, LinkPosesError> {
     let mut all = corrections(robots);
-    if all.len() > 1 && moves_alike(robots, at) {
-        return Ok(None);
-    }
     all.sort_by(|one, other| other.size_m.total_cmp(&one.size_m));
     all.truncate(MAX_PARAMETERS);
     let every_link = |link| robots.is_matched(link);
     let mut difference = Difference::new(robots, poses, &every_link);
     if !difference.is_within(&corrected(robots.robot, &all), at)? {
-        return single_displacement(robots, poses, at);
+        return single_displacement(robots, poses, (displaced(robots, at), at));
     }
     let mut worst = vec![difference.worst(robots.robot, at)?];
     for count in 1..=all.len() {
@@ -66,17 +63,29 @@ pub(crate) fn explained_by_joints(
             break;
         }
     }
+    if all.len() > 1 {
+        if moves_alike(robots, at) {
+            return Ok(None);
+        }
+        // What differs besides are then only frames of links.
+        let suffices = |only: &&JointCorrection| {
+            let corrected = corrected(robots.robot, std::slice::from_ref(*only));
+            moves_alike(&robots.with(&corrected), at)
+        };
+        if let Some(only) = all.iter().find(suffices) {
+            return single_displacement(robots, poses, (vec![*only], at));
+        }
+    }
     let alternatives = if let [only] = all[..] { elsewhere(robots, only) } else { Vec::new() };
     Ok((!all.is_empty()).then_some(ExplainedByJoints { corrections: all, worst, alternatives }))
 }
 
-/// One displacement of the chain, if frames of links lie elsewhere as well: the tip decides.
+/// One displacement of the chain in one of `places`, if frames of links lie elsewhere as well: the tip decides.
 fn single_displacement(
     robots: &MatchedRobots<'_>,
     poses: &mut dyn LinkPoses,
-    at: &ComparedAt<'_>,
+    (mut places, at): (Vec<JointCorrection>, &ComparedAt<'_>),
 ) -> Result<Option<ExplainedByJoints>, LinkPosesError> {
-    let mut places = displaced(robots, at);
     if places.is_empty() {
         return Ok(None);
     }
@@ -147,5 +156,137 @@ impl<'a> Difference<'a> {
         let compared = robot.link_indices().filter(|&link| (self.is_compared)(link));
         let error = |link: LinkIndex| PoseError::between(&own[link.get()], &there[link.get()]);
         Ok(compared.map(error).fold(PoseError::default(), PoseError::larger))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use congruent_description::{Tolerance, parse_urdf};
+    use congruent_kinematics::sample_configurations;
+    use nalgebra::Isometry3;
+
+    use super::*;
+
+    /// Three joints about z, y and z, a sliding one, and a fixed tool; the origins are those given.
+    fn robot(origins: [&str; 5], axes: [&str; 4]) -> Robot {
+        let links: String = (0..=5).map(|at| format!("<link name='l{at}'/>")).collect();
+        let moving = ["revolute", "revolute", "revolute", "prismatic"];
+        let limit = "<limit lower='-2' upper='2' effort='1' velocity='1'/>";
+        let joint = |at: usize| {
+            let kind = moving.get(at).copied().unwrap_or("fixed");
+            let axis = axes.get(at).map(|axis| format!("<axis xyz='{axis}'/>{limit}")).unwrap_or_default();
+            format!(
+                "<joint name='j{at}' type='{kind}'><parent link='l{at}'/><child link='l{}'/><origin {}/>{axis}</joint>",
+                at + 1,
+                origins[at]
+            )
+        };
+        let joints: String = (0..5).map(joint).collect();
+        parse_urdf(&format!("<robot name='r'>{links}{joints}</robot>")).unwrap()
+    }
+
+    const ORIGINS: [&str; 5] = [
+        "xyz='0 0 0.3'",
+        "xyz='0.1 0 0.2' rpy='0.3 0 0'",
+        "xyz='0.4 0.05 0'",
+        "xyz='0 0 0.1'",
+        "xyz='0 0.02 0.1'",
+    ];
+    const AXES: [&str; 4] = ["0 0 1", "0 1 0", "0 0 1", "1 0 0"];
+
+    /// The names of the joints that are corrected, with how many alternatives.
+    #[track_caller]
+    fn named(robot: &Robot) -> Option<(Vec<String>, usize)> {
+        let other = super::tests::robot(ORIGINS, AXES);
+        let mut poses = UrdfTree::new(&other);
+        let robots = MatchedRobots::new([robot, &other], &mut poses).unwrap();
+        let configurations = sample_configurations(robot, 1, 50);
+        let [base, tip] = ["l0", "l5"].map(|name| robot.find_link(name).unwrap());
+        let at = ComparedAt { configurations: &configurations, tolerance: &Tolerance::default(), base, tip };
+        let explained = explained_by_joints(&robots, &mut poses, &at).unwrap()?;
+        assert!(explained.worst.last().unwrap().is_within(at.tolerance));
+        assert_eq!(explained.worst.len(), explained.corrections.len() + 1);
+        let names = explained.corrections.iter().map(|of| robot.joint(of.joint).name.clone()).collect();
+        Some((names, explained.alternatives.len()))
+    }
+
+    fn with_origins(changes: &[(usize, &'static str)]) -> Robot {
+        let mut origins = ORIGINS;
+        changes.iter().for_each(|&(at, origin)| origins[at] = origin);
+        robot(origins, AXES)
+    }
+
+    #[test]
+    fn joints_with_other_origins_are_named_the_largest_first() {
+        assert_eq!(named(&with_origins(&[])), None);
+        let one = |joint: &str| Some((vec![joint.to_owned()], 0));
+        let turned = "xyz='0.4 0.052 0.001' rpy='0.1 0.2 -0.3'";
+        assert_eq!(named(&with_origins(&[(2, turned)])), one("j2"));
+        assert_eq!(named(&with_origins(&[(3, "xyz='0.01 0 0.1'")])), one("j3"));
+        assert_eq!(named(&with_origins(&[(4, "xyz='0 0.02 0.11'")])), one("j4"));
+        let two = with_origins(&[(1, "xyz='0.1 0 0.201' rpy='0.3 0 0'"), (4, "xyz='0 0.03 0.1'")]);
+        assert_eq!(named(&two), Some((vec!["j4".to_owned(), "j1".to_owned()], 0)));
+    }
+
+    #[test]
+    fn an_axis_is_a_fault_of_its_own() {
+        let mut axes = AXES;
+        axes[1] = "0 1 0.2";
+        assert_eq!(named(&robot(ORIGINS, axes)), Some((vec!["j1".to_owned()], 0)));
+        let mut origins = ORIGINS;
+        origins[1] = "xyz='0.1 0 0.21' rpy='0.3 0 0'";
+        assert_eq!(named(&robot(origins, axes)), Some((vec!["j1".to_owned(), "j1".to_owned()], 0)));
+    }
+
+    /// The frame of link l3 lies 0.2 m along the axis of its joint, which the next origin takes back.
+    const MOVED_FRAME: [(usize, &str); 2] = [(2, "xyz='0.4 0.05 0.2'"), (3, "xyz='0 0 -0.1'")];
+
+    #[test]
+    fn a_frame_that_lies_elsewhere_in_its_link_is_no_fault() {
+        assert_eq!(named(&with_origins(&MOVED_FRAME)), None);
+        let [first, second] = MOVED_FRAME;
+        let with_tool = with_origins(&[first, second, (4, "xyz='0 0.02 0.101'")]);
+        assert_eq!(named(&with_tool), Some((vec!["j4".to_owned()], 0)));
+    }
+
+    /// All frames but the first and the last lie elsewhere in their links: the tip and the screws alone tell the place.
+    #[test]
+    fn a_displacement_is_told_from_frames_that_all_lie_elsewhere() {
+        let other = robot(ORIGINS, AXES);
+        let mut at: usize = 0;
+        let found = other.with_joints(|joint| {
+            // Frames of revolute joints may slide along their axes: z, y, z; that of the sliding joint anywhere.
+            let along = [(0.1, 0), (0.1, 1), (0.1, 0), (0.1, 0), (0.0, 0)];
+            let before = at.checked_sub(1).map(|before| slid(along[before]));
+            joint.parent_from_joint =
+                before.unwrap_or_default().inverse() * joint.parent_from_joint * slid(along[at]);
+            at += 1;
+        });
+        let displaced = found.with_joints(|joint| {
+            if joint.name == "j2" {
+                joint.parent_from_joint.translation.vector.x += 0.003;
+            }
+        });
+        let (names, alternatives) = named(&displaced).unwrap();
+        assert_eq!((names, alternatives), (vec!["j2".to_owned()], 0));
+        assert_eq!(named(&found), None);
+    }
+
+    fn slid((by_m, axis): (f64, usize)) -> Isometry3<f64> {
+        if axis == 1 {
+            Isometry3::translation(0.0, by_m, 0.0)
+        } else {
+            Isometry3::translation(0.0, 0.0, by_m)
+        }
+    }
+
+    #[test]
+    fn rounding_of_many_origins_is_no_fault_beside_one() {
+        let rounded = [
+            (0, "xyz='0 0 0.30000000001'"),
+            (1, "xyz='0.1 0 0.2' rpy='0.30000000001 0 0'"),
+            (2, "xyz='0.41 0.05 0'"),
+        ];
+        assert_eq!(named(&with_origins(&rounded)), Some((vec!["j2".to_owned()], 0)));
     }
 }

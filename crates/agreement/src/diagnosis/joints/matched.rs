@@ -54,6 +54,19 @@ impl<'a> MatchedRobots<'a> {
         Ok(Self { robot, other, links, namesakes, at_zero })
     }
 
+    /// The same with another robot that differs in values of its joints alone.
+    pub(super) fn with<'b>(&self, robot: &'b Robot) -> MatchedRobots<'b>
+    where
+        'a: 'b,
+    {
+        let mut changed = MatchedRobots { robot, ..self.clone() };
+        let zero = RobotQ::zeros(robot.dof());
+        UrdfTree::new(robot)
+            .root_from_links_into(&zero, &mut changed.at_zero[0])
+            .expect("the same links and joints");
+        changed
+    }
+
     /// Whether the other description has this link; the poses of one that it lacks follow those before it.
     pub(crate) fn is_matched(&self, link: LinkIndex) -> bool {
         self.links[link.get()].is_some()
