@@ -163,7 +163,7 @@ impl<'a> Difference<'a> {
 mod tests {
     use congruent_description::{Tolerance, parse_urdf};
     use congruent_kinematics::sample_configurations;
-    use nalgebra::Isometry3;
+    use nalgebra::{Isometry3, Unit, Vector3};
 
     use super::*;
 
@@ -249,17 +249,16 @@ mod tests {
         assert_eq!(named(&with_tool), Some((vec!["j4".to_owned()], 0)));
     }
 
-    /// All frames but the first and the last lie elsewhere in their links: the tip and the screws alone tell the place.
+    /// All frames but the first and the last lie elsewhere in their links, which is more than eight origins and axes:
+    /// the tip and the screws alone tell the place.
     #[test]
     fn a_displacement_is_told_from_frames_that_all_lie_elsewhere() {
-        let other = robot(ORIGINS, AXES);
         let mut at: usize = 0;
-        let found = other.with_joints(|joint| {
-            // Frames of revolute joints may slide along their axes: z, y, z; that of the sliding joint anywhere.
-            let along = [(0.1, 0), (0.1, 1), (0.1, 0), (0.1, 0), (0.0, 0)];
-            let before = at.checked_sub(1).map(|before| slid(along[before]));
-            joint.parent_from_joint =
-                before.unwrap_or_default().inverse() * joint.parent_from_joint * slid(along[at]);
+        let found = robot(ORIGINS, AXES).with_joints(|joint| {
+            let before = at.checked_sub(1).map(moved_frame).unwrap_or_default();
+            let behind = moved_frame(at);
+            joint.parent_from_joint = before.inverse() * joint.parent_from_joint * behind;
+            joint.axis_in_joint = Unit::new_normalize(behind.rotation.inverse() * *joint.axis_in_joint);
             at += 1;
         });
         let displaced = found.with_joints(|joint| {
@@ -272,12 +271,12 @@ mod tests {
         assert_eq!(named(&found), None);
     }
 
-    fn slid((by_m, axis): (f64, usize)) -> Isometry3<f64> {
-        if axis == 1 {
-            Isometry3::translation(0.0, by_m, 0.0)
-        } else {
-            Isometry3::translation(0.0, 0.0, by_m)
-        }
+    /// Where the frame of what a joint carries lies in it: along the joint's axis, and turned.
+    fn moved_frame(joint: usize) -> Isometry3<f64> {
+        let along = [Vector3::z(), Vector3::y(), Vector3::z(), Vector3::x()];
+        along.get(joint).map_or_else(Isometry3::identity, |along| {
+            Isometry3::new(0.1 * along, Vector3::new(0.3, 0.2, -0.4))
+        })
     }
 
     #[test]
