@@ -1,7 +1,7 @@
 //! An `<origin>` or an `<axis>` of a joint that another URDF has otherwise: as a fault with the places in both files, what
 //! each writes, and the line to write.
 
-use std::sync::Arc;
+use std::{ops::Range, sync::Arc};
 
 use congruent_description::{
     Elementary as _, Joint, RobotDescription, Slack, UrdfPlaces, changed_lines,
@@ -96,71 +96,44 @@ struct JointParts<'a> {
 impl JointParts<'_> {
     fn message(&self, correction: &JointCorrection) -> FaultMessage {
         let joint = self.robots.robot.joint(correction.joint);
-        let [own, other] = self.descriptions.map(|of| of.places.urdf.as_ref());
         let (part, attributes, fault) = match &correction.expected {
             JointPart::Origin(expected) => {
                 ("origin", self.origin(joint, expected), origin_fault(joint, expected))
             }
             JointPart::Axis(expected) => ("axis", self.axis(joint, expected), axis_fault(joint, expected)),
         };
-        let place = |places: &UrdfPlaces, name: &str| match part {
-            "origin" => places.joint_origin(name),
-            _ => places.joint_axis(name),
-        };
+        let [own, other] = self.descriptions.map(|of| of.places.urdf.as_ref());
+        let location = own.and_then(|places| {
+            let span = place(places, part, &joint.name)?;
+            Some(FileLocation { source: Arc::clone(places.source()), span })
+        });
         let there = self.there(joint, &correction.expected);
-        let expected_at = there.zip(other).and_then(|(there, places)| place(places, &there.name));
+        let expected_at = there.zip(other).and_then(|(there, places)| place(places, part, &there.name));
         let expected_line =
             expected_at.zip(other).map(|(span, places)| line_column(&places.source().text, span.start).0);
-        let location = own.and_then(|places| {
-            Some(FileLocation { source: Arc::clone(places.source()), span: place(places, &joint.name)? })
-        });
         let words = |value: fn(&Attribute) -> &str| {
             let written = attributes.iter().map(|of| format!("{}=\"{}\"", of.name, value(of)));
             written.collect::<Vec<_>>().join(" ")
         };
         let [found, expected] = [words(|of| &of.found), words(|of| &of.expected)];
-        let off = off_by(shift(&fault), turn(&fault));
         let as_in = self.as_in(joint, there, expected_line);
-        let message = match fault.cause {
-            Cause::AxisFlipped => {
-                format!(
-                    "joint \"{}\" moves in the opposite direction: axis {found}, expected {expected}{as_in}",
-                    joint.name
-                )
-            }
-            Cause::JointAxis => {
-                let off = angle(turn(&fault));
-                format!("joint \"{}\": axis {found}, expected {expected}{as_in}, off by {off}", joint.name)
-            }
-            _ => {
-                format!("joint \"{}\": origin {found}, expected {expected}{as_in}, off by {off}", joint.name)
-            }
+        let text = sentence(&fault, &joint.name, [&found, &format!("{expected}{as_in}")]);
+        let fault = Fault {
+            joint: Some(joint.name.clone()),
+            parameter: Some(attributes.iter().map(|of| of.name).collect::<Vec<_>>().join(", ")),
+            suggestion: format!("write {expected} in the <{part}> of joint \"{}\"", joint.name),
+            found: Some(ReportedValue::Text(found)),
+            expected: Some(ReportedValue::Text(expected)),
+            file: location.as_ref().map(|at| at.source.path.display().to_string()),
+            line: location.as_ref().map(|at| line_column(&at.source.text, at.span.start).0),
+            expected_file: expected_line.map(|_| self.descriptions[1].urdf_path.display().to_string()),
+            expected_line,
+            message: text.clone(),
+            ..fault
         };
-        let new: Vec<(&'static str, String)> =
-            attributes.iter().map(|of| (of.name, of.expected.clone())).collect();
-        let mut message = FaultMessage {
-            fault: Fault {
-                joint: Some(joint.name.clone()),
-                parameter: Some(attributes.iter().map(|of| of.name).collect::<Vec<_>>().join(", ")),
-                suggestion: format!("write {expected} in the <{part}> of joint \"{}\"", joint.name),
-                found: Some(ReportedValue::Text(found)),
-                expected: Some(ReportedValue::Text(expected)),
-                file: location.as_ref().map(|at| at.source.path.display().to_string()),
-                line: location.as_ref().map(|at| line_column(&at.source.text, at.span.start).0),
-                expected_file: expected_line.map(|_| self.descriptions[1].urdf_path.display().to_string()),
-                expected_line,
-                message: message.clone(),
-                ..fault
-            },
-            message,
-            location,
-        };
-        let changes = own.map(|places| {
-            let text = &places.source().text;
-            (changed_lines(text, &places.set_joint_part(&joint.name, part, &new)), text)
-        });
-        if let Some((changes, text)) = changes.filter(|(changes, _)| !changes.is_empty()) {
-            message.advise(changes, text);
+        let mut message = FaultMessage { fault, message: text, location };
+        if let Some(places) = own {
+            advise(&mut message, places, (&joint.name, part), &attributes);
         }
         message
     }
@@ -230,6 +203,44 @@ impl JointParts<'_> {
         places
             .and_then(|places| places.joint_attribute(&joint.name, part, attribute))
             .unwrap_or_else(otherwise)
+    }
+}
+
+/// Place of a part of a joint, or of the joint if it has none.
+fn place(places: &UrdfPlaces, part: &str, joint: &str) -> Option<Range<usize>> {
+    if part == "origin" { places.joint_origin(joint) } else { places.joint_axis(joint) }
+}
+
+/// What is wrong, with what stands there and what is expected.
+fn sentence(fault: &Fault, joint: &str, [found, expected]: [&str; 2]) -> String {
+    match fault.cause {
+        Cause::AxisFlipped => {
+            format!("joint \"{joint}\" moves in the opposite direction: axis {found}, expected {expected}")
+        }
+        Cause::JointAxis => {
+            let off = angle(turn(fault));
+            format!("joint \"{joint}\": axis {found}, expected {expected}, off by {off}")
+        }
+        _ => {
+            let off = off_by(shift(fault), turn(fault));
+            format!("joint \"{joint}\": origin {found}, expected {expected}, off by {off}")
+        }
+    }
+}
+
+/// Replaces the suggestion in words by the lines of the file with the expected attributes.
+fn advise(
+    message: &mut FaultMessage,
+    places: &UrdfPlaces,
+    (joint, part): (&str, &str),
+    attributes: &[Attribute],
+) {
+    let new: Vec<(&'static str, String)> =
+        attributes.iter().map(|of| (of.name, of.expected.clone())).collect();
+    let text = &places.source().text;
+    let changes = changed_lines(text, &places.set_joint_part(joint, part, &new));
+    if !changes.is_empty() {
+        message.advise(changes, text);
     }
 }
 

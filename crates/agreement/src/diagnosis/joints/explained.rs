@@ -169,7 +169,7 @@ mod tests {
 
     /// Three joints about z, y and z, a sliding one, and a fixed tool; the origins are those given.
     fn robot(origins: [&str; 5], axes: [&str; 4]) -> Robot {
-        let links: String = (0..=5).map(|at| format!("<link name='l{at}'/>")).collect();
+        let links: Vec<String> = (0..=5).map(|at| format!("<link name='l{at}'/>")).collect();
         let moving = ["revolute", "revolute", "revolute", "prismatic"];
         let limit = "<limit lower='-2' upper='2' effort='1' velocity='1'/>";
         let joint = |at: usize| {
@@ -181,8 +181,8 @@ mod tests {
                 origins[at]
             )
         };
-        let joints: String = (0..5).map(joint).collect();
-        parse_urdf(&format!("<robot name='r'>{links}{joints}</robot>")).unwrap()
+        let joints: Vec<String> = (0..5).map(joint).collect();
+        parse_urdf(&format!("<robot name='r'>{}{}</robot>", links.concat(), joints.concat())).unwrap()
     }
 
     const ORIGINS: [&str; 5] = [
@@ -212,7 +212,9 @@ mod tests {
 
     fn with_origins(changes: &[(usize, &'static str)]) -> Robot {
         let mut origins = ORIGINS;
-        changes.iter().for_each(|&(at, origin)| origins[at] = origin);
+        for &(at, origin) in changes {
+            origins[at] = origin;
+        }
         robot(origins, AXES)
     }
 
