@@ -4,8 +4,9 @@
 use crate::command::with_memory;
 use crate::{calibration::Bench, command::congruent};
 
-/// A URDF of a chain of so many revolute joints, its axes in turn along x, y and z; `shifted` is a joint 5 mm from its place.
-fn chain(joints: usize, shifted: Option<usize>) -> String {
+/// A URDF of a chain of so many revolute joints, its axes in turn along x, y and z; joints that are `shifted` are 5 mm along x
+/// and 2 mm along z from their place.
+fn chain(joints: usize, shifted: &[usize]) -> String {
     let axes = ["0 0 1", "0 1 0", "1 0 0"];
     let link = |at: usize| {
         format!(
@@ -15,7 +16,7 @@ fn chain(joints: usize, shifted: Option<usize>) -> String {
     };
     let joint = |at: usize| {
         let [x, y, z] = [7, 11, 13].map(|prime| 0.01 * f64::from(u32::try_from(at * prime % 9).unwrap()));
-        let x = if shifted == Some(at) { x + 0.005 } else { x };
+        let (x, z) = if shifted.contains(&at) { (x + 0.005, z + 0.002) } else { (x, z) };
         format!(
             "<joint name=\"j{at}\" type=\"revolute\"><parent link=\"l{}\"/><child link=\"l{at}\"/><origin xyz=\"{x} {y} {z}\"/>\
              <axis xyz=\"{}\"/><limit lower=\"-2\" upper=\"2\" effort=\"10\" velocity=\"2\"/></joint>\n",
@@ -31,7 +32,7 @@ fn chain(joints: usize, shifted: Option<usize>) -> String {
 #[test]
 fn torques_of_many_joints_are_not_compared_which_is_no_disagreement() {
     let bench = Bench::new();
-    let urdf = bench.write("chain.urdf", &chain(70, None));
+    let urdf = bench.write("chain.urdf", &chain(70, &[]));
     let found = congruent(&["check", &urdf, "--against", &urdf, "--format", "json"]);
     let report = found.json();
     assert_eq!((found.code, &report["verdict"]), (0, &"agree".into()), "{}", found.stderr);
@@ -40,18 +41,38 @@ fn torques_of_many_joints_are_not_compared_which_is_no_disagreement() {
     assert!(report["against"]["dynamics_not_compared"].is_null());
 }
 
+/// What the command prints for two such chains with so many MiB of memory, of which 60 are the program's own.
+#[cfg(target_os = "linux")]
+fn differing(joints: usize, shifted: &[usize], most_mib: u32) -> String {
+    let bench = Bench::new();
+    let urdf = bench.write("chain.urdf", &chain(joints, &[]));
+    let shifted = bench.write("shifted.urdf", &chain(joints, shifted));
+    let mut command = with_memory(most_mib << 10, &["check", &shifted, "--against", &urdf]);
+    let ended = command.output().unwrap();
+    let [text, said] = [&ended.stdout, &ended.stderr].map(|bytes| String::from_utf8_lossy(bytes));
+    assert_eq!(ended.status.code(), Some(1), "{text}{said}");
+    text.into_owned()
+}
+
 /// Candidates and fits of a diagnosis grow with the square of the joints; what is kept of them does not.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_long_chain_is_diagnosed_in_little_memory() {
-    /// Of which 60 MB are the program's own.
-    const MOST_KIB: u32 = 160 << 10;
-    let bench = Bench::new();
-    let urdf = bench.write("chain.urdf", &chain(100, None));
-    let shifted = bench.write("shifted.urdf", &chain(100, Some(50)));
-    let mut command = with_memory(MOST_KIB, &["check", &shifted, "--against", &urdf]);
-    let ended = command.output().unwrap();
-    let [text, said] = [&ended.stdout, &ended.stderr].map(|bytes| String::from_utf8_lossy(bytes));
-    assert_eq!(ended.status.code(), Some(1), "{text}{said}");
-    assert!(text.contains("of joint \"j50\" is the first that is elsewhere, by up to 5 mm"), "{text}");
+    let shifted: Vec<usize> = (5..15).map(|tenth| 5 * tenth).collect();
+    let text = differing(100, &shifted, 160);
+    assert!(text.contains("no known cause explains the difference"), "{text}");
+    assert!(text.contains("of joint \"j25\" is the first that is elsewhere, by up to 5.39 mm"), "{text}");
+}
+
+/// Both files give every origin: a joint with another one is found without a search.
+#[test]
+#[cfg(target_os = "linux")]
+fn an_origin_is_named_in_short_and_long_chains() {
+    for (joints, shifted, most_mib) in [(8, 5, 160), (200, 100, 256)] {
+        let text = differing(joints, &[shifted], most_mib);
+        assert!(text.contains("check::joint_origin"), "{text}");
+        let words = text.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
+        assert!(words.contains(&format!("error: joint \"j{shifted}\": origin xyz=")), "{words}");
+        assert!(words.contains("off by 5.39 mm"), "{words}");
+    }
 }

@@ -83,6 +83,8 @@ fn equal_relations_agree_and_a_wrong_length_is_named_besides() {
     assert_eq!(against(HALF, (rounded, 0.4)).code, 0);
     let both = against(HALF, ("<mimic joint=\"lift\" multiplier=\"0.6\"/>", 0.41)).json();
     let first = &both["diagnosis"][0];
-    assert_eq!(first["stages"].as_array().unwrap().len(), 1, "{first}");
-    assert_eq!((&first["cause"], &first["within_tolerance"]), (&json!("mimic"), &json!(false)), "{first}");
+    assert_eq!(first["stages"].as_array().unwrap().len(), 2, "{first}");
+    assert_eq!((&first["cause"], &first["within_tolerance"]), (&json!("several"), &json!(true)), "{first}");
+    let causes: Vec<&Value> = first["parts"].as_array().unwrap().iter().map(|part| &part["cause"]).collect();
+    assert_eq!(causes, ["mimic", "joint_origin"]);
 }

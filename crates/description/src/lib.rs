@@ -62,6 +62,7 @@ pub use written::{
     array::fixed_array,
     name::serde_name,
     number::{Slack, fitted_number},
+    rpy::fitted_rpy_fixed_xyz_rad,
     toml_text,
     transform::{WrittenTransform, fitted_transform},
 };

@@ -1,30 +1,43 @@
-//! A robot's URDF against another description of the same joints: the checks of [`check`], added to its report under
-//! the name of that pair.
+//! A robot's URDF against another description of the same joints: the checks of [`check`](super::check::check), added to
+//! its report under the name of that pair, with a cause of their difference that two URDFs can have.
 
 use congruent_description::RobotDescription;
 use congruent_kinematics::LinkPoses;
 
 use super::{
     certificate::{Brackets, worst},
-    check::{CheckOptions, check, verdict, worst_of},
-    check_report::CheckReport,
+    check::{CheckOptions, Compared, compared, verdict, worst_of},
+    check_report::{Agreement, CheckReport},
     differences_at::without_table,
     error::CheckError,
 };
-use crate::source_pair::SourcePair;
+use crate::{
+    diagnosis::{
+        Cause,
+        joints::{ComparedAt, MatchedRobots, explained_by_joints},
+    },
+    report::{ReportedDiagnosis, diagnose_models, diagnosed_by_joints, screw_differences},
+    source_pair::SourcePair,
+};
 
 impl CheckReport {
-    /// Adds the comparison with another source of the poses of all links: its difference, certificate and diagnosis.
+    /// Adds the comparison with another description: its difference, certificate and diagnosis. `poses` are those of the
+    /// other description, at the links and the configurations of this one; both have the same moving joints by name.
     ///
     /// # Errors
     /// [`CheckError`] if the source rejects a configuration.
     pub fn add_other(
         &mut self,
-        description: &RobotDescription,
-        other: &mut dyn LinkPoses,
+        (description, other): (&RobotDescription, &RobotDescription),
+        poses: &mut dyn LinkPoses,
         options: &CheckOptions,
     ) -> Result<(), CheckError> {
-        let found = check(&without_table(description), Ok(other), options)?;
+        let urdf = without_table(description);
+        let compared = compared(&urdf, Ok(&mut *poses), options)?;
+        let mut diagnoses = std::mem::take(&mut self.diagnoses);
+        diagnoses.extend(diagnosed([&urdf, other], &compared, poses)?);
+        self.set_diagnoses(diagnoses);
+        let found = compared.report;
         let pair = SourcePair::UrdfOther;
         let is_other = |name: SourcePair| name == SourcePair::UrdfSimulation;
         for mut comparison in found.comparisons.into_iter().filter(|of| is_other(of.name)) {
@@ -35,13 +48,6 @@ impl CheckReport {
             (certificate.name, certificate.title) = (pair, pair.title());
             self.certificates.push(certificate);
         }
-        for mut diagnosis in found.diagnoses.into_iter().filter(|of| is_other(of.name)) {
-            (diagnosis.name, diagnosis.title) = (pair, pair.title());
-            self.diagnoses.push(diagnosis);
-        }
-        if self.diagnosis.is_empty() {
-            (self.diagnosis, self.indistinguishable) = (found.diagnosis, found.indistinguishable);
-        }
         self.verdict = verdict(&self.comparisons);
         self.worst = worst_of(&self.comparisons, &self.tolerance);
         let brackets = worst(&self.certificates);
@@ -49,4 +55,39 @@ impl CheckReport {
         self.certificate_bracket = brackets;
         Ok(())
     }
+}
+
+/// Why two descriptions differ: joints with another origin or axis, or else what the chain from base to tip tells.
+fn diagnosed(
+    descriptions: [&RobotDescription; 2],
+    Compared { report, identified, diagnosed: configurations }: &Compared,
+    poses: &mut dyn LinkPoses,
+) -> Result<Option<ReportedDiagnosis>, CheckError> {
+    let description = descriptions[0];
+    let by_chain = || {
+        let diagnoses = diagnose_models(description, identified.as_ref(), configurations);
+        let of_pair = diagnoses.into_iter().find(|of| of.name == SourcePair::UrdfSimulation);
+        let pair = SourcePair::UrdfOther;
+        of_pair.map(|diagnosis| ReportedDiagnosis { name: pair, title: pair.title(), ..diagnosis })
+    };
+    if report.verdict == Agreement::Agree {
+        return Ok(by_chain());
+    }
+    let robots = MatchedRobots::new(descriptions.map(|of| &of.robot), poses)?;
+    let (base, tip) = (description.base, description.tip);
+    let at = ComparedAt { configurations, tolerance: &description.tolerance, base, tip };
+    let Some(explained) = explained_by_joints(&robots, poses, &at)? else {
+        return Ok(by_chain());
+    };
+    if explained.may_be_unit(&robots) {
+        let by_unit = by_chain();
+        let is_unit = |of: &ReportedDiagnosis| {
+            of.causes.first().is_some_and(|first| first.fault.cause == Cause::MillimetresAsMetres)
+        };
+        if by_unit.as_ref().is_some_and(is_unit) {
+            return Ok(by_unit);
+        }
+    }
+    let differences = identified.as_ref().map(|chain| screw_differences(description, chain));
+    Ok(Some(diagnosed_by_joints(descriptions, &robots, &explained, differences.unwrap_or_default())))
 }

@@ -16,7 +16,10 @@ use super::{
     error::CheckError,
     identified::IdentifiedChain,
 };
-use crate::{report::diagnose_models, source_pair::SourcePair};
+use crate::{
+    report::{ReportedDiagnosis, diagnose_models},
+    source_pair::SourcePair,
+};
 
 /// Further configurations of a check, besides zero, single axes, and limits.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -45,6 +48,26 @@ pub fn check(
     physics: Result<&mut dyn LinkPoses, Vec<Diagnostic>>,
     options: &CheckOptions,
 ) -> Result<CheckReport, CheckError> {
+    let Compared { mut report, identified, diagnosed } = compared(description, physics, options)?;
+    report.set_diagnoses(diagnose_models(description, identified.as_ref(), &diagnosed));
+    Ok(report)
+}
+
+/// A report without a diagnosis, and what a diagnosis starts from.
+pub(super) struct Compared {
+    pub(super) report: CheckReport,
+    /// The chain of the physics.
+    pub(super) identified: Option<ScrewChain>,
+    /// The configurations at which causes are judged; none if the sources agree.
+    pub(super) diagnosed: Vec<RobotQ>,
+}
+
+/// The comparisons of [`check`], without the cause of a difference.
+pub(super) fn compared(
+    description: &RobotDescription,
+    physics: Result<&mut dyn LinkPoses, Vec<Diagnostic>>,
+    options: &CheckOptions,
+) -> Result<Compared, CheckError> {
     let robot = &description.robot;
     resolved(description, &options.configurations)?;
     let mut configurations = sample_configurations(robot, options.seed, RANDOM_CONFIGURATIONS);
@@ -65,10 +88,8 @@ pub fn check(
         Agreement::Agree => Vec::new(),
         _ => configurations.diagnosed(comparing.worst_at()),
     };
-    let diagnoses = diagnose_models(description, identified.as_ref(), &diagnosed);
-    let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
     let brackets = worst(&certificates);
-    Ok(CheckReport {
+    let report = CheckReport {
         file: description.path.display().to_string(),
         robot: robot.name().to_owned(),
         chain: description.reported_chain(),
@@ -84,12 +105,24 @@ pub fn check(
         certificate: brackets.as_ref().map(Brackets::bounds),
         certificate_bracket: brackets,
         certificates,
-        diagnosis: named.map(|diagnosis| diagnosis.causes.clone()).unwrap_or_default(),
-        indistinguishable: named.map(|diagnosis| diagnosis.indistinguishable.clone()).unwrap_or_default(),
-        diagnoses,
+        diagnosis: Vec::new(),
+        indistinguishable: Vec::new(),
+        diagnoses: Vec::new(),
         not_asked,
         warnings: description.warnings.iter().map(Finding::from).collect(),
-    })
+    };
+    Ok(Compared { report, identified, diagnosed })
+}
+
+impl CheckReport {
+    /// Sets the diagnoses; the first one with a cause is that of the report.
+    pub(super) fn set_diagnoses(&mut self, diagnoses: Vec<ReportedDiagnosis>) {
+        let named = diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
+        self.diagnosis = named.map(|diagnosis| diagnosis.causes.clone()).unwrap_or_default();
+        self.indistinguishable =
+            named.map(|diagnosis| diagnosis.indistinguishable.clone()).unwrap_or_default();
+        self.diagnoses = diagnoses;
+    }
 }
 
 /// Refuses positions so large that numbers of their size are further apart than the tolerance.

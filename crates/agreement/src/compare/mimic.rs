@@ -58,11 +58,9 @@ impl CheckReport {
         let at = self.diagnoses.iter().position(|diagnosis| diagnosis.name == SourcePair::UrdfOther);
         let known = at.map(|at| self.diagnoses.remove(at));
         let words: Vec<FollowedJoint> = joints.into_iter().map(|joint| joint.words).collect();
-        self.diagnoses.push(with_mimics(known, &words, [description, other], &worst_left));
-        let named = self.diagnoses.iter().find(|diagnosis| !diagnosis.causes.is_empty());
-        self.diagnosis = named.map(|diagnosis| diagnosis.causes.clone()).unwrap_or_default();
-        self.indistinguishable =
-            named.map(|diagnosis| diagnosis.indistinguishable.clone()).unwrap_or_default();
+        let mut diagnoses = std::mem::take(&mut self.diagnoses);
+        diagnoses.push(with_mimics(known, &words, [description, other], &worst_left));
+        self.set_diagnoses(diagnoses);
         Ok(Some(first))
     }
 

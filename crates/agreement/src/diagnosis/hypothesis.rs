@@ -63,6 +63,10 @@ causes! {
     Ratio = "ratio",
     /// A joint follows another one in only one of two files, or in another way.
     Mimic = "mimic",
+    /// A joint of one URDF has another `<origin>` than in another URDF.
+    JointOrigin = "joint_origin",
+    /// A joint of one URDF has another `<axis>` than in another URDF.
+    JointAxis = "joint_axis",
     /// Several of these together.
     Several = "several",
     /// None of these.

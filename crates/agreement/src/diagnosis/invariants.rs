@@ -58,7 +58,7 @@ pub struct JointDifference {
 }
 
 /// All differences of the chains, the most invariant quantities first.
-pub(super) fn compare(models: &ModelPair) -> Vec<JointDifference> {
+pub(crate) fn compare(models: &ModelPair) -> Vec<JointDifference> {
     let joints = models.reference.joint_count();
     let candidate = ScrewChain::identify(joints, |q| models.candidate.base_from_tip(q));
     let reference = models.reference.screws();

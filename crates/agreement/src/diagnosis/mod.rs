@@ -5,8 +5,8 @@
 //! configuration (`fit/evaluation_point.rs`), which is exact, by their invariants (`invariants.rs`), and by
 //! fitting each hypothesis of a catalogue (`cause/`, `fit/`) to the difference. The
 //! explanations are ranked (`score.rs`), and those that no measurement can distinguish are listed with the
-//! reason (`equivalence.rs`). Every threshold is in `thresholds.rs`. The bound of the difference is in
-//! [`crate::bound`].
+//! reason (`equivalence.rs`). Two URDFs are compared joint by joint before that (`joints/`). Every threshold is in
+//! `thresholds.rs`. The bound of the difference is in [`crate::bound`].
 
 mod candidate;
 mod cause;
@@ -16,6 +16,7 @@ mod explanation;
 mod fit;
 mod hypothesis;
 mod invariants;
+pub(crate) mod joints;
 mod nearest_table;
 mod reference_model;
 mod score;
@@ -26,6 +27,7 @@ pub use candidate::{Candidate, CandidateRow, DeclaredTransform, DhEntry, ModelPa
 pub use equivalence::Equivalence;
 pub use explanation::{Criterion, ExplainedFault, Explanation};
 pub use hypothesis::{Cause, ModelPair, Place};
+pub(crate) use invariants::compare as differences;
 pub use invariants::{Invariant, JointDifference};
 pub(crate) use nearest_table::nearest_table;
 pub use reference_model::{ReferenceJoint, ReferenceModel};

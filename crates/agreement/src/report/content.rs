@@ -110,7 +110,7 @@ pub struct Fault {
     /// The joints, if they are several.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub joints: Vec<String>,
-    /// `a`, `alpha`, `d`, `theta`, `kind`, `rpy`, or several of them.
+    /// `a`, `alpha`, `d`, `theta`, `kind`, `rpy`, `xyz`, or several of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parameter: Option<String>,
     /// The error: found minus expected in rad or m; of a ratio or a column's unit, found divided by expected.
@@ -122,10 +122,11 @@ pub struct Fault {
     /// The correct value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected: Option<ReportedValue>,
-    /// Of a declared transform: found minus expected, m.
+    /// Of a declared transform, or of the origin of a joint: found minus expected, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub translation_m: Option<[f64; 3]>,
-    /// Of a declared transform: the rotation from expected to found, axis times angle, rad.
+    /// Of a declared transform, or of the origin or the axis of a joint: the rotation from expected to found, axis times
+    /// angle, rad.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation_rad: Option<[f64; 3]>,
     /// The file with the fault: the robot file or the URDF.
@@ -134,6 +135,12 @@ pub struct Fault {
     /// Line in the file, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
+    /// Of a joint of two URDFs: the other file, if one of its joints has the expected value.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expected_file: Option<String>,
+    /// Line in that file, from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expected_line: Option<usize>,
     /// The fault in words.
     pub message: String,
     /// What to change: whole lines of the robot file, or a sentence if the file cannot say it.

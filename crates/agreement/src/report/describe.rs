@@ -116,7 +116,7 @@ fn involved(parts: &[Fault]) -> Vec<String> {
 }
 
 /// A fault as a finding in its file.
-fn finding(fault_message: &FaultMessage, stage: &ReportedStage) -> Diagnostic {
+pub(super) fn finding(fault_message: &FaultMessage, stage: &ReportedStage) -> Diagnostic {
     let FaultMessage { fault, message, location } = fault_message;
     let shown = |error: &PoseError| length_and_angle(error.position_m, error.orientation_rad);
     let error = format!("error before the fix: {}, after it: {}", shown(&stage.before), shown(&stage.after));
@@ -129,7 +129,7 @@ fn finding(fault_message: &FaultMessage, stage: &ReportedStage) -> Diagnostic {
     }
 }
 
-fn difference(difference: &JointDifference, names: &ModelNames<'_>) -> ReportedDifference {
+pub(super) fn difference(difference: &JointDifference, names: &ModelNames<'_>) -> ReportedDifference {
     let JointDifference { invariant, joint, found, expected } = *difference;
     ReportedDifference { invariant, joint: names.moving_joint(joint), found, expected }
 }

@@ -6,9 +6,13 @@ use std::f64::consts::TAU;
 use congruent_description::{ChainQ, JointIndex, Robot, RobotDescription, RobotQ};
 use congruent_kinematics::ScrewChain;
 
-use super::{content::ReportedDiagnosis, describe::reported_diagnosis, names::ModelNames};
+use super::{
+    content::{ReportedDiagnosis, ReportedDifference},
+    describe::{difference, reported_diagnosis},
+    names::ModelNames,
+};
 use crate::{
-    diagnosis::{Candidate, Criterion, DeclaredTransform, ModelPair, ReferenceModel, diagnose},
+    diagnosis::{Candidate, Criterion, DeclaredTransform, ModelPair, ReferenceModel, diagnose, differences},
     source_pair::SourcePair,
 };
 
@@ -51,6 +55,22 @@ pub fn diagnose_models(
         reported_diagnosis(*pair, (models, &criterion), &diagnose(models, &criterion), &names)
     };
     pairs.iter().map(diagnosis).collect()
+}
+
+/// The screws and distances in which the URDF chain from base to tip differs from one that was identified.
+pub(crate) fn screw_differences(
+    description: &RobotDescription,
+    identified: &ScrewChain,
+) -> Vec<ReportedDifference> {
+    let robot = &description.robot;
+    let Some((urdf, chain)) = ReferenceModel::from_urdf(robot, description.base, description.tip) else {
+        return Vec::new();
+    };
+    let moving = chain.iter().copied().filter(|&joint| robot.joint(joint).kind.is_movable()).collect();
+    let names = ModelNames { description, moving, chain, places: None, urdf: None };
+    let candidate = Candidate::from_screws(&urdf.screws());
+    let models = ModelPair { candidate, reference: ReferenceModel::from_screws(identified) };
+    differences(&models).iter().map(|each| difference(each, &names)).collect()
 }
 
 /// The same configuration with angles beyond a turn brought within one: there the rounding of an identified screw,

@@ -344,7 +344,7 @@ fn times(ratio: f64) -> String {
 }
 
 /// The error of a transform; a part that is rounding is left out if the other is not.
-fn off_by(shift_m: f64, turn_rad: f64) -> String {
+pub(super) fn off_by(shift_m: f64, turn_rad: f64) -> String {
     /// Rounding of a fit. Unit: m or rad.
     const ROUNDING: f64 = 1e-12;
     if shift_m.max(turn_rad) <= ROUNDING {

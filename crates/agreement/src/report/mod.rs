@@ -5,6 +5,7 @@ mod content;
 mod describe;
 mod diagnose_models;
 mod fault_message;
+mod joint_parts;
 mod mimic;
 mod names;
 mod reference;
@@ -18,6 +19,8 @@ pub use content::{
     ReportedStage, TableComparison,
 };
 pub use diagnose_models::diagnose_models;
+pub(crate) use diagnose_models::screw_differences;
+pub(crate) use joint_parts::diagnosed_by_joints;
 pub(crate) use mimic::{FollowedJoint, Relation, with_mimics};
 pub use statement::foremost;
 pub use values::ReportedValue;

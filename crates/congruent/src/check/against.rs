@@ -48,7 +48,7 @@ pub(super) fn compared(
         return Ok((against, None));
     }
     let mut poses = PosesOfOther::new(&description.robot, &other.robot);
-    geometry.add_other(description, &mut poses, options)?;
+    geometry.add_other((description, other), &mut poses, options)?;
     if let Some(followed) = geometry.add_mimics((description, other), &mut poses, options)? {
         against.dynamics_not_compared = Some(format!(
             "torques are those of driven joints, which are not the same: {followed} in the other file"

@@ -1,4 +1,4 @@
-//! Corrections of a URDF's `<inertial>` and `<dynamics>` as changes of its text: values that stay keep their form.
+//! Corrections of a URDF's `<inertial>`, and of parts of its joints, as changes of its text: values that stay keep their form.
 
 use nalgebra::Isometry3;
 use roxmltree::Node;
@@ -68,6 +68,20 @@ impl UrdfPlaces {
         let mut edits = Vec::new();
         let values = changed(joint, "dynamics", &[("damping", damping), ("friction", friction)]);
         set(&mut edits, joint, "dynamics", &values);
+        edits
+    }
+
+    /// The edits after which a part of a joint, such as its `origin`, has these attributes; none if there is no such joint.
+    pub fn set_joint_part(
+        &self,
+        joint: &str,
+        part: &str,
+        attributes: &[(&'static str, String)],
+    ) -> Vec<TextEdit> {
+        let Ok(document) = xml::parse(&self.source().text) else { return Vec::new() };
+        let Some(joint) = last(document.root_element(), "joint", joint) else { return Vec::new() };
+        let mut edits = Vec::new();
+        set(&mut edits, joint, part, attributes);
         edits
     }
 

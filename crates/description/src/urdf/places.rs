@@ -40,6 +40,19 @@ impl UrdfPlaces {
         Some((rpy.value().to_owned(), line_column(&self.source.text, rpy.range().start).0))
     }
 
+    /// Place of the `<axis>` of a joint, or of the joint if it has none.
+    pub fn joint_axis(&self, name: &str) -> Option<Range<usize>> {
+        let document = xml::parse(&self.source.text).ok()?;
+        Some(place(last(document.root_element(), "joint", name)?, "axis"))
+    }
+
+    /// An attribute of a part of a joint, such as `xyz` of its `origin`, as the file writes it; `None` if it has none.
+    pub fn joint_attribute(&self, name: &str, part: &str, attribute: &str) -> Option<String> {
+        let document = xml::parse(&self.source.text).ok()?;
+        let part = element(last(document.root_element(), "joint", name)?, part)?;
+        part.attribute(attribute).map(|written| written.split_whitespace().collect::<Vec<_>>().join(" "))
+    }
+
     /// Place of the `<dynamics>` of a joint, or of the joint if it has none.
     pub fn joint_dynamics(&self, name: &str) -> Option<Range<usize>> {
         let document = xml::parse(&self.source.text).ok()?;

@@ -21,7 +21,7 @@ pub(crate) fn rpy_fixed_xyz_rad(pose: &Isometry3<f64>) -> [f64; 3] {
 
 /// The same for a fitted rotation: without yaw if roll and a pitch within a quarter turn say the same.
 /// At a pitch of a quarter turn yaw would be whatever the fit's rounding makes of it.
-pub(crate) fn fitted_rpy_fixed_xyz_rad(pose: &Isometry3<f64>, slack: Slack) -> [f64; 3] {
+pub fn fitted_rpy_fixed_xyz_rad(pose: &Isometry3<f64>, slack: Slack) -> [f64; 3] {
     let near = slack.angle_rad.max(FITTED);
     let matrix = pose.rotation.to_rotation_matrix();
     let without_yaw = rpy_at_yaw(&matrix, 0.0);

@@ -1,0 +1,122 @@
+//! The origin and the axis of each joint that are others in the other description, and a robot with them corrected.
+
+use congruent_description::{Joint, JointIndex, LinkIndex, Robot};
+use congruent_kinematics::Pose;
+use nalgebra::{Isometry3, Unit, Vector3};
+
+use super::matched::MatchedRobots;
+use crate::diagnosis::thresholds::NO_TURN;
+
+/// What a URDF says of a joint's place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum JointPart {
+    /// Its `<origin>`: pose in the parent link.
+    Origin(Isometry3<f64>),
+    /// Its `<axis>`, in the joint's frame.
+    Axis(Unit<Vector3<f64>>),
+}
+
+/// The part of a joint that is another one, as it is expected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct JointCorrection {
+    pub(crate) joint: JointIndex,
+    pub(crate) expected: JointPart,
+    /// How far it moves a link about, m.
+    pub(crate) size_m: f64,
+}
+
+/// All parts of joints that differ by more than rounding, from the root on.
+pub(super) fn corrections(robots: &MatchedRobots<'_>) -> Vec<JointCorrection> {
+    let reach_m = robots.reach_m();
+    let of_joint =
+        |joint: &Joint| [origin(robots, joint, reach_m), axis(robots, joint, reach_m)].into_iter().flatten();
+    robots.robot.joints().iter().flat_map(of_joint).collect()
+}
+
+/// The origin of a joint in the other description; of fixed joints before it whose links that description lacks, one may
+/// be meant instead.
+fn origin(robots: &MatchedRobots<'_>, joint: &Joint, reach_m: f64) -> Option<JointCorrection> {
+    if !robots.is_matched(joint.child) {
+        return None;
+    }
+    let expected = match robots.same_joint(joint) {
+        Some(there) => there.parent_from_joint,
+        None => (robots.there(joint.parent).inverse() * robots.there(joint.child)).to_isometry(),
+    };
+    let size_m = distance_m(&joint.parent_from_joint, &expected, reach_m);
+    let index = robots.robot.parent_joint(joint.child)?;
+    let correction = JointCorrection { joint: index, expected: JointPart::Origin(expected), size_m };
+    (size_m > NO_TURN).then(|| meant(robots, joint, correction))
+}
+
+/// The correction at the joint that has another origin in both files under one name, among those that stand between the
+/// same two links of the other description.
+fn meant(robots: &MatchedRobots<'_>, joint: &Joint, correction: JointCorrection) -> JointCorrection {
+    let differs = |of: &Joint| {
+        let there = robots.namesake(of)?;
+        (distance_m(&of.parent_from_joint, &there.parent_from_joint, 1.0) > NO_TURN).then_some(())
+    };
+    if robots.same_joint(joint).is_some() || differs(joint).is_some() {
+        return correction;
+    }
+    let mut before = between(robots, joint.parent);
+    let named = before.find(|(_, fixed)| differs(fixed).is_some());
+    named.map_or(correction, |(index, fixed)| moved_to((index, fixed), joint, robots, correction))
+}
+
+/// The same correction at a fixed joint before it.
+pub(super) fn moved_to(
+    (index, fixed): (JointIndex, &Joint),
+    joint: &Joint,
+    robots: &MatchedRobots<'_>,
+    correction: JointCorrection,
+) -> JointCorrection {
+    let JointPart::Origin(expected) = correction.expected else { return correction };
+    let before_fixed = robots.own(fixed.parent);
+    let parent = before_fixed.inverse() * robots.own(joint.parent);
+    let corrected =
+        parent * Pose::from(expected) * Pose::from(joint.parent_from_joint).inverse() * parent.inverse();
+    let origin = (corrected * Pose::from(fixed.parent_from_joint)).to_isometry();
+    JointCorrection { joint: index, expected: JointPart::Origin(origin), ..correction }
+}
+
+/// The fixed joints from a link towards the root whose links the other description lacks.
+pub(super) fn between<'a>(
+    robots: &MatchedRobots<'a>,
+    mut link: LinkIndex,
+) -> impl Iterator<Item = (JointIndex, &'a Joint)> {
+    std::iter::from_fn(move || {
+        let index = robots.unmatched_joint(link)?;
+        let joint = robots.robot.joint(index);
+        link = joint.parent;
+        Some((index, joint))
+    })
+}
+
+/// The axis of a moving joint in the other description.
+fn axis(robots: &MatchedRobots<'_>, joint: &Joint, reach_m: f64) -> Option<JointCorrection> {
+    let there = robots.namesake(joint).filter(|_| joint.kind.is_movable())?;
+    let [found, expected] = [joint.axis_in_joint, there.axis_in_joint];
+    let turn = found.cross(&expected).norm() + (1.0 - found.dot(&expected));
+    let expected = JointPart::Axis(expected);
+    let index = robots.robot.parent_joint(joint.child)?;
+    (turn > NO_TURN).then_some(JointCorrection { joint: index, expected, size_m: turn * reach_m })
+}
+
+/// How far a pose at the end of a lever is from another one.
+fn distance_m(one: &Isometry3<f64>, other: &Isometry3<f64>, lever_m: f64) -> f64 {
+    let [one, other] = [one, other].map(|pose| Pose::from(*pose));
+    one.distance_m(&other) + one.angle_rad(&other) * lever_m
+}
+
+/// The robot with these parts of joints corrected.
+pub(super) fn corrected(robot: &Robot, corrections: &[JointCorrection]) -> Robot {
+    robot.with_joints(|joint| {
+        for correction in corrections.iter().filter(|of| robot.joint(of.joint).name == joint.name) {
+            match correction.expected {
+                JointPart::Origin(origin) => joint.parent_from_joint = origin,
+                JointPart::Axis(axis) => joint.axis_in_joint = axis,
+            }
+        }
+    })
+}

@@ -1,0 +1,293 @@
+//! The fewest corrections of joints after which two descriptions agree.
+
+use congruent_description::{LinkIndex, Robot, RobotQ};
+use congruent_kinematics::{LinkPoses, LinkPosesError, Pose, PoseError, UrdfTree};
+
+use super::{
+    correction::{JointCorrection, JointPart, between, corrected, corrections, moved_to},
+    displacement::{displaced, moves_alike},
+    matched::{ComparedAt, MatchedRobots},
+};
+use crate::diagnosis::thresholds::MAX_PARAMETERS;
+
+/// Corrections of joints that explain the difference of two descriptions.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ExplainedByJoints {
+    /// The one with the largest effect first.
+    pub(crate) corrections: Vec<JointCorrection>,
+    /// The largest difference before any correction, and after each.
+    pub(crate) worst: Vec<PoseError>,
+    /// Corrections of other joints with the same effect as the only one.
+    pub(crate) alternatives: Vec<JointCorrection>,
+}
+
+impl ExplainedByJoints {
+    /// Whether several origins differ by the factor between millimetres and metres.
+    pub(crate) fn may_be_unit(&self, robots: &MatchedRobots<'_>) -> bool {
+        let is_scaled = |of: &JointCorrection| {
+            let JointPart::Origin(expected) = of.expected else { return false };
+            let found = robots.robot.joint(of.joint).parent_from_joint.translation.vector.norm();
+            let ratio = found / expected.translation.vector.norm();
+            [1e3, 1e-3].iter().any(|factor| (ratio / factor - 1.0).abs() < SAME_RATIO)
+        };
+        self.corrections.len() > 1 && self.corrections.iter().all(is_scaled)
+    }
+}
+
+/// Lengths of a file with few digits have a ratio within this. No unit; kind: digits of a file.
+const SAME_RATIO: f64 = 1e-2;
+
+/// The corrections of joints that explain the difference; `None` if there are none, too many, or if the two differ only
+/// in where frames lie in links that move alike.
+///
+/// # Errors
+/// [`LinkPosesError`] if a source rejects a configuration.
+pub(crate) fn explained_by_joints(
+    robots: &MatchedRobots<'_>,
+    poses: &mut dyn LinkPoses,
+    at: &ComparedAt<'_>,
+) -> Result<Option<ExplainedByJoints>, LinkPosesError> {
+    let mut all = corrections(robots);
+    all.sort_by(|one, other| other.size_m.total_cmp(&one.size_m));
+    all.truncate(MAX_PARAMETERS);
+    let every_link = |link| robots.is_matched(link);
+    let mut difference = Difference::new(robots, poses, &every_link);
+    if !difference.is_within(&corrected(robots.robot, &all), at)? {
+        return single_displacement(robots, poses, (displaced(robots, at), at));
+    }
+    let mut worst = vec![difference.worst(robots.robot, at)?];
+    for count in 1..=all.len() {
+        worst.push(difference.worst(&corrected(robots.robot, &all[..count]), at)?);
+        if worst[count].is_within(at.tolerance) {
+            all.truncate(count);
+            break;
+        }
+    }
+    if all.len() > 1 {
+        if moves_alike(robots, at) {
+            return Ok(None);
+        }
+        // What differs besides are then only frames of links.
+        let suffices = |only: &&JointCorrection| {
+            let corrected = corrected(robots.robot, std::slice::from_ref(*only));
+            moves_alike(&robots.with(&corrected), at)
+        };
+        if let Some(only) = all.iter().find(suffices) {
+            return single_displacement(robots, poses, (vec![*only], at));
+        }
+    }
+    let alternatives = if let [only] = all[..] { elsewhere(robots, only) } else { Vec::new() };
+    Ok((!all.is_empty()).then_some(ExplainedByJoints { corrections: all, worst, alternatives }))
+}
+
+/// One displacement of the chain in one of `places`, if frames of links lie elsewhere as well: the tip decides.
+fn single_displacement(
+    robots: &MatchedRobots<'_>,
+    poses: &mut dyn LinkPoses,
+    (mut places, at): (Vec<JointCorrection>, &ComparedAt<'_>),
+) -> Result<Option<ExplainedByJoints>, LinkPosesError> {
+    if places.is_empty() {
+        return Ok(None);
+    }
+    let only = places.remove(0);
+    let at_tip = |link| link == at.tip;
+    let mut difference = Difference::new(robots, poses, &at_tip);
+    let worst = [
+        difference.worst(robots.robot, at)?,
+        difference.worst(&corrected(robots.robot, std::slice::from_ref(&only)), at)?,
+    ];
+    let explains = !worst[0].is_within(at.tolerance) && worst[1].is_within(at.tolerance);
+    let explained =
+        ExplainedByJoints { corrections: vec![only], worst: worst.to_vec(), alternatives: places };
+    Ok(explains.then_some(explained))
+}
+
+/// The same correction at other joints between the same two links of the other description.
+fn elsewhere(robots: &MatchedRobots<'_>, only: JointCorrection) -> Vec<JointCorrection> {
+    let joint = robots.robot.joint(only.joint);
+    if !matches!(only.expected, JointPart::Origin(_)) || !robots.is_matched(joint.child) {
+        return Vec::new();
+    }
+    between(robots, joint.parent).map(|fixed| moved_to(fixed, joint, robots, only)).collect()
+}
+
+/// The difference of a corrected robot from the other description.
+struct Difference<'a> {
+    poses: &'a mut dyn LinkPoses,
+    is_compared: &'a dyn Fn(LinkIndex) -> bool,
+    links: [Vec<Pose>; 2],
+}
+
+impl<'a> Difference<'a> {
+    fn new(
+        robots: &MatchedRobots<'_>,
+        poses: &'a mut dyn LinkPoses,
+        is_compared: &'a dyn Fn(LinkIndex) -> bool,
+    ) -> Self {
+        let links = [(); 2].map(|()| vec![Pose::identity(); robots.robot.links().len()]);
+        Self { poses, is_compared, links }
+    }
+
+    /// The largest at the links that are compared, with all configurations.
+    fn worst(&mut self, robot: &Robot, at: &ComparedAt<'_>) -> Result<PoseError, LinkPosesError> {
+        let tree = UrdfTree::new(robot);
+        let mut worst = PoseError::default();
+        for q in at.configurations {
+            worst = worst.larger(self.at(&tree, robot, q)?);
+        }
+        Ok(worst)
+    }
+
+    /// Whether it is within the tolerance; ends at the first configuration at which it is not.
+    fn is_within(&mut self, robot: &Robot, at: &ComparedAt<'_>) -> Result<bool, LinkPosesError> {
+        let tree = UrdfTree::new(robot);
+        for q in at.configurations {
+            if !self.at(&tree, robot, q)?.is_within(at.tolerance) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn at(&mut self, tree: &UrdfTree, robot: &Robot, q: &RobotQ) -> Result<PoseError, LinkPosesError> {
+        let [own, there] = &mut self.links;
+        tree.root_from_links_into(q, own)?;
+        self.poses.root_from_links_into(q, there)?;
+        let compared = robot.link_indices().filter(|&link| (self.is_compared)(link));
+        let error = |link: LinkIndex| PoseError::between(&own[link.get()], &there[link.get()]);
+        Ok(compared.map(error).fold(PoseError::default(), PoseError::larger))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use congruent_description::{Tolerance, parse_urdf};
+    use congruent_kinematics::sample_configurations;
+    use nalgebra::{Isometry3, Unit, Vector3};
+
+    use super::*;
+
+    /// Three joints about z, y and z, a sliding one, and a fixed tool; the origins are those given.
+    fn robot(origins: [&str; 5], axes: [&str; 4]) -> Robot {
+        let links: Vec<String> = (0..=5).map(|at| format!("<link name='l{at}'/>")).collect();
+        let moving = ["revolute", "revolute", "revolute", "prismatic"];
+        let limit = "<limit lower='-2' upper='2' effort='1' velocity='1'/>";
+        let joint = |at: usize| {
+            let kind = moving.get(at).copied().unwrap_or("fixed");
+            let axis = axes.get(at).map(|axis| format!("<axis xyz='{axis}'/>{limit}")).unwrap_or_default();
+            format!(
+                "<joint name='j{at}' type='{kind}'><parent link='l{at}'/><child link='l{}'/><origin {}/>{axis}</joint>",
+                at + 1,
+                origins[at]
+            )
+        };
+        let joints: Vec<String> = (0..5).map(joint).collect();
+        parse_urdf(&format!("<robot name='r'>{}{}</robot>", links.concat(), joints.concat())).unwrap()
+    }
+
+    const ORIGINS: [&str; 5] = [
+        "xyz='0 0 0.3'",
+        "xyz='0.1 0 0.2' rpy='0.3 0 0'",
+        "xyz='0.4 0.05 0'",
+        "xyz='0 0 0.1'",
+        "xyz='0 0.02 0.1'",
+    ];
+    const AXES: [&str; 4] = ["0 0 1", "0 1 0", "0 0 1", "1 0 0"];
+
+    /// The names of the joints that are corrected, with how many alternatives.
+    #[track_caller]
+    fn named(robot: &Robot) -> Option<(Vec<String>, usize)> {
+        let other = super::tests::robot(ORIGINS, AXES);
+        let mut poses = UrdfTree::new(&other);
+        let robots = MatchedRobots::new([robot, &other], &mut poses).unwrap();
+        let configurations = sample_configurations(robot, 1, 50);
+        let [base, tip] = ["l0", "l5"].map(|name| robot.find_link(name).unwrap());
+        let at = ComparedAt { configurations: &configurations, tolerance: &Tolerance::default(), base, tip };
+        let explained = explained_by_joints(&robots, &mut poses, &at).unwrap()?;
+        assert!(explained.worst.last().unwrap().is_within(at.tolerance));
+        assert_eq!(explained.worst.len(), explained.corrections.len() + 1);
+        let names = explained.corrections.iter().map(|of| robot.joint(of.joint).name.clone()).collect();
+        Some((names, explained.alternatives.len()))
+    }
+
+    fn with_origins(changes: &[(usize, &'static str)]) -> Robot {
+        let mut origins = ORIGINS;
+        for &(at, origin) in changes {
+            origins[at] = origin;
+        }
+        robot(origins, AXES)
+    }
+
+    #[test]
+    fn joints_with_other_origins_are_named_the_largest_first() {
+        assert_eq!(named(&with_origins(&[])), None);
+        let one = |joint: &str| Some((vec![joint.to_owned()], 0));
+        let turned = "xyz='0.4 0.052 0.001' rpy='0.1 0.2 -0.3'";
+        assert_eq!(named(&with_origins(&[(2, turned)])), one("j2"));
+        assert_eq!(named(&with_origins(&[(3, "xyz='0.01 0 0.1'")])), one("j3"));
+        assert_eq!(named(&with_origins(&[(4, "xyz='0 0.02 0.11'")])), one("j4"));
+        let two = with_origins(&[(1, "xyz='0.1 0 0.201' rpy='0.3 0 0'"), (4, "xyz='0 0.03 0.1'")]);
+        assert_eq!(named(&two), Some((vec!["j4".to_owned(), "j1".to_owned()], 0)));
+    }
+
+    #[test]
+    fn an_axis_is_a_fault_of_its_own() {
+        let mut axes = AXES;
+        axes[1] = "0 1 0.2";
+        assert_eq!(named(&robot(ORIGINS, axes)), Some((vec!["j1".to_owned()], 0)));
+        let mut origins = ORIGINS;
+        origins[1] = "xyz='0.1 0 0.21' rpy='0.3 0 0'";
+        assert_eq!(named(&robot(origins, axes)), Some((vec!["j1".to_owned(), "j1".to_owned()], 0)));
+    }
+
+    /// The frame of link l3 lies 0.2 m along the axis of its joint, which the next origin takes back.
+    const MOVED_FRAME: [(usize, &str); 2] = [(2, "xyz='0.4 0.05 0.2'"), (3, "xyz='0 0 -0.1'")];
+
+    #[test]
+    fn a_frame_that_lies_elsewhere_in_its_link_is_no_fault() {
+        assert_eq!(named(&with_origins(&MOVED_FRAME)), None);
+        let [first, second] = MOVED_FRAME;
+        let with_tool = with_origins(&[first, second, (4, "xyz='0 0.02 0.101'")]);
+        assert_eq!(named(&with_tool), Some((vec!["j4".to_owned()], 0)));
+    }
+
+    /// All frames but the first and the last lie elsewhere in their links, which is more than eight origins and axes:
+    /// the tip and the screws alone tell the place.
+    #[test]
+    fn a_displacement_is_told_from_frames_that_all_lie_elsewhere() {
+        let mut at: usize = 0;
+        let found = robot(ORIGINS, AXES).with_joints(|joint| {
+            let before = at.checked_sub(1).map(moved_frame).unwrap_or_default();
+            let behind = moved_frame(at);
+            joint.parent_from_joint = before.inverse() * joint.parent_from_joint * behind;
+            joint.axis_in_joint = Unit::new_normalize(behind.rotation.inverse() * *joint.axis_in_joint);
+            at += 1;
+        });
+        let displaced = found.with_joints(|joint| {
+            if joint.name == "j2" {
+                joint.parent_from_joint.translation.vector.x += 0.003;
+            }
+        });
+        let (names, alternatives) = named(&displaced).unwrap();
+        assert_eq!((names, alternatives), (vec!["j2".to_owned()], 0));
+        assert_eq!(named(&found), None);
+    }
+
+    /// Where the frame of what a joint carries lies in it: along the joint's axis, and turned.
+    fn moved_frame(joint: usize) -> Isometry3<f64> {
+        let along = [Vector3::z(), Vector3::y(), Vector3::z(), Vector3::x()];
+        along.get(joint).map_or_else(Isometry3::identity, |along| {
+            Isometry3::new(0.1 * along, Vector3::new(0.3, 0.2, -0.4))
+        })
+    }
+
+    #[test]
+    fn rounding_of_many_origins_is_no_fault_beside_one() {
+        let rounded = [
+            (0, "xyz='0 0 0.30000000001'"),
+            (1, "xyz='0.1 0 0.2' rpy='0.30000000001 0 0'"),
+            (2, "xyz='0.41 0.05 0'"),
+        ];
+        assert_eq!(named(&with_origins(&rounded)), Some((vec!["j2".to_owned()], 0)));
+    }
+}

@@ -1,0 +1,292 @@
+//! An `<origin>` or an `<axis>` of a joint that another URDF has otherwise: as a fault with the places in both files, what
+//! each writes, and the line to write.
+
+use std::{ops::Range, sync::Arc};
+
+use congruent_description::{
+    Elementary as _, Joint, RobotDescription, Slack, UrdfPlaces, changed_lines,
+    display::angle,
+    fitted_rpy_fixed_xyz_rad, line_column,
+    units::{Unit, UnitSystem},
+};
+use congruent_kinematics::{Pose, PoseError, rotation_log};
+use nalgebra::{Isometry3, Unit as UnitVector, Vector3};
+
+use super::{
+    content::{
+        Fault, ReportedAlternative, ReportedCause, ReportedDiagnosis, ReportedDifference, ReportedStage,
+    },
+    describe::{finding, several},
+    fault_message::{FaultMessage, FileLocation, off_by},
+    values::ReportedValue,
+};
+use crate::{
+    diagnosis::{
+        Cause, Equivalence,
+        joints::{ExplainedByJoints, JointCorrection, JointPart, MatchedRobots},
+    },
+    source_pair::SourcePair,
+};
+
+/// An attribute of a part of a joint: its name, as the file writes it, and as it is expected.
+struct Attribute {
+    name: &'static str,
+    found: String,
+    expected: String,
+}
+
+/// A part of a turn or of a shift that is smaller is rounding. Unit: m or rad; kind: rounding of products of poses.
+const ROUNDING: f64 = 1e-12;
+
+/// Two axes are opposite if their sum is smaller. No unit; kind: rounding.
+const OPPOSITE: f64 = 1e-9;
+
+/// The diagnosis that names these joints; `differences` are those of the chain.
+pub(crate) fn diagnosed_by_joints(
+    descriptions: [&RobotDescription; 2],
+    robots: &MatchedRobots<'_>,
+    explained: &ExplainedByJoints,
+    differences: Vec<ReportedDifference>,
+) -> ReportedDiagnosis {
+    let parts = JointParts { descriptions, robots };
+    let ExplainedByJoints { corrections, worst, alternatives } = explained;
+    let stages: Vec<ReportedStage> =
+        worst.windows(2).map(|pair| ReportedStage { before: pair[0], after: pair[1] }).collect();
+    let messages: Vec<FaultMessage> = corrections.iter().map(|of| parts.message(of)).collect();
+    let findings = messages.iter().zip(&stages).map(|(message, stage)| finding(message, stage)).collect();
+    let faults = messages.into_iter().map(|message| message.fault).collect();
+    let alternative = |of| {
+        let equivalence = Equivalence::SameEffect;
+        let cause = cause(vec![parts.message(of).fault], stages.clone());
+        ReportedAlternative { cause, equivalence, reason: equivalence.sentence() }
+    };
+    let pair = SourcePair::UrdfOther;
+    ReportedDiagnosis {
+        name: pair,
+        title: pair.title(),
+        indistinguishable: alternatives.iter().map(alternative).collect(),
+        causes: vec![cause(faults, stages)],
+        invariants: differences,
+        table: None,
+        findings,
+    }
+}
+
+/// A cause that explains everything.
+fn cause(mut parts: Vec<Fault>, stages: Vec<ReportedStage>) -> ReportedCause {
+    let fault = if parts.len() == 1 { parts.remove(0) } else { several(&parts) };
+    let PoseError { position_m, orientation_rad } =
+        stages.last().map(|stage| stage.after).unwrap_or_default();
+    ReportedCause {
+        fault,
+        residual_m: position_m,
+        residual_rad: orientation_rad,
+        within_tolerance: true,
+        parts,
+        stages,
+    }
+}
+
+/// Two descriptions, the one that is checked first.
+struct JointParts<'a> {
+    descriptions: [&'a RobotDescription; 2],
+    robots: &'a MatchedRobots<'a>,
+}
+
+impl JointParts<'_> {
+    fn message(&self, correction: &JointCorrection) -> FaultMessage {
+        let joint = self.robots.robot.joint(correction.joint);
+        let (part, attributes, fault) = match &correction.expected {
+            JointPart::Origin(expected) => {
+                ("origin", self.origin(joint, expected), origin_fault(joint, expected))
+            }
+            JointPart::Axis(expected) => ("axis", self.axis(joint, expected), axis_fault(joint, expected)),
+        };
+        let [own, other] = self.descriptions.map(|of| of.places.urdf.as_ref());
+        let location = own.and_then(|places| {
+            let span = place(places, part, &joint.name)?;
+            Some(FileLocation { source: Arc::clone(places.source()), span })
+        });
+        let there = self.there(joint, &correction.expected);
+        let expected_at = there.zip(other).and_then(|(there, places)| place(places, part, &there.name));
+        let expected_line =
+            expected_at.zip(other).map(|(span, places)| line_column(&places.source().text, span.start).0);
+        let words = |value: fn(&Attribute) -> &str| {
+            let written = attributes.iter().map(|of| format!("{}=\"{}\"", of.name, value(of)));
+            written.collect::<Vec<_>>().join(" ")
+        };
+        let [found, expected] = [words(|of| &of.found), words(|of| &of.expected)];
+        let as_in = self.as_in(joint, there, expected_line);
+        let text = sentence(&fault, &joint.name, [&found, &format!("{expected}{as_in}")]);
+        let fault = Fault {
+            joint: Some(joint.name.clone()),
+            parameter: Some(attributes.iter().map(|of| of.name).collect::<Vec<_>>().join(", ")),
+            suggestion: format!("write {expected} in the <{part}> of joint \"{}\"", joint.name),
+            found: Some(ReportedValue::Text(found)),
+            expected: Some(ReportedValue::Text(expected)),
+            file: location.as_ref().map(|at| at.source.path.display().to_string()),
+            line: location.as_ref().map(|at| line_column(&at.source.text, at.span.start).0),
+            expected_file: expected_line.map(|_| self.descriptions[1].urdf_path.display().to_string()),
+            expected_line,
+            message: text.clone(),
+            ..fault
+        };
+        let mut message = FaultMessage { fault, message: text, location };
+        if let Some(places) = own {
+            advise(&mut message, places, (&joint.name, part), &attributes);
+        }
+        message
+    }
+
+    /// The joint of the other file that has the expected value; `None` if none has it alone.
+    fn there(&self, joint: &Joint, expected: &JointPart) -> Option<&Joint> {
+        match expected {
+            JointPart::Axis(_) => self.robots.namesake(joint),
+            JointPart::Origin(origin) => {
+                let candidates = [self.robots.same_joint(joint), self.robots.namesake(joint)];
+                candidates
+                    .into_iter()
+                    .flatten()
+                    .find(|there| apart(&there.parent_from_joint, origin) <= ROUNDING)
+            }
+        }
+    }
+
+    fn as_in(&self, joint: &Joint, there: Option<&Joint>, line: Option<usize>) -> String {
+        let (Some(there), Some(line)) = (there, line) else { return String::new() };
+        let file = self.descriptions[1].urdf_path.display();
+        let named =
+            if there.name == joint.name { String::new() } else { format!(" (joint \"{}\")", there.name) };
+        format!(" as in {file}:{line}{named}")
+    }
+
+    /// `xyz` and `rpy` of an origin, each if it differs.
+    fn origin(&self, joint: &Joint, expected: &Isometry3<f64>) -> Vec<Attribute> {
+        let there = self.there(joint, &JointPart::Origin(*expected));
+        let found = &joint.parent_from_joint;
+        let numbers = |name: &str, pose: &Isometry3<f64>| match name {
+            "xyz" => listed(Unit::Length, pose.translation.vector.into()),
+            _ => listed(Unit::Angle, fitted_rpy_fixed_xyz_rad(pose, Slack::default())),
+        };
+        let attribute = |name: &'static str| Attribute {
+            name,
+            found: self.written(0, (joint, "origin", name), || numbers(name, found)),
+            expected: match there {
+                Some(there) => self.written(1, (there, "origin", name), || numbers(name, expected)),
+                None => numbers(name, expected),
+            },
+        };
+        let [shift, turn] = off(found, expected);
+        let xyz = (shift.norm() > ROUNDING).then(|| attribute("xyz"));
+        let rpy = (turn.norm() > ROUNDING).then(|| attribute("rpy"));
+        xyz.into_iter().chain(rpy).collect()
+    }
+
+    fn axis(&self, joint: &Joint, expected: &UnitVector<Vector3<f64>>) -> Vec<Attribute> {
+        let numbers = |axis: &UnitVector<Vector3<f64>>| listed(Unit::Length, axis.into_inner().into());
+        let found = self.written(0, (joint, "axis", "xyz"), || numbers(&joint.axis_in_joint));
+        let expected = match self.robots.namesake(joint) {
+            Some(there) => self.written(1, (there, "axis", "xyz"), || numbers(expected)),
+            None => numbers(expected),
+        };
+        vec![Attribute { name: "xyz", found, expected }]
+    }
+
+    /// An attribute as a file writes it; what is not written has the value that the reader takes.
+    fn written(
+        &self,
+        file: usize,
+        (joint, part, attribute): (&Joint, &str, &str),
+        otherwise: impl Fn() -> String,
+    ) -> String {
+        let places = self.descriptions[file].places.urdf.as_ref();
+        places
+            .and_then(|places| places.joint_attribute(&joint.name, part, attribute))
+            .unwrap_or_else(otherwise)
+    }
+}
+
+/// Place of a part of a joint, or of the joint if it has none.
+fn place(places: &UrdfPlaces, part: &str, joint: &str) -> Option<Range<usize>> {
+    if part == "origin" { places.joint_origin(joint) } else { places.joint_axis(joint) }
+}
+
+/// What is wrong, with what stands there and what is expected.
+fn sentence(fault: &Fault, joint: &str, [found, expected]: [&str; 2]) -> String {
+    match fault.cause {
+        Cause::AxisFlipped => {
+            format!("joint \"{joint}\" moves in the opposite direction: axis {found}, expected {expected}")
+        }
+        Cause::JointAxis => {
+            let off = angle(turn(fault));
+            format!("joint \"{joint}\": axis {found}, expected {expected}, off by {off}")
+        }
+        _ => {
+            let off = off_by(shift(fault), turn(fault));
+            format!("joint \"{joint}\": origin {found}, expected {expected}, off by {off}")
+        }
+    }
+}
+
+/// Replaces the suggestion in words by the lines of the file with the expected attributes.
+fn advise(
+    message: &mut FaultMessage,
+    places: &UrdfPlaces,
+    (joint, part): (&str, &str),
+    attributes: &[Attribute],
+) {
+    let new: Vec<(&'static str, String)> =
+        attributes.iter().map(|of| (of.name, of.expected.clone())).collect();
+    let text = &places.source().text;
+    let changes = changed_lines(text, &places.set_joint_part(joint, part, &new));
+    if !changes.is_empty() {
+        message.advise(changes, text);
+    }
+}
+
+fn listed(unit: Unit, values: [f64; 3]) -> String {
+    values.map(|value| unit.fitted(value, UnitSystem::Si, Slack::default())).join(" ")
+}
+
+/// Found minus expected, m, and the rotation from expected to found, rad.
+fn off(found: &Isometry3<f64>, expected: &Isometry3<f64>) -> [Vector3<f64>; 2] {
+    let [found, expected] = [found, expected].map(|pose| Pose::from(*pose));
+    let turn = rotation_log(&(expected.rotation.transpose() * found.rotation));
+    [found.translation - expected.translation, turn]
+}
+
+fn apart(one: &Isometry3<f64>, other: &Isometry3<f64>) -> f64 {
+    off(one, other).iter().map(Vector3::norm).fold(0.0, f64::max)
+}
+
+fn origin_fault(joint: &Joint, expected: &Isometry3<f64>) -> Fault {
+    let [shift, turn] = off(&joint.parent_from_joint, expected);
+    Fault {
+        cause: Cause::JointOrigin,
+        translation_m: Some(shift.into()),
+        rotation_rad: Some(turn.into()),
+        ..Fault::default()
+    }
+}
+
+fn axis_fault(joint: &Joint, expected: &UnitVector<Vector3<f64>>) -> Fault {
+    let found = joint.axis_in_joint.into_inner();
+    let is_flipped = (found + expected.into_inner()).norm() < OPPOSITE;
+    let across = expected.cross(&found);
+    let angle_rad = across.norm().arctangent_over(expected.dot(&found));
+    let turn = across.try_normalize(0.0).map(|about| about * angle_rad);
+    Fault {
+        cause: if is_flipped { Cause::AxisFlipped } else { Cause::JointAxis },
+        value: is_flipped.then_some(-1.0),
+        rotation_rad: turn.filter(|_| !is_flipped).map(Into::into),
+        ..Fault::default()
+    }
+}
+
+fn shift(fault: &Fault) -> f64 {
+    fault.translation_m.map_or(0.0, |shift| Vector3::from(shift).norm())
+}
+
+fn turn(fault: &Fault) -> f64 {
+    fault.rotation_rad.map_or(0.0, |turn| Vector3::from(turn).norm())
+}
