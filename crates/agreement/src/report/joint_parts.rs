@@ -24,6 +24,7 @@ use crate::{
     diagnosis::{
         Cause, Equivalence,
         joints::{ExplainedByJoints, JointCorrection, JointPart, MatchedRobots},
+        thresholds::SAME_UNIT_RATIO,
     },
     source_pair::SourcePair,
 };
@@ -46,15 +47,12 @@ impl Attribute {
             text.split_whitespace().map(|word| word.parse().unwrap_or(f64::NAN)).collect()
         };
         let (found, expected) = (numbers(&self.found), numbers(&self.expected));
-        let is_scaled =
-            |(found, expected): (&f64, &f64)| (found - factor * expected).abs() <= SAME_RATIO * found.abs();
+        let is_scaled = |(found, expected): (&f64, &f64)| {
+            (found - factor * expected).abs() <= SAME_UNIT_RATIO * found.abs()
+        };
         found.iter().zip(&expected).all(is_scaled).then_some(words)
     }
 }
-
-/// A number of a file with few digits in another unit has the ratio of the units within this. No unit; kind: digits of a
-/// file.
-const SAME_RATIO: f64 = 1e-3;
 
 /// A part of a turn or of a shift that is smaller is rounding. Unit: m or rad; kind: rounding of products of poses.
 const ROUNDING: f64 = 1e-12;
