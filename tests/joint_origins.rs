@@ -180,6 +180,16 @@ fn a_fixed_joint_that_one_file_lacks_is_an_alternative() {
 }
 
 #[test]
+fn an_origin_in_another_unit_is_told() {
+    let degrees = arm(("name=\"lift\"", "rpy=\"1.5707963267948966 0 0\"", "rpy=\"90 0 0\""));
+    let fault = only_origin(&degrees, "lift", "rpy");
+    assert!(fault["message"].as_str().unwrap().ends_with(": the rpy is in degrees"), "{fault:#}");
+    let millimetres = arm(("name=\"bend\"", "0.35 0 0.06", "350 0 60"));
+    let fault = only_origin(&millimetres, "bend", "xyz");
+    assert!(fault["message"].as_str().unwrap().ends_with(": the xyz is in millimetres"), "{fault:#}");
+}
+
+#[test]
 fn an_origin_that_is_left_out_is_put_in() {
     let pair = arm(("name=\"bend\"", "<origin xyz=\"0.35 0 0.06\"/>", ""));
     assert_eq!(only_origin(&pair, "bend", "xyz")["found"], "xyz=\"0 0 0\"");

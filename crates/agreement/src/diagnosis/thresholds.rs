@@ -56,6 +56,9 @@ pub(super) const QUARTER_TURNS: f64 = 1e-3;
 /// kind: digits of a file, which may have as few as ten.
 pub(super) const SINGULAR_BELOW_RAD: f64 = 1e-9;
 
+/// Numbers of files with few digits that differ by a unit have its ratio within this part. No unit; kind: digits of a file.
+pub(crate) const SAME_UNIT_RATIO: f64 = 1e-3;
+
 // Choice between explanations.
 
 /// An explanation with a residual so many times the best one's is refuted. No unit; kind: judgement. The

@@ -24,6 +24,7 @@ use crate::{
     diagnosis::{
         Cause, Equivalence,
         joints::{ExplainedByJoints, JointCorrection, JointPart, MatchedRobots},
+        thresholds::SAME_UNIT_RATIO,
     },
     source_pair::SourcePair,
 };
@@ -33,6 +34,24 @@ struct Attribute {
     name: &'static str,
     found: String,
     expected: String,
+}
+
+impl Attribute {
+    /// That the found numbers are the expected ones in another unit.
+    fn other_unit(&self) -> Option<&'static str> {
+        let (factor, words) = match self.name {
+            "rpy" => (1_f64.to_degrees(), ": the rpy is in degrees"),
+            _ => (1e3, ": the xyz is in millimetres"),
+        };
+        let numbers = |text: &str| -> Vec<f64> {
+            text.split_whitespace().map(|word| word.parse().unwrap_or(f64::NAN)).collect()
+        };
+        let (found, expected) = (numbers(&self.found), numbers(&self.expected));
+        let is_scaled = |(found, expected): (&f64, &f64)| {
+            (found - factor * expected).abs() <= SAME_UNIT_RATIO * found.abs()
+        };
+        found.iter().zip(&expected).all(is_scaled).then_some(words)
+    }
 }
 
 /// A part of a turn or of a shift that is smaller is rounding. Unit: m or rad; kind: rounding of products of poses.
@@ -117,7 +136,8 @@ impl JointParts<'_> {
         };
         let [found, expected] = [words(|of| &of.found), words(|of| &of.expected)];
         let as_in = self.as_in(joint, there, expected_line);
-        let text = sentence(&fault, &joint.name, [&found, &format!("{expected}{as_in}")]);
+        let unit = attributes.iter().find_map(Attribute::other_unit).unwrap_or_default();
+        let text = sentence(&fault, &joint.name, [&found, &format!("{expected}{as_in}")]) + unit;
         let fault = Fault {
             joint: Some(joint.name.clone()),
             parameter: Some(attributes.iter().map(|of| of.name).collect::<Vec<_>>().join(", ")),

@@ -243,6 +243,28 @@ mod tests {
     }
 
     #[test]
+    fn a_corrected_part_of_a_joint_is_read_back() {
+        let text =
+            TEXT.replace("name='j' type='continuous'>", "name='j' type='continuous'><origin xyz='1  0 2'/>");
+        let places = |text: &str| {
+            UrdfPlaces::new(Arc::new(SourceFile { path: "two.urdf".into(), text: text.to_owned() }))
+        };
+        let written = |text: &str, joint, attribute| places(text).joint_attribute(joint, "origin", attribute);
+        assert_eq!(written(&text, "j", "xyz").as_deref(), Some("1 0 2"));
+        assert_eq!([written(&text, "j", "rpy"), written(&text, "k", "xyz")], [None, None]);
+        for joint in ["j", "k"] {
+            let values = [("xyz", "3 4 5".to_owned()), ("rpy", "0 0 1".to_owned())];
+            let changed =
+                crate::edits::edited(&text, &places(&text).set_joint_part(joint, "origin", &values));
+            let robot = parse_urdf(&changed).unwrap();
+            let pose = robot.joint(robot.find_joint(joint).unwrap()).parent_from_joint;
+            assert_eq!(pose.translation.vector, Vector3::new(3.0, 4.0, 5.0), "{changed}");
+            assert!((pose.rotation.angle() - 1.0).abs() < 1e-15, "{changed}");
+        }
+        assert_eq!(places(&text).set_joint_part("nobody", "origin", &[("xyz", "0 0 0".to_owned())]), []);
+    }
+
+    #[test]
     fn a_corrected_limit_is_read_back() {
         let text =
             TEXT.replace("name='j' type='continuous'>", "name='j' type='revolute'><limit effort='1'/>");

@@ -144,6 +144,7 @@ mod tests {
         assert_eq!(at("a"), Some("<origin"));
         assert_eq!(at("b"), Some("<joint"));
         assert_eq!(at("c"), None);
+        assert_eq!(places.joint_axis("a").map(|span| &text[span]), Some("<joint"));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::{
     displacement::{displaced, moves_alike},
     matched::{ComparedAt, MatchedRobots},
 };
-use crate::diagnosis::thresholds::MAX_PARAMETERS;
+use crate::diagnosis::thresholds::{MAX_PARAMETERS, SAME_UNIT_RATIO};
 
 /// Corrections of joints that explain the difference of two descriptions.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,14 +28,11 @@ impl ExplainedByJoints {
             let JointPart::Origin(expected) = of.expected else { return false };
             let found = robots.robot.joint(of.joint).parent_from_joint.translation.vector.norm();
             let ratio = found / expected.translation.vector.norm();
-            [1e3, 1e-3].iter().any(|factor| (ratio / factor - 1.0).abs() < SAME_RATIO)
+            [1e3, 1e-3].iter().any(|factor| (ratio / factor - 1.0).abs() < SAME_UNIT_RATIO)
         };
         self.corrections.len() > 1 && self.corrections.iter().all(is_scaled)
     }
 }
-
-/// Lengths of a file with few digits have a ratio within this. No unit; kind: digits of a file.
-const SAME_RATIO: f64 = 1e-2;
 
 /// The corrections of joints that explain the difference; `None` if there are none, too many, or if the two differ only
 /// in where frames lie in links that move alike.
