@@ -84,6 +84,19 @@ fn what_is_finished_and_the_same_is_kept() {
 }
 
 #[test]
+fn what_is_cut_is_made_again() {
+    let calls = Calls::new();
+    calls.run(&[]);
+    for name in ["junit.xml", "scenario.resolved.toml"] {
+        let file = calls.result("two").join(name);
+        let whole = fs::read(&file).unwrap();
+        fs::write(&file, &whole[..whole.len() * 2 / 3]).unwrap();
+        assert_eq!(calls.run(&[]), (1, 2), "{name}");
+        assert!(fs::read(&file).unwrap() == whole, "{name}");
+    }
+}
+
+#[test]
 fn what_was_made_from_something_else_runs_again() {
     let calls = Calls::new();
     calls.run(&[]);

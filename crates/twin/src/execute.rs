@@ -8,7 +8,7 @@ use std::{
 
 use crate::{
     recorder::{Recorder, Recorders, RecordingError},
-    report::{RunReport, earlier_report, explain, write_junit},
+    report::{RunReport, earlier_report, explain, junit, write_junit},
     results::{FolderError, OutputError, OutputFolder, REPORT},
     run::{Run, RunError},
     scenario::TrajectoryFormat,
@@ -92,18 +92,24 @@ pub enum ExecuteError {
     },
 }
 
-/// The report of an earlier call that would be the same now, and its folder, if all results are there.
+/// The report of an earlier call that would be the same now, and its folder, if all results are there and those that
+/// follow from the report are to the last byte.
 ///
 /// See [`earlier_report`] for what is the same.
 pub fn finished(setup: &RunSetup, options: &Options<'_>) -> Option<(RunReport, PathBuf)> {
     let folder = OutputFolder::path_for(&options.out, &setup.scenario.name);
     let trajectory = setup.scenario.output.trajectory.map(Trajectory::file_name);
     let recordings = options.recordings.iter().map(|format| format.file_name());
-    let mut names = recordings.chain(trajectory).chain(["junit.xml", RESOLVED]);
     let report = earlier_report(setup, &fs::read(folder.join(REPORT)).ok()?)?;
-    names.all(|name| folder.join(name).is_file()).then_some((report, folder))
+    let are_there = recordings.chain(trajectory).all(|name| folder.join(name).is_file());
+    let is = |name: &str, text: &str| fs::read(folder.join(name)).is_ok_and(|found| found == text.as_bytes());
+    let are_whole =
+        is(JUNIT, &junit(&[report.test_suite()]).ok()?) && is(RESOLVED, &setup.scenario.to_toml());
+    (are_there && are_whole).then_some((report, folder))
 }
 
+/// The checks of the run for CI.
+const JUNIT: &str = "junit.xml";
 /// The scenario with every default.
 const RESOLVED: &str = "scenario.resolved.toml";
 
@@ -166,7 +172,7 @@ fn write_results(
 ) -> Result<(), OutputError> {
     let write = || {
         let written = write_report(folder, report);
-        written.and(write_junit(&folder.file("junit.xml"), &[report.test_suite()]))
+        written.and(write_junit(&folder.file(JUNIT), &[report.test_suite()]))
     };
     let written = write().or_else(|error| {
         // On a full disk what is incomplete takes the space of the report, which matters more.

@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     #[arg(long, default_value = "out")]
     pub(super) out: PathBuf,
     /// Keep what an earlier call has left in the folder for scenarios that are finished and were made from the same files,
-    /// values and version; run the others. Index, JUnit file and summary are of all.
+    /// values and version; run the others, among them those whose report tells the cause of a failed agreement. Index, JUnit file and summary are of all.
     #[arg(long)]
     pub(super) resume: bool,
     /// How many scenarios run at once; as many as the machine has cores if it is left out. The results are the same.

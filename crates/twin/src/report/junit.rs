@@ -13,15 +13,19 @@ use crate::results::{OutputError, write_whole};
 /// # Errors
 /// [`OutputError`] if the file cannot be written.
 pub fn write_junit(path: &Path, suites: &[TestSuite]) -> Result<(), OutputError> {
-    let mut document = Report::new("congruent");
-    document.set_time(duration(suites.iter().map(|suite| suite.time_s).sum()));
-    document.add_test_suites(suites.iter().map(written_suite));
     let refused = |source| OutputError { path: path.to_owned(), source };
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(refused)?;
     }
-    let text = document.to_string().map_err(|error| refused(io::Error::other(error)))?;
-    write_whole(path, text.as_bytes())
+    write_whole(path, junit(suites).map_err(refused)?.as_bytes())
+}
+
+/// Suites as the text of a JUnit file.
+pub(crate) fn junit(suites: &[TestSuite]) -> io::Result<String> {
+    let mut document = Report::new("congruent");
+    document.set_time(duration(suites.iter().map(|suite| suite.time_s).sum()));
+    document.add_test_suites(suites.iter().map(written_suite));
+    document.to_string().map_err(io::Error::other)
 }
 
 fn written_suite(suite: &TestSuite) -> quick_junit::TestSuite {

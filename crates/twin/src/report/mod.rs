@@ -16,6 +16,7 @@ pub use annotations::github_annotations;
 pub(crate) use causes::explain;
 pub use earlier::earlier_report;
 pub use fault_table::{FaultRow, FaultTable, SeenBy};
+pub(crate) use junit::junit;
 pub use junit::write_junit;
 pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
 pub use sentence::{
