@@ -19,7 +19,9 @@ pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access:
         && let Ok(beside) = fs::read(path.with_file_name(REPORT))
         && serde_json::from_slice::<Value>(&beside).ok().as_ref() != Some(report)
     {
-        let problem = format!("{REPORT} beside the recording is not the report of its run: it is damaged, or of another run");
+        let problem = format!(
+            "{REPORT} beside the recording is not the report of its run: it is damaged, or of another run"
+        );
         if summary.exit_code != BAD_INPUT {
             summary.reason.clone_from(&problem);
         }

@@ -126,7 +126,7 @@ fn set(edits: &mut Vec<TextEdit>, parent: Node<'_, '_>, child: &str, attributes:
     };
     for (name, value) in attributes {
         let written = node.attributes().find(|attribute| attribute.name() == *name);
-        let end = tag(node).end;
+        let end = node.attributes().next_back().map_or(tag(node).end, |last| last.range().end);
         edits.push(written.map_or_else(
             || TextEdit { span: end..end, text: format!(" {name}=\"{value}\"") },
             |attribute| TextEdit { span: attribute.range_value(), text: value.clone() },
