@@ -13,7 +13,7 @@ use congruent_calibration::{measurements::read_measurements, needed_coordinates}
 use congruent_description::{
     Diagnostic, FileAccess, FileKind, FileToLint, Finding, Ignores, RobotDescription, SafeFix, Severity,
     SourceFile, Use, examine_srdf, load_opened_robot, read_states, read_text, safe_fixes,
-    safe_robot_file_fixes, still_mimics, unit_slips, zero_limits,
+    safe_robot_file_fixes, still_mimics, undefined_materials, unit_slips, zero_limits,
 };
 use congruent_twin::RunSetup;
 
@@ -159,6 +159,7 @@ fn suspicions(description: &RobotDescription) -> Vec<Diagnostic> {
     found.extend(unit_slips(description));
     found.extend(zero_limits(description));
     found.extend(still_mimics(description));
+    found.extend(undefined_materials(description));
     if let Some(source) = srdf_of(description) {
         // Its names were compared when it was read, those of its pairs alone.
         let is_told_here =

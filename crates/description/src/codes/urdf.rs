@@ -117,6 +117,11 @@ pub(super) const AREAS: &[Area] = &[
                 "urdf::still_mimic",
                 "A joint mimics another with a multiplier of 0, so that it never moves. Left out, the multiplier is 1.",
             ),
+            (
+                32,
+                "urdf::material",
+                "A material is named that the file gives neither a colour nor a texture, so that the shape is drawn in a colour of the program's own.",
+            ),
         ],
     },
     Area {

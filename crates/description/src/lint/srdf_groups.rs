@@ -76,8 +76,9 @@ fn value(joint: Node<'_, '_>, robot: Option<&Robot>) -> Option<Diagnostic> {
         return None;
     }
     let [at, lower, upper] = [position, limit.lower, limit.upper].map(|value| quantity(value, unit));
+    let by = quantity((position - limit.upper).max(limit.lower - position), unit);
     let found =
-        warning("srdf::beyond_limit", format!("is at {at}, beyond its limits from {lower} to {upper}"))?;
+        warning("srdf::beyond_limit", format!("is at {at}, {by} beyond its limits from {lower} to {upper}"))?;
     Some(
         found.with_help(format!(
             "positions of a state are in {unit}; planners refuse a goal beyond the limits"
@@ -119,7 +120,7 @@ mod tests {
             (
                 "2.00001",
                 "2.001",
-                "joint \"j\" is at 114.65 deg, beyond its limits from -57.3 deg to 114.59 deg",
+                "joint \"j\" is at 115 deg, 0.0573 deg beyond its limits from -57.3 deg to 115 deg",
             ),
             ("2.00001", "-90", "beyond its limits"),
             ("2.00001", "zero", "joint \"j\" is at \"zero\", which is no number"),

@@ -274,7 +274,7 @@ mod tests {
         let edits = [of("upper", 1.5), of("effort", 20.0), of("velocity", 3.0)].concat();
         let changed = changed_lines(&places.source().text, &edits);
         let [line] = &changed[..] else { panic!("{changed:?}") };
-        assert!(line.text.contains("<limit upper=\"1.5\" velocity=\"3.0\" effort='20.0'/>"), "{}", line.text);
+        assert!(line.text.contains("<limit effort='20.0' upper=\"1.5\" velocity=\"3.0\"/>"), "{}", line.text);
         assert_eq!(places.set_joint_limit("k", "lower", -1.0), [], "a continuous joint has no range");
         assert_eq!(places.set_joint_limit("j", "lower", 0.0), [], "what is not written is zero");
     }
