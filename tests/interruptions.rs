@@ -92,6 +92,7 @@ fn a_signal_ends_a_run_in_order() {
         assert_eq!((&report["error"], &report["verdict"]), (&"interrupted".into(), &"broken".into()));
         assert!(report["simulation"]["steps"].as_u64().unwrap() > 0);
         let all = [
+            "SHA256SUMS",
             "junit.xml",
             "recording.rrd",
             "report.html",

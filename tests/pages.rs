@@ -243,7 +243,7 @@ fn a_run_without_recording_links_to_none() {
 #[test]
 fn the_page_of_a_check_shows_lines_bound_and_both_arms() {
     let bench = Bench::new();
-    let page = bench.path().join("check.html");
+    let page = bench.path().join("pages/of/checks/check.html");
     let answer = congruent_json(&["check", "robots/ur5e/wrong_convention.toml", "--html", &text(&page)]);
     let html = read(&page);
     is_one_file(&html);

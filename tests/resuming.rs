@@ -84,16 +84,39 @@ fn what_is_finished_and_the_same_is_kept() {
 }
 
 #[test]
-fn what_is_cut_is_made_again() {
+fn a_file_that_is_not_as_it_was_written_is_made_again() {
     let calls = Calls::new();
     calls.run(&[]);
-    for name in ["junit.xml", "scenario.resolved.toml"] {
+    for name in ["junit.xml", "scenario.resolved.toml", "report.html", "recording.rrd", "SHA256SUMS"] {
         let file = calls.result("two").join(name);
         let whole = fs::read(&file).unwrap();
-        fs::write(&file, &whole[..whole.len() * 2 / 3]).unwrap();
-        assert_eq!(calls.run(&[]), (1, 2), "{name}");
-        assert!(fs::read(&file).unwrap() == whole, "{name}");
+        let mut flipped = whole.clone();
+        flipped[whole.len() / 2] ^= 1;
+        for damaged in [&whole[..whole.len() * 2 / 3], &flipped] {
+            fs::write(&file, damaged).unwrap();
+            assert_eq!(calls.run(&[]), (1, 2), "{name}");
+            assert!(fs::read(&file).unwrap() == whole, "{name}");
+        }
     }
+}
+
+#[test]
+fn inspect_tells_of_results_that_are_not_as_written() {
+    let calls = Calls::new();
+    calls.run(&[]);
+    let folder = text(&calls.result("one"));
+    let inspected = || congruent(&["inspect", &folder]);
+    assert_eq!(inspected().code, 0);
+    let page = calls.result("one").join("report.html");
+    let mut html = fs::read(&page).unwrap();
+    let middle = html.len() / 2;
+    html[middle] ^= 1;
+    fs::write(&page, html).unwrap();
+    let answer = inspected();
+    assert_eq!(answer.code, 2, "{}", answer.stdout);
+    assert!(answer.stdout.contains("report.html beside the recording"), "{}", answer.stdout);
+    fs::remove_file(page).unwrap();
+    assert_eq!(inspected().code, 0, "what was left behind is not damaged");
 }
 
 #[test]

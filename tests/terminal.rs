@@ -53,7 +53,7 @@ fn every_shell_has_completions_of_all_commands() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let script = congruent(&["completions", shell]);
         assert_eq!(script.code, 0, "{}", script.stderr);
-        for word in ["inspect", "--set", "sensitivity", "completions"] {
+        for word in ["inspect", "--set", "sensitivity", "completions", "base_parameters"] {
             let word = if shell == "fish" { word.trim_start_matches('-') } else { word };
             assert!(script.stdout.contains(word), "{shell}: {word}");
         }

@@ -90,6 +90,11 @@ impl<'a> Batch<'a> {
         Ok(Self { printer, inputs, ci, read: Mutex::new(inputs.to_vec()), suites: Mutex::new(suites) })
     }
 
+    /// To whom the call answers.
+    pub(crate) fn printer(&self) -> &Printer {
+        self.printer
+    }
+
     /// Notes files that were read.
     ///
     /// # Errors

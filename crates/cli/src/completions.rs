@@ -1,6 +1,8 @@
 //! `congruent completions`: what a shell completes.
 
+use clap::builder::PossibleValuesParser;
 use clap_complete::{Shell, generate};
+use congruent::schema::Document;
 use serde::Serialize;
 
 use crate::{failure::Failure, terminal::print::Printer};
@@ -28,6 +30,10 @@ pub(crate) fn run(
     mut command: clap::Command,
     printer: &Printer,
 ) -> Result<u8, Failure> {
+    let schemas = PossibleValuesParser::new(Document::ALL.iter().map(|document| document.name));
+    command = command.mut_subcommand("schema", |schema| {
+        schema.mut_arg("document", |argument| argument.value_parser(schemas))
+    });
     let mut script = Vec::new();
     let name = command.get_name().to_owned();
     generate(arguments.shell, &mut command, name, &mut script);

@@ -8,8 +8,8 @@ use std::{
 
 use crate::{
     recorder::{Recorder, Recorders, RecordingError},
-    report::{RunReport, earlier_report, explain, junit, write_junit},
-    results::{FolderError, OutputError, OutputFolder, REPORT},
+    report::{RunReport, earlier_report, explain, write_junit},
+    results::{ComparedResults, FolderError, OutputError, OutputFolder, REPORT, compare_results},
     run::{Run, RunError},
     scenario::TrajectoryFormat,
     setup::RunSetup,
@@ -92,20 +92,17 @@ pub enum ExecuteError {
     },
 }
 
-/// The report of an earlier call that would be the same now, and its folder, if all results are there and those that
-/// follow from the report are to the last byte.
+/// The report of an earlier call that would be the same now, and its folder, if all results are there, to the last byte.
 ///
 /// See [`earlier_report`] for what is the same.
 pub fn finished(setup: &RunSetup, options: &Options<'_>) -> Option<(RunReport, PathBuf)> {
     let folder = OutputFolder::path_for(&options.out, &setup.scenario.name);
+    let report = earlier_report(setup, &fs::read(folder.join(REPORT)).ok()?)?;
     let trajectory = setup.scenario.output.trajectory.map(Trajectory::file_name);
     let recordings = options.recordings.iter().map(|format| format.file_name());
-    let report = earlier_report(setup, &fs::read(folder.join(REPORT)).ok()?)?;
-    let are_there = recordings.chain(trajectory).all(|name| folder.join(name).is_file());
-    let is = |name: &str, text: &str| fs::read(folder.join(name)).is_ok_and(|found| found == text.as_bytes());
-    let are_whole =
-        is(JUNIT, &junit(&[report.test_suite()]).ok()?) && is(RESOLVED, &setup.scenario.to_toml());
-    (are_there && are_whole).then_some((report, folder))
+    let mut wanted = [REPORT, JUNIT, RESOLVED].into_iter().chain(recordings).chain(trajectory);
+    let ComparedResults { intact, changed } = compare_results(&folder)?;
+    (changed.is_empty() && wanted.all(|name| intact.contains(&name))).then_some((report, folder))
 }
 
 /// The checks of the run for CI.
@@ -158,7 +155,7 @@ pub fn execute(
             report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
         }
     }
-    match write_results(settled, &folder, &report) {
+    match write_results(settled, &folder, &report).and_then(|()| folder.write_digests()) {
         Ok(()) => Ok((report, folder)),
         Err(source) => Err(ExecuteError::Lost { report: Box::new(report), source }),
     }

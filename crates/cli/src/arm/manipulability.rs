@@ -43,17 +43,18 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let mut description = arguments.arm.load(printer)?;
     let configurations = arguments.configurations.read(&mut description, printer)?;
+    let inputs = files_of(&description);
+    arguments.plot.is_none_of(&inputs)?;
     let report = manipulability(&description, configurations.iter(), arguments.length)?;
-    if let Some(q) = configurations.get(0) {
-        let first = || manipulability(&description, configurations.iter().take(1), arguments.length);
-        let result = first()?.results.iter().next();
-        result
-            .map(|result| arguments.plot.write(|| plot(&description, &q, &result), &files_of(&description)))
-            .transpose()?;
-    }
     let printed = printer.parts(&report, |report| parts(report, &description.robot));
     report.results.end()?;
     printed?;
+    if let Some(q) = configurations.get(0) {
+        let first = manipulability(&description, configurations.iter().take(1), arguments.length)?;
+        if let Some(result) = first.results.iter().next() {
+            arguments.plot.write(|| plot(&description, &q, &result), &inputs)?;
+        }
+    }
     Ok(0)
 }
 

@@ -17,6 +17,7 @@ use crate::{
     output::plot::PlotArgument,
     terminal::{
         print::Printer,
+        progress::waiting,
         table::{Table, wrapped},
     },
 };
@@ -48,11 +49,14 @@ fn factor(text: &str) -> Result<f64, String> {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load(printer)?;
+    let inputs = files_of(&description);
+    arguments.plot.is_none_of(&inputs)?;
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
-    let report = sensitivity(&description, &arguments.length_factors, sampling)
+    let compute = || sensitivity(&description, &arguments.length_factors, sampling);
+    let report = waiting(printer, "computing sensitivities", compute)
         .map_err(|error| Diagnostic::error("sensitivity::robot", error.to_string()))?;
-    arguments.plot.write(|| plot(&report), &files_of(&description))?;
     printer.result(&report, |report| text(report, &description.robot))?;
+    arguments.plot.write(|| plot(&report), &inputs)?;
     Ok(0)
 }
 

@@ -18,6 +18,7 @@ use crate::{
     output::plot::PlotArgument,
     terminal::{
         print::Printer,
+        progress::waiting,
         table::{Table, wrapped},
     },
 };
@@ -42,11 +43,14 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load(printer)?;
+    let inputs = files_of(&description);
+    arguments.plot.is_none_of(&inputs)?;
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
-    let (report, found) = workspace(&description, sampling)
-        .map_err(|error| Diagnostic::error("workspace::robot", error.to_string()))?;
-    arguments.plot.write(|| plot(&report, &found), &files_of(&description))?;
+    let (report, found) =
+        waiting(printer, "computing the workspace", || workspace(&description, sampling))
+            .map_err(|error| Diagnostic::error("workspace::robot", error.to_string()))?;
     printer.result(&report, |report| text(report, &description.robot))?;
+    arguments.plot.write(|| plot(&report, &found), &inputs)?;
     Ok(0)
 }
 

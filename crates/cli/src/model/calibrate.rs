@@ -24,7 +24,7 @@ use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, files_of, named},
     output::{page::PageArgument, plot::PlotArgument},
-    terminal::{print::Printer, table::wrapped},
+    terminal::{print::Printer, progress::waiting, table::wrapped},
 };
 
 /// Corrections of a robot's model from measured poses or points of its tip (or TCP) in the base.
@@ -81,12 +81,14 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let needed = needed_coordinates(&description)?;
     let rows = read_measurements(&arguments.measurements, &description.robot, &needed)?;
     let options = arguments.options(&rows)?;
-    let report = calibrate(&description, &rows, &options)?;
     let mut inputs = files_of(&description);
     inputs.push(arguments.measurements.clone());
-    arguments.plot.write(|| plot::svg(&report), &inputs)?;
-    arguments.page.write(|| calibration_page(&report, &description.robot), &inputs)?;
+    arguments.plot.is_none_of(&inputs)?;
+    arguments.page.is_none_of(&inputs)?;
+    let report = waiting(printer, "calibrating", || calibrate(&description, &rows, &options))?;
     printer.result(&report, |report| text(report, &description.robot))?;
+    let plotted = arguments.plot.write(|| plot::svg(&report), &inputs);
+    arguments.page.write(|| calibration_page(&report, &description.robot), &inputs).and(plotted)?;
     Ok(match report.verdict {
         CalibrationVerdict::Explained
         | CalibrationVerdict::UnexplainedRows

@@ -28,7 +28,7 @@ use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{AccessArguments, ChainArguments, files_of},
     output::{page::PageArgument, plot::PlotArgument},
-    terminal::print::Printer,
+    terminal::{print::Printer, progress::waiting, text::shown},
 };
 
 /// Whether a robot's table, its URDF and its physics twin are the same robot, in geometry and in dynamics.
@@ -58,7 +58,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     configurations: Option<PathBuf>,
     /// Show the position of the tip by both models and the error at each configuration as a table.
-    #[arg(long, requires = "configurations")]
+    #[arg(long)]
     table: bool,
     #[command(flatten)]
     plot: PlotArgument,
@@ -124,12 +124,24 @@ impl BatchReport for Checked {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     one_plot(arguments)?;
+    if arguments.table && arguments.configurations.is_none() {
+        let error = Diagnostic::error("check::table", "--table is of configurations, and none are given");
+        return Err(error.with_help("give --configurations FILE").into());
+    }
     let batch = Batch::begin(&arguments.robots, &arguments.ci, printer)?;
     let robots = arguments.robots.iter();
     let answers: Vec<Answer<Checked>> =
         robots.map(|path| batch.answer(path, || check(path, arguments, &batch))).collect();
-    let written = arguments.page.write(|| page(&answers), &batch.read());
+    let plotted = answers.iter().try_for_each(|answer| draw(answer, arguments, &batch));
+    let written = arguments.page.write(|| page(&answers), &batch.read()).and(plotted);
     batch.finish_with_page(answers, written)
+}
+
+/// The errors at each configuration, if they were computed and the plot is wanted.
+fn draw(answer: &Answer<Checked>, arguments: &Arguments, batch: &Batch<'_>) -> Result<(), Failure> {
+    let Ok(Checked { report, .. }) = answer.report() else { return Ok(()) };
+    let Some(differences) = &report.at_configurations else { return Ok(()) };
+    arguments.plot.write(|| errors(&chart(&report.geometry, differences)), &batch.read())
 }
 
 fn page(answers: &[Answer<Checked>]) -> String {
@@ -182,13 +194,14 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
     batch.reads(&inputs)?;
     arguments.plot.is_none_of(&inputs)?;
     arguments.page.is_none_of(&inputs)?;
-    let compared = match &other {
-        Some(other) => {
-            batch.warn(&other.path, &other.warnings);
-            congruent::check_against(&description, other, &options)
-        }
+    let compare = || match &other {
+        Some(other) => congruent::check_against(&description, other, &options),
         None => congruent::check(&description, &options),
     };
+    if let Some(other) = &other {
+        batch.warn(&other.path, &other.warnings);
+    }
+    let compared = waiting(batch.printer(), &format!("checking {}", shown(path)), compare);
     let mut report = compared
         .map_err(|error| Diagnostic::error("check::robot", format!("{}: {error}", path.display())))?;
     let unusable = unusable_inertials(&description);
@@ -196,9 +209,6 @@ fn check(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Checke
         return Err(unusable.into());
     }
     report.geometry.replaced_tolerance = arguments.tolerance.map(|_| declared);
-    if let Some(differences) = &report.at_configurations {
-        arguments.plot.write(|| errors(&chart(&report.geometry, differences)), &inputs)?;
-    }
     let (with_basics, with_table) = (arguments.basics, arguments.table);
     Ok(Checked { report, description, other, with_basics, with_table })
 }

@@ -8,7 +8,7 @@ use std::{
 
 use congruent::{
     description::Diagnostic,
-    twin::results::{is_same_file, write_whole},
+    twin::results::{OutputError, is_same_file, write_whole},
 };
 
 use crate::failure::{self, Failure};
@@ -108,7 +108,8 @@ pub(crate) fn refuse_inputs(option: &str, path: &Path, inputs: &[PathBuf]) -> Re
     Err(Diagnostic::error("output::refused", message).with_help("choose another name"))
 }
 
-/// Writes what an option asks for, whole; it replaces any file but those of `inputs`.
+/// Writes what an option asks for, whole, in a folder that is made if there is none; it replaces any file but those of
+/// `inputs`.
 pub(crate) fn replace(
     option: &str,
     path: &Path,
@@ -116,6 +117,12 @@ pub(crate) fn replace(
     inputs: &[PathBuf],
 ) -> Result<(), Failure> {
     refuse_inputs(option, path, inputs)?;
-    let help = format!("choose a file that can be written with {option}");
-    write_whole(path, contents.as_ref()).map_err(|error| failure::unwritable(&error, &help))
+    let refused = |error: OutputError| {
+        failure::unwritable(&error, &format!("choose a file that can be written with {option}"))
+    };
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder)
+            .map_err(|source| refused(OutputError { path: path.to_owned(), source }))?;
+    }
+    write_whole(path, contents.as_ref()).map_err(refused)
 }

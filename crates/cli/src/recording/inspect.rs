@@ -7,7 +7,7 @@ use congruent::{
     recording::{Recheck, RecordingSummary, RerunFormat, inspect, recheck, scalars, scalars_csv},
     twin::{
         RecordingFormat, RunSetup,
-        report::{Reason, TestResult, TestSuite},
+        report::TestSuite,
     },
 };
 use serde_json::Value;
@@ -15,11 +15,12 @@ use serde_json::Value;
 use super::{
     inspect_text::{sentence, text},
     inspected_files::{compare_files, judge_inputs, overrides},
+    inspected_suite::suite,
 };
 use crate::{
     batch::{Batch, BatchReport},
     ci::CiArguments,
-    failure::{BAD_INPUT, BROKEN, FAILED, Failure, worse},
+    failure::{BAD_INPUT, BROKEN, Failure, worse},
     input::AccessArguments,
     output::file::{refuse_inputs, replace},
     terminal::print::Printer,
@@ -63,13 +64,7 @@ impl BatchReport for RecordingSummary {
     }
 
     fn test_suite(&self, input: &str) -> TestSuite {
-        let reason = Reason { kind: "recording".to_owned(), message: self.reason.clone() };
-        let result = match self.exit_code {
-            0 => TestResult::Passed,
-            FAILED => TestResult::Failed(reason),
-            _ => TestResult::Error(reason),
-        };
-        TestSuite::of_case(input, "verdict", result)
+        suite(self, input)
     }
 }
 

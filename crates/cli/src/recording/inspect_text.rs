@@ -119,7 +119,7 @@ fn push_recheck(text: &mut String, recheck: &Recheck) {
         let _ = writeln!(text, "  {thinned}");
     }
     for check in &recheck.checks {
-        push_rechecked(text, check);
+        text.push_str(&rechecked_text(check));
     }
     for disagreement in &recheck.disagreements {
         let _ = writeln!(text, "  DISAGREES: {}", sentence(disagreement));
@@ -137,20 +137,22 @@ fn push_recheck(text: &mut String, recheck: &Recheck) {
     let _ = writeln!(text, "  verdict {verdict}, {compared}");
 }
 
-fn push_rechecked(text: &mut String, check: &RecheckedCheck) {
+/// A check that was evaluated again: its result, then a line for each quantity.
+pub(super) fn rechecked_text(check: &RecheckedCheck) -> String {
     let basis = match check.basis {
         Basis::EveryStep => "by the worst values of every step",
         Basis::RecordedSamples => "by the recorded samples",
         Basis::Report if check.status == Status::Skipped => "there was nothing to check",
         Basis::Report => "NOT checked again in full, by the report of the run",
     };
-    let _ = writeln!(text, "  {:10} {:7} {basis}", check.check.word(), check.status.word());
+    let mut text = format!("  {:10} {:7} {basis}\n", check.check.word(), check.status.word());
     for of in &check.quantities {
         let report = if of.basis == Basis::Report { ", by the report alone" } else { "" };
         let (worst, time) = (shown(of.worst, &of.unit), quantity(of.worst_s, "s"));
         let line = format!("{} {worst} ({time}), {}{report}", words(&of.quantity), limit(of));
         let _ = writeln!(text, "    {line}");
     }
+    text
 }
 
 /// The limit, and that of the run if it was another.

@@ -5,29 +5,46 @@ use std::{fs, path::Path};
 use congruent::{
     description::{Diagnostic, FileAccess, InputFile},
     recording::{RecordingSummary, RerunFormat},
-    twin::{RecordingFormat, RunSetup, results::REPORT, scenario::Override},
+    twin::{
+        RecordingFormat, RunSetup,
+        results::{DIGESTS, REPORT, compare_results},
+        scenario::Override,
+    },
 };
 use serde_json::Value;
 
 use crate::failure::{BAD_INPUT, NOTHING, worse};
 
-/// Adds what the files say: a report beside the recording must be its own.
+/// Adds what the files say: a report beside the recording must be its own, and the results as the run wrote them.
 pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access: &FileAccess) {
     let Some(report) = &summary.report else { return };
     summary.changed_inputs = changed_inputs(report, access);
-    if path.file_name().is_some_and(|name| name == RerunFormat.file_name())
-        && let Ok(beside) = fs::read(path.with_file_name(REPORT))
-        && serde_json::from_slice::<Value>(&beside).ok().as_ref() != Some(report)
-    {
-        let problem = format!(
-            "{REPORT} beside the recording is not the report of its run: it is damaged, or of another run"
-        );
-        if summary.exit_code != BAD_INPUT {
-            summary.reason.clone_from(&problem);
-        }
-        summary.exit_code = worse(summary.exit_code, BAD_INPUT);
-        summary.problems.push(problem);
+    if path.file_name().is_none_or(|name| name != RerunFormat.file_name()) {
+        return;
     }
+    let beside = fs::read(path.with_file_name(REPORT)).ok();
+    let is_its_own = |beside: Vec<u8>| serde_json::from_slice::<Value>(&beside).ok().as_ref() == Some(report);
+    let problem = if beside.is_some_and(|beside| !is_its_own(beside)) {
+        format!("{REPORT} beside the recording is not the report of its run: it is damaged, or of another run")
+    } else if let Some(changed) = changed_results(path) {
+        format!("{changed} beside the recording: not as the run wrote it (by {DIGESTS})")
+    } else {
+        return;
+    };
+    if summary.exit_code != BAD_INPUT {
+        summary.reason.clone_from(&problem);
+    }
+    summary.exit_code = worse(summary.exit_code, BAD_INPUT);
+    summary.problems.push(problem);
+}
+
+/// The results beside a recording that are not those of its run; some may have been left behind on purpose.
+fn changed_results(recording: &Path) -> Option<String> {
+    let folder = recording.parent()?;
+    let compared = compare_results(folder)?;
+    let changed: Vec<&str> =
+        compared.changed.into_iter().filter(|name| folder.join(name).is_file()).collect();
+    (!changed.is_empty()).then(|| changed.join(", "))
 }
 
 /// A verdict about files that have changed says nothing about those that are there.

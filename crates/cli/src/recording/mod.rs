@@ -3,6 +3,7 @@
 pub(crate) mod inspect;
 mod inspect_text;
 mod inspected_files;
+mod inspected_suite;
 pub(crate) mod live;
 pub(crate) mod view;
 pub(crate) mod viewer;

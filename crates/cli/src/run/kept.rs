@@ -60,7 +60,6 @@ pub(super) fn load(
         let inputs: Vec<PathBuf> = setup.inputs.iter().map(|input| input.path.clone()).collect();
         batch.reads(&inputs)?;
         let earlier = arguments.resume.then(|| finished(&setup, options)).flatten();
-        let earlier = earlier.filter(|(_, folder)| is_intact(folder, options));
         if earlier.is_none() {
             OutputFolder::create(&arguments.out, &setup.scenario.name, &setup.inputs).map_err(no_folder)?;
         }
@@ -85,20 +84,4 @@ fn same_folder(folder: &Path, first: &Path, second: &Path) -> Diagnostic {
         folder.display()
     );
     Diagnostic::error("run::same_output", message).with_help("give the scenarios different names")
-}
-
-/// Whether the recording of an earlier call is as it was written, if this call wants one.
-#[cfg(feature = "recording")]
-fn is_intact(folder: &Path, options: &Options<'_>) -> bool {
-    use congruent::{recording::RerunFormat, twin::RecordingFormat};
-    let name = RerunFormat.file_name();
-    let is_wanted = options.recordings.iter().any(|format| format.file_name() == name);
-    let inspected = || congruent::recording::inspect(&folder.join(name));
-    !is_wanted || inspected().is_ok_and(|summary| summary.problems.is_empty())
-}
-
-/// Without the feature there are no recordings.
-#[cfg(not(feature = "recording"))]
-fn is_intact(_: &Path, _: &Options<'_>) -> bool {
-    true
 }

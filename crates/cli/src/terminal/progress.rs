@@ -1,4 +1,11 @@
-//! The progress of a run: a line on the terminal with the time left, and nothing in a pipe.
+//! The progress of a run, with the time left, and of a computation, with the time it has taken: a line on the terminal, and
+//! nothing in a pipe.
+
+use std::{
+    sync::mpsc::{RecvTimeoutError, channel},
+    thread,
+    time::Duration,
+};
 
 use congruent::twin::RunSetup;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
@@ -7,6 +14,35 @@ use super::print::Printer;
 
 /// Steps between two looks at the clock.
 const STEPS_A_TICK: u64 = 256;
+
+/// A computation that is over by then shows no line.
+const UNTOLD: Duration = Duration::from_secs(1);
+/// Between two pictures of the line.
+const TICK: Duration = Duration::from_millis(200);
+
+/// Does `work`, which prints nothing, and shows on the terminal that it goes on.
+pub(crate) fn waiting<T>(printer: &Printer, what: &str, work: impl FnOnce() -> T) -> T {
+    if !printer.is_interactive() {
+        return work();
+    }
+    let (end, ended) = channel::<()>();
+    thread::scope(|scope| {
+        scope.spawn(move || {
+            if ended.recv_timeout(UNTOLD) != Err(RecvTimeoutError::Timeout) {
+                return;
+            }
+            let style = ProgressStyle::with_template("{spinner} {prefix:.60}, {elapsed}")
+                .unwrap_or_else(|_| ProgressStyle::default_spinner());
+            let line = ProgressBar::new_spinner().with_style(style).with_prefix(what.to_owned());
+            line.enable_steady_tick(TICK);
+            // It ends when the other side of the channel is dropped, by a panic too.
+            let _ = ended.recv();
+            line.finish_and_clear();
+        });
+        let _end = end;
+        work()
+    })
+}
 
 /// The lines of a call, one for each scenario that runs; none if no one sees them.
 #[derive(Debug)]

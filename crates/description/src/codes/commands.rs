@@ -121,5 +121,6 @@ pub(super) const AREAS: &[Area] = &[Area {
             "check::other_dynamics",
             "The dynamics of the two descriptions cannot be compared; the message has the reason.",
         ),
+        (70, "check::table", "--table shows errors at configurations, and none are given."),
     ],
 }];

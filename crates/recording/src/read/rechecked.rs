@@ -1,7 +1,7 @@
 //! The result of [`recheck`](super::recheck).
 
 use congruent_twin::{
-    scenario::CheckKind,
+    scenario::{CheckKind, Expectation},
     verdict::{Bound, Status, Verdict},
 };
 use schemars::JsonSchema;
@@ -23,6 +23,8 @@ pub struct Recheck {
     /// The length of a step of the run: what happened between two samples is in the recording as the worst values of
     /// some checks only.
     pub step_s: f64,
+    /// What the scenario expects.
+    pub expected: Expectation,
     /// The verdict that follows from the recording.
     pub verdict: Verdict,
     /// Whether it is that of the run.

@@ -3,7 +3,7 @@
 use congruent_agreement::compare::PoseSource;
 use serde::Deserialize;
 
-use super::run_report::{LinkSource, RunReport};
+use super::run_report::{LinkSource, RunClockReport, RunReport};
 use crate::{
     diagnosis::RunDiagnosis,
     motion::ServoResult,
@@ -23,14 +23,9 @@ struct Found {
     #[serde(default)]
     actuators: Vec<ActuatorUse>,
     diagnosis: Option<RunDiagnosis>,
-    simulation: Steps,
+    simulation: RunClockReport,
     trajectory_sha256: String,
     links: Vec<LinkSource>,
-}
-
-#[derive(Deserialize)]
-struct Steps {
-    steps: u64,
 }
 
 /// The report in this file, if it is that of a finished run of the same inputs, values and versions.

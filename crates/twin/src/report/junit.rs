@@ -21,7 +21,7 @@ pub fn write_junit(path: &Path, suites: &[TestSuite]) -> Result<(), OutputError>
 }
 
 /// Suites as the text of a JUnit file.
-pub(crate) fn junit(suites: &[TestSuite]) -> io::Result<String> {
+fn junit(suites: &[TestSuite]) -> io::Result<String> {
     let mut document = Report::new("congruent");
     document.set_time(duration(suites.iter().map(|suite| suite.time_s).sum()));
     document.add_test_suites(suites.iter().map(written_suite));

@@ -16,7 +16,6 @@ pub use annotations::github_annotations;
 pub(crate) use causes::explain;
 pub use earlier::earlier_report;
 pub use fault_table::{FaultRow, FaultTable, SeenBy};
-pub(crate) use junit::junit;
 pub use junit::write_junit;
 pub use run_report::{LinkSource, MotionTimes, RunClockReport, RunReport, Versions};
 pub use sentence::{
@@ -24,4 +23,4 @@ pub use sentence::{
 };
 pub use step_summary::step_summary;
 pub use suite::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
-pub use test_suite::planned_suite;
+pub use test_suite::{judged, planned_suite, recorded_suite};

@@ -80,7 +80,7 @@ pub struct RunReport {
 }
 
 /// The clock of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RunClockReport {
     /// Length of a step.
     pub step_s: f64,
@@ -200,14 +200,18 @@ impl RunReport {
     pub fn sentence(&self) -> String {
         let failed = self.checks.iter().filter(|check| check.status == Status::Fail);
         let failed: Vec<&str> = failed.map(|check| check.check.word()).collect();
-        let failed = failed.join(", ");
+        let failed = match &*failed {
+            [] => String::new(),
+            [one] => format!("{one} fails"),
+            [others @ .., last] => format!("{} and {last} fail", others.join(", ")),
+        };
         match (self.verdict, &self.expected) {
             (Verdict::AsExpected, Expectation::Pass) => "every check passes, as expected".to_owned(),
-            (Verdict::AsExpected, Expectation::Fail { .. }) => format!("{failed} fails, as expected"),
+            (Verdict::AsExpected, Expectation::Fail { .. }) => format!("{failed}, as expected"),
             (Verdict::NotAsExpected, _) if failed.is_empty() => {
                 "every check passes, against expectation".to_owned()
             }
-            (Verdict::NotAsExpected, _) => format!("{failed} fails, against expectation"),
+            (Verdict::NotAsExpected, _) => format!("{failed}, against expectation"),
             (Verdict::NothingChecked, _) => "nothing was checked".to_owned(),
             (Verdict::Broken, _) => "the run ended with an error".to_owned(),
         }

@@ -1,6 +1,7 @@
 //! A report as a test suite: one case for each check, judged against what the scenario expects.
 
 use congruent_description::display::quantity;
+use serde::Deserialize;
 
 use super::{
     run_report::{RunClockReport, RunReport},
@@ -14,26 +15,102 @@ use crate::{
     verdict::{CheckResult, Status, Verdict},
 };
 
+/// The part of a report that its suite is made from.
+#[derive(Deserialize)]
+struct JudgedRun {
+    scenario: String,
+    scenario_file: Option<String>,
+    verdict: Verdict,
+    expected: Expectation,
+    checks: Vec<CheckResult>,
+    diagnosis: Option<RunDiagnosis>,
+    error: Option<String>,
+    simulation: RunClockReport,
+}
+
 impl RunReport {
     /// The checks as a test suite, in the order of the scenario; its time is the simulated one.
     pub fn test_suite(&self) -> TestSuite {
+        let Self { verdict, simulation, .. } = *self;
+        let run = JudgedRun {
+            scenario: self.scenario.clone(),
+            scenario_file: self.scenario_file.clone(),
+            verdict,
+            expected: self.expected.clone(),
+            checks: self.checks.clone(),
+            diagnosis: self.diagnosis.clone(),
+            error: self.error.clone(),
+            simulation,
+        };
+        run.into_suite()
+    }
+}
+
+/// The suite of a report that was read back from its JSON; `None` if that is no report of a run.
+pub fn recorded_suite(report: &serde_json::Value) -> Option<TestSuite> {
+    Some(JudgedRun::deserialize(report).ok()?.into_suite())
+}
+
+impl JudgedRun {
+    fn into_suite(self) -> TestSuite {
         let checks = self.checks.iter().enumerate();
-        let mut cases: Vec<TestCase> = checks.map(|(index, check)| case(index, check, self)).collect();
+        let mut cases: Vec<TestCase> = checks.map(|(index, check)| self.case(index, check)).collect();
         if self.verdict == Verdict::NothingChecked || self.error.is_some() {
             let message = match &self.error {
-                Some(error) => format!("{}: {error}", broken(self)),
+                Some(error) => format!("{}: {error}", self.broken()),
                 None => "nothing was checked".to_owned(),
             };
             let reason = Reason { kind: "run".to_owned(), message };
             let result = TestResult::Error(reason);
             cases.push(TestCase { name: "run".to_owned(), result, output: String::new(), place: None });
         }
-        TestSuite {
-            name: self.scenario.clone(),
-            cases,
-            time_s: self.simulation.duration_s,
-            clock: Clock::Simulated,
-        }
+        let time_s = self.simulation.duration_s;
+        TestSuite { name: self.scenario, cases, time_s, clock: Clock::Simulated }
+    }
+
+    /// When a broken run has ended.
+    fn broken(&self) -> String {
+        let RunClockReport { steps, duration_s, .. } = self.simulation;
+        format!("the run broke at {} after {steps} steps", quantity(duration_s, "s"))
+    }
+
+    fn case(&self, index: usize, check: &CheckResult) -> TestCase {
+        let diagnosis = self.diagnosis.iter().filter(|_| check.status == Status::Fail);
+        let causes = diagnosis.flat_map(RunDiagnosis::sentences).map(|cause| format!("diagnosis: {cause}"));
+        let output = lines(check).into_iter().chain(causes).collect::<Vec<_>>().join("\n");
+        let message = match &self.error {
+            Some(error) if check.status == Status::Error => {
+                format!("{}: {error}; until then: {output}", self.broken())
+            }
+            _ => output.clone(),
+        };
+        let result = judged((check.check, check.status), &self.expected, self.verdict, message);
+        let place = CasePlace::of(self.scenario_file.as_deref(), check.line);
+        TestCase { name: case_name(index, (check.check, check.is_default)), result, output, place }
+    }
+}
+
+/// The result of a check by what the scenario expects of it, in a run of this verdict.
+pub fn judged(
+    (check, status): (CheckKind, Status),
+    expected: &Expectation,
+    verdict: Verdict,
+    message: String,
+) -> TestResult {
+    let must_fail = match expected {
+        Expectation::Pass => false,
+        Expectation::Fail { checks } => checks.is_empty() || checks.contains(&check),
+    };
+    let reason = |message: String| Reason { kind: check.word().to_owned(), message };
+    match status {
+        Status::Pass if !must_fail => TestResult::Passed,
+        Status::Fail if must_fail => TestResult::Passed,
+        // With no kind named, any one failure is enough.
+        Status::Pass if verdict == Verdict::AsExpected => TestResult::Passed,
+        Status::Pass => TestResult::Failed(reason(format!("expected to fail, but passed: {message}"))),
+        Status::Skipped => TestResult::Skipped(message),
+        Status::Error => TestResult::Error(reason(message)),
+        Status::Fail => TestResult::Failed(reason(message)),
     }
 }
 
@@ -62,36 +139,4 @@ pub fn planned_suite(setup: &RunSetup) -> TestSuite {
 fn case_name(index: usize, (kind, is_default): (CheckKind, bool)) -> String {
     let by_default = if is_default { "_default" } else { "" };
     format!("{}_{kind}{by_default}", index + 1)
-}
-
-/// When a broken run has ended.
-fn broken(report: &RunReport) -> String {
-    let RunClockReport { steps, duration_s, .. } = report.simulation;
-    format!("the run broke at {} after {steps} steps", quantity(duration_s, "s"))
-}
-
-fn case(index: usize, check: &CheckResult, report: &RunReport) -> TestCase {
-    let must_fail = match &report.expected {
-        Expectation::Pass => false,
-        Expectation::Fail { checks } => checks.is_empty() || checks.contains(&check.check),
-    };
-    let diagnosis = report.diagnosis.iter().filter(|_| check.status == Status::Fail);
-    let causes = diagnosis.flat_map(RunDiagnosis::sentences).map(|cause| format!("diagnosis: {cause}"));
-    let output = lines(check).into_iter().chain(causes).collect::<Vec<_>>().join("\n");
-    let reason = |message: String| Reason { kind: check.check.word().to_owned(), message };
-    let result = match check.status {
-        Status::Pass if !must_fail => TestResult::Passed,
-        Status::Fail if must_fail => TestResult::Passed,
-        // With no kind named, any one failure is enough.
-        Status::Pass if report.verdict == Verdict::AsExpected => TestResult::Passed,
-        Status::Pass => TestResult::Failed(reason(format!("expected to fail, but passed: {output}"))),
-        Status::Skipped => TestResult::Skipped(output.clone()),
-        Status::Error => TestResult::Error(reason(match &report.error {
-            Some(error) => format!("{}: {error}; until then: {output}", broken(report)),
-            None => output.clone(),
-        })),
-        Status::Fail => TestResult::Failed(reason(output.clone())),
-    };
-    let place = CasePlace::of(report.scenario_file.as_deref(), check.line);
-    TestCase { name: case_name(index, (check.check, check.is_default)), result, output, place }
 }

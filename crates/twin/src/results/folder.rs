@@ -8,6 +8,7 @@ use std::{
 use congruent_description::InputFile;
 
 use super::{
+    digests::DIGESTS,
     lock::{FolderLock, LockError},
     whole_file::{OutputError, is_same_file, write_whole},
 };
@@ -45,8 +46,8 @@ pub enum FolderError {
 /// The file with everything that a run has found.
 pub const REPORT: &str = "report.json";
 
-/// All files that a run may write.
-const RESULTS: [&str; 11] = [
+/// All files that a run may write, but for their digests.
+pub(super) const RESULTS: [&str; 11] = [
     REPORT,
     "report.html",
     "report.html.partial",
@@ -80,13 +81,15 @@ impl OutputFolder {
             LockError::Io(source) => refused(source).into(),
         })?;
         let folder = Self { path, _lock: lock };
-        for name in RESULTS {
+        // The digests first: what is left by a call that is killed here is no finished run.
+        let files = || [DIGESTS].into_iter().chain(RESULTS);
+        for name in files() {
             let file = folder.file(name);
             if inputs.iter().any(|input| is_same_file(&input.path, &file)) {
                 return Err(FolderError::IsInput { file });
             }
         }
-        RESULTS.iter().try_for_each(|name| folder.remove(name))?;
+        files().try_for_each(|name| folder.remove(name))?;
         Ok(folder)
     }
 

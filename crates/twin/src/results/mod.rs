@@ -1,8 +1,10 @@
 //! Results on disk: each file whole or not at all, in a folder that one run at a time writes to.
 
+mod digests;
 mod folder;
 mod lock;
 mod whole_file;
 
+pub use digests::{ComparedResults, DIGESTS, compare_results};
 pub use folder::{FolderError, OutputFolder, REPORT};
 pub use whole_file::{OutputError, is_same_file, remove_unfinished_files, write_whole};

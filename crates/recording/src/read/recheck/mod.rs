@@ -93,6 +93,7 @@ pub fn recheck(
         instants: context.replay.steps.len(),
         gap_s: context.gap_s,
         step_s: setup.clock.step_s,
+        expected: setup.scenario.expect.clone(),
         verdict,
         same_verdict,
         recorded_verdict,
