@@ -359,7 +359,8 @@ fn inspect_ends_with_the_code_of_the_run_or_of_the_file() {
     assert_eq!((answer.code, answer.json().as_array().unwrap().len()), (2, 4));
     let cases = junit(&file);
     // The agreement check with the default limits of either run, its verdict; what is no recording, or cut, has no checks.
-    let of_runs = [&["passed"; 4][..], &["error"], &["failure", "passed", "passed", "failure"], &["error"]].concat();
+    let of_runs =
+        [&["passed"; 4][..], &["error"], &["failure", "passed", "passed", "failure"], &["error"]].concat();
     assert_eq!(words(&cases), of_runs);
     for name in ["passing", "failing"] {
         let of_run = junit(&bench.path().join(name).join("junit.xml"));

@@ -59,3 +59,21 @@ fn an_unknown_correction_is_refused_with_the_nearest_known_one() {
     assert_eq!(answer.code, 2);
     assert!(answer.stdout.contains("did you mean \\\"joint_1.zero\\\""), "{}", answer.stdout);
 }
+
+#[test]
+fn a_joint_that_is_called_roll_is_a_joint() {
+    let folder = tempfile::tempdir().unwrap();
+    let urdf = "<robot name='r'><link name='base'/><link name='arm'/><link name='tip'/>\
+        <joint name='roll' type='revolute'><parent link='base'/><child link='arm'/><axis xyz='0 0 1'/>\
+        <limit lower='-1' upper='1' effort='10' velocity='2'/></joint>\
+        <joint name='end' type='fixed'><origin xyz='0.3 0 0'/><parent link='arm'/><child link='tip'/></joint></robot>";
+    let [robot, points] = ["r.urdf", "points.csv"].map(|name| text(&folder.path().join(name)));
+    fs::write(&robot, urdf).unwrap();
+    let rows = (-4..5)
+        .map(|at| 0.2 * f64::from(at))
+        .map(|roll: f64| format!("{},{},{},0\n", roll.to_degrees(), 0.3 * roll.cos(), 0.3 * roll.sin()));
+    fs::write(&points, format!("roll_deg,x_m,y_m,z_m\n{}", rows.collect::<String>())).unwrap();
+    let answer = congruent_json(&["calibrate", &robot, &points]);
+    assert_eq!(answer.code, 0, "{}{}", answer.stdout, answer.stderr);
+    assert_eq!(answer.json()["rows"], 9);
+}

@@ -139,3 +139,44 @@ fn no_result_replaces_a_file_that_is_read() {
         assert_eq!(inputs.map(|input| fs::read(input).unwrap()), before, "{call:?}");
     }
 }
+
+#[cfg(feature = "recording")]
+#[test]
+fn no_output_replaces_what_a_recording_is_compared_with_or_another_output() {
+    let bench = Bench::new();
+    bench.write("project/robot.toml", "urdf = 'r.urdf'");
+    let scenario = "schema_version = 1\nname = 's'\nrobot = '../robot.toml'\n[simulation]\nduration_s = 0.01\n\
+                    [controller]\nkind = 'kinematic'\n[[check]]\nkind = 'agreement'\nposition_m = 1e-6\norientation_rad = 1e-6\n";
+    bench.write("project/scenarios/s.toml", scenario);
+    let [robot, urdf, scenario, out, both] = ["robot.toml", "r.urdf", "scenarios/s.toml", "out", "both"]
+        .map(|name| bench.path(&format!("project/{name}")));
+    let ran = congruent_alone(&["run", &scenario, "--out", &out]);
+    assert_eq!(ran.code, 0, "{}", ran.stderr);
+    let [recording, report, junit, digests] =
+        ["recording.rrd", "report.json", "junit.xml", "SHA256SUMS"].map(|name| format!("{out}/s/{name}"));
+    let inputs = [&robot, &urdf, &scenario, &recording, &report, &junit, &digests];
+    let before = inputs.map(|input| fs::read(input).unwrap());
+    let refused = |call: &[&str]| {
+        let answer = congruent_alone(call);
+        assert_eq!(answer.code, 2, "{call:?}: {}", answer.stderr);
+        assert!(answer.stderr.contains("output::refused"), "{call:?}: {}", answer.stderr);
+        assert!(inputs.map(|input| fs::read(input).unwrap()) == before, "{call:?}");
+    };
+    for input in inputs {
+        refused(&["inspect", &recording, "--csv", input]);
+        refused(&["inspect", &recording, "--summary", input]);
+        refused(&["lint", &scenario, "--summary", if input == &urdf { input } else { &robot }]);
+    }
+    refused(&["inspect", &recording, "--junit", &junit]);
+    for call in [
+        &["check", &robot, "--html", &both, "--junit", &both][..],
+        &["check", &robot, "--summary", &both, "--junit", &both],
+        &["run", &scenario, "--out", &out, "--summary", &both, "--junit", &both],
+        &["inspect", &recording, "--csv", &both, "--junit", &both],
+    ] {
+        refused(call);
+    }
+    // Its own results would replace it.
+    let answer = congruent_alone(&["run", &scenario, "--out", &out, "--junit", &junit]);
+    assert!((answer.code, answer.stderr.contains("output::refused")) == (2, true), "{}", answer.stderr);
+}

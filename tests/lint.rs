@@ -334,3 +334,59 @@ fn an_element_that_is_open_is_shown_where_it_begins_and_where_the_file_ends() {
         "{shown}"
     );
 }
+
+/// An arm of 0.3 m, and points that were measured on it.
+const ROBOT: &str = "urdf = 'r.urdf'\nbase = 'base'\ntip = 'tip'\n";
+const ARM: &str = "<robot name='r'><link name='base'/><link name='arm'/><link name='tip'/>
+  <joint name='turn' type='revolute'><parent link='base'/><child link='arm'/><axis xyz='0 0 1'/>
+    <limit lower='-1' upper='1' effort='10' velocity='2'/></joint>
+  <joint name='end' type='fixed'><origin xyz='0.3 0 0'/><parent link='arm'/><child link='tip'/></joint></robot>
+";
+
+#[test]
+fn a_table_in_another_unit_is_told() {
+    let points = "turn_deg,x_m,y_m,z_m\n0,0.3,0,0\n30,0.2598,0.15,0\n-30,0.2598,-0.15,0\n";
+    let targets = r#"[{"translation_m": [0.2598, 0.15, 0]}]"#;
+    let told = |table: &str, text: &str| {
+        let folder = Folder::new(&[("r.urdf", ARM), ("robot.toml", ROBOT), (table, text)]);
+        let report = congruent_json(&["lint", &folder.text("robot.toml"), &folder.text(table)]).json();
+        let findings = report[1]["findings"].as_array().unwrap_or_else(|| panic!("{report}")).clone();
+        findings.into_iter().map(|found| found["code"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(told("points.csv", points), [""; 0]);
+    let in_mm = "turn_deg,x_m,y_m,z_m\n0,300,0,0\n30,259.8,150,0\n-30,259.8,-150,0\n";
+    assert_eq!(told("points.csv", in_mm), ["units::measured_point"]);
+    assert_eq!(
+        told("points.csv", &points.replace("30,0.2598,0.15", "30,259.8,150")),
+        ["units::measured_point"]
+    );
+    assert_eq!(told("points.csv", &points.replace("turn_deg", "turn_rad")), ["measurements::outside_limits"]);
+    // In the frame of a tracker, far away.
+    let far = points.replace(",0.3,", ",12.3,").replace("0.2598", "12.2598");
+    assert_eq!(told("points.csv", &far), [""; 0]);
+    assert_eq!(told("targets.json", targets), [""; 0]);
+    assert_eq!(
+        told("targets.json", &targets.replace("[0.2598, 0.15, 0]", "[259.8, 150, 0]")),
+        ["units::target"]
+    );
+}
+
+#[test]
+fn many_findings_are_cut_for_people_alone() {
+    use std::fmt::Write;
+    let mut robot_file = format!("{ROBOT}[dh]\nconvention = 'standard'\n");
+    for _ in 0..500 {
+        robot_file += "[[dh.row]]\njoint = 'turn'\nkind = 'revolute'\na_m = 0.3\nd_m = 0\nalpha_deg = 0\n";
+    }
+    let folder = Folder::new(&[("r.urdf", ARM), ("robot.toml", &robot_file)]);
+    let answer = congruent(&["lint", &folder.text("robot.toml")]);
+    assert_eq!(answer.code, 1);
+    assert_eq!(answer.stdout.matches("robot_file::joint_twice").count(), 100);
+    assert!(answer.stdout.contains("\nand 399 more; --verbose shows all\n"), "{}", answer.stdout);
+    let all = congruent(&["lint", "--verbose", &folder.text("robot.toml")]);
+    assert_eq!(all.stdout.matches("robot_file::joint_twice").count(), 499);
+    let mut wide = String::new();
+    let _ = write!(wide, "<robot name='r'><link name='{}'/></robot>", "x".repeat(70_000));
+    let folder = Folder::new(&[("wide.urdf", &wide)]);
+    assert_eq!(congruent(&["fk", &folder.text("wide.urdf")]).code, 0, "a name that is wider than any column");
+}

@@ -30,15 +30,31 @@ fn chain(joints: usize, shifted: &[usize]) -> String {
 }
 
 #[test]
-fn torques_of_many_joints_are_not_compared_which_is_no_disagreement() {
+fn two_files_of_many_joints_are_compared_without_a_search_for_causes() {
     let bench = Bench::new();
-    let urdf = bench.write("chain.urdf", &chain(70, &[]));
-    let found = congruent(&["check", &urdf, "--against", &urdf, "--format", "json"]);
-    let report = found.json();
-    assert_eq!((found.code, &report["verdict"]), (0, &"agree".into()), "{}", found.stderr);
-    let not_asked = report["not_asked"].as_array().unwrap();
-    assert!(not_asked.iter().any(|of| of["source"] == "other_dynamics"), "{not_asked:?}");
-    assert!(report["against"]["dynamics_not_compared"].is_null());
+    let whole = chain(70, &[]);
+    let urdf = bench.write("chain.urdf", &whole);
+    let checked = |changed: &str| {
+        let changed = bench.write("changed.urdf", changed);
+        let found = congruent(&["check", &changed, "--against", &urdf, "--format", "json"]);
+        (found.code, found.json())
+    };
+    let (code, report) = checked(&whole);
+    assert_eq!((code, &report["verdict"]), (0, &"agree".into()), "{report}");
+    assert_eq!(report["dynamics"]["verdict"], "same");
+    let link = whole.find("<link name=\"l50\"").unwrap();
+    let heavier =
+        [&whole[..link], &whole[link..].replacen("mass value=\"0.5\"", "mass value=\"0.75\"", 1)].concat();
+    let (code, report) = checked(&heavier);
+    assert_eq!((code, &report["dynamics"]["verdict"]), (1, &"unexplained".into()), "{report}");
+    let differences = report["dynamics"]["differences"].as_array().unwrap();
+    let [only] = &differences[..] else { panic!("{differences:?}") };
+    assert_eq!((&only["of"], &only["figure"], &only["found"]), (&"l50".into(), &"mass".into(), &0.75.into()));
+    let joint = whole.find("<joint name=\"j50\"").unwrap();
+    let narrower = [&whole[..joint], &whole[joint..].replacen("upper=\"2\"", "upper=\"1.9\"", 1)].concat();
+    let (code, report) = checked(&narrower);
+    assert_eq!(code, 1, "{report}");
+    assert_eq!(report["dynamics"]["limits"][0]["joint"], "j50");
 }
 
 /// What the command prints for two such chains with so many MiB of memory, of which 60 are the program's own.

@@ -176,3 +176,18 @@ fn all_scenarios_of_the_project_are_kept() {
     let kept = format!("{} of {} kept", files.len() - failed, files.len());
     assert!(second.stderr.contains(&kept) && failed < files.len(), "{kept}: {}", second.stderr);
 }
+
+#[test]
+fn a_scenario_that_is_refused_leaves_no_results_of_an_earlier_call() {
+    let calls = Calls::new();
+    calls.run(&[]);
+    let [_, two, _] = &calls.scenarios;
+    let wrong = fs::read_to_string(two).unwrap().replace("kind = \"tracking\"", "kind = \"trakcing\"");
+    fs::write(two, wrong).unwrap();
+    let answer = congruent(&["run", two, "--out", &text(&calls.bench.path().join("out"))]);
+    assert_eq!(answer.code, 2, "{}", answer.stdout);
+    assert!(
+        !calls.result("two").join("junit.xml").exists() && !calls.result("two").join("report.json").exists()
+    );
+    assert!(calls.result("one").join("junit.xml").exists(), "only its own");
+}

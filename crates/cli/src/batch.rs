@@ -104,6 +104,13 @@ impl<'a> Batch<'a> {
         self.ci.is_none_of(files)
     }
 
+    /// A file for CI is none of these, which the call writes itself.
+    pub(crate) fn writes(&self, files: &[PathBuf]) -> Result<(), Diagnostic> {
+        self.ci
+            .is_none_of(files)
+            .map_err(|refused| refused.with_help("it is a result of the run: choose another name"))
+    }
+
     /// The files that were read.
     pub(crate) fn read(&self) -> Vec<PathBuf> {
         self.read.lock().unwrap_or_else(PoisonError::into_inner).clone()

@@ -14,7 +14,7 @@ use congruent::{
 
 use crate::{
     failure::{Failure, unwritable},
-    output::file::refuse_inputs,
+    output::file::{refuse_inputs, refuse_same},
     terminal::print::Printer,
 };
 
@@ -53,17 +53,22 @@ impl CiArguments {
         Self { junit: Some(path.to_owned()), ..Self::default() }
     }
 
+    /// The files, each with its option.
+    pub(crate) fn outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        let files = [("--junit", &self.junit), ("--summary", &self.summary)];
+        files.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?)))
+    }
+
     /// The files replace none of these, which are read.
     pub(crate) fn is_none_of(&self, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
-        let files = [("--junit", &self.junit), ("--summary", &self.summary)];
-        let mut files = files.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?)));
-        files.try_for_each(|(option, path)| refuse_inputs(option, path, inputs))
+        self.outputs().try_for_each(|(option, path)| refuse_inputs(option, path, inputs))
     }
 
     /// Finds out at once whether the files can be written, and that they replace none of `inputs`. Until the end the JUnit
     /// file has these suites.
     pub(crate) fn begin(&self, inputs: &[PathBuf], unfinished: &[TestSuite]) -> Result<(), Failure> {
         self.is_none_of(inputs)?;
+        refuse_same(self.outputs())?;
         if let Some(path) = &self.junit {
             is_junit(path)?;
             write_junit(path, unfinished)

@@ -21,7 +21,7 @@ use crate::{
 ///
 /// A and B are two reports (.json), two trajectories (.csv, .parquet), two recordings (.rrd), or two folders of
 /// results. Rows are compared at the times that both have. Exit code 0 if nothing differs, 1 if something does, 2 if
-/// they cannot be compared.
+/// they cannot be compared, 4 if they have no value in common.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     /// A report, trajectory, recording, or a folder of results.
@@ -53,7 +53,11 @@ fn text(comparison: &RunComparison) -> String {
     let _ = writeln!(
         text,
         "A {a}\nB {b}\n{}",
-        if *same { format!("the same{within}") } else { "different".into() }
+        match (*same, comparison.exit_code) {
+            (true, 0) => format!("the same{within}"),
+            (true, _) => "nothing was compared".to_owned(),
+            (false, _) => "different".to_owned(),
+        }
     );
     for file in files {
         described(&mut text, file);

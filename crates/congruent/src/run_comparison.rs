@@ -24,7 +24,7 @@ pub struct RunComparison {
     pub tolerance: f64,
     /// Whether nothing differs beyond the tolerance.
     pub same: bool,
-    /// 0 if nothing differs, 1 otherwise.
+    /// 0 if nothing differs, 1 otherwise, 4 if there is nothing to compare, as of two tables without rows.
     pub exit_code: u8,
     /// The comparison of each kind of file that both have.
     pub files: Vec<FileComparison>,
@@ -36,6 +36,9 @@ pub struct RunComparison {
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct NotComparable(String);
+
+/// The exit code of two runs without a value in common.
+const NOTHING_COMPARED: u8 = 4;
 
 /// The files of a run, in the order in which they are compared.
 const FILES: [(ComparedFile, &[&str]); 3] = [
@@ -94,9 +97,11 @@ pub fn compare_runs(a: &Path, b: &Path, tolerance: f64) -> Result<RunComparison,
         _ => return refused("one is a folder and the other a file: give two of one kind".to_owned()),
     }
     let same = files.iter().all(|file| file.same);
+    let is_nothing = same && files.iter().all(|file| file.compared == 0);
+    let exit_code = if is_nothing { NOTHING_COMPARED } else { u8::from(!same) };
     let [a, b] = [a, b].map(|path| path.display().to_string());
     let format = "congruent-comparison/1";
-    Ok(RunComparison { format, a, b, tolerance, same, exit_code: u8::from(!same), files, not_compared })
+    Ok(RunComparison { format, a, b, tolerance, same, exit_code, files, not_compared })
 }
 
 fn find(folder: &Path, names: &[&str]) -> Option<PathBuf> {

@@ -41,8 +41,9 @@ pub use edits::{ChangedLines, TextEdit, changed_lines, edited};
 pub use elementary::Elementary;
 pub use files::{FileAccess, InputFile, RosPackages, is_standard_input, read_text};
 pub use lint::{
-    FileKind, FileToLint, IgnoredFinding, Ignores, SafeFix, examine_srdf, robot_name, safe_fixes,
-    safe_robot_file_fixes, still_mimics, undefined_materials, unit_slips, zero_limits,
+    FileKind, FileToLint, IgnoredFinding, Ignores, SafeFix, declared_encoding, examine_srdf, robot_name,
+    safe_fixes, safe_robot_file_fixes, still_mimics, undefined_materials, unit_slips, unknown_references,
+    zero_limits,
 };
 pub use load::{load_opened_robot, load_robot, load_robot_with, parse_robot};
 pub use mesh::{HullPoints, read_mesh};

@@ -48,10 +48,11 @@ pub fn load_robot(path: &Path) -> Result<RobotDescription, Vec<Diagnostic>> {
 /// As [`load_robot`].
 pub fn load_robot_with(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
     let own = access.fresh();
-    let description = load(path, &own)?;
+    let loaded = load(path, &own);
+    // What was read before it was refused is an input, too.
     let inputs = own.files();
     access.add(&inputs);
-    Ok(RobotDescription { inputs, ..description })
+    Ok(RobotDescription { inputs, ..loaded? })
 }
 
 fn load(path: &Path, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
@@ -69,10 +70,10 @@ pub fn load_opened_robot(
     access: &FileAccess,
 ) -> Result<RobotDescription, Vec<Diagnostic>> {
     let own = access.fresh();
-    let description = load_source(source, &own)?;
+    let loaded = load_source(source, &own);
     let inputs = access.files().into_iter().chain(own.files()).collect();
     access.add(&own.files());
-    Ok(RobotDescription { inputs, ..description })
+    Ok(RobotDescription { inputs, ..loaded? })
 }
 
 fn load_source(source: &Arc<SourceFile>, access: &FileAccess) -> Result<RobotDescription, Vec<Diagnostic>> {
@@ -196,7 +197,10 @@ fn read_urdf(
     let robot = urdf::parse(&source.text, inputs, &mut diagnostics);
     let diagnostics = diagnostics.in_file(source);
     match robot {
-        Some(robot) => Ok((robot, diagnostics)),
+        Some(robot) => {
+            let warnings = urdf::without_large_links(&robot, diagnostics);
+            Ok((robot, warnings))
+        }
         None => Err(diagnostics),
     }
 }

@@ -48,6 +48,8 @@ impl Precision {
 /// States that torques are compared at. Kind: choice; the singular values of 20 give the number of base parameters
 /// already, 100 give every column some thousand digits' worth of rows.
 pub(crate) const STATES: usize = 100;
+/// Invariants are compared at so many of the states. Kind: choice; they are an impression, the certificate is the bound.
+pub(crate) const INVARIANT_STATES: usize = 20;
 /// Largest speed, rad/s or m/s. Kind: choice, so that velocity products are as large as gravity.
 pub(crate) const LARGEST_SPEED: f64 = 2.0;
 /// Smallest speed: dry friction is undefined at rest. Unit: rad/s or m/s; kind: choice.

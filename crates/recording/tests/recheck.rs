@@ -140,6 +140,18 @@ fn other_limits_give_another_verdict_and_other_checks_none() {
     let found = recheck(&bench.summary, &bench.scalars, bench.setup(&["check.2.minimum_m=0.05"])).unwrap();
     assert!(!found.same_limits && !found.same_verdict && found.disagreements.is_empty());
     assert_eq!((found.checks[1].status, found.exit_code()), (Status::Fail, 1));
+    // What is known by the report alone has the limits of the scenario, too.
+    for (at, limit) in
+        [(3, "check.4.relative=1e-9"), (4, "check.5.relative=1e-9"), (5, "check.6.linear_m_s=1e-12")]
+    {
+        let found = recheck(&bench.summary, &bench.scalars, bench.setup(&[limit])).unwrap();
+        assert!(!found.same_limits, "{limit}");
+        assert_eq!((found.checks[at].status, found.exit_code()), (Status::Fail, 1), "{limit}");
+    }
+    let mut summary = bench.summary.clone();
+    summary.report.as_mut().unwrap()["links"][3]["link"] = "of_another_robot".into();
+    let error = recheck(&summary, &bench.scalars, bench.setup(&[])).unwrap_err();
+    assert!(error.to_string().contains("which has other links"), "{error}");
     let other = RunSetup::load(&repository().join("scenarios/ur5e_weld.toml"), &[]).unwrap();
     let error = recheck(&bench.summary, &bench.scalars, other).unwrap_err();
     assert!(error.to_string().contains("another scenario"), "{error}");

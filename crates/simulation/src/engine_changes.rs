@@ -14,6 +14,7 @@ impl Engine {
         if let Some(multibody) = self.multibody_mut() {
             multibody.frictions_mut()[coordinate] = friction;
         }
+        self.choose_sweeps();
     }
 
     pub(crate) fn damping(&self, coordinate: usize) -> f64 {

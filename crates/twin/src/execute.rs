@@ -141,14 +141,12 @@ pub fn execute(
     explain(setup, &mut outcome);
     let mut settled = Vec::new();
     if let Some(Trajectory { file, recorder }) = trajectory {
-        let closed = recorder.finish();
-        settled.push(file.settle(&folder, &closed));
+        let closed = file.settle(&folder, recorder.finish(), &mut settled);
         result = result.and(closed.map_err(RunError::from));
     }
     let mut report = RunReport::new(setup, &sources, outcome.clone(), result.as_ref().err());
     for (recording, file) in recordings {
-        let closed = recording.finish(&report);
-        settled.push(file.settle(&folder, &closed));
+        let closed = file.settle(&folder, recording.finish(&report), &mut settled);
         if let Err(error) = closed {
             // The error of the run is reported before an error of the recording that follows from it.
             result = result.and(Err(error.into()));
@@ -217,15 +215,26 @@ impl StreamedFile {
         Self { partial: format!("{name}.partial"), name, if_incomplete }
     }
 
-    /// Gives the file its name if it is complete, at once: the page links to files that are there.
-    fn settle(self, folder: &OutputFolder, closed: &Result<(), RecordingError>) -> Settled {
-        match self.if_incomplete {
-            _ if closed.is_ok() => {
+    /// Gives the file its name if it is complete, at once: the page links to files that are there. `Err` also if it was
+    /// complete and cannot be named, as when it was removed during the run.
+    fn settle(
+        self,
+        folder: &OutputFolder,
+        closed: Result<(), RecordingError>,
+        settled: &mut Vec<Settled>,
+    ) -> Result<(), RecordingError> {
+        let is_complete = closed.is_ok();
+        let file = match self.if_incomplete {
+            _ if is_complete => {
                 Settled { incomplete: None, result: folder.publish(&self.partial, self.name) }
             }
             IfIncomplete::Keep => Settled { incomplete: Some(self.partial), result: Ok(()) },
             IfIncomplete::Remove => Settled { incomplete: None, result: folder.remove(&self.partial) },
-        }
+        };
+        let named = file.result.as_ref().map_err(|error| RecordingError { message: error.to_string() });
+        let named = if is_complete { named.copied() } else { Ok(()) };
+        settled.push(file);
+        closed.and(named)
     }
 }
 

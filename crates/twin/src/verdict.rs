@@ -272,10 +272,11 @@ pub fn judge(expected: &Expectation, results: &[CheckResult]) -> Verdict {
     }
     let failed =
         |kind: CheckKind| results.iter().any(|result| result.check == kind && result.status == Status::Fail);
-    let any_failed = results.iter().any(|result| result.status == Status::Fail);
+    let mut failing = results.iter().filter(|result| result.status == Status::Fail);
     let as_expected = match expected {
-        Expectation::Pass => !any_failed,
-        Expectation::Fail { checks } if checks.is_empty() => any_failed,
+        Expectation::Pass => failing.next().is_none(),
+        // A default check that is not named was not meant.
+        Expectation::Fail { checks } if checks.is_empty() => failing.any(|result| !result.is_default),
         Expectation::Fail { checks } => {
             let others_pass =
                 results.iter().all(|result| result.status != Status::Fail || checks.contains(&result.check));
@@ -330,7 +331,9 @@ mod tests {
         let expected = fail(&[CheckKind::Agreement]);
         judged(&expected, &[agreement(Status::Fail), fails.clone()], Verdict::NotAsExpected);
         let expected = fail(&[CheckKind::Agreement, CheckKind::Limits]);
-        judged(&expected, &[agreement(Status::Fail), fails], Verdict::AsExpected);
+        judged(&expected, &[agreement(Status::Fail), fails.clone()], Verdict::AsExpected);
+        judged(&fail(&[]), &[agreement(Status::Pass), fails.clone()], Verdict::NotAsExpected);
+        judged(&fail(&[]), &[agreement(Status::Fail), fails], Verdict::AsExpected);
     }
 
     #[test]

@@ -26,8 +26,19 @@ pub enum Agreement {
     /// Beyond tolerance somewhere.
     Disagree,
     /// There is one description of the robot and nothing to compare it with: no table, and the physics could not
-    /// be asked.
+    /// be asked; or nothing moves.
     NothingCompared,
+}
+
+impl Agreement {
+    /// Why nothing was compared.
+    pub fn why_nothing(chain: &ReportedChain) -> &'static str {
+        if chain.joints.is_empty() {
+            "no joint moves between base and tip"
+        } else {
+            "there is no [dh] table, and the physics was not asked"
+        }
+    }
 }
 
 impl fmt::Display for Agreement {

@@ -47,10 +47,13 @@ impl Column {
         .find_map(|(suffix, unit, is_handy)| Some((name.strip_suffix(suffix)?, unit, is_handy)));
         let Some((stem, unit, is_handy)) = split else { return Err(without_unit(name, robot)) };
         let handy = is_handy.then_some(unit);
+        let joint = robot.find_joint(stem).and_then(|joint| Some((joint, robot.coordinate(joint)?)));
         let measured = match unit {
             Unit::Length => {
                 ["x", "y", "z"].iter().position(|known| *known == stem).map(MeasuredQuantity::Position)
             }
+            // Joints have such names, too; an orientation can be given as a quaternion.
+            Unit::Angle if joint.is_some() => None,
             Unit::Angle => {
                 ["roll", "pitch", "yaw"].iter().position(|known| *known == stem).map(MeasuredQuantity::Rpy)
             }
@@ -58,7 +61,6 @@ impl Column {
         if let Some(quantity) = measured {
             return Ok(Self { quantity, handy });
         }
-        let joint = robot.find_joint(stem).and_then(|joint| Some((joint, robot.coordinate(joint)?)));
         let Some((joint, coordinate)) = joint else { return Err(unknown(name, stem, robot)) };
         let expected =
             if robot.joint(joint).kind == JointKind::Prismatic { Unit::Length } else { Unit::Angle };

@@ -15,7 +15,7 @@ use crate::{
     failure::{Failure, NOTHING},
     input::{RobotArgument, files_of},
     output::file::{NewFile, folder_of},
-    terminal::{print::Printer, table::paragraph},
+    terminal::{print::Printer, progress::waiting, table::paragraph},
 };
 
 /// The pairs of links that need not be looked at for collisions (allowed collision matrix).
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         file.may_be_written(&inputs)?;
     }
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
-    let pairs = suggest_disabled(&description, sampling)
+    let pairs = waiting(printer, "measuring pairs", || suggest_disabled(&description, sampling))
         .map_err(|error| Diagnostic::error("acm::shape", error.to_string()))?;
     let srdf = srdf_text(&pairs);
     if pairs.pairs == 0 {

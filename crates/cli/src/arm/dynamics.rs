@@ -13,7 +13,7 @@ use congruent::{
 use crate::{
     failure::Failure,
     input::{ArmArguments, ConfigurationArguments, named},
-    terminal::print::Printer,
+    terminal::{print::Printer, table::column_width},
 };
 
 /// Torques that hold and move a robot, its mass matrix, and its accelerations under torques.
@@ -87,7 +87,7 @@ fn parts<'a>(report: &'a Report<'_>) -> impl Iterator<Item = String> + 'a {
 }
 
 fn state(text: &mut String, report: &Report<'_>, result: &DynamicsResult) {
-    let width = report.joints.iter().map(String::len).max().unwrap_or(0).max("joint".len());
+    let width = column_width(report.joints.iter().map(String::len)).max("joint".len());
     let _ = writeln!(
         text,
         "  {:width$}  {:>12}  {:>12}  {:>12}  {:>15}",

@@ -46,9 +46,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let inputs = files_of(&description);
     arguments.plot.is_none_of(&inputs)?;
     let sampling = Sampling { samples: arguments.samples as usize, seed: arguments.seed };
-    let (report, found) =
-        waiting(printer, "computing the workspace", || workspace(&description, sampling))
-            .map_err(|error| Diagnostic::error("workspace::robot", error.to_string()))?;
+    let (report, found) = waiting(printer, "computing the workspace", || workspace(&description, sampling))
+        .map_err(|error| Diagnostic::error("workspace::robot", error.to_string()))?;
     printer.result(&report, |report| text(report, &description.robot))?;
     arguments.plot.write(|| plot(&report, &found), &inputs)?;
     Ok(0)

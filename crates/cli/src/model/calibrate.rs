@@ -23,8 +23,12 @@ use congruent::{
 use crate::{
     failure::{FAILED, Failure, NOTHING},
     input::{ArmArguments, files_of, named},
-    output::{page::PageArgument, plot::PlotArgument},
-    terminal::{print::Printer, progress::waiting, table::wrapped},
+    output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
+    terminal::{
+        print::Printer,
+        progress::waiting,
+        table::{column_width, wrapped},
+    },
 };
 
 /// Corrections of a robot's model from measured poses or points of its tip (or TCP) in the base.
@@ -85,6 +89,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     inputs.push(arguments.measurements.clone());
     arguments.plot.is_none_of(&inputs)?;
     arguments.page.is_none_of(&inputs)?;
+    refuse_same(arguments.plot.output().into_iter().chain(arguments.page.output()))?;
     let report = waiting(printer, "calibrating", || calibrate(&description, &rows, &options))?;
     printer.result(&report, |report| text(report, &description.robot))?;
     let plotted = arguments.plot.write(|| plot::svg(&report), &inputs);
@@ -158,7 +163,7 @@ fn estimates(text: &mut String, report: &CalibrationReport) {
     if report.parameters.is_empty() {
         return;
     }
-    let width = report.parameters.iter().map(|each| each.name.len()).max().unwrap_or(0).max(10);
+    let width = column_width(report.parameters.iter().map(|each| each.name.len())).max("correction".len());
     let _ = writeln!(
         text,
         "\n  {:width$}  {:>23}  {:>23}",
@@ -205,7 +210,7 @@ fn fixed(text: &mut String, report: &CalibrationReport) {
         "\n  fixed at nominal (singular value below {} of the largest)",
         number(report.identifiability.threshold)
     );
-    let width = report.fixed.iter().map(|each| each.name.len()).max().unwrap_or(0);
+    let width = column_width(report.fixed.iter().map(|each| each.name.len()));
     for each in &report.fixed {
         let _ = writeln!(text, "  {:width$}  {}", each.name, each.reason);
     }

@@ -27,7 +27,7 @@ use crate::{
     ci::CiArguments,
     failure::{FAILED, Failure, NOTHING},
     input::{AccessArguments, ChainArguments, files_of},
-    output::{page::PageArgument, plot::PlotArgument},
+    output::{file::refuse_same, page::PageArgument, plot::PlotArgument},
     terminal::{print::Printer, progress::waiting, text::shown},
 };
 
@@ -124,6 +124,7 @@ impl BatchReport for Checked {
 
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     one_plot(arguments)?;
+    refuse_same(arguments.ci.outputs().chain(arguments.page.output()).chain(arguments.plot.output()))?;
     if arguments.table && arguments.configurations.is_none() {
         let error = Diagnostic::error("check::table", "--table is of configurations, and none are given");
         return Err(error.with_help("give --configurations FILE").into());

@@ -18,7 +18,7 @@ use congruent::{
 };
 
 use super::{diagnosis_text::diagnosed, dynamics_text::dynamics};
-use crate::terminal::table::{with_one_sign, wrapped};
+use crate::terminal::table::{column_width, with_one_sign, wrapped};
 
 /// The report before the errors at requested configurations.
 pub(super) fn compared_text(check: &RobotCheck, robot: &Robot) -> String {
@@ -90,8 +90,12 @@ fn headline(text: &mut String, check: &RobotCheck) {
         return;
     }
     if report.verdict == Agreement::NothingCompared {
-        let what = "nothing was compared: there is no [dh] table, and the physics was not asked";
-        let _ = writeln!(text, "{}: {what}", report.file);
+        let _ = writeln!(
+            text,
+            "{}: nothing was compared: {}",
+            report.file,
+            Agreement::why_nothing(&report.chain)
+        );
         return;
     }
     let tolerance = |tolerance: &Tolerance| length_and_angle(tolerance.position_m, tolerance.orientation_rad);
@@ -116,7 +120,7 @@ fn headline(text: &mut String, check: &RobotCheck) {
 /// The first checks: the pose of the TCP at zero and its motion with each joint.
 pub(super) fn basics(basics: &Basics) -> String {
     let mut text = format!("  the TCP on {}, in the axes of {}:\n", basics.tip, basics.base);
-    let width = basics.joints.iter().map(|joint| joint.joint.len()).max().unwrap_or(0);
+    let width = column_width(basics.joints.iter().map(|joint| joint.joint.len()));
     by_source(&mut text, &format!("{:width$} {:8}", "at zero", ""), &basics.zero, |pose| {
         let [at, quaternion] =
             [&pose.translation_m.map(to_mm)[..], &with_one_sign(pose.quaternion_wxyz)].map(listed);

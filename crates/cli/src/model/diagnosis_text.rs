@@ -17,7 +17,7 @@ use congruent::{
     },
 };
 
-use crate::terminal::print::rendered;
+use crate::terminal::{print::rendered, table::column_width};
 
 /// The first cause with its lines of the file, then the causes that cannot be distinguished from it and the
 /// next best ones.
@@ -160,11 +160,10 @@ fn row_by_row(text: &mut String, table: &TableComparison) {
             cells.push(cell(value));
         }
     }
-    let widest = |lengths: &mut dyn Iterator<Item = usize>| lengths.max().unwrap_or(0);
-    let names = widest(&mut rows.iter().map(|(joint, _)| joint.len()));
-    let columns = widest(&mut rows.iter().map(|(_, cells)| cells.len()));
+    let names = column_width(rows.iter().map(|(joint, _)| joint.len()));
+    let columns = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
     let width =
-        |column: usize| widest(&mut rows.iter().filter_map(|(_, cells)| cells.get(column)).map(String::len));
+        |column: usize| column_width(rows.iter().filter_map(|(_, cells)| cells.get(column)).map(String::len));
     let widths: Vec<usize> = (0..columns).map(width).collect();
     for (joint, cells) in &rows {
         let padded = cells.iter().zip(&widths).map(|(cell, &width)| format!("{cell:width$}"));

@@ -62,6 +62,9 @@ fn compared(text: &mut String, report: &DynamicsReport, robot: &Robot) {
             let file = Some(report.sides.candidate.as_str());
             let _ = writeln!(text, "      {}", placed(difference.sentence(), difference, file));
         }
+        if let Some(more) = more(report.differences.len(), "parameters") {
+            let _ = writeln!(text, "      {more}");
+        }
     }
     let mut lines: Vec<String> = limits(&report.limits);
     if !report.has_same_torques() {

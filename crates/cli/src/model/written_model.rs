@@ -15,7 +15,7 @@ use crate::{
     failure::Failure,
     input::{allowing_inputs, files_of},
     output::file::{OutputArgument, folder_of},
-    terminal::print::Printer,
+    terminal::{print::Printer, table::column_width},
 };
 
 /// The tolerance of a written robot file whose table is off by rounded axes, as a multiple of what was found at
@@ -151,7 +151,7 @@ fn remarks(report: &ConversionReport) -> String {
 fn screws(text: &mut String, poe: &PoeReport) {
     let mut list = |title: &str, screws: &[ScrewReport]| {
         let _ = writeln!(text, "{title}: angular, linear");
-        let width = screws.iter().map(|screw| screw.joint.len()).max().unwrap_or(0);
+        let width = column_width(screws.iter().map(|screw| screw.joint.len()));
         for ScrewReport { joint, angular: [a, b, c], linear: [x, y, z] } in screws {
             let _ =
                 writeln!(text, "  {joint:width$}  {a:13.9} {b:13.9} {c:13.9}   {x:13.9} {y:13.9} {z:13.9}");

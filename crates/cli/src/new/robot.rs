@@ -194,7 +194,9 @@ fn text(report: &NewRobot) -> String {
     let worst = length_and_angle(report.worst.error.position_m, report.worst.error.orientation_rad);
     let tolerance = length_and_angle(report.tolerance.position_m, report.tolerance.orientation_rad);
     let _ = match report.verdict {
-        Agreement::NothingCompared => writeln!(text, "  check: nothing to compare: no table, and no physics"),
+        Agreement::NothingCompared => {
+            writeln!(text, "  check: nothing to compare: {}", Agreement::why_nothing(&report.chain))
+        }
         verdict => writeln!(text, "  check: {verdict}, worst {worst} (tolerance {tolerance})"),
     };
     text

@@ -60,7 +60,7 @@ impl NewFile<'_> {
         self.may_be_written(inputs)?;
         let path = self.path;
         let before = fs::read(path).ok();
-        write_whole(path, text.as_bytes()).map_err(|error| unwritable(path, &error.source))?;
+        write_whole(path, text.as_bytes()).map_err(|error| failure::unwritable(&error, FOLDER))?;
         accept(path).inspect_err(|_| {
             // The refusal is what is reported.
             match before {
@@ -96,7 +96,29 @@ pub(crate) fn folder_of(path: &Path) -> Result<PathBuf, Diagnostic> {
 
 pub(crate) fn unwritable(path: &Path, error: &io::Error) -> Diagnostic {
     Diagnostic::error("output::unwritable", format!("cannot write {}: {error}", path.display()))
-        .with_help("choose a file in a folder that exists and can be written")
+        .with_help(FOLDER)
+}
+
+const FOLDER: &str = "choose a file in a folder that exists and can be written";
+
+/// No two options name one file: the second would replace the result of the first.
+pub(crate) fn refuse_same<'a>(
+    outputs: impl IntoIterator<Item = (&'static str, &'a Path)>,
+) -> Result<(), Diagnostic> {
+    let outputs: Vec<_> = outputs.into_iter().collect();
+    let place = |path: &Path| Some((folder_of(path).ok()?, path.file_name()?.to_owned()));
+    let is_same = |one: &Path, other: &Path| {
+        one == other || is_same_file(one, other) || place(one).is_some_and(|at| Some(at) == place(other))
+    };
+    for (at, (option, path)) in outputs.iter().enumerate() {
+        if let Some((other, _)) = outputs[..at].iter().find(|(_, before)| is_same(before, path)) {
+            let message = format!("{other} and {option} name one file, {}", path.display());
+            return Err(
+                Diagnostic::error("output::refused", message).with_help("give each a file of its own")
+            );
+        }
+    }
+    Ok(())
 }
 
 /// No result replaces a file that is read.

@@ -1,6 +1,6 @@
 //! `--html FILE`: writes the report of a command as a page.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use congruent::description::Diagnostic;
 
@@ -18,6 +18,11 @@ pub(crate) struct PageArgument {
 }
 
 impl PageArgument {
+    /// The file with its option, if it is wanted.
+    pub(crate) fn output(&self) -> Option<(&'static str, &Path)> {
+        Some(("--html", self.html.as_deref()?))
+    }
+
     /// The page replaces none of these files, which are read.
     pub(crate) fn is_none_of(&self, inputs: &[PathBuf]) -> Result<(), Diagnostic> {
         self.html.as_ref().map_or(Ok(()), |path| refuse_inputs("--html", path, inputs))

@@ -1,6 +1,9 @@
 //! `--plot FILE.svg`: writes the plot of a command.
 
-use std::{fmt::Display, path::PathBuf};
+use std::{
+    fmt::Display,
+    path::{Path, PathBuf},
+};
 
 use congruent::description::Diagnostic;
 
@@ -18,6 +21,11 @@ pub(crate) struct PlotArgument {
 }
 
 impl PlotArgument {
+    /// The file with its option, if it is wanted.
+    pub(crate) fn output(&self) -> Option<(&'static str, &Path)> {
+        Some(("--plot", self.plot.as_deref()?))
+    }
+
     /// Whether a plot is asked for.
     pub(crate) fn is_given(&self) -> bool {
         self.plot.is_some()

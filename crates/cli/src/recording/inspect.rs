@@ -3,12 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use congruent::{
-    description::Diagnostic,
+    description::{Diagnostic, FileAccess},
     recording::{Recheck, RecordingSummary, RerunFormat, inspect, recheck, scalars, scalars_csv},
-    twin::{
-        RecordingFormat, RunSetup,
-        report::TestSuite,
-    },
+    twin::{RecordingFormat, RunSetup, report::TestSuite, results::result_files},
 };
 use serde_json::Value;
 
@@ -22,7 +19,7 @@ use crate::{
     ci::CiArguments,
     failure::{BAD_INPUT, BROKEN, Failure, worse},
     input::AccessArguments,
-    output::file::{refuse_inputs, replace},
+    output::file::{refuse_inputs, refuse_same, replace},
     terminal::print::Printer,
 };
 
@@ -75,8 +72,15 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     batch.finish(recordings.map(|path| batch.answer(path, || answer(path, arguments, &batch))).collect())
 }
 
-/// The table is of one recording, and none of the files that are read.
+/// The table is of one recording; no output is another one, or a file that is read.
 fn examine(arguments: &Arguments) -> Result<(), Diagnostic> {
+    let csv = arguments.csv.as_deref().map(|file| ("--csv", file));
+    refuse_same(arguments.ci.outputs().chain(csv))?;
+    let inputs: Vec<PathBuf> = arguments.recordings.iter().chain(&arguments.check).cloned().collect();
+    let beside = |path: &PathBuf| if path.is_dir() { path.clone() } else { path.with_file_name("") };
+    let results = arguments.recordings.iter().flat_map(|path| result_files(&beside(path)));
+    let inputs: Vec<PathBuf> = inputs.into_iter().chain(results).collect();
+    arguments.ci.is_none_of(&inputs)?;
     let Some(file) = &arguments.csv else { return Ok(()) };
     let refused =
         |message: String, help: &str| Err(Diagnostic::error("inspect::csv", message).with_help(help));
@@ -84,7 +88,6 @@ fn examine(arguments: &Arguments) -> Result<(), Diagnostic> {
         let message = format!("--csv {} is a table of one recording", file.display());
         return refused(message, "give one recording");
     }
-    let inputs: Vec<PathBuf> = arguments.recordings.iter().chain(&arguments.check).cloned().collect();
     refuse_inputs("--csv", file, &inputs)
 }
 
@@ -98,13 +101,15 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
     if arguments.check.is_none() && arguments.csv.is_none() {
         let mut summary = inspect(path).map_err(unreadable)?;
         compare_files(&mut summary, path, &access);
+        batch.reads(&read(&access))?;
         judge_inputs(&mut summary);
         return Ok(summary);
     }
     let (mut summary, scalars) = scalars(path).map_err(unreadable)?;
     compare_files(&mut summary, path, &access);
+    batch.reads(&read(&access))?;
     if let Some(file) = &arguments.csv {
-        replace("--csv", file, scalars_csv(&summary, &scalars), &[])?;
+        replace("--csv", file, scalars_csv(&summary, &scalars), &read(&access))?;
     }
     let Some(scenario) = &arguments.check else {
         judge_inputs(&mut summary);
@@ -121,6 +126,11 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
         .map_err(|error| Diagnostic::error("inspect::check", error.to_string()))?;
     take(&mut summary, result);
     Ok(summary)
+}
+
+/// The files of the run that were read to be compared.
+fn read(access: &FileAccess) -> Vec<PathBuf> {
+    access.files().into_iter().map(|file| file.path).collect()
 }
 
 /// Adds the result to what is printed.

@@ -25,7 +25,9 @@ pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access:
     let beside = fs::read(path.with_file_name(REPORT)).ok();
     let is_its_own = |beside: Vec<u8>| serde_json::from_slice::<Value>(&beside).ok().as_ref() == Some(report);
     let problem = if beside.is_some_and(|beside| !is_its_own(beside)) {
-        format!("{REPORT} beside the recording is not the report of its run: it is damaged, or of another run")
+        format!(
+            "{REPORT} beside the recording is not the report of its run: it is damaged, or of another run"
+        )
     } else if let Some(changed) = changed_results(path) {
         format!("{changed} beside the recording: not as the run wrote it (by {DIGESTS})")
     } else {

@@ -18,7 +18,8 @@ pub(super) fn suite(summary: &RecordingSummary, input: &str) -> TestSuite {
         _ => TestResult::Error(reason),
     };
     let mut suite = TestSuite::of_case(input, "verdict", verdict);
-    let recorded = summary.report.as_ref().filter(|_| summary.exit_code != BAD_INPUT).and_then(recorded_suite);
+    let recorded =
+        summary.report.as_ref().filter(|_| summary.exit_code != BAD_INPUT).and_then(recorded_suite);
     let mut cases = recorded.map(|suite| suite.cases).unwrap_or_default();
     if let Some(recheck) = &summary.recheck {
         evaluate_again(&mut cases, recheck);
@@ -31,11 +32,7 @@ pub(super) fn suite(summary: &RecordingSummary, input: &str) -> TestSuite {
 fn evaluate_again(cases: &mut [TestCase], recheck: &Recheck) {
     for (case, check) in cases.iter_mut().zip(&recheck.checks) {
         case.output = rechecked_text(check).trim().to_owned();
-        case.result = judged(
-            (check.check, check.status),
-            &recheck.expected,
-            recheck.verdict,
-            case.output.clone(),
-        );
+        case.result =
+            judged((check.check, check.status), &recheck.expected, recheck.verdict, case.output.clone());
     }
 }

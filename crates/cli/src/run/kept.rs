@@ -6,11 +6,12 @@ use std::{
 };
 
 use congruent::{
-    description::Diagnostic,
+    description::{Diagnostic, InputFile},
     twin::{
         Options, RunSetup, finished,
         report::{RunReport, TestSuite, planned_suite},
-        results::OutputFolder,
+        results::{OutputFolder, result_files},
+        scenario::{Override, ScenarioFile},
     },
 };
 
@@ -51,14 +52,17 @@ pub(super) fn load(
     let mut folders: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
     let access = arguments.access.access()?;
     let mut load = |path: &PathBuf| {
-        let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation)?;
+        let setup = RunSetup::load_with(path, &overrides, &access).and_then(RunSetup::for_simulation);
+        let setup = setup.inspect_err(|_| remove_results_of((path, &overrides), &arguments.out))?;
         let folder = OutputFolder::path_for(&arguments.out, &setup.scenario.name);
         if let Some(first) = folders.get(&folder) {
             return Err(same_folder(&folder, first, path).into());
         }
+        let results = result_files(&folder);
         folders.insert(folder, path.clone());
         let inputs: Vec<PathBuf> = setup.inputs.iter().map(|input| input.path.clone()).collect();
         batch.reads(&inputs)?;
+        batch.writes(&results)?;
         let earlier = arguments.resume.then(|| finished(&setup, options)).flatten();
         if earlier.is_none() {
             OutputFolder::create(&arguments.out, &setup.scenario.name, &setup.inputs).map_err(no_folder)?;
@@ -74,6 +78,17 @@ pub(super) fn load(
         remove_index(&arguments.out);
     }
     Ok(arguments.scenarios.iter().map(|path| batch.answer(path, || load(path))).collect())
+}
+
+/// Removes what an earlier call has left for a scenario that is refused, if its name can be read: CI that collects results
+/// would take them for those of this call.
+fn remove_results_of((scenario, overrides): (&Path, &[Override]), out: &Path) {
+    let Some(name) = ScenarioFile::name_of(scenario, overrides) else { return };
+    if OutputFolder::path_for(out, &name).is_dir() {
+        let input = InputFile { file: String::new(), sha256: String::new(), path: scenario.to_owned() };
+        // Another call that runs it keeps them.
+        let _ = OutputFolder::create(out, &name, &[input]);
+    }
 }
 
 fn same_folder(folder: &Path, first: &Path, second: &Path) -> Diagnostic {

@@ -245,15 +245,7 @@ impl Printer {
                 Some(input) => format!("error: {}: {}\n", shown(input), visible(message)),
                 None => format!("error: {}\n", visible(message)),
             },
-            Failure::Input(findings) => {
-                let most = if IN_FULL.get().is_some() { findings.len() } else { MOST_FINDINGS };
-                let shown = findings.iter().take(most).map(|finding| labelled(input, finding));
-                let mut text: String = shown.collect();
-                if let Some(more) = findings.len().checked_sub(most).filter(|&more| more > 0) {
-                    let _ = writeln!(text, "and {more} more");
-                }
-                text
-            }
+            Failure::Input(findings) => shown_findings(findings.iter(), |finding| labelled(input, finding)),
         };
         to_stderr(&text);
     }
@@ -321,6 +313,19 @@ fn is_coloured() -> bool {
 
 fn colours() -> Colours {
     if is_coloured() { Colours::Kept } else { Colours::Escaped }
+}
+
+/// The first findings, all with `--verbose`, and how many there are besides.
+pub(crate) fn shown_findings<'a>(
+    mut findings: impl ExactSizeIterator<Item = &'a Diagnostic>,
+    show: impl Fn(&Diagnostic) -> String,
+) -> String {
+    let most = if IN_FULL.get().is_some() { usize::MAX } else { MOST_FINDINGS };
+    let mut text: String = findings.by_ref().take(most).map(show).collect();
+    if findings.len() > 0 {
+        let _ = writeln!(text, "and {} more; --verbose shows all", findings.len());
+    }
+    text
 }
 
 /// A finding with the line it is about, as a compiler shows it.

@@ -31,7 +31,7 @@ impl Table {
     fn write_within(&self, text: &mut String, columns: usize) {
         let count = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let length = |cell: &String| cell.chars().count();
-        let width = |at: usize| self.rows.iter().filter_map(|row| row.get(at)).map(length).max().unwrap_or(0);
+        let width = |at: usize| column_width(self.rows.iter().filter_map(|row| row.get(at)).map(length));
         let widths: Vec<usize> = (0..count).map(width).collect();
         let mut next = 1;
         loop {
@@ -65,6 +65,12 @@ impl Table {
             let _ = writeln!(text, "{}", line.trim_end());
         }
     }
+}
+
+/// The width of a column with cells of these lengths. A cell that is longer than any name should be moves its own row alone.
+pub(crate) fn column_width(lengths: impl Iterator<Item = usize>) -> usize {
+    const WIDEST: usize = 160;
+    lengths.max().unwrap_or(0).min(WIDEST)
 }
 
 /// A list whose entries are divided by `, `, in lines of at most 96 characters, each indented.

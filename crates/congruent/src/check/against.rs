@@ -86,7 +86,7 @@ pub(super) fn compared(
     match two_descriptions(&candidate, &reference, options.seed) {
         Ok(report) => Ok((against, Some(report))),
         // No difference of the two: the poses agree.
-        Err(error @ (CompareError::NoJoint | CompareError::TooManyJoints { .. })) => {
+        Err(error @ CompareError::NoJoint) => {
             let finding = Diagnostic::error("check::other_dynamics", error.to_string());
             geometry.not_asked.push(NotAsked::because("other_dynamics", &finding));
             Ok((against, None))

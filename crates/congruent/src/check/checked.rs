@@ -87,6 +87,10 @@ fn checked(
     } else if geometry.verdict == Agreement::NothingCompared && !compared.is_empty() {
         geometry.verdict = Agreement::Agree;
     }
+    // Links that hang together agree at every configuration, of which there is one.
+    if geometry.verdict == Agreement::Agree && against.is_none() && geometry.chain.joints.is_empty() {
+        geometry.verdict = Agreement::NothingCompared;
+    }
     let mut compared = compared.into_iter();
     let (dynamics, other_dynamics) = (compared.next(), compared.collect());
     Ok(RobotCheck { geometry, at_configurations, against, declared_dynamics, dynamics, other_dynamics })

@@ -16,7 +16,7 @@ const CODE: &str = "check::simulated_dynamics";
 /// Compares masses, inertias, joint terms and gravity of a URDF with those of the physics.
 pub(super) fn compared(description: &RobotDescription, seed: u64) -> Result<DynamicsReport, Diagnostic> {
     if let Some(massless) = description.warnings.iter().find(|found| found.code == "urdf::massless") {
-        let message = format!("forces have no accelerations: {}", massless.message);
+        let message = format!("without a mass no acceleration follows from a force: {}", massless.message);
         return Err(Diagnostic::error(CODE, message));
     }
     let refused = |error: &dyn std::error::Error| Diagnostic::error(CODE, error.to_string());

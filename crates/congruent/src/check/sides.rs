@@ -15,7 +15,8 @@ pub(super) fn two_descriptions(
     seed: u64,
 ) -> Result<DynamicsReport, CompareError> {
     let mut report = compare(candidate, reference, seed)?;
-    if !report.has_same_torques() {
+    // Of long chains torques are not bounded.
+    if !report.has_same_torques() && report.seen.is_some() {
         report.certificates = Some(certify(candidate, reference, seed)?);
     }
     Ok(report)

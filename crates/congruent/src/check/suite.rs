@@ -1,10 +1,10 @@
 //! The report of a check as a test suite, which CI reads as JUnit: one case for each comparison of poses and of dynamics.
 
 use congruent_agreement::{
-    compare::{Agreement, CheckReport, Comparison, ReportedCertificate},
+    compare::{Agreement, CheckReport, Comparison, NotAsked, ReportedCertificate},
     report::{ReportedDiagnosis, foremost},
 };
-use congruent_description::{display::length_and_angle, serde_name};
+use congruent_description::{TABLE_DROPPED, display::length_and_angle, serde_name};
 use congruent_dynamics_agreement::DynamicsReport;
 use congruent_twin::report::{CasePlace, Clock, Reason, TestCase, TestResult, TestSuite};
 
@@ -25,6 +25,9 @@ pub fn check_suite(name: &str, report: &RobotCheck) -> TestSuite {
         place: None,
     }));
     cases.extend(report.all_dynamics().map(dynamics_case));
+    cases.extend(geometry.not_asked.iter().map(not_asked_case));
+    let dropped = geometry.warnings.iter().filter(|found| found.code == TABLE_DROPPED);
+    cases.extend(dropped.map(|found| skipped("table", found.message.clone())));
     // Nothing moves, so that no time passes but the machine's.
     TestSuite { name: name.to_owned(), cases, time_s: 0.0, clock: Clock::Wall }
 }
@@ -48,6 +51,21 @@ fn case(comparison: &Comparison, report: &CheckReport) -> TestCase {
     };
     let place = diagnosis_of(comparison, report).filter(|_| result.reason().is_some()).and_then(place);
     TestCase { name: comparison.title.to_owned(), result, output: lines.join("\n"), place }
+}
+
+fn not_asked_case(not_asked: &NotAsked) -> TestCase {
+    let reasons: Vec<&str> = not_asked.findings.iter().map(|found| found.message.as_str()).collect();
+    skipped(not_asked.source, reasons.join("\n"))
+}
+
+/// A source that was not compared.
+fn skipped(source: &str, why: String) -> TestCase {
+    TestCase {
+        name: source.replace('_', " "),
+        result: TestResult::Skipped(why.clone()),
+        output: why,
+        place: None,
+    }
 }
 
 fn dynamics_case(report: &DynamicsReport) -> TestCase {

@@ -2,6 +2,7 @@
 
 mod beside;
 mod report;
+mod tables;
 
 use std::{
     path::{Path, PathBuf},
@@ -12,8 +13,8 @@ use congruent_analysis::inverse::read_targets;
 use congruent_calibration::{measurements::read_measurements, needed_coordinates};
 use congruent_description::{
     Diagnostic, FileAccess, FileKind, FileToLint, Finding, Ignores, RobotDescription, SafeFix, Severity,
-    SourceFile, Use, examine_srdf, load_opened_robot, read_states, read_text, safe_fixes,
-    safe_robot_file_fixes, still_mimics, undefined_materials, unit_slips, zero_limits,
+    SourceFile, Use, declared_encoding, examine_srdf, load_opened_robot, read_states, read_text, safe_fixes,
+    safe_robot_file_fixes, still_mimics, undefined_materials, unit_slips, unknown_references, zero_limits,
 };
 use congruent_twin::RunSetup;
 
@@ -160,6 +161,8 @@ fn suspicions(description: &RobotDescription) -> Vec<Diagnostic> {
     found.extend(zero_limits(description));
     found.extend(still_mimics(description));
     found.extend(undefined_materials(description));
+    found.extend(unknown_references(description));
+    found.extend(description.places.urdf.as_ref().and_then(|places| declared_encoding(places.source())));
     if let Some(source) = srdf_of(description) {
         // Its names were compared when it was read, those of its pairs alone.
         let is_told_here =
@@ -177,6 +180,8 @@ fn suspicions(description: &RobotDescription) -> Vec<Diagnostic> {
 
 /// Largest file that is read a second time: larger ones were refused when they were read.
 const MOST_BYTES: u64 = 16 << 20;
+/// The same of tables of measurements.
+const MOST_TABLE_BYTES: u64 = 64 << 20;
 
 /// The SRDF of a robot file; `None` if it cannot be read, which the reader of the robot has told.
 fn srdf_of(description: &RobotDescription) -> Option<Arc<SourceFile>> {
@@ -205,11 +210,16 @@ fn table(path: &Path, kind: FileKind, (others, access): (&[PathBuf], &FileAccess
     };
     let robot = &description.robot;
     let read = match kind {
-        FileKind::Targets => read_targets(path, robot).map(|read| read.warnings),
+        FileKind::Targets => read_targets(path, robot).map(|read| {
+            let far = tables::targets(&read, &description);
+            read.warnings.into_iter().chain(far).collect()
+        }),
         FileKind::Measurements => needed_coordinates(&description)
             .map_err(Vec::from)
-            .and_then(|needed| read_measurements(path, robot, &needed))
-            .map(|_| Vec::new()),
+            .and_then(|needed| {
+                Ok((read_measurements(path, robot, &needed)?, read_text(path, MOST_TABLE_BYTES)?))
+            })
+            .map(|(rows, source)| tables::measured(&rows, &description, &source)),
         // Velocities, accelerations and torques are checked with the positions.
         _ => read_states(path, robot).map(|read| read.warning.into_iter().collect()),
     };

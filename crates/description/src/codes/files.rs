@@ -98,6 +98,11 @@ pub(super) const AREAS: &[Area] = &[
                 "xml::prefix",
                 "An element or attribute has a prefix (`prefix:name`) that no xmlns declares.",
             ),
+            (
+                7,
+                "xml::encoding",
+                "The file declares another encoding than it has. Readers that go by the declaration refuse it, or read other names.",
+            ),
         ],
     },
     Area {
@@ -235,6 +240,12 @@ pub(super) const AREAS: &[Area] = &[
                 11,
                 "srdf::beyond_limit",
                 "A named state has a joint beyond the limits of the URDF. Motion planners refuse it as a goal. Often the position is in degrees.",
+            ),
+            (12, "srdf::unknown_element", "An element is misspelt, so that every reader skips it."),
+            (
+                13,
+                "srdf::virtual_joint",
+                "A virtual joint is of a type that there is not: it is fixed, planar or floating.",
             ),
         ],
     },

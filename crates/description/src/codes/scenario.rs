@@ -164,5 +164,10 @@ pub(super) const AREAS: &[Area] = &[Area {
             "scenario::long_run",
             "The physics of so many joints takes minutes or more: the time of a step grows with the cube of the joints.",
         ),
+        (
+            88,
+            "scenario::unwatched",
+            "No check looks at the distance or the contact of an obstacle, so that an arm that goes through it passes.",
+        ),
     ],
 }];

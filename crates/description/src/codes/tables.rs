@@ -68,5 +68,12 @@ pub(super) const AREAS: &[Area] = &[Area {
             "measurements::orientation",
             "A measured orientation is incomplete, given twice, or no rotation.",
         ),
+        (
+            24,
+            "measurements::outside_limits",
+            "A measurement was made at a position that the joint cannot take.",
+        ),
+        (25, "units::measured_point", "A measured point is farther from the others than the robot reaches."),
+        (26, "units::target", "A target is far beyond the reach of the robot."),
     ],
 }];

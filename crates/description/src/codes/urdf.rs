@@ -122,6 +122,11 @@ pub(super) const AREAS: &[Area] = &[
                 "urdf::material",
                 "A material is named that the file gives neither a colour nor a texture, so that the shape is drawn in a colour of the program's own.",
             ),
+            (
+                33,
+                "urdf::unknown_reference",
+                "A <transmission>, <ros2_control> or <gazebo> names a joint or a link that the robot does not have. Often it was renamed.",
+            ),
         ],
     },
     Area {

@@ -32,7 +32,7 @@ impl<'a> LineCounter<'a> {
         }
         let passed = &self.text[self.at..offset];
         if let Some(last_break) = passed.rfind('\n') {
-            self.line += passed.matches('\n').count();
+            self.line += memchr::memchr_iter(b'\n', passed.as_bytes()).count();
             self.column = 1 + passed[last_break + 1..].chars().count();
         } else {
             self.column += passed.chars().count();

@@ -164,7 +164,7 @@ impl FileAccess {
     }
 
     /// Adds files to the list.
-    pub(crate) fn add(&self, files: &[InputFile]) {
+    pub fn add(&self, files: &[InputFile]) {
         let Ok(mut read) = self.read.lock() else { return };
         for file in files {
             if !read.contains(file) {

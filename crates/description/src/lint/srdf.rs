@@ -7,7 +7,7 @@ use std::{
 
 use roxmltree::Node;
 
-use super::srdf_groups::examine_groups;
+use super::{encoding::declared_encoding, srdf_elements::examine_elements, srdf_groups::examine_groups};
 use crate::{
     diagnostic::{Diagnostic, Diagnostics, SourceFile, known_names},
     model::Robot,
@@ -92,12 +92,13 @@ pub fn examine_srdf(source: &Arc<SourceFile>, robot: Option<&Robot>) -> Vec<Diag
     }
     found.extend(robot.and_then(|robot| other_robot(root, robot)));
     found.extend(document.descendants().filter_map(pair));
+    found.extend(examine_elements(root));
     found.extend(examine_groups(root, robot));
     let known = Known::new(root, robot);
     for node in document.descendants().filter(Node::is_element) {
         found.extend(known.names(node));
     }
-    found.in_file(source)
+    found.in_file(source).into_iter().chain(declared_encoding(source)).collect()
 }
 
 /// The SRDF is of a robot of another name.

@@ -33,6 +33,11 @@ pub(crate) enum MeshError {
     /// The count in the header and the length of the file disagree.
     #[error("the header promises {promised} triangles, the file holds {held}: it is truncated")]
     Truncated { promised: u32, held: usize },
+    /// The same, the other way round.
+    #[error(
+        "the header promises {promised} triangles, the file holds {held}: the others are skipped by every reader"
+    )]
+    Surplus { promised: u32, held: usize },
     /// A fault with its line.
     #[error("line {line}: {what}")]
     Line { line: usize, what: String },

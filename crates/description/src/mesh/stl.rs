@@ -35,12 +35,16 @@ fn count(bytes: &[u8]) -> Option<u32> {
     Some(u32::from_le_bytes(*bytes.get(HEADER_BYTES - 4..)?.first_chunk()?))
 }
 
-/// Length of the binary STL that `bytes` begin with; exporters that pad the end are allowed to.
+/// Length of the binary STL that `bytes` begin with; exporters that pad the end are allowed to, but not by triangles.
 fn binary_length(bytes: &[u8]) -> Result<usize, MeshError> {
     let promised = count(bytes).ok_or(MeshError::TooShort { bytes: bytes.len() })?;
     let held = (bytes.len() - HEADER_BYTES) / TRIANGLE_BYTES;
     if promised as usize > held {
         return Err(MeshError::Truncated { promised, held });
+    }
+    let is_exact = bytes.len() == HEADER_BYTES + held * TRIANGLE_BYTES;
+    if is_exact && (promised as usize) < held {
+        return Err(MeshError::Surplus { promised, held });
     }
     Ok(HEADER_BYTES + promised as usize * TRIANGLE_BYTES)
 }
@@ -100,6 +104,10 @@ mod tests {
         let truncated = |promised, held| Err(MeshError::Truncated { promised, held });
         assert_eq!(parse(&binary("", 2, &CORNERS)), truncated(2, 1));
         assert_eq!(parse(&binary("", u32::MAX, &CORNERS)), truncated(u32::MAX, 1));
+        assert_eq!(
+            parse(&binary("", 1, &[CORNERS, CORNERS].concat())),
+            Err(MeshError::Surplus { promised: 1, held: 2 })
+        );
         assert_eq!(parse(b"0123456789"), Err(MeshError::TooShort { bytes: 10 }));
         assert_eq!(parse(b""), Err(MeshError::TooShort { bytes: 0 }));
     }

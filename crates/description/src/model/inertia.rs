@@ -14,6 +14,11 @@ pub struct Inertia {
 }
 
 impl Inertia {
+    /// Whether the tensor is 1 kg m^2 about every axis, which examples have.
+    pub(crate) fn is_example(&self) -> bool {
+        self.tensor_kg_m2 == Matrix3::identity()
+    }
+
     /// The inertia of links that move as one, each with its pose in the body, in the axes of the body; zero if
     /// there are none. Source: the parallel axis theorem.
     pub fn of_body(parts: impl Iterator<Item = (Isometry3<f64>, Self)> + Clone) -> Self {

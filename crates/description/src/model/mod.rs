@@ -2,6 +2,7 @@
 
 mod dh_table;
 mod error;
+mod extent;
 mod geometry;
 mod inertia;
 mod joint;
@@ -14,6 +15,7 @@ mod tree;
 
 pub use dh_table::{DhConvention, DhRow, DhRowKind, DhTable};
 pub use error::RobotError;
+pub(crate) use extent::Extent;
 pub use geometry::{Geometry, Mesh, Shape};
 pub use inertia::{Inertia, principal_moments};
 pub use joint::{Joint, JointIndex, JointKind, JointLimit, JointParts, Mimic};

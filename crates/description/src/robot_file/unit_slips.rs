@@ -12,6 +12,7 @@ use crate::{
     diagnostic::Diagnostic,
     display::{length, number},
     model::{JointKind, Robot},
+    units::Unit,
     written::transform::WrittenTransform,
 };
 
@@ -37,11 +38,19 @@ pub(super) fn size_m(robot: &Robot) -> f64 {
 
 /// A declared transform.
 pub(super) fn transform(name: &str, written: &WrittenTransform, size_m: f64) -> Vec<Diagnostic> {
-    let WrittenTransform { xyz_m, rpy_rad, rpy_deg, .. } = written;
-    let far = xyz_m.as_ref().and_then(|xyz| {
-        let length_m = nalgebra::Vector3::from(*xyz.get_ref()).norm();
-        too_long(&format!("{name} is"), length_m, (size_m, xyz.span(), "xyz"))
-    });
+    let WrittenTransform { xyz_m, xyz_mm, rpy_rad, rpy_deg, matrix, .. } = written;
+    let norm = |[x, y, z]: [f64; 3]| x.hypot(y).hypot(z);
+    let of_matrix = |[[.., x], [.., y], [.., z], _]: [[f64; 4]; 4]| [x, y, z];
+    let lengths = [
+        xyz_m.as_ref().map(|xyz| (norm(*xyz.get_ref()), xyz.span(), Key::Metres("xyz"))),
+        xyz_mm
+            .as_ref()
+            .map(|xyz| (Unit::Length.convert(norm(*xyz.get_ref())), xyz.span(), Key::Millimetres("xyz"))),
+        matrix.as_ref().map(|matrix| (norm(of_matrix(*matrix.get_ref())), matrix.span(), Key::Matrix)),
+    ];
+    let mut lengths = lengths.into_iter().flatten();
+    let far =
+        lengths.find_map(|(length_m, at, key)| too_long(&format!("{name} is"), length_m, (size_m, at, key)));
     let degrees = rpy_rad.as_ref().and_then(|rpy| {
         let turn = rpy.get_ref().iter().find(|turn| turn.abs() > TAU)?;
         Some(degrees(&format!("{name}: rpy_rad has {}", number(*turn)), "rpy", rpy.span()))
@@ -66,10 +75,19 @@ pub(super) fn table(dh: &WrittenDh, size_m: f64) -> Vec<Diagnostic> {
 
 fn row(row: &WrittenRow, size_m: f64) -> Vec<Diagnostic> {
     let joint = row.joint.get_ref();
-    let lengths = [("a", &row.a_m), ("d", &row.d_m)].into_iter().filter_map(|(key, written)| {
-        let written = written.as_ref()?;
+    let lengths = [("a", &row.a_m, &row.a_mm), ("d", &row.d_m, &row.d_mm)];
+    let lengths = lengths.into_iter().filter_map(|(key, in_m, in_mm)| {
         let what = format!("row of joint \"{joint}\": {key} is");
-        too_long(&what, written.get_ref().abs(), (size_m, written.span(), key))
+        let told = |written: &Spanned<f64>, length_m: f64, key| {
+            too_long(&what, length_m.abs(), (size_m, written.span(), key))
+        };
+        match (in_m, in_mm) {
+            (Some(written), _) => told(written, *written.get_ref(), Key::Metres(key)),
+            (_, Some(written)) => {
+                told(written, Unit::Length.convert(*written.get_ref()), Key::Millimetres(key))
+            }
+            (None, None) => None,
+        }
     });
     let angles =
         [("alpha", &row.alpha_deg), ("theta", &row.theta_deg)].into_iter().filter_map(|(key, written)| {
@@ -80,7 +98,18 @@ fn row(row: &WrittenRow, size_m: f64) -> Vec<Diagnostic> {
     lengths.chain(angles).collect()
 }
 
-fn too_long(what: &str, length_m: f64, (size_m, at, key): (f64, Range<usize>, &str)) -> Option<Diagnostic> {
+/// What a length stands under.
+#[derive(Debug, Clone, Copy)]
+enum Key {
+    /// A key that ends in `_m`, without its ending.
+    Metres(&'static str),
+    /// A key that ends in `_mm`.
+    Millimetres(&'static str),
+    /// A homogeneous matrix.
+    Matrix,
+}
+
+fn too_long(what: &str, length_m: f64, (size_m, at, key): (f64, Range<usize>, Key)) -> Option<Diagnostic> {
     (size_m > 0.0 && length_m > LEAST_M && length_m > MOST_SIZES * size_m).then(|| {
         let message = format!(
             "{what} {} long, and all links of the robot in a row are {}",
@@ -88,7 +117,11 @@ fn too_long(what: &str, length_m: f64, (size_m, at, key): (f64, Range<usize>, &s
             length(size_m)
         );
         let warning = Diagnostic::warning("robot_file::length", message).at(at);
-        warning.with_help(format!("millimetres? then the key is {key}_mm"))
+        warning.with_help(match key {
+            Key::Metres(key) => format!("millimetres? then the key is {key}_mm"),
+            Key::Millimetres(key) => format!("{key}_mm is in millimetres: is it a thousandth of that?"),
+            Key::Matrix => "a matrix has its translation in metres: is it in millimetres?".to_owned(),
+        })
     })
 }
 
@@ -133,6 +166,12 @@ mod tests {
             ("[tcp]\nxyz_m = [0, 0, 50]", Some("robot_file::length")),
             ("[tcp]\nxyz_m = [0, 0, 1]", Some("robot_file::length")),
             ("[tcp]\nxyz_mm = [0, 0, 200]", None),
+            ("[tcp]\nxyz_mm = [0, 0, 2e5]", Some("robot_file::length")),
+            ("[tcp]\nmatrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0.2], [0, 0, 0, 1]]", None),
+            (
+                "[tcp]\nmatrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 200], [0, 0, 0, 1]]",
+                Some("robot_file::length"),
+            ),
             ("[tcp]\nrpy_rad = [0, 90, 0]", Some("robot_file::degrees")),
             ("[tcp]\nrpy_deg = [0, 1.5708, 0]", Some("robot_file::radians")),
             ("[limits]\nacceleration_rad_s2 = { j = 800 }", Some("robot_file::fast")),
@@ -146,5 +185,6 @@ mod tests {
         assert_eq!(codes(&row("a_m = 0\nd_m = 500\nalpha_deg = 0")), ["robot_file::length"]);
         assert_eq!(codes(&row("a_m = 0\nd_m = 0.5\nalpha_deg = 1.5708")), ["robot_file::radians"]);
         assert_eq!(codes(&row("a_m = 0\nd_mm = 500\nalpha_deg = 90")), [""; 0]);
+        assert_eq!(codes(&row("a_mm = 1e300\nd_mm = 500\nalpha_deg = 90")), ["robot_file::length"]);
     }
 }

@@ -19,6 +19,8 @@ use crate::{
 const AXIS_LENGTH: f64 = 1e-6;
 /// Limits beyond this many radians are taken for degrees: no cable survives four turns.
 const LARGEST_PLAUSIBLE_RAD: f64 = 4.0 * TAU;
+/// Squares of larger positions, and sums of them, overflow. Unit: rad or m; kind: range of numbers.
+const LARGEST_LIMIT: f64 = 1e30;
 
 /// Reads one joint and reports what is wrong with it.
 struct JointReader<'a, 'f> {
@@ -168,6 +170,12 @@ impl JointReader<'_, '_> {
             self.warn("urdf::limit", format!("limits lock the joint at {lower}"), "limit");
         }
         let furthest = lower.abs().max(upper.abs());
+        if furthest.is_finite() && furthest > LARGEST_LIMIT {
+            let what = format!(
+                "limit {furthest:e} is beyond {LARGEST_LIMIT:e}, the most that poses are computed with"
+            );
+            self.error("urdf::limit", what, "limit");
+        }
         if kind.is_angular() && furthest.is_finite() && furthest > LARGEST_PLAUSIBLE_RAD {
             let what =
                 format!("limits [{lower}, {upper}] are more than four turns: degrees instead of radians?");

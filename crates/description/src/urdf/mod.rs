@@ -17,6 +17,7 @@ mod edits;
 mod grammar;
 mod inertial;
 mod joint;
+mod large;
 mod link;
 pub(crate) mod node;
 mod places;
@@ -33,7 +34,8 @@ use nalgebra::Vector3;
 use roxmltree::Node;
 
 pub(crate) use grammar::{Misspelt, misspellings};
-pub(crate) use inertial::Repairs;
+pub(crate) use inertial::{LARGEST_GYRATION_M, Repairs};
+pub(crate) use large::{LargeLinks, without_large_links};
 pub(crate) use pose::{CENTER_OF_MASS, LARGEST_PLAUSIBLE_M, TOO_FAR};
 
 use self::node::{elements, last, place, tag};

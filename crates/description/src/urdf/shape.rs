@@ -7,7 +7,7 @@ use roxmltree::Node;
 
 use super::{
     node::{element, label, tag},
-    pose,
+    pose::{self, LARGEST_PLAUSIBLE_M, TOO_FAR},
 };
 use crate::{
     diagnostic::{Diagnostic, Diagnostics, Use},
@@ -121,7 +121,12 @@ impl ShapeReader<'_, '_> {
 
 fn placed(diagnostic: Diagnostic, owner: Node<'_, '_>, place: Node<'_, '_>) -> Diagnostic {
     let message = format!("{}: {}", label(owner), diagnostic.message);
-    Diagnostic { message, ..diagnostic }.at(tag(place))
+    let placed = Diagnostic { message, ..diagnostic }.at(tag(place));
+    if placed.code == TOO_FAR {
+        placed.one_of("shapes are more than 10 m large, of", label(owner))
+    } else {
+        placed
+    }
 }
 
 /// The smallest of the sizes, all of which must be positive.
@@ -136,8 +141,8 @@ fn check_sizes(shape: &str, sizes: &[(&str, f64)]) -> Result<f64, Diagnostic> {
 }
 
 fn too_large(what: &str, size_m: f64) -> Option<Diagnostic> {
-    (size_m > pose::LARGEST_PLAUSIBLE_M).then(|| {
-        Diagnostic::warning("urdf::millimetres", format!("{what} is {size_m:.1} m large"))
+    (size_m > LARGEST_PLAUSIBLE_M).then(|| {
+        Diagnostic::warning(TOO_FAR, format!("{what} is {size_m:.1} m large"))
             .with_help("millimetres instead of metres? a mesh takes scale=\"0.001 0.001 0.001\"")
     })
 }

@@ -142,6 +142,11 @@ fn joints_are_checked() {
         "urdf::limit",
         "lower limit 1 is above upper limit 0",
     );
+    joint_error(
+        "<limit lower='0' upper='1e308' effort='1' velocity='1'/>",
+        "urdf::limit",
+        "limit 1e308 is beyond 1e30",
+    );
     joint_error(&format!("{LIMIT}<axis xyz='0 0 0'/>"), "urdf::axis", "zero vector");
     joint_error(&format!("{LIMIT}<axis xyz='1.7e308 1.7e308 0'/>"), "urdf::axis", "larger than any number");
     joint_error(

@@ -4,6 +4,7 @@ use congruent_dynamics::DynamicsError;
 use nalgebra::Matrix3;
 
 use super::{
+    compare_long::compare_long,
     content::{DynamicsPremise, DynamicsReport, DynamicsVerdict, Sides, TorqueCertificates},
     link_by_link::{is_simpler, link_by_link},
     places::Files,
@@ -14,7 +15,7 @@ use crate::{
     compare::{hidden, invariants::invariants, limits},
     diagnosis::{Expected, FaultySide, Setting},
     side::{Inertial, JointTerm, Side},
-    thresholds::{MOST_JOINTS, Precision, STATES},
+    thresholds::{INVARIANT_STATES, MOST_JOINTS, Precision, STATES},
     torque::{
         compressed::{Compressed, torques},
         states::random_states,
@@ -68,6 +69,8 @@ pub enum CompareError {
 /// Links and joints are matched by name; frames of equal name must be equal, which is the question of the kinematic
 /// comparison before this one.
 ///
+/// Of more than 60 joints no cause is searched: the report has the difference of torques and the parameters that differ.
+///
 /// # Errors
 /// [`CompareError`] if a joint is missing in one of them, or if parameters are not finite.
 ///
@@ -100,6 +103,10 @@ pub fn compare(
     let seen_as_candidate = in_geometry_of(candidate.side, reference.side, &joints);
     let states = random_states(&candidate.side.frames, seed, STATES);
     let expected = torques(&seen_as_candidate, &states)?;
+    if joints.len() > MOST_JOINTS {
+        let of_states = (states.as_slice(), expected.as_slice());
+        return Ok(compare_long((candidate, reference), (&seen_as_candidate, &joints), of_states)?);
+    }
     let torque = Compressed::new(candidate.side, &states, &expected)?;
     let setting = Setting {
         candidate: candidate.side,
@@ -147,7 +154,7 @@ pub fn compare(
             held_out_relative: None,
             states: states.len(),
         },
-        seen: torque.seen,
+        seen: Some(torque.seen),
         invariants: Some(invariants([candidate.side, reference.side], &tree, &states[..INVARIANT_STATES])?),
         links: told.links,
         differences,
@@ -159,19 +166,17 @@ pub fn compare(
     })
 }
 
-/// Invariants are compared at so many of the states. Kind: choice; they are an impression, the certificate is the bound.
-const INVARIANT_STATES: usize = 20;
-
 /// Brackets the largest differences of torque between two descriptions of the same chain: seconds for a long arm.
 ///
 /// # Errors
-/// As [`compare`].
+/// As [`compare`], or [`CompareError::TooManyJoints`].
 pub fn certify(
     candidate: &NamedSide<'_>,
     reference: &NamedSide<'_>,
     seed: u64,
 ) -> Result<TorqueCertificates, CompareError> {
     let joints = comparable(candidate.side, reference.side)?;
+    check_count(joints.len())?;
     let reference = in_geometry_of(candidate.side, reference.side, &joints);
     let certified = bound::certify(candidate.side, &reference, seed)?;
     Ok(TorqueCertificates {
@@ -186,7 +191,9 @@ pub fn certify(
 /// For each joint of the candidate the reference's of that name, if torques can be computed at all.
 fn comparable(candidate: &Side, reference: &Side) -> Result<Vec<usize>, CompareError> {
     let joints = matched(candidate, reference)?;
-    check_count(joints.len())?;
+    if joints.is_empty() {
+        return Err(CompareError::NoJoint);
+    }
     [candidate, reference].into_iter().try_for_each(check_numbers)?;
     Ok(joints)
 }

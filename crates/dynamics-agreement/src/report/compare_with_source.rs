@@ -55,7 +55,7 @@ pub fn compare_with_source(
         verdict: told.verdict(),
         difference_relative: torque.relative_difference(),
         premise: DynamicsPremise { fit_relative, held_out_relative: Some(held_out), states: states.len() },
-        seen: torque.seen,
+        seen: Some(torque.seen),
         invariants: None,
         links: told.links,
         differences: Vec::new(),

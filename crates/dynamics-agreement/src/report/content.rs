@@ -20,8 +20,8 @@ pub struct DynamicsReport {
     pub difference_relative: f64,
     /// How well the reference's torques are those of a rigid body chain at all.
     pub premise: DynamicsPremise,
-    /// How many inertial numbers torques tell.
-    pub seen: SeenNumbers,
+    /// How many inertial numbers torques tell; `null` of more than 60 joints, where it is not known.
+    pub seen: Option<SeenNumbers>,
     /// Masses, gravity torques, mass matrix; `null` if the reference is no description.
     pub invariants: Option<Invariants>,
     /// Links whose numbers alone can contain the difference.

@@ -1,6 +1,7 @@
 //! The comparison as data and in words.
 
 mod compare_descriptions;
+mod compare_long;
 mod compare_with_source;
 mod content;
 mod explained;

@@ -7,7 +7,7 @@ use crate::{
     bound::{CoveredMotion, TorqueBracket},
     compare::{Compared, Invariants, LimitDifference, ParameterDifference},
     diagnosis::{DynamicsCause, FaultySide},
-    thresholds::{LARGEST_ACCELERATION, LARGEST_SPEED, Precision, SAME_VALUE},
+    thresholds::{LARGEST_ACCELERATION, LARGEST_SPEED, MOST_JOINTS, Precision, SAME_VALUE},
 };
 
 /// Parameters that a suggestion names one by one.
@@ -193,11 +193,15 @@ impl DynamicsReport {
         let [equal, percent] = [1.0, 100.0].map(|unit| number(self.difference_relative * unit));
         match self.verdict {
             DynamicsVerdict::Same | DynamicsVerdict::SameTorques => {
-                format!("torques equal but for {equal} of them at {states} states; {}", self.seen_sentence())
+                let seen = self.seen_sentence().map_or_else(String::new, |seen| format!("; {seen}"));
+                format!("torques equal but for {equal} of them at {states} states{seen}")
             }
             DynamicsVerdict::Explained => {
                 format!("torques differ by {percent} % at {states} states, explained")
             }
+            DynamicsVerdict::Unexplained if self.seen.is_none() => format!(
+                "torques differ by {percent} % at {states} states; causes are searched for at most {MOST_JOINTS} joints"
+            ),
             DynamicsVerdict::Unexplained => {
                 let no_body = self.premise.fit_relative;
                 let of_no_body = if no_body > Precision::ENGINE.of_torque {
@@ -239,29 +243,29 @@ impl DynamicsReport {
         hidden.map(|parameter| format!("{}; {}", parameter.sentence(), why(parameter))).collect()
     }
 
-    /// How much of the inertial numbers torques tell.
-    pub fn seen_sentence(&self) -> String {
-        let seen = &self.seen;
+    /// How much of the inertial numbers torques tell, if it is known.
+    pub fn seen_sentence(&self) -> Option<String> {
+        let seen = self.seen?;
         let all = format!("joint torques show {} of {} inertial numbers", seen.numbers, seen.of);
-        match seen.weak {
+        Some(match seen.weak {
             0 => all,
             weak => format!("{all}, {} of them only by the rounding of the axes", number(count(weak))),
-        }
+        })
     }
 }
 
 impl TorqueBracket {
-    /// `3.43 N m at shoulder_lift_joint (2.3 % of its effort), certified below 3.44 N m over the whole joint range`.
+    /// `3.43 N m at shoulder_lift_joint, certified below 3.44 N m (2.3 % of its effort) over the whole joint range`.
     pub fn sentence(&self) -> String {
         let share = self.share_of_effort.map(|share| format!(" ({} % of its effort)", number(share * 100.0)));
         let loose = self.ratio.filter(|ratio| *ratio > LOOSE);
         let loose = loose.map(|ratio| format!(", {} times as much,", number(ratio)));
         format!(
-            "{} at {}{}, certified below {}{} over the whole joint range",
+            "{} at {}, certified below {}{}{} over the whole joint range",
             quantity(self.attained_n_m, &self.unit),
             self.joint,
-            share.unwrap_or_default(),
             quantity(self.certified_n_m, &self.unit),
+            share.unwrap_or_default(),
             loose.unwrap_or_default(),
         )
     }

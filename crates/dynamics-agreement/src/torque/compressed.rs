@@ -196,7 +196,7 @@ fn resistance_torque(resistance: &JointResistance, motion: [f64; 3]) -> f64 {
 }
 
 /// One over the root mean square of each joint's torque.
-fn weights(torques: &[Vec<f64>], n: usize) -> Vec<f64> {
+pub(crate) fn weights(torques: &[Vec<f64>], n: usize) -> Vec<f64> {
     let square = |joint: usize| torques.iter().map(|torque| torque[joint] * torque[joint]).sum::<f64>();
     let squares: Vec<f64> = (0..n).map(square).collect();
     let largest = squares.iter().copied().fold(0.0, f64::max);

@@ -143,7 +143,9 @@ fn sentence(robot: &CheckedRobot<'_>) -> String {
     let report = robot.geometry;
     let poses_disagree = report.comparisons.iter().any(|of| of.verdict == Agreement::Disagree);
     match report.verdict {
-        Agreement::NothingCompared => "There is no table, and the physics was not asked.".to_owned(),
+        Agreement::NothingCompared => {
+            format!("Nothing was compared: {}.", Agreement::why_nothing(&report.chain))
+        }
         Agreement::Agree => format!("All sources agree; the largest difference is {}.", largest(report)),
         Agreement::Disagree if poses_disagree => format!("The largest difference is {}.", largest(report)),
         Agreement::Disagree => "The poses agree, the dynamics does not.".to_owned(),

@@ -1,5 +1,6 @@
 //! The document around a page. It carries its style and its scripts, and forbids every request.
 
+use congruent_description::{visible, visible_lines};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::{assets, series::Plots};
@@ -10,6 +11,8 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 
 
 /// The whole text of a page.
 pub(crate) fn document(title: &str, body: &Markup, plots: Option<&Plots>) -> String {
+    // A mark that turns the direction of a text makes a name or a command look like another.
+    let body = PreEscaped(visible_lines(&body.0));
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -19,7 +22,7 @@ pub(crate) fn document(title: &str, body: &Markup, plots: Option<&Plots>) -> Str
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="referrer" content="no-referrer";
-                title { (title) }
+                title { (visible(title)) }
                 @if plots.is_some() { style { (PreEscaped(assets::UPLOT_CSS)) } }
                 style { (PreEscaped(assets::PAGE_CSS)) }
             }

@@ -30,6 +30,15 @@ pub(super) struct Evidence {
 }
 
 impl Quantity {
+    pub(super) fn of(measure: &Measure) -> Self {
+        Self {
+            name: measure.quantity.to_owned(),
+            unit: measure.unit.to_owned(),
+            bound: measure.bound,
+            limit: measure.limit,
+        }
+    }
+
     pub(super) fn is(&self, name: &str, unit: &str) -> bool {
         self.name == name && self.unit == unit
     }
@@ -62,14 +71,8 @@ impl Evidence {
     /// Of the measure of a check that saw the recorded states; `None` without values.
     pub(super) fn of_measure(measure: &Measure) -> Option<Self> {
         let worst = measure.worst.as_ref()?;
-        let of = Quantity {
-            name: measure.quantity.to_owned(),
-            unit: measure.unit.to_owned(),
-            bound: measure.bound,
-            limit: measure.limit,
-        };
         Some(Self {
-            of,
+            of: Quantity::of(measure),
             subject: Some(worst.subject.clone()),
             worst: At { time_s: worst.time_s, value: worst.value },
             first_violation: measure

@@ -57,7 +57,9 @@ pub fn compare_tables(a: &Path, b: &Path, tolerance: f64) -> Result<FileComparis
         let both = rows_a - only_rows[0];
         statements.insert(0, format!("A has {rows_a} rows, B {rows_b}; {both} are at the same times"));
     }
-    let compared = common.len();
+    // Without a row at a time that both have, nothing was compared.
+    let has_common_rows = rows_a > only_rows[0];
+    let compared = if has_common_rows { common.len() } else { 0 };
     let series = common.into_iter().filter_map(|(.., series)| series.finish()).collect();
     Ok(FileComparison::new(ComparedFile::Trajectory, compared, series, only_in, statements))
 }

@@ -8,7 +8,7 @@ use crate::proximity::Clearance;
 pub(super) const ALL_JOINTS: &str = "all joints";
 
 /// Names for the indices in a sample.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Names {
     /// Links, in the robot's order.
     pub links: Vec<String>,

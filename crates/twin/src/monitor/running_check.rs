@@ -16,12 +16,12 @@ use super::{
         AgreementMonitor, GoalMonitor, InvariantsMonitor, TwistMonitor, default_rotation, examine_goal,
         twist_limits,
     },
-    space::{ClearanceMonitor, ContactMonitor, ZoneMonitor, examine_pairs},
+    space::{ClearanceMonitor, ContactMonitor, ZoneMonitor, examine_minimum, examine_pairs},
 };
 use crate::{
     proximity::ObstacleMobility,
     scenario::{Check, CheckKind, FilePlace, ObstacleSettings, OnViolation},
-    verdict::{CheckResult, InstantValue, Status},
+    verdict::{CheckResult, InstantValue, Measure, Status},
 };
 
 /// A check with its results so far.
@@ -61,7 +61,7 @@ impl<'a> RunningCheck<'a> {
         let robot = &around.0.robot;
         match check {
             Check::Clearance(check) => {
-                check.unit_keys().required(place)?;
+                examine_minimum(check, place)?;
                 examine_pairs((&check.pairs, &check.ignore), place, around)
             }
             Check::Contact(check) => examine_pairs((&check.pairs, &check.ignore), place, around),
@@ -114,6 +114,11 @@ impl<'a> RunningCheck<'a> {
     /// Calls `take` with the values of the check at this time.
     pub(crate) fn values(&self, time_s: f64, take: &mut dyn FnMut(CheckKind, InstantValue)) {
         self.monitor.values(time_s, &mut |value| take(self.kind, value));
+    }
+
+    /// The quantities that it is about to watch, with their limits. Before its first sample: nothing has a name yet.
+    pub fn limits(&self) -> Vec<Measure> {
+        self.monitor.finish(&Names::default()).measures
     }
 
     /// The result of the check.

@@ -46,8 +46,8 @@ impl OutputFolder {
     pub fn write_digests(&self) -> Result<(), OutputError> {
         let mut lines = String::new();
         for name in RESULTS.into_iter().filter(|name| self.file(name).is_file()) {
-            let line = line(self.path(), name)
-                .map_err(|source| OutputError { path: self.file(name), source })?;
+            let line =
+                line(self.path(), name).map_err(|source| OutputError { path: self.file(name), source })?;
             lines.push_str(&line);
             lines.push('\n');
         }
@@ -96,9 +96,9 @@ mod tests {
         assert_eq!(compared().changed, [""; 0]);
         folder.write("report.html", b"abd").unwrap();
         folder.remove("junit.xml").unwrap();
-        assert_eq!(compared(), ComparedResults {
-            intact: vec![REPORT],
-            changed: vec!["report.html", "junit.xml"]
-        });
+        assert_eq!(
+            compared(),
+            ComparedResults { intact: vec![REPORT], changed: vec!["report.html", "junit.xml"] }
+        );
     }
 }

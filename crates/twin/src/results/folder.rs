@@ -61,6 +61,16 @@ pub(super) const RESULTS: [&str; 11] = [
     "scenario.resolved.toml",
 ];
 
+/// Every file that a run may write to a folder.
+pub fn result_files(folder: &Path) -> Vec<PathBuf> {
+    result_names().map(|name| folder.join(name)).collect()
+}
+
+/// The digests first: what is left by a call that is killed while it removes them is no finished run.
+fn result_names() -> impl Iterator<Item = &'static str> {
+    [DIGESTS].into_iter().chain(RESULTS)
+}
+
 impl OutputFolder {
     /// Where the results of a scenario of this name go.
     pub fn path_for(out: &Path, scenario: &str) -> PathBuf {
@@ -81,15 +91,12 @@ impl OutputFolder {
             LockError::Io(source) => refused(source).into(),
         })?;
         let folder = Self { path, _lock: lock };
-        // The digests first: what is left by a call that is killed here is no finished run.
-        let files = || [DIGESTS].into_iter().chain(RESULTS);
-        for name in files() {
-            let file = folder.file(name);
+        for file in result_files(folder.path()) {
             if inputs.iter().any(|input| is_same_file(&input.path, &file)) {
                 return Err(FolderError::IsInput { file });
             }
         }
-        files().try_for_each(|name| folder.remove(name))?;
+        result_names().try_for_each(|name| folder.remove(name))?;
         Ok(folder)
     }
 

@@ -6,5 +6,5 @@ mod lock;
 mod whole_file;
 
 pub use digests::{ComparedResults, DIGESTS, compare_results};
-pub use folder::{FolderError, OutputFolder, REPORT};
+pub use folder::{FolderError, OutputFolder, REPORT, result_files};
 pub use whole_file::{OutputError, is_same_file, remove_unfinished_files, write_whole};

@@ -93,8 +93,20 @@ impl RunSetup {
         overrides: &[Override],
         access: &FileAccess,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let access = access.fresh();
-        let file = ScenarioFile::read_with(path, overrides, &access)?;
+        let own = access.fresh();
+        let loaded = Self::load_noting(path, overrides, &own);
+        // What was read before it was refused is an input, too.
+        access.add(&own.files());
+        loaded
+    }
+
+    /// The same; `access` notes what is read.
+    fn load_noting(
+        path: &Path,
+        overrides: &[Override],
+        access: &FileAccess,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let file = ScenarioFile::read_with(path, overrides, access)?;
         let access = access.of_file(path)?;
         let in_file = |findings: Vec<Diagnostic>| findings.into_iter().map(|finding| file.mark(finding));
         let robot = file.robot_path();

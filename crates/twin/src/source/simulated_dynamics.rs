@@ -5,7 +5,7 @@ use congruent_dynamics::{DrivenState, JointDynamics, JointDynamicsError};
 use congruent_simulation::{Setpoint, SimulationError, Torque, World, WorldSettings};
 use nalgebra::DMatrix;
 
-/// The physics twin of a robot as a source of dynamics: it is stepped once from each state, with three lengths of
+/// The physics twin of a robot as a source of dynamics: it is stepped once from each state, with several lengths of
 /// step, and the accelerations are extrapolated to a step of no length.
 ///
 /// Limits of position and effort are left out: a state outside of them has dynamics as well.
@@ -14,10 +14,11 @@ pub struct SimulatedDynamics {
     independent: Stepped,
 }
 
-/// Longest step: at it, half and a quarter of it extrapolation leaves some 1e-11 of the acceleration.
+/// Longest step: extrapolation leaves some 1e-11 of the acceleration, and so does the rounding of the shortest.
 const LONGEST_STEP_S: f64 = 1e-4;
-/// The engine damps implicitly; this part of the speed may be lost in a step.
-const DAMPED_SHARE: f64 = 0.01;
+/// The engine damps implicitly; this part `x` of the speed may be lost in the longest step. Extrapolation leaves a product of
+/// all shares of it, `x^5 / 1024`, of the torque of the damping, and rounding grows as the steps become shorter.
+const DAMPED_SHARE: f64 = 0.02;
 
 impl std::fmt::Debug for SimulatedDynamics {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -62,10 +63,10 @@ impl JointDynamics for SimulatedDynamics {
     }
 }
 
-/// The steps of the three worlds, as parts of the longest.
-const SHARES: [f64; 3] = [1.0, 0.5, 0.25];
+/// The steps of the worlds, as parts of the longest.
+const SHARES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 0.0625];
 
-/// One robot in three worlds with steps of `h`, `h/2` and `h/4`.
+/// One robot in a world for each length of step.
 struct Stepped {
     robot: Robot,
     step_s: f64,
@@ -95,28 +96,37 @@ impl Stepped {
         Ok(&self.worlds[0])
     }
 
-    /// Richardson's extrapolation, twice: the scheme is of first order in the step.
+    /// The polynomial in the length of the step, at a length of zero.
     fn accelerations_into(
         &mut self,
         state: &DrivenState<'_>,
         qdd: &mut [f64],
     ) -> Result<(), SimulationError> {
         let (mut torques, still) = (Torque(state.tau.to_vec()), vec![0.0; state.qd.len()]);
-        let mut found = [const { Vec::new() }; 3];
+        let mut found = [const { Vec::new() }; SHARES.len()];
         for ((world, found), share) in self.worlds.iter_mut().zip(&mut found).zip(SHARES) {
             world.set_state(state.q, state.qd)?;
             world.step(&mut torques, &Setpoint { q: state.q, qd: state.qd, qdd: &still })?;
             let step_s = self.step_s * share;
             found.extend(world.qd().iter().zip(state.qd).map(|(after, before)| (after - before) / step_s));
         }
-        let [whole, half, quarter] = &found;
         for (joint, qdd) in qdd.iter_mut().enumerate() {
-            let coarse = 2.0 * half[joint] - whole[joint];
-            let fine = 2.0 * quarter[joint] - half[joint];
-            *qdd = (4.0 * fine - coarse) / 3.0;
+            *qdd = at_zero(std::array::from_fn(|world| found[world][joint]));
         }
         Ok(())
     }
+}
+
+/// The value at zero of the polynomial through values at [`SHARES`] (Neville's scheme: Press et al., Numerical Recipes,
+/// 3rd edition, equation 3.2.3).
+fn at_zero(mut values: [f64; SHARES.len()]) -> f64 {
+    for order in 1..values.len() {
+        for at in 0..values.len() - order {
+            let [coarse, fine] = [SHARES[at], SHARES[at + order]];
+            values[at] = (coarse * values[at + 1] - fine * values[at]) / (coarse - fine);
+        }
+    }
+    values[0]
 }
 
 fn worlds(robot: &Robot, longest_s: f64) -> Result<Vec<World>, SimulationError> {
@@ -125,4 +135,18 @@ fn worlds(robot: &Robot, longest_s: f64) -> Result<Vec<World>, SimulationError> 
         World::new(robot, &settings)
     };
     SHARES.into_iter().map(world).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_damped_speed_is_extrapolated_to_a_step_of_zero() {
+        // Of `1 / (1 + x)`, the speed after an implicit step that takes the share `x` of it.
+        let remainder = at_zero(SHARES.map(|share| 1.0 / (1.0 + DAMPED_SHARE * share))) - 1.0;
+        assert!(remainder.abs() < 5e-12, "{remainder:e}");
+        let polynomial = |share: f64| 3.0 - 2.0 * share + share.powi(4);
+        assert!((at_zero(SHARES.map(polynomial)) - 3.0).abs() < 1e-14);
+    }
 }

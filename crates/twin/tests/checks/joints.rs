@@ -195,7 +195,7 @@ fn settling_is_judged_by_what_was_measured() {
         result(&setup(scenario, &arm(&[])))
     };
     let early = ended(0.8);
-    assert!(measure(&early, "settling_time").worst.is_none(), "{early:#?}");
+    assert_eq!((early.status, worst(&early, "settling_time")), (Status::Fail, f64::INFINITY), "{early:#?}");
     notes(&early, "the setpoint never stood");
     let unsettled = ended(0.85);
     let settling = measure(&unsettled, "settling_time").first_violation.as_ref().unwrap();
@@ -239,6 +239,16 @@ fn the_motions_end_in_time() {
 }
 
 /// The way to rest is no end of the motions.
+#[test]
+fn a_run_without_motions_has_no_cycle_time() {
+    let still = cycle(1.0, |scenario| {
+        scenario.motion.clear();
+        scenario.simulation.duration_s = Some(0.1);
+    });
+    assert_eq!(still.status, Status::Skipped, "{still:#?}");
+    notes(&still, "there are no motions");
+}
+
 #[test]
 fn a_run_that_is_stopped_before_its_end_has_no_cycle_time() {
     let stopped = cycle(0.5, |scenario| {

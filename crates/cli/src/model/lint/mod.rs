@@ -3,6 +3,7 @@
 mod diff;
 mod explain;
 mod fix;
+mod lines;
 mod sarif;
 mod text;
 

@@ -10,11 +10,12 @@ use std::{
 
 use congruent::{
     LintFix, LintReport,
-    description::{Code, Diagnostic, Occurrence, Severity, SourceFile, TextEdit, line_column},
+    description::{Code, Diagnostic, Occurrence, Severity, SourceFile, TextEdit},
 };
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::lines::Lines;
 use crate::ci::{inside, top_of_repository};
 
 /// A log with one run.
@@ -34,7 +35,11 @@ struct Results<'a> {
     codes: BTreeMap<&'a str, Option<Code>>,
     /// How often a result was written that differs from others by its line alone.
     seen: BTreeMap<String, usize>,
+    lines: Lines,
 }
+
+/// Corrections by the code of what they correct, and the file and line of their first change.
+type FixesByLine<'a> = BTreeMap<(&'a str, &'a Path, usize), Vec<&'a LintFix>>;
 
 /// One place of a finding.
 struct Place<'a> {
@@ -51,17 +56,18 @@ impl<'a> From<&'a Occurrence> for Place<'a> {
 }
 
 pub(super) fn document(reports: &[(&Path, &LintReport)]) -> Sarif {
-    let found = || {
-        reports.iter().flat_map(|(path, report)| {
-            report.diagnostics.iter().map(move |found| (*path, &report.fixes[..], found))
-        })
-    };
+    let found = reports.iter().flat_map(|(_, report)| &report.diagnostics);
     let codes: BTreeMap<&str, Option<Code>> =
-        found().map(|(.., found)| (found.code, Code::find(found.code))).collect();
+        found.map(|found| (found.code, Code::find(found.code))).collect();
     let rules: Vec<Value> = codes.iter().map(|(name, code)| rule(name, *code)).collect();
-    let mut results = Results { top: top_of_repository(), codes, seen: BTreeMap::new() };
-    let written: Vec<Value> =
-        found().flat_map(|(path, fixes, found)| results.of(found, path, fixes)).collect();
+    let mut results =
+        Results { top: top_of_repository(), codes, seen: BTreeMap::new(), lines: Lines::default() };
+    let of_report = |(path, report): &(&Path, &LintReport)| {
+        let fixes = results.fixes(&report.fixes);
+        let found = report.diagnostics.iter();
+        found.flat_map(|found| results.of(found, path, &fixes)).collect::<Vec<_>>()
+    };
+    let written: Vec<Value> = reports.iter().flat_map(of_report).collect();
     let driver = json!({
         "name": "congruent",
         "semanticVersion": env!("CARGO_PKG_VERSION"),
@@ -92,15 +98,27 @@ fn id(name: &str, code: Option<Code>) -> String {
 }
 
 impl Results<'_> {
+    fn fixes<'f>(&mut self, fixes: &'f [LintFix]) -> FixesByLine<'f> {
+        let mut by_line = FixesByLine::new();
+        for fix in fixes {
+            let Some(first) = fix.edits.first() else { continue };
+            let line = self.lines.line(&fix.source, first.span.start);
+            by_line.entry((fix.code, &fix.source.path, line)).or_default().push(fix);
+        }
+        by_line
+    }
+
     /// A finding of the file that was linted: a result for each of its places.
-    fn of(&mut self, found: &Diagnostic, linted: &Path, fixes: &[LintFix]) -> Vec<Value> {
+    fn of(&mut self, found: &Diagnostic, linted: &Path, fixes: &FixesByLine<'_>) -> Vec<Value> {
         let name = found.kind.words.as_ref().map(|(_, name)| name.as_str());
         let whole = Place { message: &found.message, name, span: found.span.as_ref() };
         let mut one = |place: Place<'_>| {
-            let fixes: Vec<&LintFix> = fixes.iter().filter(|fix| answers(fix, found, place.span)).collect();
             let mut result = self.result(found, linted, &place);
-            if !fixes.is_empty() {
-                result["fixes"] = fixes.into_iter().map(|fix| self.fix(fix)).collect();
+            if let (Some(source), Some(span)) = (&found.source, place.span) {
+                let line = self.lines.line(source, span.start);
+                if let Some(fixes) = fixes.get(&(found.code, &*source.path, line)) {
+                    result["fixes"] = fixes.iter().map(|fix| self.fix(fix)).collect();
+                }
             }
             result
         };
@@ -124,14 +142,14 @@ impl Results<'_> {
             "ruleId": id,
             "level": level,
             "message": { "text": format!("{}{help}", place.message) },
-            "locations": [{ "physicalLocation": location(&artifact, source, place.span) }],
+            "locations": [{ "physicalLocation": self.location(&artifact, source, place.span) }],
             "partialFingerprints": { "congruentFinding/v1": fingerprint },
         });
         if let Some(rule) = self.codes.keys().position(|known| *known == found.code) {
             result["ruleIndex"] = json!(rule);
         }
         if let Some(related) = &found.kind.related {
-            let physical = location(&artifact, source, related.span.as_ref());
+            let physical = self.location(&artifact, source, related.span.as_ref());
             let message = json!({ "text": related.message });
             result["relatedLocations"] = json!([{ "physicalLocation": physical, "message": message }]);
         }
@@ -147,10 +165,36 @@ impl Results<'_> {
         format!("{:016x}:{before}", hash(&key))
     }
 
-    fn fix(&self, fix: &LintFix) -> Value {
+    /// A place in a file; its first line if it is about the whole file, since code hosts show no finding without one.
+    fn location(
+        &mut self,
+        artifact: &Value,
+        source: Option<&SourceFile>,
+        span: Option<&Range<usize>>,
+    ) -> Value {
+        let region = match (source, span) {
+            (Some(source), Some(span)) => self.region(source, span),
+            _ => json!({ "startLine": 1 }),
+        };
+        json!({ "artifactLocation": artifact, "region": region })
+    }
+
+    /// Lines and columns from 1; the end is the column behind the last character.
+    fn region(&mut self, source: &SourceFile, span: &Range<usize>) -> Value {
+        let (line, column) = self.lines.line_column(source, span.start);
+        let mut region = json!({ "startLine": line, "startColumn": column });
+        if span.end > span.start {
+            let (line, column) = self.lines.line_column(source, span.end);
+            region["endLine"] = json!(line);
+            region["endColumn"] = json!(column);
+        }
+        region
+    }
+
+    fn fix(&mut self, fix: &LintFix) -> Value {
         let replacement = |edit: &TextEdit| {
             let inserted = json!({ "text": edit.text });
-            json!({ "deletedRegion": region(&fix.source.text, &edit.span), "insertedContent": inserted })
+            json!({ "deletedRegion": self.region(&fix.source, &edit.span), "insertedContent": inserted })
         };
         let replacements: Vec<Value> = fix.edits.iter().map(replacement).collect();
         let artifact = self.artifact(&fix.source.path);
@@ -179,35 +223,6 @@ impl Results<'_> {
 fn hash(text: &str) -> u64 {
     text.bytes()
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
-}
-
-/// Whether a correction is of what stands at a place: of the same file, in the same line.
-fn answers(fix: &LintFix, found: &Diagnostic, span: Option<&Range<usize>>) -> bool {
-    let (Some(source), Some(span)) = (&found.source, span) else { return false };
-    let line = |at| line_column(&source.text, at).0;
-    let is_here = |edit: &TextEdit| line(edit.span.start) == line(span.start);
-    fix.code == found.code && fix.source.path == source.path && fix.edits.first().is_some_and(is_here)
-}
-
-/// A place in a file; its first line if it is about the whole file, since code hosts show no finding without one.
-fn location(artifact: &Value, source: Option<&SourceFile>, span: Option<&Range<usize>>) -> Value {
-    let region = match (source, span) {
-        (Some(source), Some(span)) => region(&source.text, span),
-        _ => json!({ "startLine": 1 }),
-    };
-    json!({ "artifactLocation": artifact, "region": region })
-}
-
-/// Lines and columns from 1; the end is the column behind the last character.
-fn region(text: &str, span: &Range<usize>) -> Value {
-    let (line, column) = line_column(text, span.start);
-    let mut region = json!({ "startLine": line, "startColumn": column });
-    if span.end > span.start {
-        let (line, column) = line_column(text, span.end);
-        region["endLine"] = json!(line);
-        region["endColumn"] = json!(column);
-    }
-    region
 }
 
 /// The parts of a path with slashes between, every byte escaped that has a meaning in a URI.
@@ -248,8 +263,9 @@ mod tests {
 
     fn results(found: &[Diagnostic]) -> Vec<Value> {
         let codes = found.iter().map(|found| (found.code, Code::find(found.code))).collect();
-        let mut results = Results { top: None, codes, seen: BTreeMap::new() };
-        found.iter().flat_map(|found| results.of(found, Path::new("a.urdf"), &[])).collect()
+        let mut results = Results { top: None, codes, seen: BTreeMap::new(), lines: Lines::default() };
+        let none = FixesByLine::new();
+        found.iter().flat_map(|found| results.of(found, Path::new("a.urdf"), &none)).collect()
     }
 
     #[test]

@@ -4,13 +4,19 @@ use std::fmt::Write;
 
 use congruent::{
     LintReport,
-    description::{display::counted, serde_name},
+    description::{Severity, display::counted, serde_name},
 };
 
-use crate::terminal::print::rendered;
+use crate::terminal::print::{MOST_FINDINGS, rendered, shown_findings};
 
 pub(super) fn text(report: &LintReport, difference: &str) -> String {
-    let mut text: String = report.diagnostics.iter().map(rendered).collect();
+    // Errors are not among those that are left out for warnings.
+    let of = |wanted| report.diagnostics.iter().filter(move |found| found.severity == wanted);
+    let mut found: Vec<_> = report.diagnostics.iter().collect();
+    if found.len() > MOST_FINDINGS {
+        found = of(Severity::Error).chain(of(Severity::Warning)).collect();
+    }
+    let mut text = shown_findings(found.into_iter(), rendered);
     text += difference;
     for ignored in &report.ignored {
         let _ = writeln!(

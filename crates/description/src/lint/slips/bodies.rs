@@ -13,7 +13,7 @@ use crate::{
     Elementary as _,
     display::{length, quantity},
     model::{Inertia, LinkIndex},
-    urdf::{CENTER_OF_MASS, LARGEST_PLAUSIBLE_M},
+    urdf::{CENTER_OF_MASS, LARGEST_GYRATION_M, LARGEST_PLAUSIBLE_M},
 };
 
 const MASS: Kind = Kind { code: "units::mass", words: "links have a mass that no body of their size has" };
@@ -69,6 +69,7 @@ impl Judge<'_> {
             if let Some(inertia) = &robot.link(link).inertia {
                 self.center_of_mass(link, inertia);
                 self.tensor(link, inertia);
+                self.example(link, inertia);
             }
         }
     }
@@ -108,6 +109,23 @@ impl Judge<'_> {
             ),
         };
         self.warn_link(&INERTIA, name, &what, ("inertia", guess(body)));
+    }
+
+    /// The inertia of examples on a link that is far smaller.
+    fn example(&mut self, link: LinkIndex, inertia: &Inertia) {
+        let shapes = self.sizes.shapes[link.get()].filter(|shapes| shapes.diagonal_m() > 0.0);
+        // Of lighter links it is told when they are read.
+        let gyration_m = (1.0 / inertia.mass_kg).sqrt();
+        if let Some(shapes) = shapes.filter(|_| inertia.is_example() && gyration_m < LARGEST_GYRATION_M)
+            && gyration_m > GYRATION_TO_DIAGONAL[1] * shapes.diagonal_m()
+        {
+            let what = format!(
+                "its inertia is 1 kg m^2 about every axis, as in examples, and its shapes are {} large",
+                length(shapes.diagonal_m())
+            );
+            let help = "give the inertia of a box of the link's size".to_owned();
+            self.warn_link(&INERTIA, &self.robot.link(link).name, &what, ("inertia", help));
+        }
     }
 
     /// A mass without extent; markers have none either.

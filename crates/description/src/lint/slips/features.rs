@@ -1,76 +1,9 @@
 //! What the judgements compare: how large links are, and which values are placeholders.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 
 use super::thresholds::{LARGEST_MARKER_M, LEAST_BODY_KG};
-use crate::model::{Geometry, Inertia, LinkIndex, Robot, Shape};
-
-/// An axis-aligned box in the frame of a link.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Extent {
-    least: Vector3<f64>,
-    most: Vector3<f64>,
-}
-
-impl Extent {
-    fn of_point(point: Vector3<f64>) -> Self {
-        Self { least: point, most: point }
-    }
-
-    fn with(self, other: Self) -> Self {
-        Self { least: self.least.inf(&other.least), most: self.most.sup(&other.most) }
-    }
-
-    /// The same with a point in it.
-    pub(super) fn including(self, point: Vector3<f64>) -> Self {
-        self.with(Self::of_point(point))
-    }
-
-    /// Around a shape in its own frame; `None` if it has no vertices.
-    fn of_geometry(geometry: &Geometry) -> Option<Self> {
-        let half = match geometry {
-            Geometry::Box { size_m } => size_m / 2.0,
-            Geometry::Cylinder { radius_m, length_m } => Vector3::new(*radius_m, *radius_m, length_m / 2.0),
-            Geometry::Sphere { radius_m } => Vector3::repeat(*radius_m),
-            Geometry::Mesh(mesh) => {
-                let points = mesh.vertices_m.iter().map(|vertex| Self::of_point(vertex.coords));
-                return points.reduce(Self::with);
-            }
-        };
-        Some(Self { least: -half, most: half })
-    }
-
-    /// Around a shape in the frame of its link.
-    fn of_shape(shape: &Shape) -> Option<Self> {
-        let own = Self::of_geometry(&shape.geometry)?;
-        let corner = |at: usize| {
-            let pick = |axis: usize| if at >> axis & 1 == 0 { own.least[axis] } else { own.most[axis] };
-            let corner = shape.link_from_shape * Point3::new(pick(0), pick(1), pick(2));
-            Self::of_point(corner.coords)
-        };
-        (0..8).map(corner).reduce(Self::with)
-    }
-
-    /// Length of the diagonal.
-    pub(super) fn diagonal_m(&self) -> f64 {
-        (self.most - self.least).norm()
-    }
-
-    /// Volume, no side less than a tenth of a millimetre.
-    pub(super) fn volume_m3(&self) -> f64 {
-        (self.most - self.least).map(|side| side.max(1e-4)).product()
-    }
-
-    /// Distance of a point from the box, 0 inside.
-    pub(super) fn distance_m(&self, point: Vector3<f64>) -> f64 {
-        (self.least - point).sup(&(point - self.most)).map(|beyond| beyond.max(0.0)).norm()
-    }
-
-    /// The largest distance of a point of the box from the origin.
-    fn farthest_m(&self) -> f64 {
-        self.least.abs().sup(&self.most.abs()).norm()
-    }
-}
+use crate::model::{Extent, Geometry, Inertia, Joint, LinkIndex, Robot, Shape};
 
 /// Whether a shape only marks a place, such as a ball of a millimetre: it says nothing of the size of its link.
 fn is_marker(shape: &Shape) -> bool {
@@ -128,6 +61,17 @@ impl Sizes {
         }
     }
 
+    /// An upper bound of how far what a joint carries is from its axis.
+    pub(super) fn radius_m(&self, robot: &Robot, joint: &Joint) -> f64 {
+        let axis = joint.axis_in_joint.into_inner();
+        let from_axis_m = |point: Vector3<f64>| (point - axis * axis.dot(&point)).norm();
+        let corners = self.shapes[joint.child.get()].iter().flat_map(Extent::corners);
+        let carried = robot.joints().iter().filter(|other| other.parent == joint.child).map(|other| {
+            from_axis_m(other.parent_from_joint.translation.vector) + self.below_m[other.child.get()]
+        });
+        corners.map(from_axis_m).chain(carried).fold(0.0, f64::max)
+    }
+
     /// The size of the robot: what all joint origins make in a row, or its largest link.
     pub(super) fn robot_m(&self) -> f64 {
         let shapes = self.shapes.iter().flatten().map(Extent::diagonal_m);
@@ -151,12 +95,10 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// `None` without the mass of a body or a tensor other than zero, and of the tensor 1 kg m^2 about every axis, which
-    /// examples have: what is too large in it is told when it is read, and is no slip of a unit.
+    /// `None` without the mass of a body or a tensor other than zero, and of that of examples, which is no slip of a unit.
     pub(super) fn of(link: LinkIndex, inertia: &Inertia, sizes: &Sizes) -> Option<Self> {
         let trace = inertia.tensor_kg_m2.trace();
-        let is_example = inertia.tensor_kg_m2 == nalgebra::Matrix3::identity();
-        if !(inertia.mass_kg >= LEAST_BODY_KG && trace > 0.0) || is_example {
+        if !(inertia.mass_kg >= LEAST_BODY_KG && trace > 0.0) || inertia.is_example() {
             return None;
         }
         let gyration_m = (trace / 3.0 / inertia.mass_kg).sqrt();

@@ -95,6 +95,10 @@ impl Judge<'_> {
         if travel_m > PLACEHOLDER_M {
             return None;
         }
+        // Along a mast or under a jib.
+        if travel_m < LARGE_TRAVEL_TO_SIZE * self.large.longest_m() {
+            return None;
+        }
         let what = |than: String| Some(format!("it slides over {}, {than}", length(travel_m)));
         let may_be_track = self.is_first_to_move(joint);
         if travel_m > if may_be_track { LONGEST_TRACK_M } else { LONGEST_TRAVEL_M } {
@@ -126,6 +130,8 @@ impl Judge<'_> {
     }
 }
 
+/// Travel against the largest link of a large machine.
+const LARGE_TRAVEL_TO_SIZE: f64 = 1.2;
 /// From here on a limit of a sliding joint is a way to write "none", m and m/s.
 const PLACEHOLDER_M: f64 = 1e5;
 

@@ -19,7 +19,10 @@ use crate::{
     description::RobotDescription,
     diagnostic::{Diagnostic, Diagnostics},
     model::Robot,
-    urdf::node::{element, elements, place, tag},
+    urdf::{
+        LargeLinks,
+        node::{element, elements, place, tag},
+    },
     xml,
 };
 
@@ -34,6 +37,7 @@ struct Kind {
 struct Judge<'a> {
     robot: &'a Robot,
     sizes: Sizes,
+    large: LargeLinks,
     links: BTreeMap<&'a str, Node<'a, 'a>>,
     joints: BTreeMap<&'a str, Node<'a, 'a>>,
     found: Diagnostics,
@@ -52,6 +56,7 @@ pub fn unit_slips(description: &RobotDescription) -> Vec<Diagnostic> {
     let mut judge = Judge {
         robot,
         sizes: Sizes::of(robot),
+        large: LargeLinks::of(robot),
         links: named("link"),
         joints: named("joint"),
         found: Diagnostics::default(),

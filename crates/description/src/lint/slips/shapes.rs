@@ -16,11 +16,22 @@ use crate::{
 const SMALL: Kind = Kind { code: "units::small_mesh", words: "links have a mesh that is far too small" };
 const LARGE: Kind = Kind { code: "units::large_shape", words: "links have a shape that is far too large" };
 
-/// A shape of a link that is no bigger part of its world.
+/// What the size of a shape is compared with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Owner {
+    /// The shapes of the others: a floor hangs on the root.
+    Root,
+    /// Nothing: its mass and inertia are as large.
+    Large,
+    /// The shapes of the others and all joint origins.
+    Other,
+}
+
+/// A shape of a link.
 struct Measured<'a> {
     link: &'a str,
     is_mesh: bool,
-    is_root: bool,
+    owner: Owner,
     diagonal_m: f64,
 }
 
@@ -30,7 +41,7 @@ fn is_mesh(shape: &Shape) -> bool {
 
 impl Judge<'_> {
     pub(super) fn shapes(&mut self) {
-        let robot = self.robot;
+        let (robot, large) = (self.robot, &self.large);
         let measured: Vec<Measured<'_>> = robot
             .link_indices()
             .flat_map(|index| {
@@ -38,8 +49,12 @@ impl Judge<'_> {
                 let shapes = link.visuals.iter().chain(&link.collisions);
                 shapes.filter_map(move |shape| {
                     let diagonal_m = diagonal_m(shape).filter(|diagonal| *diagonal > 0.0)?;
-                    let is_root = index == robot.root();
-                    Some(Measured { link: &link.name, is_mesh: is_mesh(shape), is_root, diagonal_m })
+                    let owner = match large.get(index) {
+                        Some(_) => Owner::Large,
+                        None if index == robot.root() => Owner::Root,
+                        None => Owner::Other,
+                    };
+                    Some(Measured { link: &link.name, is_mesh: is_mesh(shape), owner, diagonal_m })
                 })
             })
             .collect();
@@ -54,9 +69,10 @@ impl Judge<'_> {
                 && (size_m < LEAST_MESH_M || (has_several && size_m < LEAST_MESH_TO_MEDIAN * middle_mesh_m));
             // Larger meshes are told when they are read.
             let is_told = shape.is_mesh && size_m > LARGEST_PLAUSIBLE_M;
-            let against_shapes = measured.len() >= 3 && size_m > MOST_SHAPE_TO_MEDIAN * middle_m;
-            // A floor hangs on the root.
-            let against_origins = !shape.is_root
+            let against_shapes = shape.owner != Owner::Large
+                && measured.len() >= 3
+                && size_m > MOST_SHAPE_TO_MEDIAN * middle_m;
+            let against_origins = shape.owner == Owner::Other
                 && self.sizes.origins_m > 0.0
                 && size_m > MOST_SHAPE_TO_ORIGINS * self.sizes.origins_m;
             let is_large = size_m > LEAST_LARGE_SHAPE_M && !is_told && (against_shapes || against_origins);

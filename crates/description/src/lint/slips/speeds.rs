@@ -5,8 +5,8 @@ use super::{
     features::median,
     lengths::is_real,
     thresholds::{
-        FASTEST_CONTINUOUS_RAD_S, FASTEST_TURN_RAD_S, LEAST_FAST_RAD_S, LEAST_MASS_KG, MEDIAN_TURN_RAD_S,
-        MOST_POWER_W_KG, MOST_SPEED_TO_MEDIAN,
+        FASTEST_CONTINUOUS_RAD_S, FASTEST_ROTOR_RAD_S, FASTEST_TURN_RAD_S, LEAST_FAST_RAD_S, LEAST_MASS_KG,
+        MEDIAN_TURN_RAD_S, MOST_POWER_W_KG, MOST_SPEED_TO_MEDIAN,
     },
 };
 use crate::{
@@ -31,12 +31,15 @@ impl Judge<'_> {
         let mass_kg: f64 = robot.links().iter().filter_map(|link| Some(link.inertia?.mass_kg)).sum();
         for joint in robot.joints() {
             let Some(speed) = speed(joint).filter(|speed| *speed > LEAST_FAST_RAD_S) else { continue };
+            if self.is_rotor(joint) && speed < FASTEST_ROTOR_RAD_S {
+                continue;
+            }
             let most = if joint.kind == JointKind::Continuous {
                 FASTEST_CONTINUOUS_RAD_S
             } else {
                 FASTEST_TURN_RAD_S
             };
-            let carried_m_s = speed * self.sizes.below_m[joint.child.get()];
+            let carried_m_s = speed * self.sizes.radius_m(robot, joint);
             let effort = joint.limit.and_then(|limit| limit.effort).filter(|effort| is_real(*effort));
             let power_w = effort.map_or(0.0, |effort| effort * speed);
             // Wheels and rotors turn without limits, beside slow arms.
@@ -66,4 +69,15 @@ impl Judge<'_> {
             self.warn_joint(&SPEED, &joint.name, &what, ("limit", help));
         }
     }
+
+    /// Whether a joint turns a propeller, a spindle or the like, by its name or that of its link, as nothing else in the file
+    /// tells it from a wrist.
+    fn is_rotor(&self, joint: &Joint) -> bool {
+        let carries_none = self.robot.joints().iter().all(|other| other.parent != joint.child);
+        let names = [&joint.name, &self.robot.link(joint.child).name].map(|name| name.to_lowercase());
+        carries_none && ROTORS.iter().any(|rotor| names.iter().any(|name| name.contains(rotor)))
+    }
 }
+
+/// Parts of names of what turns fast.
+const ROTORS: [&str; 8] = ["prop", "rotor", "spin", "flywheel", "fan", "turbine", "thruster", "centrifuge"];

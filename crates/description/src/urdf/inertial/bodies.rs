@@ -15,7 +15,10 @@ use crate::{
     display::quantity,
     model::{Inertia, LinkIndex, Robot, principal_moments},
     robot_file::toml_key,
-    urdf::node::{element, elements, place, tag},
+    urdf::{
+        large::INERTIA_SIZE,
+        node::{element, elements, place, tag},
+    },
 };
 
 /// Repairs what the robot file asks for, then reports impossible inertias and moving bodies without mass.
@@ -182,15 +185,14 @@ impl Judge<'_, '_> {
             if let Some((inertia, what)) =
                 link.inertia.as_ref().and_then(|inertia| Some((inertia, suspicious_size(inertia)?)))
             {
-                let help = if inertia.tensor_kg_m2 == nalgebra::Matrix3::identity() {
+                let help = if inertia.is_example() {
                     "1 kg m^2 about every axis is the value of examples: give that of a box of the link's size"
                 } else {
                     "kg mm^2 instead of kg m^2?"
                 };
-                let found =
-                    Diagnostic::warning("urdf::inertia_size", format!("link \"{}\": {what}", link.name))
-                        .one_of("links have an inertia that is far too large for their mass", &link.name)
-                        .with_help(help);
+                let found = Diagnostic::warning(INERTIA_SIZE, format!("link \"{}\": {what}", link.name))
+                    .one_of("links have an inertia that is far too large for their mass", &link.name)
+                    .with_help(help);
                 self.report(found, &link.name, "inertia");
             }
         }

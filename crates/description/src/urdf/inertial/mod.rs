@@ -5,6 +5,7 @@ mod possible;
 mod repair;
 
 pub(super) use bodies::judge;
+pub(crate) use possible::LARGEST_GYRATION_M;
 pub(crate) use repair::Repairs;
 
 #[cfg(test)]

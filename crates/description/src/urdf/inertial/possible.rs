@@ -9,7 +9,7 @@ use crate::{
 /// robots miss by up to 1e-4 if inertias are written with four digits.
 const MOMENT: f64 = 1e-3;
 /// No link of a robot has a larger radius of gyration: the tensor is taken for kg mm^2.
-const LARGEST_GYRATION_M: f64 = 3.0;
+pub(crate) const LARGEST_GYRATION_M: f64 = 3.0;
 
 /// The unit of a tensor.
 pub(super) const UNIT: &str = "kg m2";

@@ -40,6 +40,16 @@ pub enum RecheckError {
         /// Those of the scenario.
         given: String,
     },
+    /// The scenario has another robot than the run.
+    #[error(
+        "the recording is of robot \"{recorded}\", and this scenario is of robot \"{given}\", which has other links"
+    )]
+    OtherRobot {
+        /// The robot of the run.
+        recorded: String,
+        /// That of the scenario.
+        given: String,
+    },
     /// The checks cannot start.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -64,6 +74,7 @@ pub fn recheck(
     let report = summary.report.as_ref().ok_or(RecheckError::NoReport)?;
     let recorded: Vec<&Value> = report["checks"].as_array().into_iter().flatten().collect();
     is_of_scenario(&recorded, &setup)?;
+    is_of_robot(report, &setup)?;
     let is_broken = report["error"].is_string();
     if let Some(steps) = report["simulation"]["steps"].as_u64() {
         // A motion that was slowed down in the run made it longer; one that ended early has no last step.
@@ -112,6 +123,17 @@ fn is_of_scenario(recorded: &[&Value], setup: &RunSetup) -> Result<(), RecheckEr
     }
     let listed = |kinds: &[&str]| if kinds.is_empty() { "none".to_owned() } else { kinds.join(", ") };
     Err(RecheckError::OtherScenario { recorded: listed(&kinds), given: listed(&given) })
+}
+
+/// Whether the robot has the links of the run.
+fn is_of_robot(report: &Value, setup: &RunSetup) -> Result<(), RecheckError> {
+    let links = report["links"].as_array().into_iter().flatten().filter_map(|link| link["link"].as_str());
+    let robot = &setup.description.robot;
+    if links.eq(robot.links().iter().map(|link| link.name.as_str())) {
+        return Ok(());
+    }
+    let recorded = report["robot"].as_str().unwrap_or_default().to_owned();
+    Err(RecheckError::OtherRobot { recorded, given: setup.description.name.clone() })
 }
 
 /// Whether the run ended before its time: it broke, or a check stopped it.

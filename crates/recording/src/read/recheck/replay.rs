@@ -1,11 +1,11 @@
 //! The checks of a scenario on the joint states that a recording holds, and on its errors of the links.
 
 use congruent_twin::{
-    Run, RunError, RunSetup, Sample,
+    Run, RunError, RunSetup,
     comparison::Scalars,
-    recorder::{Recorder, RecordingError},
+    recorder::Recorders,
     scenario::{CheckKind, OnViolation},
-    verdict::{Bound, CheckValue},
+    verdict::Bound,
 };
 
 use super::states::RecordedStates;
@@ -21,23 +21,20 @@ pub(super) struct Replay {
     pub(super) steps: Vec<u64>,
     /// What each check of the scenario finds; nothing if it cannot be evaluated at recorded instants.
     pub(super) found: Vec<Vec<Evidence>>,
-    /// The limits of the scenario, as far as its checks tell.
+    /// The limits of the scenario.
     limits: Limits,
 }
 
-/// The quantities of all checks with the number of their check, each once.
+/// The quantities of each check.
 #[derive(Debug, Default)]
-struct Limits(Vec<(usize, Quantity)>);
+struct Limits(Vec<Vec<Quantity>>);
 
-impl Recorder for Limits {
-    fn record(&mut self, sample: &mut Sample<'_>) -> Result<(), RecordingError> {
-        for CheckValue { check, of, .. } in sample.values {
-            if !self.0.iter().any(|(known, quantity)| known == check && quantity.is(of.quantity, of.unit)) {
-                let (name, unit) = (of.quantity.to_owned(), of.unit.to_owned());
-                self.0.push((*check, Quantity { name, unit, bound: of.bound, limit: of.limit }));
-            }
-        }
-        Ok(())
+impl Limits {
+    /// Those of the scenario, whatever its checks have seen.
+    fn of(setup: &RunSetup) -> Self {
+        let checks = setup.checks();
+        let quantities = checks.iter().map(|check| check.limits().iter().map(Quantity::of).collect());
+        Self(quantities.collect())
     }
 }
 
@@ -66,7 +63,8 @@ impl Replay {
     /// # Errors
     /// [`RunError`] if the robot has no model or a shape no hull.
     pub(super) fn of(scalars: &Scalars, setup: &RunSetup, left_out: &[CheckKind]) -> Result<Self, RunError> {
-        let mut replay = Self { found: vec![Vec::new(); setup.scenario.check.len()], ..Self::default() };
+        let found = vec![Vec::new(); setup.scenario.check.len()];
+        let mut replay = Self { found, limits: Limits::of(setup), ..Self::default() };
         if let Some(states) = RecordedStates::new(scalars, &setup.description, setup.clock.step_s) {
             replay.steps = states.steps();
             replay.run(states, setup, left_out)?;
@@ -96,7 +94,7 @@ impl Replay {
                 run.step()?;
             }
             run.compare()?;
-            run.observe(&mut checks, &mut self.limits)?;
+            run.observe(&mut checks, &mut Recorders::default())?;
         }
         for (found, check) in self.found.iter_mut().zip(&checks) {
             if needs_states_alone(check.kind) && !left_out.contains(&check.kind) {
@@ -123,10 +121,8 @@ impl Replay {
         position.into_iter().chain(of_quantity("orientation", "rad", paths::orientation_error)).collect()
     }
 
-    /// The limit of a quantity by the scenario, if its checks have told it.
+    /// The limit of a quantity by the scenario, if its check has one.
     pub(super) fn limit(&self, check: usize, name: &str, unit: &str) -> Option<f64> {
-        let told = self.limits.0.iter().find(|(known, quantity)| *known == check && quantity.is(name, unit));
-        let found = || self.found[check].iter().find(|evidence| evidence.of.is(name, unit));
-        told.map(|(_, quantity)| quantity.limit).or_else(|| Some(found()?.of.limit))
+        self.limits.0[check].iter().find(|quantity| quantity.is(name, unit)).map(|quantity| quantity.limit)
     }
 }

@@ -32,6 +32,9 @@ const LEAST_ACCELERATION: f64 = 1.0;
 pub(super) const AT_REST: f64 = 1e-4;
 /// The same as a share of the fastest joint, which the solver shakes the others with. Kind: solver stop.
 const CREEP_OF_FASTEST: f64 = 1e-3;
+/// Slower than this a joint is at rest if its friction can stop it within the step: then it is whatever it takes to stop it,
+/// rad/s and m/s. Kind: physics, with a bound so that a light wrist with much friction is compared when it moves.
+const STOPPED_IN_A_STEP: f64 = 5e-3;
 
 pub(crate) struct DynamicsMonitor<'a> {
     dynamics: DeclaredDynamics<'a>,
@@ -95,12 +98,14 @@ impl<'a> DynamicsMonitor<'a> {
     /// The relative difference at one joint, with what follows it. Friction that holds is any torque up to its largest: what
     /// it can explain is no difference.
     fn relative(&self, joint: usize, sample: &Sample<'_>, at_rest: f64) -> f64 {
+        let step_s = sample.time_s - self.before.time_s;
         let (truth, dof) = (sample.joints.truth, self.qdd.len());
         let (mut difference, mut acting, mut alone) = (0.0, 0.0, 0.0);
         let mut held = Held::default();
         for row in (0..dof).filter(|&row| self.drivers[row].0 == joint) {
             let (friction, ratio) = (self.frictions[row], self.drivers[row].1);
-            if sticks(friction, (self.before.qd[row], truth.qd[row]), at_rest) {
+            let stopped = (friction * step_s / self.mass_matrix[(row, row)]).min(STOPPED_IN_A_STEP);
+            if sticks(friction, (self.before.qd[row], truth.qd[row]), at_rest.max(stopped)) {
                 held.add(friction, ratio, truth.qd[row]);
             }
             let torque: f64 = (0..dof).map(|other| self.mass_matrix[(row, other)] * self.qdd[other]).sum();

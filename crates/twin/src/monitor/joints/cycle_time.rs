@@ -26,7 +26,8 @@ pub(crate) struct CycleTimeMonitor {
     /// Since when all joints are there.
     since_s: Option<f64>,
     samples: u64,
-    is_commanded: bool,
+    /// Why there is no cycle time.
+    why_none: Option<&'static str>,
     is_stopped: bool,
 }
 
@@ -40,7 +41,7 @@ impl CycleTimeMonitor {
             time: Watch::new("cycle_time", "s", Bound::AtMost, check.limit_s, context.dof()),
             since_s: None,
             samples: 0,
-            is_commanded: true,
+            why_none: None,
             is_stopped: false,
         }
     }
@@ -75,8 +76,12 @@ impl CycleTimeMonitor {
 
 impl Monitor for CycleTimeMonitor {
     fn observe(&mut self, sample: &mut Sample<'_>) {
-        if sample.joints.setpoint.is_none() {
-            self.is_commanded = false;
+        self.why_none = match sample.joints.setpoint {
+            None => Some("the source of joint states has no setpoint"),
+            Some(_) if sample.motions_s <= 0.0 => Some("there are no motions: there is no cycle time"),
+            Some(_) => None,
+        };
+        if self.why_none.is_some() {
             return;
         }
         self.samples += 1;
@@ -107,8 +112,8 @@ impl Monitor for CycleTimeMonitor {
     fn finish(&self, names: &Names) -> Observed {
         let measure = self.time.measure(&names.joints, |joint| names.joint_or_all(joint));
         let mut notes = Vec::new();
-        if !self.is_commanded {
-            notes.push("the source of joint states has no setpoint".to_owned());
+        if let Some(why) = self.why_none {
+            notes.push(why.to_owned());
         } else if self.is_stopped && self.since_s.is_none() {
             notes
                 .push("the run was stopped before the end of its motions: there is no cycle time".to_owned());

@@ -173,8 +173,8 @@ impl LimitsMonitor {
         }
         if let (Some(limit), Some(effort)) = (limits.effort, truth.effort.get(coordinate)) {
             let share = effort.abs() / limit;
-            // A robot that was placed has exerted nothing: that is no effort within the limit.
-            if share == 0.0 && sample.forces == StepForces::Unknown {
+            // A robot that was placed, or has taken no step, has exerted nothing: that is no effort within the limit.
+            if share == 0.0 && (sample.forces == StepForces::Unknown || sample.time_s <= 0.0) {
                 return;
             }
             limits.saturated += u64::from(share >= 1.0 - ROUNDING);

@@ -26,6 +26,8 @@ pub(crate) struct TrackingMonitor {
     goal: Errors,
     overshoot: Errors,
     settling: Option<Watch>,
+    /// Whether the run has ended before the setpoint stood after a motion.
+    has_never_stood: bool,
     standstill: Standstill,
     samples: u64,
     is_commanded: bool,
@@ -117,6 +119,7 @@ impl TrackingMonitor {
                 tcp: None,
             },
             settling: check.settling_s.map(|limit| watch("settling_time", "s", limit)),
+            has_never_stood: false,
             standstill: Standstill {
                 q: RobotQ::zeros(dof),
                 has_begun: false,
@@ -234,6 +237,12 @@ impl Monitor for TrackingMonitor {
         if let Some(since_s) = since_s {
             self.observe_standstill(since_s, setpoint.q, sample);
         }
+        // Asked for and never there: that is no success.
+        if let Some(watch) = self.settling.as_mut().filter(|watch| sample.is_last && watch.worst().is_none())
+        {
+            self.has_never_stood = true;
+            watch.observe(f64::INFINITY, setpoint.q.len(), sample);
+        }
         if sample.is_last {
             self.goal.observe(&self.kinds, (setpoint.q, tcp_error_m), self.tcp.tip, sample);
         }
@@ -250,7 +259,7 @@ impl Monitor for TrackingMonitor {
         let mut notes = Vec::new();
         if !self.is_commanded {
             notes.push("the source of joint states has no setpoint".to_owned());
-        } else if self.settling.as_ref().is_some_and(|watch| watch.worst().is_none()) {
+        } else if self.has_never_stood {
             notes.push(
                 "the setpoint never stood after a motion: nothing settled. Let the run go on, with `duration_s`"
                     .to_owned(),

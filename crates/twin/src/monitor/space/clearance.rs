@@ -35,6 +35,21 @@ struct LookedAt {
     below: Watch,
 }
 
+/// Whether a check has a distance, and one that something can come below.
+pub(crate) fn examine_minimum(check: &ClearanceCheck, place: FilePlace<'_>) -> Result<(), Diagnostic> {
+    let minimum = check.unit_keys();
+    minimum.required(place)?;
+    if minimum.value() != Some(0.0) {
+        return Ok(());
+    }
+    let key = minimum.written_key();
+    let message = format!("`{key}` = 0 is never violated: shapes that overlap have the distance 0, too");
+    let error = Diagnostic::error("scenario::no_limit", message);
+    Err(place.key(key).mark(
+        error.with_help("give a distance above 0, or `kind = \"contact\"`, which fails where shapes touch"),
+    ))
+}
+
 /// Whether the pairs that a check names are those of the robot and of its obstacles.
 pub(crate) fn examine_pairs(
     (pairs, ignore): (&[[String; 2]], &[[String; 2]]),

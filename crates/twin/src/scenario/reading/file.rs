@@ -109,6 +109,19 @@ impl ScenarioFile {
         }
     }
 
+    /// The name of the scenario in a file, whatever else is wrong with it; `None` if that cannot be read, or a second time.
+    pub fn name_of(path: &Path, overrides: &[Override]) -> Option<String> {
+        if !path.is_file() {
+            return None;
+        }
+        let source = FileAccess::default().read_named_text(path, MOST_BYTES).ok()?;
+        let mut document = toml_text::parse_document(&source.text).ok()?;
+        for change in overrides {
+            change.apply(&mut document).ok()?;
+        }
+        Some(document.get_ref().get("name")?.get_ref().as_str()?.to_owned())
+    }
+
     /// The file.
     pub fn path(&self) -> &Path {
         &self.source.path

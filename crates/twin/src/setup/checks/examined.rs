@@ -1,6 +1,6 @@
 //! Whether the checks of a scenario, and what it expects of them, are consistent with its robot.
 
-use congruent_description::{Diagnostic, Diagnostics, RobotDescription, Use};
+use congruent_description::{Diagnostic, Diagnostics, RobotDescription, Severity, Use};
 
 use super::tolerances::{beyond_meaning, tolerances};
 use crate::{
@@ -27,14 +27,42 @@ pub(in crate::setup) fn examine_checks(
     for (index, check) in scenario.check.iter().enumerate() {
         let (wrong, wide) = tolerances(check, place.key("check").item(index), scale);
         found.extend(wrong);
-        found.extend(beyond_meaning(check, place.key("check").item(index), (&description.robot, scale)));
+        let beyond = beyond_meaning(check, place.key("check").item(index), (&description.robot, scale));
+        for told in beyond {
+            match told.severity {
+                Severity::Error => found.push(told),
+                Severity::Warning => warnings.push(told),
+            }
+        }
         warnings.extend(wide);
     }
+    warnings.extend(unwatched(scenario, place));
     found.extend(unexpected(scenario, place.key("expect")));
     if needs_shapes(scenario) {
         found.extend(description.for_use(Use::Clearance).err().into_iter().flatten());
     }
     warnings
+}
+
+/// Obstacles that no check looks at, and that no link carries: an arm that goes through them passes.
+fn unwatched<'a>(scenario: &'a Scenario, place: FilePlace<'a>) -> impl Iterator<Item = Diagnostic> + 'a {
+    let looks = |check: &Check| matches!(check.kind(), CheckKind::Clearance | CheckKind::Contact);
+    let is_watched = scenario.check.iter().any(looks);
+    let obstacles = scenario.obstacle.iter().enumerate().filter(move |(_, obstacle)| {
+        !is_watched && scenario.grasp.iter().all(|grasp| grasp.body != obstacle.name)
+    });
+    obstacles.map(move |(index, obstacle)| {
+        let name = &obstacle.name;
+        let warning = Diagnostic::warning(
+            "scenario::unwatched",
+            format!("no check looks at obstacle \"{name}\""),
+        )
+        .one_of("obstacles are there that no check looks at", name)
+        .with_help(
+            "add a [[check]] with kind = \"clearance\" or \"contact\": an arm that goes through it passes",
+        );
+        place.key("obstacle").item(index).mark(warning)
+    })
 }
 
 /// Whether distances or contacts decide something: without obstacles nothing can be touched.

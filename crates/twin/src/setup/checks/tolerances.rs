@@ -9,6 +9,8 @@ use crate::scenario::{Check, FilePlace, UnitKeys};
 
 /// The largest share that tells anything: a difference as large as what it is a share of.
 const WHOLE: f64 = 1.0;
+/// Above this part of what tells nothing a share or a velocity is told of. The default of `dynamics` at the longest step is 0.3.
+const WIDE: f64 = 0.31;
 /// Largest limit of a velocity if the joints have none: rad/s and m/s. Kind: judgement; no arm is a hundredth as fast.
 const FASTEST: f64 = 1000.0;
 
@@ -24,17 +26,23 @@ pub(super) fn tolerances(
         .partition(|found| found.severity == Severity::Error)
 }
 
-/// An error if a check would pass whatever happens since its share or its velocity is that large.
+/// An error if a check would pass whatever happens since its share or its velocity is that large, a warning if it is almost so.
 pub(super) fn beyond_meaning(
     check: &Check,
     place: FilePlace<'_>,
     (robot, scale): (&Robot, ToleranceScale),
 ) -> Vec<Diagnostic> {
     let share = |key: &'static str, value: Option<f64>, of: &str| {
-        let value = value.filter(|&value| value > WHOLE)?;
-        let message = format!("`{key}` = {} is above 1, {of}: the check would always pass", number(value));
-        let error = Diagnostic::error("tolerance::meaningless", message);
-        Some(place.key(key).mark(error.with_help("give far less than 1, or leave it out for the default")))
+        let value = value.filter(|&value| value > WIDE * WHOLE)?;
+        let told = if value > WHOLE {
+            let message =
+                format!("`{key}` = {} is above 1, {of}: the check would always pass", number(value));
+            Diagnostic::error("tolerance::meaningless", message)
+        } else {
+            let message = format!("`{key}` = {} is a large part of 1, {of}", number(value));
+            Diagnostic::warning("tolerance::wide", message)
+        };
+        Some(place.key(key).mark(told.with_help("give far less than 1, or leave it out for the default")))
     };
     match check {
         Check::Dynamics(check) => share("relative", check.relative, "as much as the torques themselves"),
@@ -52,13 +60,19 @@ pub(super) fn beyond_meaning(
 }
 
 fn too_fast(keys: &UnitKeys, place: FilePlace<'_>, (most, unit): (f64, &str)) -> Option<Diagnostic> {
-    let value = keys.value().filter(|&value| value > most)?;
+    let value = keys.value().filter(|&value| value > WIDE * most)?;
+    let is_meaningless = value > most;
     let key = keys.written_key();
     let [value, most] = [value, most].map(|value| quantity(value, unit));
-    let message =
-        format!("`{key}` = {value} is above what the joints can do, {most}: the check would always pass");
-    let error = Diagnostic::error("tolerance::meaningless", message);
-    Some(place.key(key).mark(error.with_help("give far less, or leave it out for the default")))
+    let told = if is_meaningless {
+        let message =
+            format!("`{key}` = {value} is above what the joints can do, {most}: the check would always pass");
+        Diagnostic::error("tolerance::meaningless", message)
+    } else {
+        let message = format!("`{key}` = {value} is a large part of what the joints can do, {most}");
+        Diagnostic::warning("tolerance::wide", message)
+    };
+    Some(place.key(key).mark(told.with_help("give far less, or leave it out for the default")))
 }
 
 /// No frame of the robot is faster, m/s and rad/s: all joints at their limits, at the reach.

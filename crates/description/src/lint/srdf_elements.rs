@@ -1,0 +1,103 @@
+//! Elements of an SRDF: misspelt ones, those of a URDF, and virtual joints of a type that there is not.
+
+use roxmltree::Node;
+
+use crate::{
+    diagnostic::{Diagnostic, known_names},
+    urdf::node::tag,
+};
+
+/// The elements of an SRDF, and of the extensions that are in use.
+const ELEMENTS: [&str; 16] = [
+    "chain",
+    "disable_collisions",
+    "disable_default_collisions",
+    "enable_collisions",
+    "end_effector",
+    "group",
+    "group_state",
+    "joint",
+    "joint_property",
+    "link",
+    "link_sphere_approximation",
+    "passive_joint",
+    "property",
+    "robot",
+    "sphere",
+    "virtual_joint",
+];
+/// What a virtual joint may be.
+const VIRTUAL: [&str; 3] = ["fixed", "planar", "floating"];
+
+/// Elements that are skipped by their readers. Extensions have names of their own, so that only a name near to a known one is
+/// taken for that.
+pub(super) fn examine_elements(root: Node<'_, '_>) -> Vec<Diagnostic> {
+    if let Some(link) = root.children().find(|node| is_of_urdf(*node)) {
+        let error = Diagnostic::error("srdf::root", "this is a URDF, no SRDF").at(tag(link));
+        return vec![error.with_help("an SRDF has groups and pairs of links whose collisions are disabled")];
+    }
+    let elements = root.descendants().filter(Node::is_element);
+    elements.filter_map(|node| misspelt(node).or_else(|| virtual_type(node))).collect()
+}
+
+/// Whether it is a link or a joint with what only a URDF says of it.
+fn is_of_urdf(node: Node<'_, '_>) -> bool {
+    let has = |name: &str| node.children().any(|child| child.has_tag_name(name));
+    match node.tag_name().name() {
+        "link" => ["inertial", "visual", "collision"].into_iter().any(has),
+        "joint" => has("parent") && has("child"),
+        _ => false,
+    }
+}
+
+fn misspelt(node: Node<'_, '_>) -> Option<Diagnostic> {
+    let name = node.tag_name().name();
+    if ELEMENTS.contains(&name) || node.tag_name().namespace().is_some() {
+        return None;
+    }
+    // Short names have near ones that are others.
+    let most = if name.len() < 8 { 1 } else { 2 };
+    let near = ELEMENTS.into_iter().find(|known| strsim::osa_distance(name, known) <= most)?;
+    let message = format!("<{name}> is unknown, and skipped by every reader");
+    let warning = Diagnostic::warning("srdf::unknown_element", message).at(tag(node));
+    Some(warning.with_help(format!("did you mean <{near}>?")))
+}
+
+fn virtual_type(node: Node<'_, '_>) -> Option<Diagnostic> {
+    let kind = node.attribute("type").filter(|_| node.has_tag_name("virtual_joint"))?;
+    if VIRTUAL.contains(&kind) {
+        return None;
+    }
+    let message = format!("a virtual joint has no type \"{kind}\"");
+    let warning = Diagnostic::warning("srdf::virtual_joint", message).at(tag(node));
+    Some(warning.with_help(known_names(kind, "types", VIRTUAL)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::xml;
+
+    #[test]
+    fn elements_are_examined() {
+        let examined = |inside: &str| {
+            let text = format!("<robot name='r'>{inside}</robot>");
+            let document = xml::parse(&text).unwrap();
+            let found = examine_elements(document.root_element());
+            found.into_iter().map(|found| found.message).collect::<Vec<_>>()
+        };
+        let good = "<virtual_joint name='v' type='floating' parent_frame='world' child_link='a'/>\
+                    <group name='g'><link name='a'/><joint name='j'/></group><my_planner tolerance='1'/>";
+        assert_eq!(examined(good), [""; 0]);
+        for (text, message) in [
+            ("<disable_colisions link1='a' link2='b'/>", "<disable_colisions> is unknown"),
+            ("<group_sate name='g' group='h'/>", "<group_sate> is unknown"),
+            ("<virtual_joint name='v' type='floting'/>", "no type \"floting\""),
+            ("<link name='a'><visual/></link>", "this is a URDF"),
+            ("<joint name='j'><parent link='a'/><child link='b'/></joint>", "this is a URDF"),
+        ] {
+            let found = examined(text);
+            assert!(found.len() == 1 && found[0].contains(message), "{text}: {found:?}");
+        }
+    }
+}
