@@ -123,7 +123,7 @@ impl<'a> Batch<'a> {
 
     /// Prints warnings about an input.
     pub(crate) fn warn(&self, input: &Path, warnings: &[Diagnostic]) {
-        self.printer.warnings_of(self.label(input), warnings);
+        self.printer.warnings(self.label(input), warnings);
     }
 
     /// The answer to one input by `work`. Of several inputs it is printed at once why there is no answer; of a single one

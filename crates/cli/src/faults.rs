@@ -47,8 +47,8 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let access = arguments.access.access()?;
     let load = |path: &PathBuf| -> Result<RunSetup, Failure> {
         let setup = RunSetup::load_with(path, &[], &access).and_then(RunSetup::for_simulation)?;
-        printer.warnings_of(Some(path), &setup.description.warnings);
-        printer.warnings_of(Some(path), &setup.warnings);
+        printer.warnings(Some(path), &setup.description.warnings);
+        printer.warnings(Some(path), &setup.warnings);
         Ok(setup)
     };
     let document = arguments.markdown.as_deref().map(Document::read).transpose()?;

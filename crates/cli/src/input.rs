@@ -77,7 +77,7 @@ impl RobotArgument {
     pub(crate) fn load_for(&self, needed: Use, printer: &Printer) -> Result<RobotDescription, Failure> {
         let description = self.read()?;
         description.for_use(needed)?;
-        printer.warnings(&description.warnings);
+        printer.warnings(None, &description.warnings);
         printer.detail(|| read_from(&description));
         Ok(description)
     }
@@ -143,7 +143,7 @@ impl ChainArguments {
         printer: &Printer,
     ) -> Result<RobotDescription, Failure> {
         let description = self.of(description)?;
-        printer.warnings(&description.warnings);
+        printer.warnings(None, &description.warnings);
         printer.detail(|| read_from(&description));
         Ok(description)
     }
@@ -263,7 +263,7 @@ pub(crate) fn with_warning<List>(
     description: &mut RobotDescription,
     printer: &Printer,
 ) -> List {
-    printer.warnings(read.warning.as_slice());
+    printer.warnings(None, read.warning.as_slice());
     description.warnings.extend(read.warning);
     description.inputs.extend(read.input);
     read.entries

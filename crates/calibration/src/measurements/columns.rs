@@ -86,6 +86,11 @@ fn without_unit(name: &str, robot: &Robot) -> Diagnostic {
 }
 
 fn unknown(name: &str, stem: &str, robot: &Robot) -> Diagnostic {
+    if name.contains([';', '\t']) {
+        let message = format!("column \"{name}\" holds a semicolon or a tab");
+        return Diagnostic::error("measurements::unknown_column", message)
+            .with_help("columns are divided by commas, and decimals are written with a point");
+    }
     let joints: Vec<&str> = robot.movable_joint_names().collect();
     let known = joints.into_iter().chain(["x", "y", "z", "qw", "qx", "qy", "qz", "roll", "pitch", "yaw"]);
     let message =

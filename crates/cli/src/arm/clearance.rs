@@ -65,6 +65,13 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         DistanceError::Pair(fault) => fault.diagnostic,
         error => Diagnostic::error("clearance::shape", error.to_string()),
     })?;
+    // Those of the description were printed when it was loaded.
+    let of_hulls = report.warnings.iter().skip(description.warnings.len());
+    let of_hulls = of_hulls.map(|found| {
+        let warning = Diagnostic::warning(found.code, found.message.clone());
+        warning.with_help(found.help.clone().unwrap_or_default())
+    });
+    printer.warnings(None, &of_hulls.collect::<Vec<_>>());
     printer.parts(&report, |report| parts(report, &description.robot))?;
     let is_nothing = report.pairs.is_empty() || report.results.is_empty();
     let has_failed = !report.below.is_empty();

@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     description.for_use(Use::Physics)?;
     let robot = robot_of(&description, &options)?;
     let report = congruent::joint_dynamics((&description, &robot), arguments.source, &options, &states)?;
-    printer.warnings(stiction(&description.robot, (arguments.source, &options), &states).as_slice());
+    printer.warnings(None, stiction(&description.robot, (arguments.source, &options), &states).as_slice());
     let printed = printer.parts(&report, parts);
     report.results.end()?;
     printed?;

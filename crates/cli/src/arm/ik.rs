@@ -55,7 +55,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let description = arguments.arm.load(printer)?;
     let mut targets = read_targets(&arguments.targets, &description.robot)?;
-    printer.warnings(&targets.warnings);
+    printer.warnings(None, &targets.warnings);
     if arguments.position_only {
         for target in &mut targets.targets {
             target.target.part = TargetPart::Position;

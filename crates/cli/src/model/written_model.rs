@@ -30,7 +30,7 @@ pub(super) fn answer(
     printer: &Printer,
 ) -> Result<u8, Failure> {
     let report = convert(description, conversion)?;
-    printer.warnings(&report.findings);
+    printer.warnings(None, &report.findings);
     let Some(path) = &output.out else {
         printer.verbatim(&report, text)?;
         return Ok(0);

@@ -66,7 +66,7 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     let made = Folders::make(&arguments.out)?;
     let mut report = written(arguments, &description, to).inspect_err(|_| made.remove())?;
     if let Some(warning) = needs_to_be_allowed(&arguments.out.join(FILE), path) {
-        printer.warnings(std::slice::from_ref(&warning));
+        printer.warnings(None, std::slice::from_ref(&warning));
         report.warnings.push(Finding::from(&warning));
     }
     printer.result(&report, text)?;

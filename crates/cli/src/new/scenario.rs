@@ -64,7 +64,7 @@ pub(super) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
     })?;
     let mut report = report(arguments, (&description, draft), (&setup, outcome));
     if let Some(warning) = needs_to_be_allowed(out, &description.path) {
-        printer.warnings(std::slice::from_ref(&warning));
+        printer.warnings(None, std::slice::from_ref(&warning));
         report.warnings.push(Finding::from(&warning));
     }
     printer.result(&report, text)?;

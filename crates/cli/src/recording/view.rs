@@ -85,7 +85,7 @@ pub(crate) fn run(arguments: &Arguments, printer: &Printer) -> Result<u8, Failur
         }
         Input::Robot => {
             let description = load_robot_with(&arguments.input, &arguments.access.access()?)?;
-            printer.warnings(&description.warnings);
+            printer.warnings(None, &description.warnings);
             let sweep = joint_sweep(description, &arguments.out).map_err(refused)?;
             printer.result(&sweep, text)?;
             open(&sweep.recording, arguments, printer)?;
@@ -108,8 +108,8 @@ fn refused(error: SweepError) -> Failure {
 fn scenario(arguments: &Arguments, printer: &Printer) -> Result<u8, Failure> {
     let setup = RunSetup::load_with(&arguments.input, &[], &arguments.access.access()?)
         .and_then(RunSetup::for_simulation)?;
-    printer.warnings(&setup.description.warnings);
-    printer.warnings(&setup.warnings);
+    printer.warnings(None, &setup.description.warnings);
+    printer.warnings(None, &setup.warnings);
     let options =
         Options { out: arguments.out.clone(), recordings: vec![&RerunFormat, &PageFormat], interrupt: None };
     let ran = run_one(&setup, &options, &Progress::new(printer))?;

@@ -197,13 +197,9 @@ impl Printer {
         }
     }
 
-    /// Warnings for people; beside a JSON document, which has them in full, each in one line.
-    pub(crate) fn warnings(&self, warnings: &[Diagnostic]) {
-        self.warnings_of(None, warnings);
-    }
-
-    /// The same with the name of the input in front of each, of several inputs.
-    pub(crate) fn warnings_of(&self, input: Option<&Path>, warnings: &[Diagnostic]) {
+    /// Warnings for people; beside a JSON document, which has them in full, each in one line. Of several inputs the name of
+    /// theirs is in front of each.
+    pub(crate) fn warnings(&self, input: Option<&Path>, warnings: &[Diagnostic]) {
         if self.verbosity == Verbosity::Quiet {
             return;
         }
@@ -241,10 +237,7 @@ impl Printer {
     /// Why a part of the result is missing: on standard error only, in one piece, with the name of the input of several.
     pub(crate) fn explain(input: Option<&Path>, failure: &Failure) {
         let text = match failure {
-            Failure::Machine(message) => match input {
-                Some(input) => format!("error: {}: {}\n", shown(input), visible(message)),
-                None => format!("error: {}\n", visible(message)),
-            },
+            Failure::Machine(message) => format!("error: {}{}\n", named(input), visible(message)),
             Failure::Input(findings) => shown_findings(findings.iter(), |finding| labelled(input, finding)),
         };
         to_stderr(&text);
@@ -292,10 +285,14 @@ fn labelled(input: Option<&Path>, finding: &Diagnostic) -> String {
 
 /// `robot.toml: warning: robot.urdf:12: link "tool" has no mass; ...`.
 fn in_one_line(input: Option<&Path>, finding: &Diagnostic) -> String {
-    let heading = input.map(|input| format!("{}: ", shown(input))).unwrap_or_default();
     let text = Finding::from(finding).to_string();
     let text = text.lines().map(str::trim).collect::<Vec<_>>().join(" ");
-    format!("{heading}{}: {text}\n", serde_name(&finding.severity))
+    format!("{}{}: {text}\n", named(input), serde_name(&finding.severity))
+}
+
+/// The name of an input in front of what is said of it.
+fn named(input: Option<&Path>) -> String {
+    input.map(|input| format!("{}: ", shown(input))).unwrap_or_default()
 }
 
 /// Whether text is coloured. On its own only if both outputs are terminals, since findings are shown on either, and the user

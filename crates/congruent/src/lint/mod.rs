@@ -157,7 +157,10 @@ fn suspicions(description: &RobotDescription) -> Vec<Diagnostic> {
         // A URDF has no place to choose one; commands that need a tip tell of the others.
         found.retain(|found| found.code != "chain::several_tips");
     }
-    found.extend(unit_slips(description));
+    let slips = unit_slips(description);
+    // Judged by mass and shapes, which tells the unit as well.
+    found = found.into_iter().filter_map(|found| without_inertias(found, &slips)).collect();
+    found.extend(slips);
     found.extend(zero_limits(description));
     found.extend(still_mimics(description));
     found.extend(undefined_materials(description));
@@ -176,6 +179,20 @@ fn suspicions(description: &RobotDescription) -> Vec<Diagnostic> {
         }));
     }
     found
+}
+
+/// A finding of the reader on tensors that are too large, without the links of which the judgement of units tells more.
+fn without_inertias(found: Diagnostic, slips: &[Diagnostic]) -> Option<Diagnostic> {
+    if found.code != "urdf::inertia_size" {
+        return Some(found);
+    }
+    let of_inertia = slips.iter().filter(|slip| slip.code == "units::inertia");
+    let own = |slip: &Diagnostic| slip.kind.words.iter().map(|(_, name)| name.clone()).collect::<Vec<_>>();
+    let names = of_inertia.flat_map(|slip| match &slip.kind.occurrences[..] {
+        [] => own(slip),
+        several => several.iter().filter_map(|each| each.name.clone()).collect(),
+    });
+    names.collect::<Vec<_>>().iter().try_fold(found, |found, name| found.without(name))
 }
 
 /// Largest file that is read a second time: larger ones were refused when they were read.

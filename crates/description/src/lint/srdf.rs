@@ -1,6 +1,7 @@
 //! What is wrong with an SRDF: by itself, and in its names against the robot that it is of.
 
 use std::{
+    cell::Cell,
     collections::{BTreeMap, BTreeSet},
     sync::Arc,
 };
@@ -139,8 +140,15 @@ fn without(node: Node<'_, '_>, key: &str) -> String {
     }
 }
 
+/// Unknown names that are compared with all known ones: with more of either the time grows with their product.
+const MOST_GUESSED: usize = 100;
+
 /// The names that there are; of what is not known there is no entry.
-struct Known<'a>(BTreeMap<Named, BTreeSet<&'a str>>);
+struct Known<'a> {
+    names: BTreeMap<Named, BTreeSet<&'a str>>,
+    /// How many were not.
+    unknown: Cell<usize>,
+}
 
 impl<'a> Known<'a> {
     fn new(root: Node<'a, 'a>, robot: Option<&'a Robot>) -> Self {
@@ -152,7 +160,7 @@ impl<'a> Known<'a> {
             known.insert(Named::Link, links.collect());
             known.insert(Named::Joint, joints.chain(of("virtual_joint")).collect());
         }
-        Self(known)
+        Self { names: known, unknown: Cell::new(0) }
     }
 
     /// What is wrong with the names of an element.
@@ -180,11 +188,17 @@ impl<'a> Known<'a> {
         (attribute, name): (&str, &str),
         named: Named,
     ) -> Option<Diagnostic> {
-        let known = self.0.get(&named).filter(|known| !known.contains(name))?;
+        let known = self.names.get(&named).filter(|known| !known.contains(name))?;
+        self.unknown.set(self.unknown.get() + 1);
         let (several, one, all) = named.words();
         let message = format!("{}: {attribute} \"{name}\" is no {one}", described(node));
         let warning = Diagnostic::warning(named.code(), message).one_of(several, name).at(tag(node));
-        Some(warning.with_help(known_names(name, all, known.iter().copied())))
+        let has_guess = self.unknown.get() <= MOST_GUESSED;
+        Some(if has_guess {
+            warning.with_help(known_names(name, all, known.iter().copied()))
+        } else {
+            warning
+        })
     }
 }
 

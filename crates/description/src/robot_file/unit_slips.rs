@@ -39,7 +39,7 @@ pub(super) fn size_m(robot: &Robot) -> f64 {
 /// A declared transform.
 pub(super) fn transform(name: &str, written: &WrittenTransform, size_m: f64) -> Vec<Diagnostic> {
     let WrittenTransform { xyz_m, xyz_mm, rpy_rad, rpy_deg, matrix, .. } = written;
-    let norm = |[x, y, z]: [f64; 3]| x.hypot(y).hypot(z);
+    let norm = |xyz: [f64; 3]| nalgebra::Vector3::from(xyz).norm();
     let of_matrix = |[[.., x], [.., y], [.., z], _]: [[f64; 4]; 4]| [x, y, z];
     let lengths = [
         xyz_m.as_ref().map(|xyz| (norm(*xyz.get_ref()), xyz.span(), Key::Metres("xyz"))),

@@ -175,8 +175,7 @@ impl JointReader<'_, '_> {
                 "limit {furthest:e} is beyond {LARGEST_LIMIT:e}, the most that poses are computed with"
             );
             self.error("urdf::limit", what, "limit");
-        }
-        if kind.is_angular() && furthest.is_finite() && furthest > LARGEST_PLAUSIBLE_RAD {
+        } else if kind.is_angular() && furthest.is_finite() && furthest > LARGEST_PLAUSIBLE_RAD {
             let what =
                 format!("limits [{lower}, {upper}] are more than four turns: degrees instead of radians?");
             self.warn("urdf::degrees", what, "limit");

@@ -8,7 +8,7 @@ use crate::proximity::Clearance;
 pub(super) const ALL_JOINTS: &str = "all joints";
 
 /// Names for the indices in a sample.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Names {
     /// Links, in the robot's order.
     pub links: Vec<String>,
@@ -32,10 +32,19 @@ impl Names {
             format!("{link}--{zone}")
         };
         Self {
-            links: robot.links().iter().map(|link| link.name.clone()).collect(),
-            joints: robot.movable_joint_names().map(str::to_owned).collect(),
             pairs: (0..clearance.pairs().len()).map(pair).collect(),
             zones: (0..zones.pairs().len()).map(in_zone).collect(),
+            ..Self::of_robot(robot)
+        }
+    }
+
+    /// The names of a robot, without pairs and zones.
+    pub(super) fn of_robot(robot: &Robot) -> Self {
+        Self {
+            links: robot.links().iter().map(|link| link.name.clone()).collect(),
+            joints: robot.movable_joint_names().map(str::to_owned).collect(),
+            pairs: Vec::new(),
+            zones: Vec::new(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! A check of a scenario in a run. A new kind of check is a variant of [`Check`], a file in one of the folders here, and
 //! a line in [`RunningCheck::new`].
 
-use congruent_description::{Diagnostic, RobotDescription};
+use congruent_description::{Diagnostic, Robot, RobotDescription};
 
 use super::{
     context::CheckContext,
@@ -116,9 +116,9 @@ impl<'a> RunningCheck<'a> {
         self.monitor.values(time_s, &mut |value| take(self.kind, value));
     }
 
-    /// The quantities that it is about to watch, with their limits. Before its first sample: nothing has a name yet.
-    pub fn limits(&self) -> Vec<Measure> {
-        self.monitor.finish(&Names::default()).measures
+    /// The quantities that it is about to watch, with their limits, before its first sample.
+    pub fn limits(&self, robot: &Robot) -> Vec<Measure> {
+        self.monitor.finish(&Names::of_robot(robot)).measures
     }
 
     /// The result of the check.

@@ -9,12 +9,10 @@ use std::{
 use sha2::{Digest, Sha256};
 
 use super::{
-    folder::{OutputFolder, RESULTS},
+    folder::OutputFolder,
+    names::{DIGESTS, RESULTS},
     whole_file::OutputError,
 };
-
-/// The file with the SHA-256 of every other result. It is written last: without it a run has not ended.
-pub const DIGESTS: &str = "SHA256SUMS";
 
 /// The results of a run against the digests beside them.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

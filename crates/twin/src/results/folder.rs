@@ -8,8 +8,8 @@ use std::{
 use congruent_description::InputFile;
 
 use super::{
-    digests::DIGESTS,
     lock::{FolderLock, LockError},
+    names::{result_files, result_names},
     whole_file::{OutputError, is_same_file, write_whole},
 };
 
@@ -41,34 +41,6 @@ pub enum FolderError {
         /// The file.
         file: PathBuf,
     },
-}
-
-/// The file with everything that a run has found.
-pub const REPORT: &str = "report.json";
-
-/// All files that a run may write, but for their digests.
-pub(super) const RESULTS: [&str; 11] = [
-    REPORT,
-    "report.html",
-    "report.html.partial",
-    "junit.xml",
-    "recording.rrd",
-    "recording.rrd.partial",
-    "trajectory.csv",
-    "trajectory.csv.partial",
-    "trajectory.parquet",
-    "trajectory.parquet.partial",
-    "scenario.resolved.toml",
-];
-
-/// Every file that a run may write to a folder.
-pub fn result_files(folder: &Path) -> Vec<PathBuf> {
-    result_names().map(|name| folder.join(name)).collect()
-}
-
-/// The digests first: what is left by a call that is killed while it removes them is no finished run.
-fn result_names() -> impl Iterator<Item = &'static str> {
-    [DIGESTS].into_iter().chain(RESULTS)
 }
 
 impl OutputFolder {

@@ -3,8 +3,10 @@
 mod digests;
 mod folder;
 mod lock;
+mod names;
 mod whole_file;
 
-pub use digests::{ComparedResults, DIGESTS, compare_results};
-pub use folder::{FolderError, OutputFolder, REPORT, result_files};
+pub use digests::{ComparedResults, compare_results};
+pub use folder::{FolderError, OutputFolder};
+pub use names::{DIGESTS, REPORT, result_files};
 pub use whole_file::{OutputError, is_same_file, remove_unfinished_files, write_whole};

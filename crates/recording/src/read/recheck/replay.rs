@@ -32,8 +32,8 @@ struct Limits(Vec<Vec<Quantity>>);
 impl Limits {
     /// Those of the scenario, whatever its checks have seen.
     fn of(setup: &RunSetup) -> Self {
-        let checks = setup.checks();
-        let quantities = checks.iter().map(|check| check.limits().iter().map(Quantity::of).collect());
+        let (checks, robot) = (setup.checks(), &setup.description.robot);
+        let quantities = checks.iter().map(|check| check.limits(robot).iter().map(Quantity::of).collect());
         Self(quantities.collect())
     }
 }
