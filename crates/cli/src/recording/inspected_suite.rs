@@ -31,7 +31,7 @@ pub(super) fn suite(summary: &RecordingSummary, input: &str) -> TestSuite {
 /// The cases with the results on the recording; both are in the order of the scenario.
 fn evaluate_again(cases: &mut [TestCase], recheck: &Recheck) {
     for (case, check) in cases.iter_mut().zip(&recheck.checks) {
-        case.output = rechecked_text(check).trim().to_owned();
+        rechecked_text(check).trim().clone_into(&mut case.output);
         case.result =
             judged((check.check, check.status), &recheck.expected, recheck.verdict, case.output.clone());
     }

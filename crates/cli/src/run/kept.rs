@@ -11,7 +11,7 @@ use congruent::{
         Options, RunSetup, finished,
         report::{RunReport, TestSuite, planned_suite},
         results::{OutputFolder, result_files},
-        scenario::{Override, ScenarioFile},
+        scenario::{Override, scenario_name},
     },
 };
 
@@ -83,7 +83,7 @@ pub(super) fn load(
 /// Removes what an earlier call has left for a scenario that is refused, if its name can be read: CI that collects results
 /// would take them for those of this call.
 fn remove_results_of((scenario, overrides): (&Path, &[Override]), out: &Path) {
-    let Some(name) = ScenarioFile::name_of(scenario, overrides) else { return };
+    let Some(name) = scenario_name(scenario, overrides) else { return };
     if OutputFolder::path_for(out, &name).is_dir() {
         let input = InputFile { file: String::new(), sha256: String::new(), path: scenario.to_owned() };
         // Another call that runs it keeps them.

@@ -117,18 +117,8 @@ pub fn compare(
     };
     let files = Files { found: candidate.places, expected: reference.places };
     let expected = Expected { states: &states, torques: &expected };
-    let mut told = Told::new(&setting, files, &torque, expected)?;
-    // A slip without a free number is taken at its word.
-    if told.explanations.first().map_or(!told.same, |first| first.contradicted || first.numbers > 0.0) {
-        let by_link =
-            link_by_link(&setting, files, (reference.side, &seen_as_candidate), (&torque, &states))?;
-        if by_link.is_empty() {
-            told = Told::new(&Setting { pairs: true, ..setting }, files, &torque, expected)?;
-        } else if is_simpler(&by_link, &told.explanations) {
-            told.explanations = by_link;
-            told.indistinguishable.clear();
-        }
-    }
+    let sides = (reference.side, &seen_as_candidate);
+    let mut told = told(&setting, files, sides, (&torque, expected))?;
     // What names a parameter that both files have alike is no explanation.
     told.explanations.retain(|explanation| !explanation.contradicted);
     let mut differences = hidden::differences(candidate.side, reference.side);
@@ -164,6 +154,27 @@ pub fn compare(
         limits,
         certificates: None,
     })
+}
+
+/// The diagnosis, with pairs of faults or link by link where one fault alone is no explanation.
+fn told(
+    setting: &Setting<'_>,
+    files: Files<'_>,
+    sides: (&Side, &Side),
+    (torque, expected): (&Compressed, Expected<'_>),
+) -> Result<Told, CompareError> {
+    let mut told = Told::new(setting, files, torque, expected)?;
+    // A slip without a free number is taken at its word.
+    if told.explanations.first().map_or(!told.same, |first| first.contradicted || first.numbers > 0.0) {
+        let by_link = link_by_link(setting, files, sides, (torque, expected.states))?;
+        if by_link.is_empty() {
+            told = Told::new(&Setting { pairs: true, ..*setting }, files, torque, expected)?;
+        } else if is_simpler(&by_link, &told.explanations) {
+            told.explanations = by_link;
+            told.indistinguishable.clear();
+        }
+    }
+    Ok(told)
 }
 
 /// Brackets the largest differences of torque between two descriptions of the same chain: seconds for a long arm.

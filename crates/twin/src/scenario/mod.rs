@@ -41,7 +41,7 @@ pub use output::{OutputSettings, TrajectoryFormat};
 pub use place::FilePlace;
 pub(crate) use place::mark;
 pub use pose::PoseSettings;
-pub use reading::{Override, ScenarioFile};
+pub use reading::{Override, ScenarioFile, scenario_name};
 pub(crate) use robot::{CONTROLLER_KINDS, ControllerKind, OTHERS};
 pub use robot::{
     ControllerSettings, JointNumbers, JointSettings, PayloadInertia, PayloadSettings, SensorSettings,

@@ -26,7 +26,7 @@ use crate::scenario::{
 };
 
 /// Largest scenario file that is read.
-const MOST_BYTES: u64 = 4 << 20;
+pub(super) const MOST_BYTES: u64 = 4 << 20;
 
 /// A scenario with the places of its values.
 #[derive(Debug, Clone)]
@@ -107,19 +107,6 @@ impl ScenarioFile {
             }
             _ => Err(findings),
         }
-    }
-
-    /// The name of the scenario in a file, whatever else is wrong with it; `None` if that cannot be read, or a second time.
-    pub fn name_of(path: &Path, overrides: &[Override]) -> Option<String> {
-        if !path.is_file() {
-            return None;
-        }
-        let source = FileAccess::default().read_named_text(path, MOST_BYTES).ok()?;
-        let mut document = toml_text::parse_document(&source.text).ok()?;
-        for change in overrides {
-            change.apply(&mut document).ok()?;
-        }
-        Some(document.get_ref().get("name")?.get_ref().as_str()?.to_owned())
     }
 
     /// The file.

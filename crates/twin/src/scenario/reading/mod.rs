@@ -2,8 +2,10 @@
 
 mod faults;
 mod file;
+mod name;
 mod overrides;
 mod section;
 
 pub use file::ScenarioFile;
+pub use name::scenario_name;
 pub use overrides::Override;
