@@ -151,7 +151,12 @@ fn other_limits_give_another_verdict_and_other_checks_none() {
     let mut summary = bench.summary.clone();
     summary.report.as_mut().unwrap()["links"][3]["link"] = "of_another_robot".into();
     let error = recheck(&summary, &bench.scalars, bench.setup(&[])).unwrap_err();
-    assert!(error.to_string().contains("which has other links"), "{error}");
+    assert!(error.to_string().contains("which has other links or joints"), "{error}");
+    let mut scalars = bench.scalars.clone();
+    let positions = scalars.remove("/joint/position/elbow_joint").unwrap();
+    scalars.insert("/joint/position/joint_of_another_robot".to_owned(), positions);
+    let error = recheck(&bench.summary, &scalars, bench.setup(&[])).unwrap_err();
+    assert!(error.to_string().contains("which has other links or joints"), "{error}");
     let other = RunSetup::load(&repository().join("scenarios/ur5e_weld.toml"), &[]).unwrap();
     let error = recheck(&bench.summary, &bench.scalars, other).unwrap_err();
     assert!(error.to_string().contains("another scenario"), "{error}");

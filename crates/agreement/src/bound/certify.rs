@@ -6,7 +6,8 @@
 //! differences are simplified to the joints that matter (`simplify.rs`); a local search from many starts
 //! (`search.rs`) finds a bad configuration, and branch and bound (`branch.rs`) proves that none is much
 //! worse. Its bounds come from corners of polygons (`difference_norm.rs`, `corner.rs`), and if these are
-//! too wide, from intermediate chains (`intermediate_chains.rs`).
+//! too wide, from intermediate chains (`intermediate_chains.rs`). None is above what both chains reach
+//! (`reach.rs`).
 //!
 //! The bound is rigorous in floating point: each file states its rounding error and adds it. It is a bound
 //! for the two [`ScrewChain`]s as they are given. `docs/bound.md` has the derivation.
@@ -23,6 +24,7 @@ use super::{
     corner::Interval,
     difference_norm::DifferenceNorm,
     intermediate_chains::{self, ChainSequence},
+    reach::reach_m,
     search::Incumbent,
     simplify::{Denoised, Simplified},
     telescoping::TelescopingBound,
@@ -144,7 +146,8 @@ pub fn certify_driven(
     let first = TelescopingBound::new(&a, &b, &ranges_of_joints);
     let denoised = Denoised::new((&a, &b), &drivers, ranges);
     let problem = CertificateProblem { denoised: &denoised, near_zero: &near_zero, budget };
-    let mut position_m = problem.bracket(&POSITION, first.total_m());
+    let apart_m = reach_m(&a, &ranges_of_joints) + reach_m(&b, &ranges_of_joints);
+    let mut position_m = problem.bracket(&POSITION, first.total_m().min(apart_m));
     let mut orientation_rad = problem.bracket(&ORIENTATION, first.total_rad());
     let at = |chain: &ScrewChain, positions: &[f64]| {
         chain.base_from_tip(&drivers.iter().map(|&driver| positions[driver]).collect())

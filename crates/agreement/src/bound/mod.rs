@@ -11,6 +11,7 @@ mod corner;
 mod difference_norm;
 mod intermediate_chains;
 mod joint_sweep;
+mod reach;
 mod search;
 mod simplify;
 mod telescoping;

@@ -75,7 +75,7 @@ fn unexpected(report: &RunReport, expected: &[CheckKind]) -> String {
         }
     }
     match (missing.is_empty(), besides.is_empty()) {
-        _ if expected.is_empty() => "no check failed, and a failure was expected".to_owned(),
+        _ if expected.is_empty() => "no check of the scenario failed, and a failure was expected".to_owned(),
         (false, true) => format!("expected to fail, and did not: {}", listed(missing)),
         (true, _) => format!("failed besides the expected ones: {}", listed(besides)),
         (false, false) => {

@@ -9,6 +9,8 @@ mod instants;
 mod replay;
 mod states;
 
+use std::collections::BTreeSet;
+
 use congruent_twin::{
     RunError, RunSetup,
     comparison::Scalars,
@@ -42,7 +44,7 @@ pub enum RecheckError {
     },
     /// The scenario has another robot than the run.
     #[error(
-        "the recording is of robot \"{recorded}\", and this scenario is of robot \"{given}\", which has other links"
+        "the recording is of robot \"{recorded}\", and this scenario is of robot \"{given}\", which has other links or joints"
     )]
     OtherRobot {
         /// The robot of the run.
@@ -74,7 +76,7 @@ pub fn recheck(
     let report = summary.report.as_ref().ok_or(RecheckError::NoReport)?;
     let recorded: Vec<&Value> = report["checks"].as_array().into_iter().flatten().collect();
     is_of_scenario(&recorded, &setup)?;
-    is_of_robot(report, &setup)?;
+    is_of_robot((report, scalars), &setup)?;
     let is_broken = report["error"].is_string();
     if let Some(steps) = report["simulation"]["steps"].as_u64() {
         // A motion that was slowed down in the run made it longer; one that ended early has no last step.
@@ -125,11 +127,18 @@ fn is_of_scenario(recorded: &[&Value], setup: &RunSetup) -> Result<(), RecheckEr
     Err(RecheckError::OtherScenario { recorded: listed(&kinds), given: listed(&given) })
 }
 
-/// Whether the robot has the links of the run.
-fn is_of_robot(report: &Value, setup: &RunSetup) -> Result<(), RecheckError> {
+/// Where the positions of joints are.
+const JOINT_POSITIONS: &str = "/joint/position/";
+
+/// Whether the robot has the links of the run, and the joints whose positions are recorded.
+fn is_of_robot((report, scalars): (&Value, &Scalars), setup: &RunSetup) -> Result<(), RecheckError> {
     let links = report["links"].as_array().into_iter().flatten().filter_map(|link| link["link"].as_str());
     let robot = &setup.description.robot;
-    if links.eq(robot.links().iter().map(|link| link.name.as_str())) {
+    let joints: BTreeSet<String> =
+        robot.movable_joint_names().map(|joint| paths::joint_position(joint).to_string()).collect();
+    let mut recorded_joints = scalars.keys().filter(|path| path.starts_with(JOINT_POSITIONS));
+    let has_joints = recorded_joints.all(|path| joints.contains(path));
+    if has_joints && links.eq(robot.links().iter().map(|link| link.name.as_str())) {
         return Ok(());
     }
     let recorded = report["robot"].as_str().unwrap_or_default().to_owned();
