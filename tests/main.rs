@@ -35,6 +35,7 @@ mod frames;
 mod golden;
 mod interruptions;
 mod jacobian_goldens;
+mod joint_losses;
 mod joint_origins;
 #[cfg(target_os = "linux")]
 mod large_inputs;

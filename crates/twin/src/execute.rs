@@ -1,7 +1,6 @@
 //! One scenario from its file to its results on disk.
 
 use std::{
-    fs,
     path::{Path, PathBuf},
     sync::atomic::AtomicBool,
 };
@@ -9,7 +8,9 @@ use std::{
 use crate::{
     recorder::{Recorder, Recorders, RecordingError},
     report::{RunReport, earlier_report, explain, write_junit},
-    results::{ComparedResults, FolderError, OutputError, OutputFolder, REPORT, compare_results},
+    results::{
+        ComparedResults, FolderError, OutputError, OutputFolder, REPORT, compare_results, read_result,
+    },
     run::{Run, RunError},
     scenario::TrajectoryFormat,
     setup::RunSetup,
@@ -97,7 +98,7 @@ pub enum ExecuteError {
 /// See [`earlier_report`] for what is the same.
 pub fn finished(setup: &RunSetup, options: &Options<'_>) -> Option<(RunReport, PathBuf)> {
     let folder = OutputFolder::path_for(&options.out, &setup.scenario.name);
-    let report = earlier_report(setup, &fs::read(folder.join(REPORT)).ok()?)?;
+    let report = earlier_report(setup, &read_result(&folder.join(REPORT)).ok()?)?;
     let trajectory = setup.scenario.output.trajectory.map(Trajectory::file_name);
     let recordings = options.recordings.iter().map(|format| format.file_name());
     let mut wanted = [REPORT, JUNIT, RESOLVED].into_iter().chain(recordings).chain(trajectory);

@@ -107,11 +107,13 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
     }
     let (mut summary, scalars) = scalars(path).map_err(unreadable)?;
     compare_files(&mut summary, path, &access);
+    // Before anything is written: what the scenario names is an input, too.
+    let setup = arguments.check.as_ref().map(|scenario| load(scenario, &summary, &access));
     batch.reads(&read(&access))?;
     if let Some(file) = &arguments.csv {
         replace("--csv", file, scalars_csv(&summary, &scalars), &read(&access))?;
     }
-    let Some(scenario) = &arguments.check else {
+    let Some(setup) = setup else {
         judge_inputs(&mut summary);
         return Ok(summary);
     };
@@ -120,7 +122,7 @@ fn answer(path: &Path, arguments: &Arguments, batch: &Batch<'_>) -> Result<Recor
         summary.reason += "; its checks are not evaluated again";
         return Ok(summary);
     }
-    let setup = load(scenario, &summary, arguments)?;
+    let setup = setup?;
     batch.warn(path, &setup.warnings);
     let result = recheck(&summary, &scalars, setup)
         .map_err(|error| Diagnostic::error("inspect::check", error.to_string()))?;
@@ -149,7 +151,7 @@ fn take(summary: &mut RecordingSummary, result: Recheck) {
 }
 
 /// The scenario with the values that replaced those of its file in the run.
-fn load(scenario: &Path, summary: &RecordingSummary, arguments: &Arguments) -> Result<RunSetup, Failure> {
+fn load(scenario: &Path, summary: &RecordingSummary, access: &FileAccess) -> Result<RunSetup, Failure> {
     let overrides = overrides(summary.report.as_ref().unwrap_or(&Value::Null))?;
-    Ok(RunSetup::load_with(scenario, &overrides, &arguments.access.access()?)?)
+    Ok(RunSetup::load_with(scenario, &overrides, access)?)
 }

@@ -1,13 +1,13 @@
 //! A recording against the files of its run: the report beside it, and what the run was made from.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use congruent::{
     description::{Diagnostic, FileAccess, InputFile},
     recording::{RecordingSummary, RerunFormat},
     twin::{
         RecordingFormat, RunSetup,
-        results::{DIGESTS, REPORT, compare_results},
+        results::{DIGESTS, REPORT, compare_results, read_result},
         scenario::Override,
     },
 };
@@ -22,7 +22,7 @@ pub(super) fn compare_files(summary: &mut RecordingSummary, path: &Path, access:
     if path.file_name().is_none_or(|name| name != RerunFormat.file_name()) {
         return;
     }
-    let beside = fs::read(path.with_file_name(REPORT)).ok();
+    let beside = read_result(&path.with_file_name(REPORT)).ok();
     let is_its_own = |beside: Vec<u8>| serde_json::from_slice::<Value>(&beside).ok().as_ref() == Some(report);
     let problem = if beside.is_some_and(|beside| !is_its_own(beside)) {
         format!(

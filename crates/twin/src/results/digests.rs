@@ -26,7 +26,7 @@ pub struct ComparedResults {
 /// Compares the results in a folder with their digests; `None` if there are no digests. Opens files of the names that
 /// results have, whatever the digests name.
 pub fn compare_results(folder: &Path) -> Option<ComparedResults> {
-    let digests = fs::read_to_string(folder.join(DIGESTS)).ok()?;
+    let digests = String::from_utf8(read_result(&folder.join(DIGESTS)).ok()?).ok()?;
     let mut compared = ComparedResults::default();
     for name in RESULTS {
         let Some(expected) = digests.lines().find(|line| is_of(line, name)) else { continue };
@@ -53,9 +53,24 @@ impl OutputFolder {
     }
 }
 
+/// The bytes of a result. A pipe or a device in its place is none: it may have no end.
+///
+/// # Errors
+/// It is no file, or cannot be read.
+pub fn read_result(path: &Path) -> io::Result<Vec<u8>> {
+    is_file(path)?;
+    fs::read(path)
+}
+
+fn is_file(path: &Path) -> io::Result<()> {
+    if fs::metadata(path)?.is_file() { Ok(()) } else { Err(io::ErrorKind::InvalidInput.into()) }
+}
+
 /// The digest of a file, two spaces, its name.
 fn line(folder: &Path, name: &str) -> io::Result<String> {
-    let mut reader = BufReader::with_capacity(1 << 16, File::open(folder.join(name))?);
+    let path = folder.join(name);
+    is_file(&path)?;
+    let mut reader = BufReader::with_capacity(1 << 16, File::open(path)?);
     let mut digest = Sha256::new();
     loop {
         let bytes = reader.fill_buf()?;

@@ -6,7 +6,7 @@ mod lock;
 mod names;
 mod whole_file;
 
-pub use digests::{ComparedResults, compare_results};
+pub use digests::{ComparedResults, compare_results, read_result};
 pub use folder::{FolderError, OutputFolder};
 pub use names::{DIGESTS, REPORT, result_files};
 pub use whole_file::{OutputError, is_same_file, remove_unfinished_files, write_whole};

@@ -123,6 +123,8 @@ impl Replay {
 
     /// The limit of a quantity by the scenario, if its check has one.
     pub(super) fn limit(&self, check: usize, name: &str, unit: &str) -> Option<f64> {
-        self.limits.0[check].iter().find(|quantity| quantity.is(name, unit)).map(|quantity| quantity.limit)
+        let told = self.limits.0[check].iter().find(|quantity| quantity.is(name, unit));
+        let found = || self.found[check].iter().map(|found| &found.of).find(|of| of.is(name, unit));
+        told.or_else(found).map(|of| of.limit)
     }
 }

@@ -111,9 +111,19 @@ impl<'a> DynamicsMonitor<'a> {
             let torque: f64 = (0..dof).map(|other| self.mass_matrix[(row, other)] * self.qdd[other]).sum();
             difference += ratio * torque;
             acting += ratio.abs() * truth.effort[row].abs().max(self.bias[row].abs());
+            acting += ratio.abs() * self.torque_of_frictions(row);
             alone += ratio * ratio * self.mass_matrix[(row, row)];
         }
         held.unexplained(difference) / (acting + alone * LEAST_ACCELERATION)
+    }
+
+    /// What the dry friction of other joints brings to a joint, since it slows them down: it is a torque that acts there, too.
+    fn torque_of_frictions(&self, row: usize) -> f64 {
+        let others = (0..self.frictions.len()).filter(|&other| other != row && self.frictions[other] > 0.0);
+        let brought = |other: usize| {
+            self.mass_matrix[(row, other)].abs() * self.frictions[other] / self.mass_matrix[(other, other)]
+        };
+        others.map(brought).sum()
     }
 
     fn compare(&mut self, sample: &Sample<'_>) {

@@ -24,6 +24,9 @@ pub(crate) const RELATIVE_PER_S: f64 = 3.0;
 /// The energy that is moved counts at least as much as lifting all links by this, m: without motion it is zero. Kind:
 /// engineering.
 const LEAST_LIFT_M: f64 = 1e-2;
+/// A joint with dry friction that is slower may be held by it: what it takes is any torque up to its largest, rad/s and m/s.
+/// Kind: physics, as in the check `dynamics`.
+const CREEPING: f64 = 5e-3;
 /// Gravity for that lift, m/s^2, whatever the scenario has.
 const GRAVITY_M_S2: f64 = 9.81;
 
@@ -35,6 +38,8 @@ pub(crate) struct PowerMonitor<'a> {
     now: State,
     /// Work less change of energy less losses, so far.
     missing_j: f64,
+    /// What dry friction may have taken less than all of it, of joints that it all but holds.
+    unknown_j: f64,
     moved_j: f64,
     least_j: f64,
     watch: Watch,
@@ -69,6 +74,7 @@ impl<'a> PowerMonitor<'a> {
             before: Before { time_s: 0.0, qd: vec![0.0; dof], state: state(), is_set: false },
             now: state(),
             missing_j: 0.0,
+            unknown_j: 0.0,
             moved_j: 0.0,
             least_j: moving_kg(&context.description.robot) * GRAVITY_M_S2 * LEAST_LIFT_M,
             watch: Watch::new("energy_error", "", Bound::AtMost, limit, dof),
@@ -107,12 +113,17 @@ impl<'a> PowerMonitor<'a> {
             let holding = truth.effort[joint] - gravity;
             lost_j += resistance.damping * mean_qd * way;
             lost_j += friction(resistance.friction, mean_qd, holding) * way;
+            if (AT_REST..CREEPING).contains(&mean_qd.abs()) {
+                self.unknown_j += resistance.friction * way.abs();
+            }
             self.moved_j += (truth.effort[joint] * way).abs();
         }
         self.moved_j += lifted_j.abs();
         self.missing_j += work_j - (self.now.kinetic_j - before.state.kinetic_j) - lifted_j - lost_j;
         self.compared += 1;
-        self.watch.observe(self.missing_j.abs() / self.moved_j.max(self.least_j), truth.q.len(), sample);
+        // Of a number that is none, `max` with 0 would make none of the error.
+        let missing_j = (self.missing_j.abs() - self.unknown_j).max(0.0 * self.missing_j);
+        self.watch.observe(missing_j / self.moved_j.max(self.least_j), truth.q.len(), sample);
     }
 
     /// Keeps this sample for the next step, with what is carried in it; `None` if its state is not known.
