@@ -15,7 +15,7 @@ fn checked(damping: f64, friction: f64, lighter: f64) -> (i32, Value) {
     let inertia = format!(
         "ixx=\"{0}\" ixy=\"0\" ixz=\"0\" iyy=\"{1}\" iyz=\"0\" izz=\"{1}\"",
         6.25e-4 * lighter,
-        0.0603125 * lighter
+        6.03125e-2 * lighter
     );
     let changed = urdf.replace("</joint>", &dynamics).replace("<mass value=\"2\"/>", &mass).replace(
         "ixx=\"0.000625\" ixy=\"0\" ixz=\"0\" iyy=\"0.0603125\" iyz=\"0\" izz=\"0.0603125\"",
