@@ -45,7 +45,7 @@ impl SimulatedDynamics {
     pub fn with_part_of_step(robot: &Robot, part: f64) -> Result<Self, SimulationError> {
         let unlimited = robot.with_joints(|joint| joint.limit = None);
         let independent = unlimited.with_joints(|joint| joint.mimic = None);
-        Ok(Self { coupled: Stepped::new(unlimited, part)?, independent: Stepped::new(independent, part)? })
+        Ok(Self { coupled: Stepped::new(&unlimited, part)?, independent: Stepped::new(&independent, part)? })
     }
 }
 
@@ -79,27 +79,14 @@ const SHARES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 0.0625];
 
 /// One robot in a world for each length of step.
 struct Stepped {
-    robot: Robot,
     step_s: f64,
     worlds: Vec<World>,
 }
 
 impl Stepped {
-    fn new(robot: Robot, part: f64) -> Result<Self, SimulationError> {
-        let longest = Self { worlds: worlds(&robot, LONGEST_STEP_S)?, robot, step_s: LONGEST_STEP_S };
-        let step_s = part * longest.undamped_step_s();
-        Ok(Self { worlds: worlds(&longest.robot, step_s)?, step_s, ..longest })
-    }
-
-    /// A step in which damping and friction take but a small share of a joint's speed, whatever the other joints do.
-    fn undamped_step_s(&self) -> f64 {
-        let Some(inverse) = self.worlds[0].mass_matrix().try_inverse() else { return LONGEST_STEP_S };
-        let joints = self.robot.movable_joints().iter().map(|&joint| self.robot.joint(joint));
-        let steps_s = joints.enumerate().map(|(row, joint)| {
-            let lightness = inverse[(row, row)].abs();
-            (DAMPED_SHARE / (joint.damping * lightness)).min(BRAKED_SPEED / (joint.friction * lightness))
-        });
-        steps_s.fold(LONGEST_STEP_S, f64::min)
+    fn new(robot: &Robot, part: f64) -> Result<Self, SimulationError> {
+        let step_s = part * undamped_step_s(robot)?;
+        Ok(Self { worlds: worlds(robot, step_s)?, step_s })
     }
 
     /// A world with the robot at rest.
@@ -142,12 +129,25 @@ fn at_zero(mut values: [f64; SHARES.len()]) -> f64 {
     values[0]
 }
 
-fn worlds(robot: &Robot, longest_s: f64) -> Result<Vec<World>, SimulationError> {
-    let world = |share: f64| {
-        let settings = WorldSettings { step_s: longest_s * share, ..WorldSettings::default() };
-        World::new(robot, &settings)
+/// A step in which damping and friction take but a small share of a joint's speed, whatever the other joints do.
+fn undamped_step_s(robot: &Robot) -> Result<f64, SimulationError> {
+    let Some(inverse) = world(robot, LONGEST_STEP_S)?.mass_matrix().try_inverse() else {
+        return Ok(LONGEST_STEP_S);
     };
-    SHARES.into_iter().map(world).collect()
+    let joints = robot.movable_joints().iter().map(|&joint| robot.joint(joint));
+    let steps_s = joints.enumerate().map(|(row, joint)| {
+        let lightness = inverse[(row, row)].abs();
+        (DAMPED_SHARE / (joint.damping * lightness)).min(BRAKED_SPEED / (joint.friction * lightness))
+    });
+    Ok(steps_s.fold(LONGEST_STEP_S, f64::min))
+}
+
+fn worlds(robot: &Robot, longest_s: f64) -> Result<Vec<World>, SimulationError> {
+    SHARES.into_iter().map(|share| world(robot, longest_s * share)).collect()
+}
+
+fn world(robot: &Robot, step_s: f64) -> Result<World, SimulationError> {
+    World::new(robot, &WorldSettings { step_s, ..WorldSettings::default() })
 }
 
 #[cfg(test)]
