@@ -1,8 +1,8 @@
 //! Whether the checks of a scenario, and what it expects of them, are consistent with its robot.
 
-use congruent_description::{Diagnostic, Diagnostics, RobotDescription, Severity, Use};
+use congruent_description::{Diagnostic, Diagnostics, RobotDescription, Use};
 
-use super::tolerances::{beyond_meaning, tolerances};
+use super::tolerances::tolerances;
 use crate::{
     monitor::RunningCheck,
     proximity::ObstacleMobility,
@@ -25,15 +25,9 @@ pub(in crate::setup) fn examine_checks(
     let scale = description.tolerance_scale();
     let mut warnings = Vec::new();
     for (index, check) in scenario.check.iter().enumerate() {
-        let (wrong, wide) = tolerances(check, place.key("check").item(index), scale);
+        let place = place.key("check").item(index);
+        let (wrong, wide) = tolerances(check, place, (&description.robot, scale));
         found.extend(wrong);
-        let beyond = beyond_meaning(check, place.key("check").item(index), (&description.robot, scale));
-        for told in beyond {
-            match told.severity {
-                Severity::Error => found.push(told),
-                Severity::Warning => warnings.push(told),
-            }
-        }
         warnings.extend(wide);
     }
     warnings.extend(unwatched(scenario, place));

@@ -18,16 +18,17 @@ const FASTEST: f64 = 1000.0;
 pub(super) fn tolerances(
     check: &Check,
     place: FilePlace<'_>,
-    scale: ToleranceScale,
+    (robot, scale): (&Robot, ToleranceScale),
 ) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
     let examined = check.unit_keys().into_iter().filter(|keys| is_tolerance(check, keys));
     examined
         .filter_map(|keys| keys.examine_tolerance(place, scale))
+        .chain(beyond_meaning(check, place, (robot, scale)))
         .partition(|found| found.severity == Severity::Error)
 }
 
 /// An error if a check would pass whatever happens since its share or its velocity is that large, a warning if it is almost so.
-pub(super) fn beyond_meaning(
+fn beyond_meaning(
     check: &Check,
     place: FilePlace<'_>,
     (robot, scale): (&Robot, ToleranceScale),
